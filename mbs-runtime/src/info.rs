@@ -1,0 +1,132 @@
+//! What tools need to know about a mechanism: names, units, equations, counts.
+
+/// A mechanism described for people and tools.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Info {
+    /// The declared name.
+    pub name: &'static str,
+    /// The doc comment, without leading spaces.
+    pub doc: &'static str,
+    /// Coordinates minus constraints.
+    pub dof: i32,
+    /// The parameters; `default` is the declared value.
+    pub parameters: &'static [Quantity],
+    /// The inputs; `default` is the value before anything is set.
+    pub inputs: &'static [Quantity],
+    /// The coordinates; `default` is the declared start.
+    pub coordinates: &'static [Quantity],
+    /// The outputs.
+    pub outputs: &'static [Quantity],
+    /// The constraints, drives included, in the order of λ.
+    pub constraints: &'static [Constraint],
+    /// The pivots that can vanish.
+    pub pivots: &'static [Pivot],
+    /// Operation counts of the generated functions.
+    pub functions: &'static [Function],
+}
+
+/// A named physical quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Its name.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// The unit in which it was declared, as text; empty for a bare number.
+    pub unit: &'static str,
+    /// SI value of one such unit.
+    pub scale: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Declared value in SI units; 0 where none was declared.
+    pub default: f64,
+}
+
+/// Exponents of the base units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    /// of kg
+    pub mass: i8,
+    /// of m
+    pub length: i8,
+    /// of s
+    pub time: i8,
+}
+
+/// One constraint row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    /// Its name.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// Φ as a formula.
+    pub formula: &'static str,
+    /// Whether it was declared as a drive.
+    pub is_drive: bool,
+    /// Dimension of Φ.
+    pub dimension: Dimension,
+}
+
+/// What a pivot of the elimination pairs; empty names where it has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pivot {
+    /// The constraint.
+    pub constraint: &'static str,
+    /// The coordinate.
+    pub coordinate: &'static str,
+}
+
+/// The cost of a generated function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Function {
+    /// Its name.
+    pub name: &'static str,
+    /// Its operations per call.
+    pub operations: Operations,
+}
+
+/// Floating-point operations of straight-line code.
+///
+/// A negation, a subtraction and an addition each count as one addition.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: u32,
+    /// Additions, subtractions and negations.
+    pub add: u32,
+    /// Divisions.
+    pub div: u32,
+    /// Sine–cosine pairs (a sine or cosine alone counts as one).
+    pub sin_cos: u32,
+    /// Other elementary functions, comparisons and square roots.
+    pub other: u32,
+    /// Operations that watch the pivots, counted in none of the above.
+    pub watch: u32,
+}
+
+impl Info {
+    /// The operation counts of the function called `name`.
+    pub fn operations(&self, name: &str) -> Option<Operations> {
+        self.functions.iter().find(|f| f.name == name).map(|f| f.operations)
+    }
+
+    /// An `Info` from its parts. For generated code.
+    #[doc(hidden)]
+    #[allow(clippy::too_many_arguments, reason = "one argument per field, called by generated code only")]
+    pub const fn from_parts(
+        name: &'static str,
+        doc: &'static str,
+        dof: i32,
+        parameters: &'static [Quantity],
+        inputs: &'static [Quantity],
+        coordinates: &'static [Quantity],
+        outputs: &'static [Quantity],
+        constraints: &'static [Constraint],
+        pivots: &'static [Pivot],
+        functions: &'static [Function],
+    ) -> Self {
+        Self { name, doc, dof, parameters, inputs, coordinates, outputs, constraints, pivots, functions }
+    }
+}

@@ -1,0 +1,174 @@
+//! What a generated mechanism offers to integrators and tools.
+
+use crate::{Components, Error, Info, Real};
+
+/// Position and velocity of a mechanism at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<C: Components> {
+    /// Time in s.
+    pub t: C::Real,
+    /// Coordinates q: lengths in m, angles in rad.
+    pub q: C,
+    /// Velocities v = q̇, per second.
+    pub v: C,
+}
+
+/// The gains of the feedback, in the form in which Eq. (8) uses them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gains<T> {
+    /// 2α in 1/s.
+    pub two_alpha: T,
+    /// β² in 1/s².
+    pub beta_squared: T,
+}
+
+/// The solution of the constrained system with feedback from the state itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stabilized<C: Components, R> {
+    /// q̈
+    pub acceleration: C,
+    /// −2αΦ̇ − β²Φ, one per constraint.
+    pub feedback: R,
+    /// Pivot growth; see [`Mechanism`].
+    pub growth: C::Real,
+}
+
+/// The solution of the constrained system for the accelerations alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accelerations<C: Components> {
+    /// q̈, or the correction of q or v that was asked for.
+    pub acceleration: C,
+    /// Pivot growth; see [`Mechanism`].
+    pub growth: C::Real,
+}
+
+/// The solution of the constrained system with its Lagrange multipliers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reactions<C: Components, R> {
+    /// q̈
+    pub acceleration: C,
+    /// λ, one per constraint: the generalized constraint forces are −Φ_qᵀ λ.
+    pub multipliers: R,
+    /// Pivot growth; see [`Mechanism`].
+    pub growth: C::Real,
+}
+
+/// A mechanism with constraints Φ(q, t) = 0 and the equations of motion
+///
+/// ```text
+/// ⎡ M   Φ_qᵀ ⎤ ⎡ q̈ ⎤   ⎡ Q                 ⎤
+/// ⎣ Φ_q  0   ⎦ ⎣ λ ⎦ = ⎣ γ − 2αΦ̇ − β²Φ    ⎦      (Jiang 2025, Eq. 8)
+/// ```
+///
+/// `mechanism!` implements it by straight-line code: the system is eliminated
+/// at compile time, and no matrix is formed when these methods run. None of
+/// them allocates or panics.
+///
+/// **Pivot growth.** Every elimination divides by pivots that may vanish in
+/// singular positions. The code sums, over the pivots, the size of the terms
+/// that made the pivot divided by the pivot: about 1 per pivot in a healthy
+/// position, 1/ε when all digits have cancelled, infinite or NaN at an exact
+/// zero. Integrators compare it with [`growth_limit`] once a step.
+pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
+    /// The scalar of the computation.
+    type Real: Real;
+    /// The parameters, named fields in SI units.
+    type Parameters: Components<Real = Self::Real> + Default;
+    /// The inputs that the embedding program sets, named fields in SI units.
+    type Inputs: Components<Real = Self::Real> + Default;
+    /// The coordinates q, and with the same names q̇ and q̈.
+    type Coordinates: Components<Real = Self::Real>;
+    /// One component per constraint: Φ, Φ̇, γ and λ.
+    type Constraints: Components<Real = Self::Real>;
+    /// The declared outputs.
+    type Outputs: Components<Real = Self::Real>;
+
+    /// Names, units, equations and operation counts.
+    const INFO: &'static Info;
+
+    /// The mechanism with these parameters.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] if one is not finite, if a mass or an inertia comes
+    /// out negative, or if a declared condition on a parameter does not hold.
+    fn new(parameters: Self::Parameters) -> Result<Self, Error>;
+
+    /// The parameters it was made with.
+    fn parameters(&self) -> &Self::Parameters;
+
+    /// The `start { … }` block as it was declared, at t = 0, nothing made consistent.
+    fn declared_start(&self) -> State<Self::Coordinates>;
+
+    /// Φ(q, t)
+    fn phi(&self, t: Self::Real, q: &Self::Coordinates) -> Self::Constraints;
+
+    /// Φ̇ = Φ_q v + Φ_t
+    fn phi_dot(&self, at: &State<Self::Coordinates>) -> Self::Constraints;
+
+    /// Solves Eq. (8) for q̈ and gives the feedback that went into it.
+    fn stabilized(
+        &self,
+        at: &State<Self::Coordinates>,
+        inputs: &Self::Inputs,
+        gains: &Gains<Self::Real>,
+    ) -> Stabilized<Self::Coordinates, Self::Constraints>;
+
+    /// Solves for q̈ with γ + `feedback` below.
+    fn constrained(
+        &self,
+        at: &State<Self::Coordinates>,
+        inputs: &Self::Inputs,
+        feedback: &Self::Constraints,
+    ) -> Accelerations<Self::Coordinates>;
+
+    /// Solves for q̈ and λ with γ + `feedback` below.
+    fn reactions(
+        &self,
+        at: &State<Self::Coordinates>,
+        inputs: &Self::Inputs,
+        feedback: &Self::Constraints,
+    ) -> Reactions<Self::Coordinates, Self::Constraints>;
+
+    /// The smallest Δq, in the norm of the mass matrix, with Φ_q Δq =
+    /// `residual` and Δq = 0 for coordinates that `start` prescribes.
+    fn position_correction(
+        &self,
+        t: Self::Real,
+        q: &Self::Coordinates,
+        residual: &Self::Constraints,
+    ) -> Accelerations<Self::Coordinates>;
+
+    /// The smallest Δv, in the norm of the mass matrix, with Φ_q Δv =
+    /// `residual` and Δv = 0 for velocities that `start` prescribes.
+    fn velocity_correction(
+        &self,
+        t: Self::Real,
+        q: &Self::Coordinates,
+        residual: &Self::Constraints,
+    ) -> Accelerations<Self::Coordinates>;
+
+    /// Index into [`Info::pivots`] of the pivot with the largest growth, if
+    /// the elimination has any that can vanish. For diagnosis: slow.
+    fn worst_pivot(&self, t: Self::Real, q: &Self::Coordinates) -> Option<usize>;
+
+    /// Kinetic energy ½ vᵀMv in J.
+    fn kinetic_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
+
+    /// Potential energy of gravity in J, 0 at the origin.
+    fn potential_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
+
+    /// The declared outputs, given q̈ and λ.
+    fn outputs(
+        &self,
+        at: &State<Self::Coordinates>,
+        inputs: &Self::Inputs,
+        reactions: &Reactions<Self::Coordinates, Self::Constraints>,
+    ) -> Self::Outputs;
+}
+
+/// The pivot growth from which on a position counts as singular: 1/(1024 ε),
+/// that is when fewer than ten bits of a pivot are left.
+#[inline(always)]
+pub fn growth_limit<T: Real>() -> T {
+    T::from_f64(1.0 / 1024.0) / T::EPSILON
+}

@@ -1,0 +1,165 @@
+//! The scalar that generated code computes with.
+
+use core::fmt::{Debug, Display};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real scalar: what a generated solver needs to know of its number type.
+///
+/// Implemented for `f32` and `f64`. With the feature `std` the elementary
+/// functions are the standard library's, without it those of `libm`; the two
+/// may differ in the last place.
+pub trait Real:
+    Copy
+    + Debug
+    + Display
+    + Default
+    + PartialEq
+    + PartialOrd
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The distance from 1 to the next larger number.
+    const EPSILON: Self;
+
+    /// The nearest scalar to `x`.
+    fn from_f64(x: f64) -> Self;
+    /// The value as `f64`, exact for `f32` and `f64`.
+    fn to_f64(self) -> f64;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+
+    /// Sine and cosine of an angle in rad.
+    fn sin_cos(self) -> (Self, Self);
+    /// Sine of an angle in rad.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in rad.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in rad.
+    fn tan(self) -> Self;
+    /// Inverse sine in rad, NaN outside −1 … 1.
+    fn asin(self) -> Self;
+    /// Inverse cosine in rad, NaN outside −1 … 1.
+    fn acos(self) -> Self;
+    /// Inverse tangent in rad.
+    fn atan(self) -> Self;
+    /// Angle in rad of the vector (`x`, `self`).
+    fn atan2(self, x: Self) -> Self;
+    /// Square root, NaN below 0.
+    fn sqrt(self) -> Self;
+    /// Exponential.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// `self` to the power `exponent`.
+    fn pow(self, exponent: Self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// −1, 0 or 1; NaN of NaN.
+    fn sign(self) -> Self;
+    /// The smaller of two; NaN if either is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two; NaN if either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// 1 if `self > other`, else 0: the slope of `max`.
+    fn greater(self, other: Self) -> Self;
+}
+
+macro_rules! elementary {
+    ($float:ident: $($name:ident = $portable:ident),* $(,)?) => {$(
+        #[cfg(feature = "std")]
+        #[inline(always)]
+        fn $name(self) -> Self {
+            <$float>::$name(self)
+        }
+        #[cfg(not(feature = "std"))]
+        #[inline(always)]
+        fn $name(self) -> Self {
+            libm::$portable(self)
+        }
+    )*};
+}
+
+macro_rules! real {
+    ($float:ident, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
+        impl Real for $float {
+            const EPSILON: Self = $float::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                #[cfg(feature = "std")]
+                return <$float>::sin_cos(self);
+                #[cfg(not(feature = "std"))]
+                return libm::$sincos(self);
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                #[cfg(feature = "std")]
+                return <$float>::atan2(self, x);
+                #[cfg(not(feature = "std"))]
+                return libm::$atan2(self, x);
+            }
+            #[inline(always)]
+            fn pow(self, exponent: Self) -> Self {
+                #[cfg(feature = "std")]
+                return <$float>::powf(self, exponent);
+                #[cfg(not(feature = "std"))]
+                return libm::$pow(self, exponent);
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn sign(self) -> Self {
+                if self > 0.0 {
+                    1.0
+                } else if self < 0.0 {
+                    -1.0
+                } else {
+                    // 0 or NaN: a NaN must not disappear.
+                    self
+                }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other || self.is_nan() { self } else { other }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other || self.is_nan() { self } else { other }
+            }
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                if self > other { 1.0 } else { 0.0 }
+            }
+            elementary!($float: $($elementary)*);
+        }
+    };
+}
+
+real!(f64, sincos, atan2, pow;
+    sin = sin, cos = cos, tan = tan, asin = asin, acos = acos, atan = atan,
+    sqrt = sqrt, exp = exp, ln = log, tanh = tanh);
+real!(f32, sincosf, atan2f, powf;
+    sin = sinf, cos = cosf, tan = tanf, asin = asinf, acos = acosf, atan = atanf,
+    sqrt = sqrtf, exp = expf, ln = logf, tanh = tanhf);

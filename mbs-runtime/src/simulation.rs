@@ -1,0 +1,313 @@
+//! A mechanism in motion.
+
+use crate::heun::{check_growth, heun_step};
+use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
+
+/// A mechanism being integrated in time.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Simulation, mechanism};
+///
+/// mechanism! {
+///     /// A weight on a massless rod.
+///     pub Pendulum {
+///         dof = 1;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         constraint rod: x^2 + y^2 = length^2;
+///         start { x = length; guess y = 0; }
+///     }
+/// }
+///
+/// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
+/// swing.advance_to(0.5)?;
+/// assert!(swing.state().q.y < 0.0);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Simulation<M: Mechanism, F: Feedback = Held> {
+    mechanism: M,
+    inputs: M::Inputs,
+    state: State<M::Coordinates>,
+    baumgarte: Baumgarte<F>,
+    gains: Gains<M::Real>,
+    step: M::Real,
+    start_time: M::Real,
+    steps: u64,
+}
+
+impl<M: Mechanism> Simulation<M> {
+    /// Starts at the declared start, made consistent, with steps of `step`
+    /// seconds and deadbeat feedback held over each step.
+    ///
+    /// # Errors
+    /// As [`Builder::build`].
+    pub fn new(mechanism: M, step: f64) -> Result<Self, Error> {
+        Self::builder(mechanism, step).build()
+    }
+
+    /// Choices to make before the start.
+    pub fn builder(mechanism: M, step: f64) -> Builder<M> {
+        Builder {
+            mechanism,
+            step,
+            baumgarte: Baumgarte::deadbeat(step),
+            inputs: M::Inputs::default(),
+            state: mechanism.declared_start(),
+            make_consistent: true,
+            allow_unstable: false,
+        }
+    }
+}
+
+impl<M: Mechanism, F: Feedback> Simulation<M, F> {
+    /// Advances by one step of Heun's method.
+    ///
+    /// # Errors
+    /// [`Error::Singular`], [`Error::NonFinite`], or [`Error::Input`] if that
+    /// is where they come from; the state stays that of the last good step.
+    #[inline]
+    pub fn step(&mut self) -> Result<(), Error> {
+        let t_next = self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step;
+        let next =
+            heun_step::<M, F>(&self.mechanism, &self.state, &self.inputs, &self.gains, self.step, t_next);
+        match next {
+            Ok(next) => {
+                self.state = next;
+                self.steps += 1;
+                Ok(())
+            }
+            Err(error) => Err(self.blame_inputs(error)),
+        }
+    }
+
+    /// Advances by whole steps until less than half a step is left to `end` seconds.
+    ///
+    /// # Errors
+    /// [`Error::EndTime`], else as [`step`](Self::step).
+    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
+        let steps = self.steps_to(end)?;
+        for _ in 0..steps {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// How many steps [`advance_to`](Self::advance_to) would take.
+    ///
+    /// # Errors
+    /// [`Error::EndTime`].
+    pub fn steps_to(&self, end: f64) -> Result<u64, Error> {
+        let now = self.state.t.to_f64();
+        let span = (end - self.start_time.to_f64()) / self.step.to_f64();
+        // Half a step back is still "now".
+        if !span.is_finite() || span + 0.5 < self.steps as f64 {
+            return Err(Error::EndTime { end, now });
+        }
+        Ok(((span + 0.5) as u64).saturating_sub(self.steps))
+    }
+
+    /// Time, positions and velocities.
+    #[inline]
+    pub fn state(&self) -> &State<M::Coordinates> {
+        &self.state
+    }
+
+    /// Time in s.
+    #[inline]
+    pub fn time(&self) -> M::Real {
+        self.state.t
+    }
+
+    /// The step in s.
+    pub fn step_size(&self) -> M::Real {
+        self.step
+    }
+
+    /// Steps taken since the start.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &M {
+        &self.mechanism
+    }
+
+    /// The feedback.
+    pub fn baumgarte(&self) -> &Baumgarte<F> {
+        &self.baumgarte
+    }
+
+    /// The inputs as they are now.
+    pub fn inputs(&self) -> &M::Inputs {
+        &self.inputs
+    }
+
+    /// The inputs, to be set before a step; they are held over it.
+    pub fn inputs_mut(&mut self) -> &mut M::Inputs {
+        &mut self.inputs
+    }
+
+    /// Constraint violation ‖Φ‖, the Euclidean norm.
+    pub fn violation(&self) -> M::Real {
+        self.mechanism.phi(self.state.t, &self.state.q).norm()
+    }
+
+    /// Constraint violation in velocities ‖Φ̇‖.
+    pub fn velocity_violation(&self) -> M::Real {
+        self.mechanism.phi_dot(&self.state).norm()
+    }
+
+    /// Kinetic plus potential energy in J.
+    pub fn energy(&self) -> M::Real {
+        self.mechanism.kinetic_energy(&self.state) + self.mechanism.potential_energy(&self.state)
+    }
+
+    /// q̈ and λ of the present state, from the right-hand side *without*
+    /// feedback terms: the forces that the mechanism feels.
+    ///
+    /// # Errors
+    /// [`Error::Singular`], [`Error::Input`].
+    pub fn reactions(&self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
+        self.reactions_with(&M::Constraints::splat(M::Real::default()))
+    }
+
+    /// q̈ and λ of the present state with the feedback terms left in, as the
+    /// first stage of a step sees them.
+    ///
+    /// # Errors
+    /// As [`reactions`](Self::reactions).
+    pub fn raw_reactions(&self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
+        let feedback = self.mechanism.stabilized(&self.state, &self.inputs, &self.gains).feedback;
+        self.reactions_with(&feedback)
+    }
+
+    fn reactions_with(
+        &self,
+        feedback: &M::Constraints,
+    ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
+        let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
+        check_growth(&self.mechanism, self.state.t, &self.state.q, solved.growth)
+            .map_err(|error| self.blame_inputs(error))?;
+        Ok(solved)
+    }
+
+    /// The declared outputs in the present state.
+    ///
+    /// # Errors
+    /// As [`reactions`](Self::reactions).
+    pub fn outputs(&self) -> Result<M::Outputs, Error> {
+        let reactions = self.reactions()?;
+        Ok(self.mechanism.outputs(&self.state, &self.inputs, &reactions))
+    }
+
+    /// An input that is not finite is the cause of whatever failed after it.
+    #[cold]
+    fn blame_inputs(&self, error: Error) -> Error {
+        match check_inputs::<M>(&self.inputs) {
+            Ok(()) => error,
+            Err(bad_input) => bad_input,
+        }
+    }
+}
+
+fn check_inputs<M: Mechanism>(inputs: &M::Inputs) -> Result<(), Error> {
+    let array = inputs.into_array();
+    for (&value, &name) in array.as_ref().iter().zip(M::Inputs::NAMES) {
+        if !value.is_finite() {
+            return Err(Error::Input { name, value: value.to_f64() });
+        }
+    }
+    Ok(())
+}
+
+/// The choices before a simulation starts; see [`Simulation::builder`].
+#[derive(Clone, Copy, Debug)]
+pub struct Builder<M: Mechanism, F: Feedback = Held> {
+    mechanism: M,
+    step: f64,
+    baumgarte: Baumgarte<F>,
+    inputs: M::Inputs,
+    state: State<M::Coordinates>,
+    make_consistent: bool,
+    allow_unstable: bool,
+}
+
+impl<M: Mechanism, F: Feedback> Builder<M, F> {
+    /// Feedback of the constraint violation. Default: [`Baumgarte::deadbeat`]
+    /// of the step, held.
+    #[must_use]
+    pub fn baumgarte<G: Feedback>(self, baumgarte: Baumgarte<G>) -> Builder<M, G> {
+        Builder {
+            mechanism: self.mechanism,
+            step: self.step,
+            baumgarte,
+            inputs: self.inputs,
+            state: self.state,
+            make_consistent: self.make_consistent,
+            allow_unstable: self.allow_unstable,
+        }
+    }
+
+    /// Starts from `state` instead of the declared start.
+    #[must_use]
+    pub fn from_state(mut self, state: State<M::Coordinates>) -> Self {
+        self.state = state;
+        self
+    }
+
+    /// Keeps the start as it is, even if it violates Φ = 0 or Φ̇ = 0. Default:
+    /// it is made [`consistent`](start::consistent).
+    #[must_use]
+    pub fn as_declared(mut self) -> Self {
+        self.make_consistent = false;
+        self
+    }
+
+    /// The inputs of the first step.
+    #[must_use]
+    pub fn inputs(mut self, inputs: M::Inputs) -> Self {
+        self.inputs = inputs;
+        self
+    }
+
+    /// Accepts gains under which violations grow, for the study of them.
+    #[must_use]
+    pub fn allow_unstable(mut self) -> Self {
+        self.allow_unstable = true;
+        self
+    }
+
+    /// Starts.
+    ///
+    /// # Errors
+    /// [`Error::Step`], [`Error::UnstableGains`], [`Error::Input`],
+    /// [`Error::NonFinite`], and those of [`start::consistent`].
+    pub fn build(self) -> Result<Simulation<M, F>, Error> {
+        let step = self.step;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(Error::Step { step });
+        }
+        if !self.allow_unstable && !self.baumgarte.is_stable(step) {
+            let (alpha, beta) = (self.baumgarte.alpha(), self.baumgarte.beta());
+            return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
+        }
+        check_inputs::<M>(&self.inputs)?;
+        let state =
+            if self.make_consistent { start::consistent(&self.mechanism, &self.state)? } else { self.state };
+        crate::heun::check_finite(&state)?;
+        Ok(Simulation {
+            mechanism: self.mechanism,
+            inputs: self.inputs,
+            state,
+            baumgarte: self.baumgarte,
+            gains: self.baumgarte.gains(),
+            step: M::Real::from_f64(step),
+            start_time: state.t,
+            steps: 0,
+        })
+    }
+}

@@ -1,0 +1,101 @@
+//! Consistent starts: positions on Φ = 0, velocities on Φ̇ = 0.
+
+use crate::heun::check_growth;
+use crate::{Components, Error, Mechanism, Real, State};
+
+const NEWTON_ITERATIONS: usize = 50;
+const STEP_HALVINGS: usize = 10;
+
+/// The state nearest to `guess` that satisfies Φ = 0 and Φ̇ = 0.
+///
+/// Coordinates and velocities that the declaration's `start` prescribes keep
+/// their values; the others move least in the norm of the mass matrix.
+/// Positions come from a damped Newton iteration, velocities from one linear
+/// solve and one refinement of it.
+///
+/// # Errors
+/// [`Error::NotAssembled`] if Φ = 0 is not reached, [`Error::Singular`] if the
+/// constraints depend on each other on the way.
+pub fn consistent<M: Mechanism>(
+    mechanism: &M,
+    guess: &State<M::Coordinates>,
+) -> Result<State<M::Coordinates>, Error> {
+    let q = assemble(mechanism, guess.t, &guess.q)?;
+    let v = project_velocities(mechanism, &State { q, ..*guess })?;
+    Ok(State { t: guess.t, q, v })
+}
+
+/// Positions on Φ(q, t) = 0 near `guess`.
+///
+/// Newton's iteration; a step that would enlarge ‖Φ‖ is halved. It ends when a
+/// full correction is below rounding, 4ε (1 + ‖q‖∞).
+///
+/// # Errors
+/// As [`consistent`].
+pub fn assemble<M: Mechanism>(
+    mechanism: &M,
+    t: M::Real,
+    guess: &M::Coordinates,
+) -> Result<M::Coordinates, Error> {
+    let mut q = *guess;
+    let mut phi = mechanism.phi(t, &q);
+    for _ in 0..NEWTON_ITERATIONS {
+        let correction = mechanism.position_correction(t, &q, &phi.map(|x| -x));
+        check_growth(mechanism, t, &q, correction.growth)?;
+        let delta = correction.acceleration;
+
+        let rounding = M::Real::from_f64(4.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
+        if delta.largest().1 <= rounding {
+            return Ok(q.zip_map(delta, |q, d| q + d));
+        }
+        let (next, next_phi) = damped(mechanism, t, &q, &delta, phi.norm());
+        (q, phi) = (next, next_phi);
+    }
+    let (row, violation) = phi.largest();
+    let constraint = M::Constraints::NAMES.get(row).copied().unwrap_or("");
+    // Newton may circle at rounding level, where Φ itself is at rounding.
+    let rounding = M::Real::from_f64(64.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
+    if violation <= rounding {
+        return Ok(q);
+    }
+    Err(Error::NotAssembled { t: t.to_f64(), constraint, violation: violation.to_f64() })
+}
+
+/// q + δ, or the longest halved step that does not enlarge ‖Φ‖.
+fn damped<M: Mechanism>(
+    mechanism: &M,
+    t: M::Real,
+    q: &M::Coordinates,
+    delta: &M::Coordinates,
+    violation: M::Real,
+) -> (M::Coordinates, M::Constraints) {
+    let mut length = M::Real::from_f64(1.0);
+    let mut halvings = 0;
+    loop {
+        let next = q.zip_map(*delta, |q, d| q + length * d);
+        let phi = mechanism.phi(t, &next);
+        if phi.norm() < violation || halvings == STEP_HALVINGS {
+            return (next, phi);
+        }
+        length = M::Real::from_f64(0.5) * length;
+        halvings += 1;
+    }
+}
+
+/// Velocities on Φ_q v = −Φ_t near `at.v`.
+///
+/// # Errors
+/// [`Error::Singular`].
+pub fn project_velocities<M: Mechanism>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+) -> Result<M::Coordinates, Error> {
+    let mut state = *at;
+    for _ in 0..2 {
+        let residual = mechanism.phi_dot(&state).map(|x| -x);
+        let correction = mechanism.velocity_correction(state.t, &state.q, &residual);
+        check_growth(mechanism, state.t, &state.q, correction.growth)?;
+        state.v = state.v.zip_map(correction.acceleration, |v, d| v + d);
+    }
+    Ok(state.v)
+}
