@@ -1,1 +1,7 @@
-//! symbolic
+//! Symbolic engine.
+#![forbid(unsafe_code)]
+
+mod number;
+pub mod units;
+
+pub use number::Number;
