@@ -1,1 +1,18 @@
-//! workbench
+//! What a person at a desk uses to work with compiled mechanisms.
+#![forbid(unsafe_code)]
+
+mod error;
+pub mod figure;
+pub mod model;
+mod names;
+pub mod number;
+pub mod quantity;
+mod recording;
+mod settings;
+mod table;
+
+pub use error::Error;
+pub use model::Model;
+pub use recording::{Column, Recording, Summary, write_csv};
+pub use settings::{FeedbackKind, Settings, StartKind};
+pub use table::Table;

@@ -1,0 +1,114 @@
+//! What can go wrong at the desk.
+
+use std::path::PathBuf;
+
+use crate::names;
+
+/// Why a command could not be carried out, in words that say what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A name that nothing has.
+    #[error("{}", names::unknown(.kind, .name, .known))]
+    Unknown {
+        /// What kind of thing was looked for: `mechanism`, `parameter`, …
+        kind: &'static str,
+        /// The name that was given.
+        name: String,
+        /// The names that exist.
+        known: Vec<String>,
+    },
+    /// A setting that is not of the form `name=value`.
+    #[error("`{text}` is not a setting; write it as name=value, for instance omega=300rpm")]
+    Setting {
+        /// What was given.
+        text: String,
+    },
+    /// A value that is not a number with an optional unit.
+    #[error("{what} = `{text}`: {reason}")]
+    Value {
+        /// What the value is for.
+        what: String,
+        /// What was given.
+        text: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A value with the unit of something else.
+    #[error("{what} = `{text}`: a {found} was given, but {what} is a {expected}")]
+    Dimension {
+        /// What the value is for.
+        what: String,
+        /// What was given.
+        text: String,
+        /// The dimension it has to have.
+        expected: String,
+        /// The dimension it has.
+        found: String,
+    },
+    /// What the mechanism or the integrator said.
+    #[error("{0}")]
+    Mechanism(#[from] mbs_runtime::Error),
+    /// A run that ended early; what it had computed was kept.
+    #[error("the run ended early: {cause}{kept}")]
+    EndedEarly {
+        /// Why.
+        cause: mbs_runtime::Error,
+        /// Where the results up to then are, as a clause to append.
+        kept: String,
+    },
+    /// More rows than a table should hold.
+    #[error("{rows} rows would be recorded; take a longer step, an earlier end, or --every {every}")]
+    TooManyRows {
+        /// How many rows were asked for.
+        rows: u64,
+        /// A stride that gives a reasonable number.
+        every: u64,
+    },
+    /// A file that could not be read or written.
+    #[error("cannot {doing} {}: {source}", path.display())]
+    File {
+        /// `write`, `create`, …
+        doing: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A name for a file or crate that cannot be one.
+    #[error("`{name}` cannot be used: {reason}")]
+    Name {
+        /// The name.
+        name: String,
+        /// Why not.
+        reason: String,
+    },
+    /// A picture that could not be drawn.
+    #[error("the figure `{title}` could not be drawn: {reason}")]
+    Figure {
+        /// Its title.
+        title: String,
+        /// What the drawing library says.
+        reason: String,
+    },
+    /// What a command of the embedding program says.
+    #[error("{0}")]
+    Command(#[source] Box<dyn std::error::Error + Send + Sync>),
+}
+
+impl Error {
+    /// Marks an I/O error with the file it concerns.
+    pub fn file(doing: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::File { doing, path, source }
+    }
+
+    /// The error for a name that nothing has.
+    pub fn unknown<'a>(
+        kind: &'static str,
+        name: impl Into<String>,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        Self::Unknown { kind, name: name.into(), known: known.into_iter().map(str::to_owned).collect() }
+    }
+}

@@ -1,0 +1,92 @@
+//! Where things are: rectangles, and data to pixels.
+
+use super::{Axis, Content, Panel, ticks};
+use ticks::Ticks;
+
+/// Pixels per unit of length of the description: both SVG and PNG are drawn
+/// this much larger, which gives the SVG (whose coordinates the drawing
+/// library rounds) sub-pixel positions and the PNG its smooth edges.
+pub(super) const SCALE: i32 = 4;
+
+/// A rectangle in drawn pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Area {
+    pub(super) left: i32,
+    pub(super) top: i32,
+    pub(super) right: i32,
+    pub(super) bottom: i32,
+}
+
+/// One axis in pixels: its range, and where that lies.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Span {
+    low: f64,
+    high: f64,
+    log: bool,
+    from: f64,
+    to: f64,
+    pub(super) ticks: Ticks,
+}
+
+impl Span {
+    /// An axis from pixel `from` to pixel `to` showing `low … high`.
+    pub(super) fn new(axis: &Axis, (low, high): (f64, f64), from: i32, to: i32) -> Self {
+        let length = f64::from((to - from).abs() / SCALE);
+        let spacing = if from < to { 90.0 } else { 55.0 };
+        let ticks = if axis.log {
+            ticks::logarithmic(low, high)
+        } else {
+            ticks::linear(low, high, (length / spacing) as usize)
+        };
+        Self { low, high, log: axis.log, from: f64::from(from), to: f64::from(to), ticks }
+    }
+
+    /// The pixel of a value; not finite where the value has none.
+    pub(super) fn pixel(&self, value: f64) -> f64 {
+        let fraction = if self.log {
+            (value.ln() - self.low.ln()) / (self.high.ln() - self.low.ln())
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        self.from + fraction * (self.to - self.from)
+    }
+}
+
+/// The range that an axis shows: what it prescribes, else that of the values,
+/// on a linear axis with a little air if `air` is wanted.
+pub(super) fn range(axis: &Axis, values: impl Iterator<Item = f64>, air: bool) -> (f64, f64) {
+    if let Some(range) = axis.range {
+        return range;
+    }
+    let shown = values.filter(|v| v.is_finite() && (!axis.log || *v > 0.0));
+    let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    if low > high {
+        return if axis.log { (0.1, 1.0) } else { (0.0, 1.0) };
+    }
+    if axis.log {
+        let factor = if air { 1.25 } else { 1.0 };
+        return if low < high { (low / factor, high * factor) } else { (low / 2.0, high * 2.0) };
+    }
+    // A constant needs some height, however small it is.
+    let flat = high - low <= 1e-12 * high.abs().max(low.abs());
+    let span = if flat { high.abs().max(1e-300) } else { high - low };
+    let margin = if air { 0.05 * span } else { 0.0 };
+    let low_margin = if low >= 0.0 && low < margin { low } else { margin };
+    let (low, high) = (low - low_margin, high + margin);
+    if high > low { (low, high) } else { (low - 0.5, high + 0.5) }
+}
+
+/// The ranges of both axes of a panel.
+pub(super) fn ranges(panel: &Panel) -> ((f64, f64), (f64, f64)) {
+    match &panel.content {
+        Content::Map(map) => {
+            (range(&panel.x, map.x.iter().copied(), false), range(&panel.y, map.y.iter().copied(), false))
+        }
+        Content::Lines(series) => {
+            let points = || series.iter().flat_map(|s| s.points.iter());
+            let x = range(&panel.x, points().map(|p| p[0]), false);
+            let visible = points().filter(|p| p[0] >= x.0 && p[0] <= x.1).map(|p| p[1]);
+            (x, range(&panel.y, visible, true))
+        }
+    }
+}

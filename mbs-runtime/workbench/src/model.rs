@@ -1,0 +1,184 @@
+//! A mechanism whose type is no longer known: what commands work with.
+
+use std::marker::PhantomData;
+
+use mbs_runtime::{
+    Baumgarte, Components, Dimension, Feedback, Held, Info, Mechanism, PerStage, Quantity, Simulation,
+};
+
+use crate::recording::{Column, Recording, Summary};
+use crate::settings::{FeedbackKind, Settings, StartKind};
+use crate::{Error, quantity};
+
+/// More rows than this are refused, before they fill the memory.
+const MAX_ROWS: u64 = 5_000_000;
+
+/// What commands need of a mechanism. Implemented for every [`Mechanism`] in
+/// `f64` by [`of`].
+pub trait Model: Send + Sync {
+    /// Names, units, equations and operation counts.
+    fn info(&self) -> &'static Info;
+
+    /// Runs a simulation. `progress` is called now and then with the steps
+    /// taken and the steps in all.
+    ///
+    /// A run that fails on its way is no error here: [`Recording::ended`] says
+    /// why, and the rows up to there are kept.
+    ///
+    /// # Errors
+    /// Settings that the mechanism does not have or refuses.
+    fn simulate(&self, settings: &Settings, progress: &mut dyn FnMut(u64, u64)) -> Result<Recording, Error>;
+}
+
+/// The mechanism `M` as a [`Model`].
+pub fn of<M: Mechanism<Real = f64>>() -> Box<dyn Model> {
+    Box::new(Typed::<M>(PhantomData))
+}
+
+struct Typed<M>(PhantomData<M>);
+
+impl<M: Mechanism<Real = f64>> Model for Typed<M> {
+    fn info(&self) -> &'static Info {
+        M::INFO
+    }
+
+    fn simulate(&self, settings: &Settings, progress: &mut dyn FnMut(u64, u64)) -> Result<Recording, Error> {
+        match settings.feedback {
+            FeedbackKind::Held => run::<M, Held>(settings, progress),
+            FeedbackKind::PerStage => run::<M, PerStage>(settings, progress),
+        }
+    }
+}
+
+fn run<M: Mechanism<Real = f64>, F: Feedback>(
+    settings: &Settings,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Recording, Error> {
+    let parameters = assign("parameter", M::Parameters::default(), &settings.parameters)?;
+    let inputs = assign("input", M::Inputs::default(), &settings.inputs)?;
+    let step = settings.step;
+    if !(step > 0.0 && step.is_finite()) {
+        return Err(mbs_runtime::Error::Step { step }.into());
+    }
+    let deadbeat = Baumgarte::<F>::deadbeat(step);
+    let gains = Baumgarte::<F>::new(
+        settings.alpha.unwrap_or(deadbeat.alpha()),
+        settings.beta.unwrap_or(deadbeat.beta()),
+    )?;
+    let mut builder = Simulation::builder(M::new(parameters)?, step).baumgarte(gains).inputs(inputs);
+    if settings.start == StartKind::Declared {
+        builder = builder.as_declared();
+    }
+    if settings.allow_unstable {
+        builder = builder.allow_unstable();
+    }
+    let simulation = builder.build()?;
+    let steps = simulation.steps_to(settings.end)?;
+    let every = settings.every.max(1);
+    if steps / every > MAX_ROWS {
+        return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
+    }
+    Ok(record(simulation, steps, every, progress))
+}
+
+/// `values` with the named ones replaced.
+fn assign<C: Components<Real = f64>>(
+    kind: &'static str,
+    values: C,
+    settings: &[(String, f64)],
+) -> Result<C, Error> {
+    settings.iter().try_fold(values, |values, (name, value)| {
+        values.with(name, *value).ok_or_else(|| Error::unknown(kind, name, C::NAMES.iter().copied()))
+    })
+}
+
+fn record<M: Mechanism<Real = f64>, F: Feedback>(
+    mut simulation: Simulation<M, F>,
+    steps: u64,
+    every: u64,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Recording {
+    let mut columns = columns(M::INFO);
+    let mut summary = Summary { energy_start: simulation.energy(), ..Summary::default() };
+    let mut ended = None;
+    let mut taken = 0;
+    loop {
+        summary.max_phi = summary.max_phi.max(simulation.violation());
+        summary.max_phi_dot = summary.max_phi_dot.max(simulation.velocity_violation());
+        if (taken % every == 0 || taken == steps)
+            && let Err(error) = append_row(&simulation, &mut columns)
+        {
+            ended = Some(error);
+            break;
+        }
+        if taken == steps {
+            break;
+        }
+        if let Err(error) = simulation.step() {
+            ended = Some(error);
+            break;
+        }
+        taken += 1;
+        if taken % 1024 == 0 || taken == steps {
+            progress(taken, steps);
+        }
+    }
+    summary.steps = taken;
+    summary.end = simulation.time();
+    summary.energy_end = simulation.energy();
+    Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended }
+}
+
+fn columns(info: &Info) -> Vec<Column> {
+    let mut columns = vec![Column::new("t", "s")];
+    columns.extend(info.coordinates.iter().map(|q| Column::new(q.name, coordinate_unit(q))));
+    columns.extend(
+        info.coordinates
+            .iter()
+            .map(|q| Column::new(format!("der({})", q.name), format!("{}/s", coordinate_unit(q)))),
+    );
+    columns.extend(info.constraints.iter().map(|c| {
+        // λ does work on Φ: its unit is that of energy over Φ.
+        let Dimension { mass, length, time } = c.dimension;
+        let dimension = Dimension {
+            mass: 1_i8.saturating_sub(mass),
+            length: 2_i8.saturating_sub(length),
+            time: (-2_i8).saturating_sub(time),
+        };
+        Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
+    }));
+    columns.extend(info.outputs.iter().map(|o| Column::new(o.name, quantity::si_unit(o.dimension))));
+    columns.push(Column::new("violation", "SI"));
+    columns
+}
+
+/// A coordinate is a length or an angle.
+pub(crate) fn coordinate_unit(coordinate: &Quantity) -> String {
+    match quantity::si_unit(coordinate.dimension) {
+        bare if bare == "1" => "rad".into(),
+        unit => unit,
+    }
+}
+
+fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
+    simulation: &Simulation<M, F>,
+    columns: &mut [Column],
+) -> Result<(), mbs_runtime::Error> {
+    let state = simulation.state();
+    let reactions = simulation.reactions()?;
+    let outputs = simulation.mechanism().outputs(state, simulation.inputs(), &reactions);
+    let (q, v, multipliers) =
+        (state.q.into_array(), state.v.into_array(), reactions.multipliers.into_array());
+    let outputs = outputs.into_array();
+    let row = [state.t]
+        .into_iter()
+        .chain(q.as_ref().iter().copied())
+        .chain(v.as_ref().iter().copied())
+        .chain(multipliers.as_ref().iter().copied())
+        .chain(outputs.as_ref().iter().copied())
+        .chain([simulation.violation()]);
+    for (column, value) in columns.iter_mut().zip(row) {
+        column.values.push(value);
+    }
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! Values with units, as people type them: `300rpm`, `70 mm`, `0.5N*m`.
+
+use mbs_runtime::Dimension;
+use mbs_symbolic::units;
+
+use crate::Error;
+
+/// Reads a value of the given dimension and returns it in SI units.
+///
+/// A bare number is taken to be in SI units. `what` names the value in messages.
+///
+/// # Errors
+/// [`Error::Value`] if it is no finite number or its unit is unknown,
+/// [`Error::Dimension`] if the unit is one of something else.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::Dimension;
+/// use mbs_workbench::quantity;
+///
+/// let length = Dimension { mass: 0, length: 1, time: 0 };
+/// assert_eq!(quantity::parse("l1", "70 mm", length)?, 0.07);
+/// assert_eq!(quantity::parse("l1", "0.07", length)?, 0.07);
+/// assert!(quantity::parse("l1", "300rpm", length).is_err());
+/// # Ok::<(), mbs_workbench::Error>(())
+/// ```
+pub fn parse(what: &str, text: &str, dimension: Dimension) -> Result<f64, Error> {
+    let wrong = |reason: String| Error::Value { what: what.into(), text: text.into(), reason };
+    let (number, unit) = split_number(text.trim())
+        .ok_or_else(|| wrong("that is not a number, or a number with a unit such as 300rpm".into()))?;
+    if !number.is_finite() {
+        return Err(wrong("it has to be finite".into()));
+    }
+    let unit = unit.trim();
+    if unit.is_empty() {
+        return Ok(number);
+    }
+    let unit = units::parse(unit).map_err(|e| wrong(e.to_string()))?;
+    let expected = units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]);
+    if unit.dimension != expected {
+        return Err(Error::Dimension {
+            what: what.into(),
+            text: text.into(),
+            expected: expected.to_string(),
+            found: unit.dimension.to_string(),
+        });
+    }
+    Ok(number * unit.scale.to_f64())
+}
+
+/// The longest prefix that is a number, and the rest.
+fn split_number(text: &str) -> Option<(f64, &str)> {
+    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
+    ends.filter_map(|end| {
+        let (head, tail) = text.split_at(end);
+        // `1 m` must not be split inside a word: "inf" and "nan" are numbers, "in" of `inch` is not.
+        let whole_word =
+            !head.ends_with(char::is_alphabetic) || !tail.starts_with(|c: char| c.is_alphanumeric());
+        Some((head.parse().ok().filter(|_| whole_word)?, tail))
+    })
+    .next()
+}
+
+/// Reads a setting `name=value` into its two parts.
+///
+/// # Errors
+/// [`Error::Setting`].
+pub fn split_setting(text: &str) -> Result<(&str, &str), Error> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim(), value.trim())),
+        _ => Err(Error::Setting { text: text.into() }),
+    }
+}
+
+/// The SI unit of a dimension as text: `N*m`, `kg*m^2/s`; `1` for a bare number.
+pub fn si_unit(dimension: Dimension) -> String {
+    let named = match (dimension.mass, dimension.length, dimension.time) {
+        (1, 1, -2) => "N",
+        (1, 2, -2) => "N*m",
+        (1, 2, -3) => "W",
+        (1, -1, -2) => "Pa",
+        (1, 0, -2) => "N/m",
+        _ => "",
+    };
+    if !named.is_empty() {
+        return named.into();
+    }
+    let powers = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
+    let product = |sign: i16| {
+        let factors = powers.iter().filter(|(_, p)| i16::from(*p) * sign > 0);
+        let text = factors.map(|(unit, p)| match i16::from(*p) * sign {
+            1 => (*unit).to_owned(),
+            p => format!("{unit}^{p}"),
+        });
+        text.collect::<Vec<_>>()
+    };
+    let (over, under) = (product(1).join("*"), product(-1));
+    let over = if over.is_empty() { "1".into() } else { over };
+    under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn dimension(mass: i8, length: i8, time: i8) -> Dimension {
+        Dimension { mass, length, time }
+    }
+
+    #[test]
+    fn values_with_and_without_units() {
+        let rate = dimension(0, 0, -1);
+        let rpm = std::f64::consts::PI / 30.0;
+        assert_eq!(parse("omega", "300rpm", rate).unwrap(), 300.0 * rpm);
+        assert_eq!(parse("omega", "-1.5e2 rpm", rate).unwrap(), -150.0 * rpm);
+        assert_eq!(parse("omega", "20rad/s", rate).unwrap(), 20.0);
+        assert_eq!(parse("tau", "0.5N*m", dimension(1, 2, -2)).unwrap(), 0.5);
+        assert_eq!(parse("step", "0.5ms", dimension(0, 0, 1)).unwrap(), 0.5e-3);
+        assert_eq!(parse("k", "3", dimension(0, 0, 0)).unwrap(), 3.0);
+        assert_eq!(parse("l", "2inch", dimension(0, 1, 0)).unwrap(), 0.0508);
+    }
+
+    #[test]
+    fn nonsense_is_explained() {
+        let message = |text| parse("l1", text, dimension(0, 1, 0)).unwrap_err().to_string();
+        assert_eq!(
+            message("300rpm"),
+            "l1 = `300rpm`: a rate [1/s] was given, but l1 is a length [m]"
+        );
+        assert!(message("7 furlong").contains("unknown unit `furlong`"));
+        assert!(message("NaN").contains("has to be finite"));
+        assert!(message("inf").contains("has to be finite"));
+        assert!(message("mm").contains("not a number"));
+        assert!(message("").contains("not a number"));
+        assert!(split_setting("l1").is_err() && split_setting("=3").is_err());
+    }
+
+    #[test]
+    fn si_units_of_dimensions() {
+        assert_eq!(si_unit(dimension(0, 0, 0)), "1");
+        assert_eq!(si_unit(dimension(0, 1, -1)), "m/s");
+        assert_eq!(si_unit(dimension(1, 2, 0)), "kg*m^2");
+        assert_eq!(si_unit(dimension(0, 0, -2)), "1/s^2");
+        assert_eq!(si_unit(dimension(1, 2, -1)), "kg*m^2/s");
+        assert_eq!(si_unit(dimension(1, 2, -2)), "N*m");
+    }
+}
