@@ -1,6 +1,8 @@
 //! What a person at a desk uses to work with compiled mechanisms.
 #![forbid(unsafe_code)]
 
+mod app;
+mod command;
 mod error;
 pub mod figure;
 pub mod model;
@@ -11,6 +13,7 @@ mod recording;
 mod settings;
 mod table;
 
+pub use app::{App, Models, app};
 pub use error::Error;
 pub use model::Model;
 pub use recording::{Column, Recording, Summary, write_csv};

@@ -31,8 +31,9 @@ impl Table {
     }
 }
 
+/// Columns on a terminal: characters, without the dots that combine with one (Φ̇).
 fn width(text: &str) -> usize {
-    text.chars().count()
+    text.chars().filter(|c| !('\u{300}'..='\u{36f}').contains(c)).count()
 }
 
 impl fmt::Display for Table {

@@ -1,0 +1,163 @@
+//! The command line as a library.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{ArgMatches, Command};
+use mbs_runtime::Mechanism;
+
+use crate::command::{list, new, simulate};
+use crate::{Error, Model, model};
+
+/// What a command of the embedding program does.
+type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
+
+/// A command line for mechanisms: `list`, `simulate`, `new`, and whatever the
+/// embedding program adds.
+///
+/// # Example
+/// ```no_run
+/// # use mbs_runtime::mechanism;
+/// fn main() -> std::process::ExitCode {
+///     mbs_workbench::app().run()
+/// }
+/// ```
+#[derive(Default)]
+pub struct App {
+    models: Models,
+    commands: Vec<(Command, Action)>,
+    default_command: Option<&'static str>,
+}
+
+/// Mechanisms with the names under which commands know them.
+#[derive(Default)]
+pub struct Models(Vec<(String, Box<dyn Model>)>);
+
+impl Models {
+    /// The mechanism called `name`.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`].
+    pub fn get(&self, name: &str) -> Result<&dyn Model, Error> {
+        match self.0.iter().find(|(known, _)| known == name) {
+            Some((_, model)) => Ok(model.as_ref()),
+            None => Err(Error::unknown("mechanism", name, self.names())),
+        }
+    }
+
+    /// Names and mechanisms, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &dyn Model)> {
+        self.0.iter().map(|(name, model)| (name.as_str(), model.as_ref()))
+    }
+
+    /// The names, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
+    }
+}
+
+/// An empty command line; add mechanisms to it.
+pub fn app() -> App {
+    App::default()
+}
+
+impl App {
+    /// Adds a mechanism under a name.
+    #[must_use]
+    pub fn mechanism<M: Mechanism<Real = f64>>(mut self, name: &str) -> Self {
+        self.models.0.push((name.to_owned(), model::of::<M>()));
+        self
+    }
+
+    /// Adds a command of one's own.
+    #[must_use]
+    pub fn command(
+        mut self,
+        command: Command,
+        run: impl Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>> + 'static,
+    ) -> Self {
+        self.commands.push((command, Box::new(run)));
+        self
+    }
+
+    /// Says which added command runs when none is given. Without it, the first
+    /// mechanism is simulated.
+    #[must_use]
+    pub fn default_command(mut self, name: &'static str) -> Self {
+        self.default_command = Some(name);
+        self
+    }
+
+    /// Runs what the program's arguments ask for. To be returned from `main`:
+    /// 0 if it went well, 2 if it was asked wrongly, 1 if it failed.
+    pub fn run(self) -> ExitCode {
+        self.run_from(std::env::args_os())
+    }
+
+    /// Runs what these arguments ask for; the first is the program's name.
+    pub fn run_from<T: Into<OsString> + Clone>(self, arguments: impl IntoIterator<Item = T>) -> ExitCode {
+        let matches = match self.parser().try_get_matches_from(arguments) {
+            Ok(matches) => matches,
+            Err(error) => {
+                // Nothing can be done for a terminal that takes no output.
+                let _ = error.print();
+                return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+            }
+        };
+        match self.dispatch(&matches) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("error: {error}");
+                ExitCode::FAILURE
+            }
+        }
+    }
+
+    fn parser(&self) -> Command {
+        let about = match self.default_command {
+            Some(name) => format!("Compiled mechanisms at a desk. Without a command: {name}."),
+            None => "Compiled mechanisms at a desk. Without a command: simulates the first.".into(),
+        };
+        Command::new("mbs")
+            .about(about)
+            .version(env!("CARGO_PKG_VERSION"))
+            .subcommand(list::command())
+            .subcommand(simulate::command())
+            .subcommand(new::command())
+            .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
+    }
+
+    fn dispatch(&self, matches: &ArgMatches) -> Result<(), Error> {
+        match matches.subcommand() {
+            Some(("list", _)) => list::run(&self.models),
+            Some(("simulate", matches)) => simulate::run(&self.models, matches),
+            Some(("new", matches)) => new::run(matches),
+            Some((name, matches)) => self.added(name, matches),
+            None => self.without_command(),
+        }
+    }
+
+    fn added(&self, name: &str, matches: &ArgMatches) -> Result<(), Error> {
+        match self.commands.iter().find(|(command, _)| command.get_name() == name) {
+            Some((_, action)) => action(matches).map_err(Error::Command),
+            None => {
+                let known = self.commands.iter().map(|(command, _)| command.get_name());
+                Err(Error::unknown("command", name, known))
+            }
+        }
+    }
+
+    fn without_command(&self) -> Result<(), Error> {
+        if let Some(name) = self.default_command {
+            // The arguments that the command has when none are given.
+            let command = self.commands.iter().find(|(command, _)| command.get_name() == name);
+            let parser = command.map_or_else(|| Command::new(name), |(command, _)| command.clone());
+            let matches = parser.get_matches_from([name]);
+            return self.added(name, &matches);
+        }
+        match self.models.iter().next() {
+            Some((name, model)) => simulate::by_default(name, model),
+            None => list::run(&self.models),
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! The commands that every [`App`](crate::App) has, one a file.
+
+pub(crate) mod list;
+pub(crate) mod new;
+pub(crate) mod simulate;

@@ -1,0 +1,113 @@
+//! `mbs new`: a crate for a mechanism of one's own, ready to run.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Arg, ArgMatches, Command, value_parser};
+
+use crate::Error;
+
+/// The files of a new crate and their templates.
+const FILES: [(&str, &str); 6] = [
+    ("Cargo.toml", include_str!("../../template/Cargo.toml.in")),
+    ("README.md", include_str!("../../template/README.md.in")),
+    (".gitignore", include_str!("../../template/gitignore.in")),
+    ("src/main.rs", include_str!("../../template/main.rs.in")),
+    ("src/lib.rs", include_str!("../../template/lib.rs.in")),
+    ("tests/motion.rs", include_str!("../../template/motion.rs.in")),
+];
+
+pub(crate) fn command() -> Command {
+    Command::new("new").about("Write a crate for a mechanism of your own, ready to run").arg(
+        Arg::new("path")
+            .value_name("NAME")
+            .required(true)
+            .value_parser(value_parser!(PathBuf))
+            .help("The folder to make; its last part is the crate's name"),
+    )
+}
+
+pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    let path = matches.get_one::<PathBuf>("path").cloned().unwrap_or_default();
+    let name = crate_name(&path)?;
+    write(&path, &name)?;
+    println!("written: {}", path.display());
+    println!("next:    cd {} && cargo run --release", path.display());
+    Ok(())
+}
+
+fn crate_name(path: &Path) -> Result<String, Error> {
+    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("").to_owned();
+    let reason = if name.is_empty() {
+        "a crate needs a name"
+    } else if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        "the name of a crate begins with a letter"
+    } else if !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') {
+        "the name of a crate has letters, digits, - and _ only"
+    } else if matches!(name.as_str(), "test" | "core" | "std" | "alloc" | "mbs-runtime" | "mbs-workbench") {
+        "a crate of that name exists already"
+    } else {
+        return Ok(name);
+    };
+    Err(Error::Name { name, reason: reason.into() })
+}
+
+fn write(folder: &Path, name: &str) -> Result<(), Error> {
+    // Never write into a folder that somebody has already.
+    if let Some(parent) = folder.parent().filter(|p| !p.as_os_str().is_empty()) {
+        std::fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
+    }
+    std::fs::create_dir(folder).map_err(Error::file("create", folder))?;
+    for (path, template) in FILES {
+        let path = folder.join(path);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
+        }
+        let text = template
+            .replace("@NAME@", name)
+            .replace("@MODULE@", &name.replace('-', "_"))
+            .replace("@RUNTIME@", &dependency(".."))
+            .replace("@WORKBENCH@", &dependency("."));
+        std::fs::write(&path, text).map_err(Error::file("write", &path))?;
+    }
+    Ok(())
+}
+
+/// Where the new crate finds ours: in the checkout that this program was built
+/// from while it is there, else by version.
+fn dependency(relative: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let workbench = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = if relative == ".." { workbench.parent() } else { Some(workbench) };
+    match root.filter(|r| r.join("Cargo.toml").is_file()).and_then(Path::to_str) {
+        // A literal string, so that backslashes of Windows paths stay.
+        Some(path) => format!("{{ version = \"{version}\", path = '{path}' }}"),
+        None => format!("\"{version}\""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_complete_crate_is_written_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("my-rocker");
+        write(&path, &crate_name(&path).unwrap()).unwrap();
+        for (file, _) in FILES {
+            let text = std::fs::read_to_string(path.join(file)).unwrap();
+            assert!(!text.contains("@"), "{file} has an unfilled place");
+        }
+        let main = std::fs::read_to_string(path.join("src/main.rs")).unwrap();
+        assert!(main.contains("my_rocker::"));
+        let again = write(&path, "my-rocker").unwrap_err().to_string();
+        assert!(again.contains("cannot create") && again.contains("exists"), "{again}");
+    }
+
+    #[test]
+    fn names_that_are_none() {
+        for name in ["7up", "a b", "über", "test", ""] {
+            assert!(crate_name(Path::new(name)).is_err(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! `mbs simulate`: one run of one mechanism.
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use indicatif::{ProgressBar, ProgressStyle};
+use mbs_runtime::{Dimension, Info, Quantity};
+
+use crate::app::Models;
+use crate::figure::{Axis, Figure, Panel, Series};
+use crate::model::coordinate_unit;
+use crate::number::significant;
+use crate::{Error, FeedbackKind, Model, Recording, Settings, StartKind, Table, quantity};
+
+const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
+const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
+
+pub(crate) fn command() -> Command {
+    let option = |name: &'static str, value: &'static str, help: &'static str| {
+        Arg::new(name).long(name).value_name(value).help(help).allow_hyphen_values(true)
+    };
+    Command::new("simulate")
+        .about("Simulate a mechanism and record its motion")
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`"))
+        .arg(
+            option("set", "NAME=VALUE", "A parameter, such as omega=300rpm or l1=70mm; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(
+            option("input", "NAME=VALUE", "An input, such as crank_torque=0.5N*m; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(option("step", "TIME", "Step [default: 0.5ms]"))
+        .arg(option("end", "TIME", "End time [default: 1s]"))
+        .arg(
+            option("every", "N", "Record every N-th step")
+                .value_parser(value_parser!(u64).range(1..))
+                .default_value("1"),
+        )
+        .arg(option("alpha", "RATE", "Feedback of the velocity violation in 1/s [default: deadbeat]"))
+        .arg(option("beta", "RATE", "Feedback of the position violation in 1/s [default: deadbeat]"))
+        .arg(
+            option("feedback", "WHEN", "When the violation is fed back")
+                .value_parser(PossibleValuesParser::new(["held", "per-stage"]))
+                .default_value("held"),
+        )
+        .arg(
+            option("start", "WHERE", "The declared start, made consistent or as it is")
+                .value_parser(PossibleValuesParser::new(["consistent", "declared"]))
+                .default_value("consistent"),
+        )
+        .arg(
+            Arg::new("allow-unstable")
+                .long("allow-unstable")
+                .action(ArgAction::SetTrue)
+                .help("Accept gains under which the violation grows"),
+        )
+        .arg(
+            option("out", "FILE.csv", "Write everything that was recorded")
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            option("plot", "FILE.svg|.png", "Draw coordinates, outputs and violation")
+                .value_parser(value_parser!(PathBuf)),
+        )
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+    let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
+    let name = text("model").unwrap_or_default();
+    let model = models.get(name)?;
+    let settings = settings(model.info(), matches)?;
+    let path = |name: &str| matches.get_one::<PathBuf>(name).map(PathBuf::as_path);
+    carry_out(name, model, &settings, path("out"), path("plot"))
+}
+
+/// What the program does without a command: the mechanism as it is declared,
+/// recorded to `NAME.csv` and drawn to `NAME.svg` and `NAME.png`.
+pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<(), Error> {
+    let path = |ending: &str| PathBuf::from(format!("{name}.{ending}"));
+    let (csv, svg) = (path("csv"), path("svg"));
+    carry_out(name, model, &Settings::default(), Some(&csv), Some(&svg))
+}
+
+fn settings(info: &Info, matches: &ArgMatches) -> Result<Settings, Error> {
+    let defaults = Settings::default();
+    let value = |name: &str, dimension| match matches.get_one::<String>(name) {
+        Some(text) => quantity::parse(name, text, dimension).map(Some),
+        None => Ok(None),
+    };
+    let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
+    Ok(Settings {
+        parameters: assignments("parameter", info.parameters, matches, "set")?,
+        inputs: assignments("input", info.inputs, matches, "input")?,
+        step: value("step", TIME)?.unwrap_or(defaults.step),
+        end: value("end", TIME)?.unwrap_or(defaults.end),
+        every: matches.get_one::<u64>("every").copied().unwrap_or(defaults.every),
+        alpha: value("alpha", RATE)?,
+        beta: value("beta", RATE)?,
+        feedback: if choice("feedback") == "per-stage" { FeedbackKind::PerStage } else { FeedbackKind::Held },
+        start: if choice("start") == "declared" { StartKind::Declared } else { StartKind::Consistent },
+        allow_unstable: matches.get_flag("allow-unstable"),
+    })
+}
+
+fn assignments(
+    kind: &'static str,
+    quantities: &[Quantity],
+    matches: &ArgMatches,
+    option: &str,
+) -> Result<Vec<(String, f64)>, Error> {
+    let assignment = |text: &String| {
+        let (name, value) = quantity::split_setting(text)?;
+        let quantity = quantities
+            .iter()
+            .find(|q| q.name == name)
+            .ok_or_else(|| Error::unknown(kind, name, quantities.iter().map(|q| q.name)))?;
+        Ok((name.to_owned(), quantity::parse(name, value, quantity.dimension)?))
+    };
+    matches.get_many::<String>(option).unwrap_or_default().map(assignment).collect()
+}
+
+fn carry_out(
+    name: &str,
+    model: &dyn Model,
+    settings: &Settings,
+    csv: Option<&Path>,
+    plot: Option<&Path>,
+) -> Result<(), Error> {
+    let bar = ProgressBar::new(0).with_style(
+        ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    let recording = model.simulate(settings, &mut |done, all| {
+        bar.set_length(all);
+        bar.set_position(done);
+    })?;
+    bar.finish_and_clear();
+
+    let mut kept = String::new();
+    if let Some(path) = csv {
+        recording.write_csv(path)?;
+        kept = format!("; the motion up to there is in {}", path.display());
+    }
+    if let Some(path) = plot {
+        picture(name, model.info(), &recording).save(path)?;
+    }
+    if let Some(cause) = recording.ended {
+        return Err(Error::EndedEarly { cause, kept });
+    }
+    print!("{}", report(name, &recording));
+    for path in [csv, plot].into_iter().flatten() {
+        println!("written: {}", path.display());
+    }
+    Ok(())
+}
+
+fn report(name: &str, recording: &Recording) -> String {
+    let summary = &recording.summary;
+    let mut table = Table::new([name, "", ""]);
+    let mut row = |what: &str, value: String, unit: &str| table.row([what, &value, unit]);
+    row("steps", summary.steps.to_string(), "");
+    row("max ‖Φ‖", significant(summary.max_phi, 4), "");
+    row("max ‖Φ̇‖", significant(summary.max_phi_dot, 4), "1/s");
+    row("energy change", significant(summary.energy_end - summary.energy_start, 6), "J");
+    for column in &recording.columns {
+        let shown = column.name != "violation" && !column.name.starts_with("lambda(");
+        if let Some(last) = column.values.last().filter(|_| shown) {
+            row(&format!("{} at the end", column.name), significant(*last, 7), &column.unit);
+        }
+    }
+    table.to_string()
+}
+
+/// Coordinates by kind, each output, and the violation.
+fn picture(name: &str, info: &Info, recording: &Recording) -> Figure {
+    let time = recording.columns.first().map_or(&[][..], |c| &c.values);
+    let axis = || Axis::new("time", "s");
+    let series = |name: &str| {
+        let values = recording.column(name).map_or(&[][..], |c| &c.values);
+        Series::xy(name, time, values)
+    };
+    let mut figure = Figure::new(name).panel_height(300);
+    for (label, unit) in [("position", "m"), ("angle", "rad")] {
+        let of_kind: Vec<_> =
+            info.coordinates.iter().filter(|q| coordinate_unit(q) == unit).map(|q| series(q.name)).collect();
+        if !of_kind.is_empty() {
+            figure = figure.panel(Panel::lines(axis(), Axis::new(label, unit), of_kind));
+        }
+    }
+    for output in info.outputs {
+        let unit = quantity::si_unit(output.dimension).replace('*', "·");
+        let unit = if unit == "1" { String::new() } else { unit };
+        let shown = Series { name: String::new(), ..series(output.name) };
+        figure = figure.panel(Panel::lines(axis(), Axis::new(output.name.replace('_', " "), unit), [shown]));
+    }
+    let violation = Series { name: String::new(), ..series("violation") };
+    figure.panel(Panel::lines(axis(), Axis::new("violation ‖Φ‖", ""), [violation]))
+}
