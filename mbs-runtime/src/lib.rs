@@ -28,7 +28,4 @@ pub use simulation::{Builder, Simulation};
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]
-pub mod __private {
-    pub use core;
-    pub use nalgebra;
-}
+pub mod __private;

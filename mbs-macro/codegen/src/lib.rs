@@ -1,5 +1,36 @@
 //! codegen
-/// x
-pub fn expand(t: proc_macro2::TokenStream) -> proc_macro2::TokenStream {
-    t
+#![forbid(unsafe_code)]
+#![allow(missing_docs)]
+
+mod derive;
+mod diagnostics;
+mod emit;
+mod model;
+mod plan;
+mod syntax;
+mod verify;
+
+use proc_macro2::TokenStream;
+
+pub use diagnostics::{Diagnostic, Diagnostics};
+
+/// What `mechanism! { … }` expands to; errors become `compile_error!`.
+pub fn expand(declaration: TokenStream) -> TokenStream {
+    compile(declaration).unwrap_or_else(|errors| errors.to_compile_errors())
+}
+
+/// Compiles a declaration: the whole pipeline.
+///
+/// # Errors
+/// All errors of the first stage that has any.
+pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
+    let declaration = syntax::parse(declaration)?;
+    let mut model = model::resolve(&declaration)?;
+    let equations = derive::derive(&mut model);
+    let samples = verify::Samples::new(&model);
+    verify::check_equations(&model, &equations, &samples)?;
+    let plan =
+        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::undetermined(&model, &error))?;
+    verify::check_closure(&model, &plan)?;
+    Ok(emit::emit(&model, &equations, &plan))
 }

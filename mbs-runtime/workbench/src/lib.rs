@@ -10,7 +10,9 @@ mod names;
 pub mod number;
 pub mod quantity;
 mod recording;
+pub mod report;
 mod settings;
+pub mod sweep;
 mod table;
 
 pub use app::{App, Models, app};

@@ -32,7 +32,7 @@ impl Span {
     /// An axis from pixel `from` to pixel `to` showing `low … high`.
     pub(super) fn new(axis: &Axis, (low, high): (f64, f64), from: i32, to: i32) -> Self {
         let length = f64::from((to - from).abs() / SCALE);
-        let spacing = if from < to { 90.0 } else { 55.0 };
+        let spacing = if from < to { 90.0 } else { 42.0 };
         let ticks = if axis.log {
             ticks::logarithmic(low, high)
         } else {

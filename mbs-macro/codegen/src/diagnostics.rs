@@ -1,0 +1,147 @@
+//! Errors for the person who wrote the declaration.
+
+use proc_macro2::{Span, TokenStream};
+use quote::quote_spanned;
+
+/// One error: what is wrong, where, and how to mend it.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// The token at fault.
+    pub span: Span,
+    /// What is wrong, in the words of the declaration.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
+    /// Other places that matter, such as an earlier definition.
+    pub notes: Vec<(Span, String)>,
+}
+
+impl Diagnostic {
+    /// An error at a token.
+    pub fn new(span: Span, message: impl Into<String>) -> Self {
+        Self { span, message: message.into(), help: None, notes: Vec::new() }
+    }
+
+    /// Adds how to mend it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds another place that matters.
+    #[must_use]
+    pub fn note(mut self, span: Span, note: impl Into<String>) -> Self {
+        self.notes.push((span, note.into()));
+        self
+    }
+
+    /// An inconsistency that is the compiler's own fault.
+    pub fn internal(span: Span, what: impl std::fmt::Display) -> Self {
+        Self::new(span, format!("internal inconsistency of the mechanism compiler: {what}"))
+            .help("this is not your mistake; please report it with the declaration")
+    }
+
+    /// The text as the compiler shows it.
+    pub fn text(&self) -> String {
+        match &self.help {
+            Some(help) => format!("{}\n\nhelp: {help}", self.message),
+            None => self.message.clone(),
+        }
+    }
+
+    fn to_tokens(&self) -> TokenStream {
+        let text = self.text();
+        let mut tokens = quote_spanned!(self.span=> ::core::compile_error!(#text););
+        for (span, note) in &self.notes {
+            let note = format!("note: {note}");
+            tokens.extend(quote_spanned!(*span=> ::core::compile_error!(#note);));
+        }
+        tokens
+    }
+}
+
+impl From<syn::Error> for Diagnostic {
+    fn from(error: syn::Error) -> Self {
+        Self::new(error.span(), error.to_string())
+    }
+}
+
+/// Collects the errors of a stage, so that all of them are shown at once.
+#[derive(Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// Adds an error.
+    pub fn push(&mut self, diagnostic: impl Into<Diagnostic>) {
+        self.list.push(diagnostic.into());
+    }
+
+    /// The value, or `None` with its error added.
+    pub fn take<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
+        result.map_err(|diagnostic| self.push(diagnostic)).ok()
+    }
+
+    /// The end of a stage: `value` if it had no errors.
+    ///
+    /// # Errors
+    /// The errors themselves, if there are any.
+    pub fn finish<T>(self, value: T) -> Result<T, Self> {
+        if self.list.is_empty() { Ok(value) } else { Err(self) }
+    }
+
+    /// All errors, in the order in which they were found.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter()
+    }
+
+    /// The errors as `compile_error!` invocations.
+    pub fn to_compile_errors(&self) -> TokenStream {
+        self.list.iter().map(Diagnostic::to_tokens).collect()
+    }
+}
+
+impl From<Diagnostic> for Diagnostics {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { list: vec![diagnostic] }
+    }
+}
+
+/// The candidate closest to `name`, if it is close enough to be a misspelling.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let tolerance = (name.chars().count() / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (distance(name, candidate), candidate))
+        .filter(|(distance, _)| *distance <= tolerance)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein's distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// `a, b and c`
+pub fn listing<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
+    let items: Vec<String> = items.into_iter().map(|item| format!("`{item}`")).collect();
+    match items.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+        None => "none".to_owned(),
+    }
+}

@@ -1,0 +1,173 @@
+//! Documentation of the generated items: the equations and what they cost.
+
+use std::fmt::Write;
+
+use mbs_symbolic::{Expr, Strategy};
+
+use super::info::function_counts;
+use crate::derive::Equations;
+use crate::model::{Model, Quantity};
+use crate::plan::Plan;
+
+/// Longer listings are cut.
+const LONGEST_LISTING: usize = 48;
+
+/// The documentation of the mechanism itself.
+pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
+    let mut text = model.doc.clone();
+    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let _ = write!(
+        text,
+        "\n\n# Equations\n\n{n} coordinates, {m} constraints, {} degrees of freedom. Φ(q, t) = 0 is\n",
+        n as i64 - m as i64
+    );
+    let rows = model.constraints.iter().zip(&equations.phi);
+    let lines: Vec<_> = rows
+        .map(|(constraint, &phi)| format!("{}: {} = 0", constraint.name, model.arena.display(phi)))
+        .collect();
+    text.push_str(&listing(&lines));
+    text.push_str("\n# Cost\n\n");
+    let order = match plan.strategy {
+        Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
+        Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
+    };
+    let _ = writeln!(
+        text,
+        "Elimination order: {order}. Operations per call:\n\n| function | mul | add | div | sincos | other | pivot watch |\n|---|---|---|---|---|---|---|"
+    );
+    for (name, operations, watch) in function_counts(plan) {
+        let mbs_symbolic::Operations { mul, add, div, sin_cos, other } = operations;
+        let _ = writeln!(text, "| `{name}` | {mul} | {add} | {div} | {sin_cos} | {other} | {watch} |");
+    }
+    text
+}
+
+/// A quantity with its unit and declared value.
+pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
+    let mut text = quantity.doc.clone();
+    if !text.is_empty() {
+        text.push_str("\n\n");
+    }
+    match declared {
+        Some(value) if quantity.unit.is_empty() => {
+            let _ = write!(text, "`{}`: a {}, declared as {value}.", quantity.name, quantity.dimension);
+        }
+        Some(value) => {
+            let _ = write!(
+                text,
+                "`{}`: a {}, declared as {} {} = {value} in SI units.",
+                quantity.name,
+                quantity.dimension,
+                value / quantity.scale,
+                quantity.unit
+            );
+        }
+        None => {
+            let _ = write!(text, "`{}`: a {}.", quantity.name, quantity.dimension);
+        }
+    }
+    text
+}
+
+/// Documentation of the functions.
+pub struct Functions<'a> {
+    model: &'a Model,
+    equations: &'a Equations,
+    counts: Vec<(&'static str, mbs_symbolic::Operations, u32)>,
+}
+
+impl<'a> Functions<'a> {
+    pub fn new(model: &'a Model, equations: &'a Equations, plan: &Plan) -> Self {
+        Self { model, equations, counts: function_counts(plan) }
+    }
+
+    pub fn phi(&self) -> String {
+        let lines = self.rows(&self.equations.phi);
+        self.finish("phi", "Constraints Φ(q, t): 0 where the mechanism is assembled.", &lines)
+    }
+
+    pub fn phi_q(&self) -> String {
+        let mut lines = Vec::new();
+        for (constraint, row) in self.model.constraints.iter().zip(&self.equations.phi_q) {
+            for (&column, &entry) in row {
+                let coordinate = &self.model.coordinates[column].quantity.name;
+                lines.push(format!(
+                    "∂{}/∂{coordinate} = {}",
+                    constraint.name,
+                    self.model.arena.display(entry)
+                ));
+            }
+        }
+        let text = "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:";
+        self.finish("phi_q", text, &lines)
+    }
+
+    pub fn phi_t(&self) -> String {
+        let lines = self.rows(&self.equations.phi_t);
+        self.finish("phi_t", "Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.", &lines)
+    }
+
+    pub fn gamma(&self) -> String {
+        let lines = self.rows(&self.equations.gamma);
+        let text = "γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).";
+        self.finish("gamma", text, &lines)
+    }
+
+    pub fn baumgarte_rhs(&self) -> String {
+        let text = "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.";
+        self.finish("baumgarte_rhs", text, &[])
+    }
+
+    pub fn mass(&self) -> String {
+        let lines = self.coordinates(&self.equations.mass);
+        self.finish("mass", "Mass matrix M. Its diagonal, all that is not 0:", &lines)
+    }
+
+    pub fn forces(&self) -> String {
+        let lines = self.coordinates(&self.equations.forces);
+        self.finish("forces", "Generalized forces Q: gravity and applied loads.", &lines)
+    }
+
+    pub fn accelerations(&self) -> String {
+        let text = "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.\n\n\
+                    In a singular position the result is not finite or its `growth` exceeds \
+                    the runtime's `growth_limit`.";
+        self.finish("reactions", text, &[])
+    }
+
+    fn rows(&self, exprs: &[Expr]) -> Vec<String> {
+        let rows = self.model.constraints.iter().zip(exprs);
+        rows.map(|(constraint, &expr)| format!("{}: {}", constraint.name, self.model.arena.display(expr)))
+            .collect()
+    }
+
+    fn coordinates(&self, exprs: &[Expr]) -> Vec<String> {
+        let rows = self.model.coordinates.iter().zip(exprs);
+        rows.map(|(c, &expr)| format!("{}: {}", c.quantity.name, self.model.arena.display(expr))).collect()
+    }
+
+    fn finish(&self, function: &str, text: &str, lines: &[String]) -> String {
+        let mut text = text.to_owned();
+        if !lines.is_empty() {
+            text.push_str("\n\n");
+            text.push_str(&listing(lines));
+        }
+        if let Some((_, operations, _)) = self.counts.iter().find(|(name, ..)| *name == function) {
+            let _ = write!(text, "\n\nCost: {operations}.");
+        }
+        text
+    }
+}
+
+/// Lines as a text block, cut where it would be too long to read.
+fn listing(lines: &[String]) -> String {
+    let mut text = String::from("```text\n");
+    for line in lines.iter().take(LONGEST_LISTING) {
+        let _ = writeln!(text, "{line}");
+    }
+    if lines.len() > LONGEST_LISTING {
+        let _ = writeln!(text, "… and {} more", lines.len() - LONGEST_LISTING);
+    }
+    text.push_str("```\n");
+    text
+}

@@ -1,0 +1,106 @@
+//! The constant that describes a mechanism to tools.
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Operations, Program};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::names::Names;
+use crate::model::{Model, Quantity};
+use crate::plan::Plan;
+
+pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+    let runtime = &names.runtime;
+    let (name, doc) = (names.mechanism.to_string(), model.doc.as_str());
+    let dof = Literal::i32_unsuffixed((model.coordinates.len() as i32) - (model.constraints.len() as i32));
+    let parameters = model.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
+    let inputs = model.inputs.iter().map(|input| quantity(input, 0.0, runtime));
+    let start = plan.start.evaluate(&model.values(|_| 0.0), &[]);
+    let coordinates =
+        model.coordinates.iter().zip(start).map(|(c, start)| quantity(&c.quantity, start, runtime));
+    let outputs = model.outputs.iter().map(|output| quantity(&output.quantity, 0.0, runtime));
+    let constraints = model.constraints.iter().map(|constraint| {
+        let (name, doc) = (&constraint.name, &constraint.doc);
+        let formula = model.arena.display(constraint.phi);
+        let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
+        quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
+    });
+    let pivots = plan.pivot_names.iter().map(|(row, coordinate)| {
+        let row = row.map_or("", |at| model.constraints[at].name.as_str());
+        let coordinate = coordinate.map_or("", |at| model.coordinates[at].quantity.name.as_str());
+        quote!(#runtime::Pivot { constraint: #row, coordinate: #coordinate })
+    });
+    let functions = function_counts(plan).into_iter().map(|(name, operations, watch)| {
+        let Operations { mul, add, div, sin_cos, other } = operations;
+        quote! {
+            #runtime::Function {
+                name: #name,
+                operations: #runtime::Operations {
+                    mul: #mul, add: #add, div: #div, sin_cos: #sin_cos, other: #other, watch: #watch,
+                },
+            }
+        }
+    });
+    quote! {
+        #runtime::Info::from_parts(
+            #name, #doc, #dof,
+            &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
+            &[#(#constraints),*], &[#(#pivots),*], &[#(#functions),*],
+        )
+    }
+}
+
+/// Name, operations, and the operations that watch pivots, of every function.
+pub fn function_counts(plan: &Plan) -> Vec<(&'static str, Operations, u32)> {
+    let whole = |name, program: &Program| (name, program.operations(), 0);
+    // The last output of a solving function is the pivot growth.
+    let watched = |name, program: &Program, outputs: usize| {
+        let operations = program.operations_for(outputs);
+        let watch = program.operations_for(program.outputs.len()).total() - operations.total();
+        (name, operations, watch)
+    };
+    let solved = |name, program: &Program| watched(name, program, program.outputs.len().saturating_sub(1));
+    vec![
+        whole("new", &plan.prepare),
+        whole("phi", &plan.phi),
+        whole("phi_dot", &plan.phi_dot),
+        whole("phi_q", &plan.phi_q),
+        whole("phi_t", &plan.phi_t),
+        whole("gamma", &plan.gamma),
+        whole("baumgarte_rhs", &plan.baumgarte_rhs),
+        whole("mass", &plan.mass),
+        whole("forces", &plan.forces),
+        whole("kinetic_energy", &plan.kinetic_energy),
+        whole("potential_energy", &plan.potential_energy),
+        solved("stabilized", &plan.stabilized),
+        solved("constrained", &plan.constrained),
+        solved("reactions", &plan.reactions),
+        solved("position_correction", &plan.position_correction),
+        solved("velocity_correction", &plan.velocity_correction),
+        whole("outputs", &plan.outputs),
+    ]
+}
+
+fn quantity(quantity: &Quantity, value: f64, runtime: &TokenStream) -> TokenStream {
+    let Quantity { name, doc, unit, scale, dimension: dim } = quantity;
+    let (scale, value) = (float(*scale), float(value));
+    let dimension = dimension(*dim, runtime);
+    quote! {
+        #runtime::Quantity { name: #name, doc: #doc, unit: #unit, scale: #scale, dimension: #dimension, default: #value }
+    }
+}
+
+fn float(value: f64) -> TokenStream {
+    if value.is_finite() {
+        let literal = Literal::f64_suffixed(value);
+        quote!(#literal)
+    } else {
+        quote!(f64::NAN)
+    }
+}
+
+/// Fractional exponents, which only outputs can have, are given as 0.
+fn dimension(dimension: Dimension, runtime: &TokenStream) -> TokenStream {
+    let [mass, length, time] = dimension.exponents().unwrap_or_default();
+    quote!(#runtime::Dimension { mass: #mass, length: #length, time: #time })
+}

@@ -1,0 +1,31 @@
+//! Programs to Rust. Cannot fail: whatever could go wrong has been refused.
+
+mod docs;
+mod functions;
+mod info;
+mod names;
+mod program;
+mod types;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::derive::Equations;
+use crate::model::Model;
+use crate::plan::Plan;
+use names::Names;
+
+/// The items of a mechanism.
+pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
+    let names = Names::new(model);
+    let types = types::emit(model, plan, equations, &names);
+    let construction = functions::construction(model, plan, &names);
+    let functions = functions::inherent(model, equations, plan, &names);
+    let mechanism = functions::mechanism(model, plan, &names);
+    quote! {
+        #types
+        #construction
+        #functions
+        #mechanism
+    }
+}

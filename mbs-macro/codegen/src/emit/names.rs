@@ -1,0 +1,68 @@
+//! Names of the generated items and paths to the runtime.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::model::Model;
+
+/// Names of the generated items.
+pub struct Names {
+    /// Path of the runtime crate.
+    pub runtime: TokenStream,
+    pub nalgebra: TokenStream,
+    pub mechanism: Ident,
+    pub parameters: Ident,
+    /// Type of the inputs, with its argument `T`.
+    pub inputs: Group,
+    pub coordinates: Group,
+    pub constraints: Group,
+    pub outputs: Group,
+    /// `State<…Coordinates<T>>`
+    pub state: TokenStream,
+    /// `Reactions<…Coordinates<T>, …Constraints<T>>`
+    pub reactions: TokenStream,
+}
+
+/// A generated vector with named components, or the runtime's empty one.
+pub struct Group {
+    /// The type, `…<T>`.
+    pub of_t: TokenStream,
+    /// The generated name; `None` where there are no components.
+    pub name: Option<Ident>,
+}
+
+impl Names {
+    pub fn new(model: &Model) -> Self {
+        let runtime = model.runtime.clone();
+        let group = |suffix: &str, is_empty: bool| {
+            if is_empty {
+                return Group { of_t: quote!(#runtime::NoComponents<T>), name: None };
+            }
+            let name = format_ident!("{}{suffix}", model.name);
+            Group { of_t: quote!(#name<T>), name: Some(name) }
+        };
+        let coordinates = group("Coordinates", false);
+        let constraints = group("Constraints", model.constraints.is_empty());
+        let (q, rows) = (&coordinates.of_t, &constraints.of_t);
+        Self {
+            state: quote!(#runtime::State<#q>),
+            reactions: quote!(#runtime::Reactions<#q, #rows>),
+            nalgebra: quote!(#runtime::__private::nalgebra),
+            mechanism: model.name.clone(),
+            parameters: format_ident!("{}Parameters", model.name),
+            inputs: group("Inputs", model.inputs.is_empty()),
+            outputs: group("Outputs", model.outputs.is_empty()),
+            coordinates,
+            constraints,
+            runtime,
+        }
+    }
+}
+
+/// A name of the declaration as an identifier of generated code.
+pub fn field(name: &str) -> Ident {
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, Span::call_site()),
+        None => Ident::new(name, Span::call_site()),
+    }
+}

@@ -1,0 +1,242 @@
+//! Instructions as `let` statements.
+
+use std::collections::{BTreeSet, HashMap};
+
+use mbs_symbolic::{Function, Number, Operand, Operation, Program, Symbol};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use super::names::field;
+use crate::model::{Meaning, Model};
+
+/// How generated code reads the symbols of a program.
+pub struct Access {
+    /// The parameters, `self.parameters` or a variable.
+    pub parameters: TokenStream,
+    pub time: TokenStream,
+    pub positions: TokenStream,
+    pub velocities: TokenStream,
+}
+
+impl Access {
+    /// In a method that takes `at: &State`.
+    pub fn of_state() -> Self {
+        Self {
+            parameters: quote!(self.parameters),
+            time: quote!(at.t),
+            positions: quote!(at.q),
+            velocities: quote!(at.v),
+        }
+    }
+
+    /// In a method that takes `t` and `q`.
+    pub fn of_position() -> Self {
+        Self {
+            parameters: quote!(self.parameters),
+            time: quote!(t),
+            positions: quote!(q),
+            velocities: quote!(v),
+        }
+    }
+
+    /// In a function that takes `parameters` alone.
+    pub fn of_parameters() -> Self {
+        Self { parameters: quote!(parameters), ..Self::of_position() }
+    }
+}
+
+/// Statements that run a program, and its outputs as expressions.
+pub struct Body {
+    pub statements: TokenStream,
+    pub outputs: Vec<TokenStream>,
+}
+
+pub fn body(model: &Model, program: &Program, access: &Access) -> Body {
+    let mut writer = Writer {
+        model,
+        program,
+        access,
+        names: Vec::new(),
+        taken: BTreeSet::new(),
+        statements: TokenStream::new(),
+        pairs: sine_cosine_pairs(program),
+    };
+    for at in 0..program.instructions.len() {
+        writer.instruction(at);
+    }
+    let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
+    Body { statements: writer.statements, outputs }
+}
+
+struct Writer<'a> {
+    model: &'a Model,
+    program: &'a Program,
+    access: &'a Access,
+    /// Per instruction; a partner of a sine–cosine pair is named early.
+    names: Vec<Option<Ident>>,
+    taken: BTreeSet<String>,
+    statements: TokenStream,
+    /// Sine instruction ↔ cosine instruction of the same angle.
+    pairs: HashMap<usize, usize>,
+}
+
+impl Writer<'_> {
+    fn instruction(&mut self, at: usize) {
+        self.names.resize(self.program.instructions.len(), None);
+        if self.names[at].is_some() {
+            return;
+        }
+        let instruction = &self.program.instructions[at];
+        let a = self.operand(instruction.a);
+        let statement = match (instruction.operation, self.pairs.get(&at).copied()) {
+            (Operation::Call(function), Some(partner)) => {
+                let (sine, cosine) = if function == Function::Sin { (at, partner) } else { (partner, at) };
+                let (sine, cosine) = (self.name(sine), self.name(cosine));
+                quote!(let (#sine, #cosine) = #a.sin_cos();)
+            }
+            (operation, _) => {
+                let b = self.operand(instruction.b);
+                let name = self.name(at);
+                let value = operation_tokens(operation, &a, &b);
+                quote!(let #name = #value;)
+            }
+        };
+        self.statements.extend(statement);
+    }
+
+    fn operand(&self, operand: Operand) -> TokenStream {
+        match operand {
+            Operand::Number(number) => number_tokens(number),
+            Operand::Symbol(symbol) => self.symbol(symbol),
+            Operand::Hoisted(at) => {
+                let at = Literal::usize_unsuffixed(at);
+                quote!(self.hoisted[#at])
+            }
+            Operand::Value(at) => match self.names.get(at) {
+                Some(Some(name)) => quote!(#name),
+                // Instructions refer to earlier ones only.
+                _ => TokenStream::new(),
+            },
+        }
+    }
+
+    fn symbol(&self, symbol: Symbol) -> TokenStream {
+        let Access { parameters, time, positions, velocities } = self.access;
+        let coordinate = |at: usize| field(&self.model.coordinates[at].quantity.name);
+        let row = |at: usize| field(&self.model.constraints[at].name);
+        match self.model.meanings[symbol.index()] {
+            Meaning::Time => time.clone(),
+            Meaning::Parameter(at) => {
+                let name = field(&self.model.parameters[at].quantity.name);
+                quote!(#parameters.#name)
+            }
+            Meaning::Input(at) => {
+                let name = field(&self.model.inputs[at].name);
+                quote!(inputs.#name)
+            }
+            Meaning::Coordinate(at) => {
+                let name = coordinate(at);
+                quote!(#positions.#name)
+            }
+            Meaning::Velocity(at) => {
+                let name = coordinate(at);
+                quote!(#velocities.#name)
+            }
+            Meaning::Acceleration(at) => {
+                let name = coordinate(at);
+                quote!(reactions.acceleration.#name)
+            }
+            Meaning::Multiplier(at) => {
+                let name = row(at);
+                quote!(reactions.multipliers.#name)
+            }
+            Meaning::Feedback(at) => {
+                let name = row(at);
+                quote!(feedback.#name)
+            }
+            Meaning::TwoAlpha => quote!(gains.two_alpha),
+            Meaning::BetaSquared => quote!(gains.beta_squared),
+        }
+    }
+
+    /// The name of a result: suggested, `sin_theta`, or `v7`.
+    fn name(&mut self, at: usize) -> Ident {
+        let instruction = &self.program.instructions[at];
+        let of_call = |function: Function| {
+            let argument = match instruction.a {
+                Operand::Symbol(symbol) => self.model.arena.name(symbol).to_owned(),
+                Operand::Value(value) => self.names.get(value)?.as_ref()?.to_string(),
+                _ => return None,
+            };
+            let is_plain = argument.chars().all(|c| c.is_alphanumeric() || c == '_');
+            is_plain.then(|| format!("{}_{argument}", function.row().name))
+        };
+        let suggested = instruction.name.clone().or_else(|| match instruction.operation {
+            Operation::Call(function) => of_call(function),
+            _ => None,
+        });
+        let name = match suggested {
+            Some(name) if syn::parse_str::<Ident>(&name).is_ok() && self.taken.insert(name.clone()) => {
+                Ident::new(&name, Span::call_site())
+            }
+            _ => format_ident!("v{at}"),
+        };
+        self.names[at] = Some(name.clone());
+        name
+    }
+}
+
+fn operation_tokens(operation: Operation, a: &TokenStream, b: &TokenStream) -> TokenStream {
+    match operation {
+        Operation::Add => quote!(#a + #b),
+        Operation::Sub => quote!(#a - #b),
+        Operation::Mul => quote!(#a * #b),
+        Operation::Div => quote!(#a / #b),
+        Operation::Neg => quote!(-#a),
+        Operation::Call(function) => {
+            let method = method(function);
+            quote!(#a.#method())
+        }
+        Operation::Call2(function) => {
+            let method = method(function);
+            quote!(#a.#method(#b))
+        }
+    }
+}
+
+/// The method of `Real` that computes a function.
+fn method(function: Function) -> Ident {
+    let name = if function == Function::Greater { "greater" } else { function.row().name };
+    Ident::new(name, Span::call_site())
+}
+
+pub fn number_tokens(number: Number) -> TokenStream {
+    float_tokens(number.to_f64())
+}
+
+pub fn float_tokens(value: f64) -> TokenStream {
+    if !value.is_finite() {
+        return quote!(T::from_f64(f64::NAN));
+    }
+    let literal = Literal::f64_unsuffixed(value);
+    quote!(T::from_f64(#literal))
+}
+
+/// Sine and cosine instructions of the same angle, both ways.
+fn sine_cosine_pairs(program: &Program) -> HashMap<usize, usize> {
+    let calls = |wanted: Function| {
+        let of_angle = move |(at, instruction): (usize, &mbs_symbolic::Instruction)| {
+            (instruction.operation == Operation::Call(wanted)).then_some((instruction.a, at))
+        };
+        program.instructions.iter().enumerate().filter_map(of_angle)
+    };
+    let cosines: HashMap<Operand, usize> = calls(Function::Cos).collect();
+    let mut pairs = HashMap::new();
+    for (angle, sine) in calls(Function::Sin) {
+        if let Some(&cosine) = cosines.get(&angle) {
+            pairs.insert(sine, cosine);
+            pairs.insert(cosine, sine);
+        }
+    }
+    pairs
+}

@@ -1,0 +1,191 @@
+//! The generated structs: the mechanism and its vectors with named components.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::docs;
+use super::names::{Names, field};
+use super::program::float_tokens;
+use crate::derive::Equations;
+use crate::model::Model;
+use crate::plan::Plan;
+
+/// A field of a generated struct: name, documentation, declared value.
+struct Field {
+    name: Ident,
+    text: String,
+    doc: String,
+    value: f64,
+}
+
+pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) -> TokenStream {
+    let Names { mechanism, parameters, runtime, .. } = names;
+    let visibility = &model.visibility;
+    let doc = docs::mechanism(model, plan, equations);
+    let hoisted = plan.prepare.outputs.len();
+    let parameter_fields: Vec<_> = model
+        .parameters
+        .iter()
+        .map(|p| Field {
+            name: field(&p.quantity.name),
+            text: p.quantity.name.clone(),
+            doc: docs::quantity(&p.quantity, Some(p.value)),
+            value: p.value,
+        })
+        .collect();
+    let parameter_doc =
+        format!("Parameters of [`{mechanism}`], in SI units; the default is the declaration.");
+    let parameters = components(visibility, parameters, names, &parameter_doc, &parameter_fields);
+    let inputs = quantities(
+        model.inputs.iter(),
+        "Inputs",
+        "set by the embedding program, in SI units",
+        names,
+        visibility,
+        names.inputs.name.as_ref(),
+    );
+    let coordinates = quantities(
+        model.coordinates.iter().map(|c| &c.quantity),
+        "Coordinates",
+        "or their rates, in SI units",
+        names,
+        visibility,
+        names.coordinates.name.as_ref(),
+    );
+    let outputs = quantities(
+        model.outputs.iter().map(|o| &o.quantity),
+        "Outputs",
+        "in SI units",
+        names,
+        visibility,
+        names.outputs.name.as_ref(),
+    );
+    let constraints = names.constraints.name.as_ref().map(|name| {
+        let fields: Vec<_> = model
+            .constraints
+            .iter()
+            .map(|constraint| Field {
+                name: field(&constraint.name),
+                text: constraint.name.clone(),
+                doc: format!("{}\n\n`{} = 0`", constraint.doc, model.arena.display(constraint.phi)),
+                value: 0.0,
+            })
+            .collect();
+        let doc = format!(
+            "One component per constraint of [`{mechanism}`]: Φ, its derivatives, or the multipliers λ."
+        );
+        components(visibility, name, names, &doc, &fields)
+    });
+    let parameters_type = &names.parameters;
+    quote! {
+        #[doc = #doc]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #visibility struct #mechanism<T = f64> {
+            parameters: #parameters_type<T>,
+            /// What depends on parameters alone, computed once.
+            hoisted: [T; #hoisted],
+        }
+
+        impl<T: #runtime::Real> ::core::default::Default for #mechanism<T> {
+            /// The mechanism with its declared parameters.
+            fn default() -> Self {
+                Self::prepare(<#parameters_type<T> as ::core::default::Default>::default())
+            }
+        }
+
+        #parameters
+        #inputs
+        #coordinates
+        #constraints
+        #outputs
+    }
+}
+
+fn quantities<'a>(
+    quantities: impl Iterator<Item = &'a crate::model::Quantity>,
+    what: &str,
+    remark: &str,
+    names: &Names,
+    visibility: &TokenStream,
+    name: Option<&Ident>,
+) -> Option<TokenStream> {
+    let name = name?;
+    let fields: Vec<_> = quantities
+        .map(|quantity| Field {
+            name: field(&quantity.name),
+            text: quantity.name.clone(),
+            doc: docs::quantity(quantity, None),
+            value: 0.0,
+        })
+        .collect();
+    let doc = format!("{what} of [`{}`], {remark}.", names.mechanism);
+    Some(components(visibility, name, names, &doc, &fields))
+}
+
+/// A struct with one field per component, and its conversions.
+fn components(
+    visibility: &TokenStream,
+    name: &Ident,
+    names: &Names,
+    doc: &str,
+    fields: &[Field],
+) -> TokenStream {
+    let Names { runtime, nalgebra, .. } = names;
+    let length = Literal::usize_unsuffixed(fields.len());
+    let idents: Vec<_> = fields.iter().map(|field| &field.name).collect();
+    let texts: Vec<_> = fields.iter().map(|field| field.text.as_str()).collect();
+    let docs = fields.iter().map(|field| field.doc.trim());
+    let defaults = fields.iter().map(|field| float_tokens(field.value));
+    // A mechanism without parameters still has the struct; it needs its `T`.
+    let (marker, marker_value) = if fields.is_empty() {
+        (
+            quote!(#[doc(hidden)] pub marker: ::core::marker::PhantomData<T>,),
+            quote!(marker: ::core::marker::PhantomData,),
+        )
+    } else {
+        (TokenStream::new(), TokenStream::new())
+    };
+    let unused = if fields.is_empty() { quote!(_) } else { quote!(value) };
+    quote! {
+        #[doc = #doc]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #visibility struct #name<T = f64> {
+            #(#[doc = #docs] pub #idents: T,)*
+            #marker
+        }
+
+        impl<T: #runtime::Real> ::core::default::Default for #name<T> {
+            fn default() -> Self {
+                Self { #(#idents: #defaults,)* #marker_value }
+            }
+        }
+
+        impl<T: #runtime::Real> #runtime::Components for #name<T> {
+            type Real = T;
+            type Array = [T; #length];
+            const NAMES: &'static [&'static str] = &[#(#texts),*];
+
+            #[inline(always)]
+            fn into_array(self) -> [T; #length] {
+                [#(self.#idents),*]
+            }
+            #[inline(always)]
+            fn from_array(array: [T; #length]) -> Self {
+                let [#(#idents),*] = array;
+                Self { #(#idents,)* #marker_value }
+            }
+            #[inline(always)]
+            fn splat(#unused: T) -> Self {
+                Self { #(#idents: value,)* #marker_value }
+            }
+        }
+
+        impl<T: #runtime::Real> ::core::convert::From<#name<T>> for #nalgebra::SVector<T, #length> {
+            fn from(components: #name<T>) -> Self {
+                #nalgebra::SVector::<T, #length>::from_data(#nalgebra::ArrayStorage([
+                    #runtime::Components::into_array(components),
+                ]))
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The declaration with names resolved and dimensions checked.
+//!
+//! After this stage there are no names to look up and no units: only symbols,
+//! expressions in SI units, and positions in lists.
+
+mod formula;
+mod items;
+mod names;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Arena, Expr, Symbol};
+use proc_macro2::{Span, TokenStream};
+
+pub use items::{holds, resolve};
+
+use crate::syntax::Comparison;
+
+/// A resolved mechanism.
+pub struct Model {
+    pub arena: Arena,
+    /// What each symbol of the arena stands for, by its index.
+    pub meanings: Vec<Meaning>,
+    pub symbols: Symbols,
+    pub doc: String,
+    pub visibility: TokenStream,
+    pub name: proc_macro2::Ident,
+    /// Where the runtime is found; `::mbs_runtime` by default.
+    pub runtime: TokenStream,
+    pub dof: (i64, Span),
+    pub parameters: Vec<Parameter>,
+    pub inputs: Vec<Quantity>,
+    pub coordinates: Vec<Coordinate>,
+    pub bodies: Vec<Body>,
+    pub constraints: Vec<Constraint>,
+    pub gravity: [Expr; 2],
+    pub loads: Vec<Load>,
+    pub start: Vec<Start>,
+    pub outputs: Vec<Output>,
+}
+
+/// What a symbol stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    Time,
+    Parameter(usize),
+    Input(usize),
+    Coordinate(usize),
+    Velocity(usize),
+    Acceleration(usize),
+    Multiplier(usize),
+    /// An amount added to γ, or a residual, per constraint.
+    Feedback(usize),
+    TwoAlpha,
+    BetaSquared,
+}
+
+/// The symbols, by meaning.
+pub struct Symbols {
+    pub time: Symbol,
+    pub two_alpha: Symbol,
+    pub beta_squared: Symbol,
+    /// Per constraint.
+    pub multipliers: Vec<Symbol>,
+    /// Per constraint.
+    pub feedback: Vec<Symbol>,
+}
+
+/// A name with its unit, for tools.
+#[derive(Clone)]
+pub struct Quantity {
+    pub name: String,
+    pub doc: String,
+    pub unit: String,
+    pub scale: f64,
+    pub dimension: Dimension,
+}
+
+pub struct Parameter {
+    pub quantity: Quantity,
+    pub symbol: Symbol,
+    /// Declared value in SI units.
+    pub value: f64,
+    pub requirement: Option<Requirement>,
+}
+
+/// A condition on parameters, checked when a mechanism is built.
+pub struct Requirement {
+    /// left − right
+    pub difference: Expr,
+    pub comparison: Comparison,
+    /// In words, for the run-time error.
+    pub text: String,
+    pub span: Span,
+}
+
+pub struct Coordinate {
+    pub quantity: Quantity,
+    pub span: Span,
+    pub position: Symbol,
+    pub velocity: Symbol,
+    pub acceleration: Symbol,
+    pub body: usize,
+    pub direction: Direction,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Direction {
+    X,
+    Y,
+    Angle,
+}
+
+pub struct Body {
+    pub name: String,
+    pub span: Span,
+    pub doc: String,
+    /// Positions in `coordinates`.
+    pub coordinates: Vec<usize>,
+    pub mass: Expr,
+    pub inertia: Expr,
+}
+
+pub struct Constraint {
+    pub name: String,
+    pub doc: String,
+    pub span: Span,
+    pub is_drive: bool,
+    pub phi: Expr,
+    pub dimension: Dimension,
+}
+
+/// A generalized force along a coordinate.
+pub struct Load {
+    pub coordinate: usize,
+    pub value: Expr,
+}
+
+pub struct Start {
+    pub coordinate: usize,
+    pub is_rate: bool,
+    pub is_guess: bool,
+    pub value: Expr,
+    pub span: Span,
+}
+
+pub struct Output {
+    pub quantity: Quantity,
+    pub value: Expr,
+}
+
+impl Model {
+    /// The coordinate of this direction of a body, if it has one.
+    pub fn coordinate_of(&self, body: &Body, direction: Direction) -> Option<usize> {
+        body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction == direction)
+    }
+
+    /// Symbol values for evaluation: declared parameters, and `other` for the rest.
+    pub fn values<'a>(&'a self, other: impl Fn(Meaning) -> f64 + 'a) -> impl Fn(Symbol) -> f64 + 'a {
+        move |symbol| match self.meanings.get(symbol.index()) {
+            Some(Meaning::Parameter(at)) => self.parameters[*at].value,
+            Some(meaning) => other(*meaning),
+            None => f64::NAN,
+        }
+    }
+}

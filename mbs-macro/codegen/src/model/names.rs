@@ -1,0 +1,163 @@
+//! Names, what they stand for, and where they may stand.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Arena, Expr, Stage, Symbol};
+use proc_macro2::{Ident, Span};
+
+use super::Meaning;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::syntax::Formula;
+
+/// Names that the language itself defines.
+pub const RESERVED: &[&str] = &["t", "pi", "der", "lambda", "effort"];
+
+/// An expression with its dimension; `None` for the literal 0, which fits any.
+#[derive(Clone, Copy)]
+pub struct Typed {
+    pub expr: Expr,
+    pub dimension: Option<Dimension>,
+}
+
+/// What a name in a formula stands for.
+pub enum Value<'a> {
+    Symbol { symbol: Symbol, dimension: Dimension, span: Span },
+    Definition(Definition<'a>),
+}
+
+/// A `let` or `const`, resolved when first needed.
+pub struct Definition<'a> {
+    pub formula: &'a Formula,
+    pub is_constant: bool,
+    pub span: Span,
+    pub state: State,
+}
+
+#[derive(Clone, Copy)]
+pub enum State {
+    Untouched,
+    /// Being resolved: meeting it again is a cycle.
+    Open,
+    Done(Typed),
+    Failed,
+}
+
+/// Where a formula stands, which decides what it may depend on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    Constant,
+    Property,
+    Constraint,
+    Load,
+    Anywhere,
+}
+
+impl Place {
+    pub fn allows(self, meaning: Meaning) -> bool {
+        match meaning {
+            Meaning::Parameter(_) => self != Self::Constant,
+            Meaning::Time | Meaning::Coordinate(_) => {
+                matches!(self, Self::Constraint | Self::Load | Self::Anywhere)
+            }
+            Meaning::Velocity(_) | Meaning::Input(_) => matches!(self, Self::Load | Self::Anywhere),
+            _ => self == Self::Anywhere,
+        }
+    }
+
+    /// Why something else may not stand here.
+    pub fn rule(self) -> &'static str {
+        match self {
+            Self::Constant => "this value has to be a number: it may use literals, `pi` and `const` names",
+            Self::Property => "this value has to be fixed by parameters and constants",
+            Self::Constraint => {
+                "a constraint is written in positions, parameters and time; its derivatives are taken for you"
+            }
+            Self::Load => "a force may depend on positions, velocities, time, inputs and parameters",
+            Self::Anywhere => "this cannot stand here",
+        }
+    }
+}
+
+/// Everything that a formula can refer to.
+pub struct Scope<'a> {
+    pub arena: Arena,
+    pub meanings: Vec<Meaning>,
+    pub values: BTreeMap<String, Value<'a>>,
+    /// Bodies with the names of their coordinates.
+    pub bodies: BTreeMap<String, Vec<String>>,
+    /// Constraints and drives: position, whether it is a drive, dimension once known.
+    pub rows: BTreeMap<String, Row>,
+    pub time: Symbol,
+}
+
+pub struct Row {
+    pub position: usize,
+    pub is_drive: bool,
+    pub span: Span,
+    pub multiplier: Symbol,
+    /// Dimension of Φ; known once the constraint is resolved.
+    pub dimension: Option<Dimension>,
+    /// Its equation has errors, which are reported there.
+    pub is_broken: bool,
+}
+
+impl<'a> Scope<'a> {
+    pub fn new() -> Self {
+        let mut scope = Self {
+            arena: Arena::new(),
+            meanings: Vec::new(),
+            values: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            rows: BTreeMap::new(),
+            time: Arena::new().symbol("t", Stage::Variable),
+        };
+        scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
+        scope
+    }
+
+    pub fn symbol(&mut self, name: &str, stage: Stage, meaning: Meaning) -> Symbol {
+        self.meanings.push(meaning);
+        self.arena.symbol(name, stage)
+    }
+
+    pub fn meaning(&self, symbol: Symbol) -> Meaning {
+        self.meanings[symbol.index()]
+    }
+
+    /// Enters a name that formulas can use.
+    pub fn declare(&mut self, name: &Ident, value: Value<'a>, errors: &mut Diagnostics) {
+        let text = name.to_string();
+        if RESERVED.contains(&text.as_str()) || mbs_symbolic::Function::named(&text).is_some() {
+            errors.push(
+                Diagnostic::new(
+                    name.span(),
+                    format!("`{text}` is a word of the language and cannot be declared"),
+                )
+                .help("choose another name"),
+            );
+            return;
+        }
+        if let Some(earlier) = self.values.get(&text) {
+            errors.push(duplicate(name, earlier.span()));
+            return;
+        }
+        self.values.insert(text, value);
+    }
+}
+
+impl Value<'_> {
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Symbol { span, .. } => *span,
+            Self::Definition(definition) => definition.span,
+        }
+    }
+}
+
+/// The error for a second declaration of a name.
+pub fn duplicate(name: &Ident, earlier: Span) -> Diagnostic {
+    Diagnostic::new(name.span(), format!("`{name}` is declared twice"))
+        .note(earlier, format!("`{name}` is first declared here"))
+        .help("rename one of them")
+}

@@ -1,0 +1,295 @@
+//! Equations to programs: the elimination is fixed, what depends on parameters
+//! alone is hoisted, and every function has its instructions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mbs_symbolic::{
+    Arena, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown, factor, lower,
+    lower_whole,
+};
+
+use crate::derive::Equations;
+use crate::model::Model;
+use crate::verify::Samples;
+
+/// More unknowns than this, and only the order that keeps matrices sparse is
+/// tried.
+const LARGEST_NULL_SPACE: usize = 64;
+
+/// The programs of all generated functions.
+pub struct Plan {
+    pub strategy: Strategy,
+    /// Values that depend on parameters alone.
+    pub prepare: Program,
+    /// left − right of every requirement, then masses and inertias.
+    pub requirements: Program,
+    /// Declared positions and velocities.
+    pub start: Program,
+    pub phi: Program,
+    pub phi_dot: Program,
+    /// Row by row, zeros included.
+    pub phi_q: Program,
+    pub phi_t: Program,
+    pub gamma: Program,
+    pub baumgarte_rhs: Program,
+    /// The diagonal of M.
+    pub mass: Program,
+    pub forces: Program,
+    pub kinetic_energy: Program,
+    pub potential_energy: Program,
+    /// q̈, feedback, growth
+    pub stabilized: Program,
+    /// q̈, growth
+    pub constrained: Program,
+    /// q̈, λ, growth
+    pub reactions: Program,
+    /// Δq, growth
+    pub position_correction: Program,
+    /// Δv, growth
+    pub velocity_correction: Program,
+    /// Growth of every watched pivot.
+    pub pivots: Program,
+    pub outputs: Program,
+    /// (constraint, coordinate) of every watched pivot.
+    pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
+}
+
+/// Plans all functions.
+///
+/// # Errors
+/// The unknowns that no pivot determines; `verify` has already seen to it that
+/// there are none where the constraints are independent.
+pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Undetermined> {
+    label(model, equations);
+    let (strategy, factorization) = cheapest(model, equations, samples)?;
+    let positions = correction(model, equations, strategy, samples, false)?;
+    let velocities = correction(model, equations, strategy, samples, true)?;
+
+    let mut hoisted = Hoisted::default();
+    let n = model.coordinates.len();
+    let dense: Vec<Expr> = equations
+        .phi_q
+        .iter()
+        .flat_map(|row| (0..n).map(|column| row.get(&column).copied().unwrap_or(model.arena.zero())))
+        .collect();
+    let rhs: Vec<Expr> = equations
+        .gamma
+        .iter()
+        .zip(&equations.feedback)
+        .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
+        .collect();
+    let stabilized = stabilized(model, equations, &factorization);
+    let (constrained, reactions) = with_given_feedback(model, equations, &factorization);
+    let growths: Vec<Expr> = factorization.pivots.iter().map(|pivot| pivot.growth).collect();
+    let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
+
+    let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
+    let plan = Plan {
+        strategy,
+        phi: program(&equations.phi),
+        phi_dot: program(&equations.phi_dot),
+        phi_q: program(&dense),
+        phi_t: program(&equations.phi_t),
+        gamma: program(&equations.gamma),
+        baumgarte_rhs: program(&rhs),
+        mass: program(&equations.mass),
+        forces: program(&equations.forces),
+        kinetic_energy: program(&[equations.kinetic_energy]),
+        potential_energy: program(&[equations.potential_energy]),
+        stabilized: program(&stabilized),
+        constrained: program(&constrained),
+        reactions: program(&reactions),
+        position_correction: program(&positions),
+        velocity_correction: program(&velocities),
+        pivots: program(&growths),
+        outputs: program(&outputs),
+        prepare: Program::default(),
+        requirements: Program::default(),
+        start: Program::default(),
+        pivot_names: factorization.pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect(),
+    };
+    let requirements = requirements(model, equations);
+    let start = declared_start(model);
+    Ok(Plan {
+        prepare: lower_whole(&mut model.arena, hoisted.values()),
+        requirements: lower_whole(&mut model.arena, &requirements),
+        start: lower_whole(&mut model.arena, &start),
+        ..plan
+    })
+}
+
+/// Names for values in generated code.
+fn label(model: &mut Model, equations: &Equations) {
+    for (at, constraint) in model.constraints.iter().enumerate() {
+        for (prefix, expr) in [
+            ("phi", equations.phi[at]),
+            ("phi_dot", equations.phi_dot[at]),
+            ("gamma", equations.gamma[at]),
+            ("feedback", equations.feedback[at]),
+        ] {
+            model.arena.label(expr, &format!("{prefix}_{}", constraint.name));
+        }
+        for (&column, &entry) in &equations.phi_q[at] {
+            let coordinate = &model.coordinates[column].quantity.name;
+            model.arena.label(entry, &format!("phi_q_{}_{coordinate}", constraint.name));
+        }
+    }
+}
+
+/// The constrained system with the coordinates in `held` left out.
+fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
+    let mut kkt = Kkt::new();
+    for (at, &mass) in equations.mass.iter().enumerate() {
+        if held.contains(&at) {
+            continue;
+        }
+        let unknown = Unknown::Coordinate(at);
+        kkt.add_unknown(unknown);
+        kkt.set(&model.arena, unknown, unknown, mass);
+        if !model.arena.is_zero(mass) {
+            kkt.mark_massive(at);
+        }
+    }
+    for (at, row) in equations.phi_q.iter().enumerate() {
+        kkt.add_unknown(Unknown::Row(at));
+        for (&column, &entry) in row.iter().filter(|(column, _)| !held.contains(column)) {
+            kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
+        }
+    }
+    kkt
+}
+
+/// The elimination that costs least in the function that runs most.
+fn cheapest(
+    model: &mut Model,
+    equations: &Equations,
+    samples: &Samples,
+) -> Result<(Strategy, Factorization), Undetermined> {
+    let kkt = system(model, equations, &BTreeSet::new());
+    let unknowns = model.coordinates.len() + model.constraints.len();
+    let mut best: Option<(u32, Strategy, Factorization)> = None;
+    for strategy in Strategy::ALL {
+        if strategy == Strategy::NullSpace && unknowns > LARGEST_NULL_SPACE {
+            continue;
+        }
+        let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
+        let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
+        let roots = stabilized(model, equations, &factorization);
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
+        let cost = program.operations_for(roots.len() - 1).total();
+        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+            best = Some((cost, strategy, factorization));
+        }
+    }
+    best.map(|(_, strategy, factorization)| (strategy, factorization))
+        .ok_or(Undetermined { unknowns: Vec::new() })
+}
+
+/// q̈, the feedback and the growth, with feedback from the state.
+fn stabilized(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Vec<Expr> {
+    // Shared, so that the function can hand out the very value it used.
+    let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
+    let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
+    for (at, &force) in equations.forces.iter().enumerate() {
+        rhs.insert(Unknown::Coordinate(at), force);
+    }
+    for (at, (&gamma, &feedback)) in equations.gamma.iter().zip(&feedback).enumerate() {
+        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+    }
+    let solution = factorization.solve(&mut model.arena, &rhs);
+    let mut roots = accelerations(model, &solution);
+    roots.extend(feedback);
+    roots.push(factorization.growth(&mut model.arena));
+    roots
+}
+
+/// The roots of `constrained` and of `reactions`, where the feedback is given.
+fn with_given_feedback(
+    model: &mut Model,
+    equations: &Equations,
+    factorization: &Factorization,
+) -> (Vec<Expr>, Vec<Expr>) {
+    let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
+    for (at, &force) in equations.forces.iter().enumerate() {
+        rhs.insert(Unknown::Coordinate(at), force);
+    }
+    for (at, &gamma) in equations.gamma.iter().enumerate() {
+        let feedback = model.arena.variable(model.symbols.feedback[at]);
+        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+    }
+    let solution = factorization.solve(&mut model.arena, &rhs);
+    let growth = factorization.growth(&mut model.arena);
+    let mut constrained = accelerations(model, &solution);
+    let mut reactions = constrained.clone();
+    constrained.push(growth);
+    for (at, constraint) in model.constraints.iter().enumerate() {
+        let multiplier = solution.get(&Unknown::Row(at)).copied().unwrap_or(model.arena.zero());
+        model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
+        reactions.push(multiplier);
+    }
+    reactions.push(growth);
+    (constrained, reactions)
+}
+
+fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<Expr> {
+    let mut roots = Vec::new();
+    for (at, coordinate) in model.coordinates.iter().enumerate() {
+        let acceleration = solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero());
+        model.arena.label(acceleration, &format!("acc_{}", coordinate.quantity.name));
+        roots.push(acceleration);
+    }
+    roots
+}
+
+/// Δ and growth of a correction that keeps what `start` prescribes, as far as
+/// the constraints leave it free.
+fn correction(
+    model: &mut Model,
+    equations: &Equations,
+    strategy: Strategy,
+    samples: &Samples,
+    of_velocities: bool,
+) -> Result<Vec<Expr>, Undetermined> {
+    let held = held(model, equations, samples, of_velocities);
+    let kkt = system(model, equations, &held);
+    let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
+    let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
+    let mut rhs = BTreeMap::new();
+    for (at, &residual) in model.symbols.feedback.iter().enumerate() {
+        rhs.insert(Unknown::Row(at), model.arena.variable(residual));
+    }
+    let solution = factorization.solve(&mut model.arena, &rhs);
+    let mut roots: Vec<Expr> = (0..model.coordinates.len())
+        .map(|at| solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero()))
+        .collect();
+    roots.push(factorization.growth(&mut model.arena));
+    Ok(roots)
+}
+
+/// The coordinates whose start values the constraints leave free: in the order
+/// of declaration, as long as the remaining columns of Φ_q keep full rank.
+pub fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: bool) -> BTreeSet<usize> {
+    let full = samples.rank(model, equations, &BTreeSet::new());
+    let mut held = BTreeSet::new();
+    for start in model.start.iter().filter(|start| start.is_rate == of_velocities && !start.is_guess) {
+        held.insert(start.coordinate);
+        if samples.rank(model, equations, &held) < full {
+            held.remove(&start.coordinate);
+        }
+    }
+    held
+}
+
+fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
+    let declared = model.parameters.iter().filter_map(|p| p.requirement.as_ref().map(|r| r.difference));
+    declared.chain(equations.mass.iter().copied()).collect()
+}
+
+fn declared_start(model: &Model) -> Vec<Expr> {
+    let value = |at: usize, is_rate: bool| {
+        let start = model.start.iter().find(|start| start.coordinate == at && start.is_rate == is_rate);
+        start.map_or(model.arena.zero(), |start| start.value)
+    };
+    let n = model.coordinates.len();
+    (0..n).map(|at| value(at, false)).chain((0..n).map(|at| value(at, true))).collect()
+}

@@ -1,0 +1,254 @@
+//! Formulas: `-l1/2*cos(theta1) + 3 [mm]`.
+
+use mbs_symbolic::Number;
+use mbs_symbolic::units::{self, Unit};
+use proc_macro2::{Span, TokenStream};
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::spanned::Spanned;
+use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
+
+use super::{Formula, FormulaKind, UnitText, Vector};
+
+/// Parentheses, powers and signs may nest this deep.
+const DEEPEST: usize = 128;
+
+impl Parse for Formula {
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        sum(input, 0)
+    }
+}
+
+fn sum(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+    let mut left = product(input, depth)?;
+    while input.peek(Token![+]) || input.peek(Token![-]) {
+        left = binary(left, operator(input)?, product(input, depth)?);
+    }
+    Ok(left)
+}
+
+fn product(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+    let mut left = signed(input, depth)?;
+    while input.peek(Token![*]) || input.peek(Token![/]) {
+        left = binary(left, operator(input)?, signed(input, depth)?);
+    }
+    Ok(left)
+}
+
+/// A sign binds looser than `^`: −x² is −(x²).
+fn signed(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+    if depth > DEEPEST {
+        return Err(input.error("this formula is nested too deeply; name a part of it with `let`"));
+    }
+    if input.peek(Token![-]) {
+        let (_, span) = operator(input)?;
+        let inner = signed(input, depth + 1)?;
+        return Ok(Formula { span, kind: FormulaKind::Negative(Box::new(inner)) });
+    }
+    if input.peek(Token![+]) {
+        operator(input)?;
+        return signed(input, depth + 1);
+    }
+    let base = with_unit(input, depth)?;
+    if input.peek(Token![^]) {
+        let operator = operator(input)?;
+        return Ok(binary(base, operator, signed(input, depth + 1)?));
+    }
+    Ok(base)
+}
+
+fn binary(left: Formula, (op, op_span): (char, Span), right: Formula) -> Formula {
+    // `join` gives the first token alone on stable compilers; errors therefore
+    // go to single tokens, and this span is only the formula's beginning.
+    let span = left.span;
+    Formula { span, kind: FormulaKind::Binary { op, op_span, left: Box::new(left), right: Box::new(right) } }
+}
+
+fn operator(input: ParseStream<'_>) -> Result<(char, Span)> {
+    let punct: proc_macro2::Punct = input.parse()?;
+    Ok((punct.as_char(), punct.span()))
+}
+
+fn with_unit(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+    let formula = primary(input, depth)?;
+    if !input.peek(token::Bracket) {
+        return Ok(formula);
+    }
+    let span = formula.span;
+    match formula.kind {
+        FormulaKind::Number { value, unit: None } => {
+            let unit = Some(input.parse()?);
+            Ok(Formula { span, kind: FormulaKind::Number { value, unit } })
+        }
+        FormulaKind::Name(name) => Err(input.error(format!(
+            "`{name}` has a unit of its own; units in brackets follow numbers, as in `60 [mm]`"
+        ))),
+        kind => {
+            let inner = Box::new(Formula { span, kind });
+            let unit = input.parse()?;
+            Ok(Formula { span, kind: FormulaKind::WithUnit { inner, unit } })
+        }
+    }
+}
+
+fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+    if input.peek(Lit) {
+        return number(&input.parse()?);
+    }
+    if input.peek(token::Paren) {
+        let content;
+        let paren = parenthesized!(content in input);
+        let inner = sum(&content, depth + 1)?;
+        if content.peek(Token![,]) {
+            return Err(content.error("a vector stands alone; here a scalar is needed"));
+        }
+        end(&content)?;
+        return Ok(Formula { span: paren.span.join(), kind: inner.kind });
+    }
+    if input.peek(Ident::peek_any) {
+        let name = Ident::parse_any(input)?;
+        let span = name.span();
+        if !input.peek(token::Paren) {
+            if syn::parse_str::<Ident>(&name.to_string()).is_err() {
+                return Err(Error::new(
+                    span,
+                    format!("`{name}` is a word of Rust and cannot be a name here"),
+                ));
+            }
+            return Ok(Formula { span, kind: FormulaKind::Name(name) });
+        }
+        let content;
+        parenthesized!(content in input);
+        let mut arguments = Vec::new();
+        while !content.is_empty() {
+            arguments.push(sum(&content, depth + 1)?);
+            if content.parse::<Option<Token![,]>>()?.is_none() {
+                end(&content)?;
+            }
+        }
+        return Ok(Formula { span, kind: FormulaKind::Call { function: name, arguments } });
+    }
+    Err(input.error("a formula is expected here: a number, a name, a function call or `( … )`"))
+}
+
+fn number(literal: &Lit) -> Result<Formula> {
+    let (digits, suffix) = match literal {
+        Lit::Int(int) => (int.base10_digits().to_owned(), int.suffix().to_owned()),
+        Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
+        other => return Err(Error::new(other.span(), "only numbers can stand in a formula")),
+    };
+    if !suffix.is_empty() {
+        let help = if units::lookup(&suffix).is_some() {
+            format!("write the unit in brackets: `{digits} [{suffix}]`")
+        } else {
+            format!("write a product with `*`: `{digits}*{suffix}`")
+        };
+        return Err(Error::new(
+            literal.span(),
+            format!("`{digits}{suffix}` is not a number\n\nhelp: {help}"),
+        ));
+    }
+    let value = Number::parse(&digits)
+        .ok_or_else(|| Error::new(literal.span(), "this number is too large for a double"))?;
+    Ok(Formula { span: literal.span(), kind: FormulaKind::Number { value, unit: None } })
+}
+
+impl Parse for UnitText {
+    /// `[N*m/s^2]`
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        let content;
+        let bracket = bracketed!(content in input);
+        let tokens: TokenStream = content.fork().parse()?;
+        let text = tokens.to_string().replace(' ', "");
+        if content.is_empty() {
+            return Err(Error::new(
+                bracket.span.join(),
+                "an empty unit; leave the brackets out of a bare number",
+            ));
+        }
+        let mut unit = unit_factor(&content)?;
+        while !content.is_empty() {
+            let (op, span) = operator(&content)?;
+            let factor = unit_factor(&content)?;
+            unit = match op {
+                '*' => unit.times(factor),
+                '/' => factor.power(-1).map_or(unit, |inverse| unit.times(inverse)),
+                _ => return Err(Error::new(span, "units are joined by `*`, `/` and `^`")),
+            };
+        }
+        Ok(Self { text, unit })
+    }
+}
+
+fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
+    if input.peek(Lit) {
+        let literal: Lit = input.parse()?;
+        return match &literal {
+            Lit::Int(int) if int.base10_digits() == "1" && int.suffix().is_empty() => Ok(Unit::ONE),
+            _ => Err(Error::new(
+                literal.span(),
+                "a unit is expected here; the only number in units is 1, as in `[1/s]`",
+            )),
+        };
+    }
+    let name =
+        Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a unit is expected here"))?;
+    let unit = units::lookup(&name.to_string()).ok_or_else(|| {
+        let nearest = crate::diagnostics::nearest(&name.to_string(), units::known());
+        let hint = nearest.map_or(String::new(), |near| format!("\n\nhelp: did you mean `{near}`?"));
+        Error::new(name.span(), format!("{}{hint}", units::UnitError::unknown(&name.to_string())))
+    })?;
+    if !input.peek(Token![^]) {
+        return Ok(unit);
+    }
+    operator(input)?;
+    let negative = input.peek(Token![-]);
+    if negative {
+        operator(input)?;
+    }
+    let exponent: syn::LitInt = input.parse()?;
+    let magnitude = exponent.base10_parse::<i32>()?;
+    unit.power(if negative { -magnitude } else { magnitude })
+        .ok_or_else(|| Error::new(exponent.span(), "this exponent is out of all measure"))
+}
+
+impl Parse for Vector {
+    /// `(x, y)` or `(x, y) [unit]`
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        let content;
+        let paren = parenthesized!(content in input);
+        let x = content.parse()?;
+        content.parse::<Token![,]>()?;
+        let y = content.parse()?;
+        content.parse::<Option<Token![,]>>()?;
+        end(&content)?;
+        let mut vector = Self { span: paren.span.join(), x, y };
+        if input.peek(token::Bracket) {
+            let unit: UnitText = input.parse()?;
+            vector.x = in_unit(vector.x, unit.clone());
+            vector.y = in_unit(vector.y, unit);
+        }
+        Ok(vector)
+    }
+}
+
+fn in_unit(inner: Formula, unit: UnitText) -> Formula {
+    Formula { span: inner.span, kind: FormulaKind::WithUnit { inner: Box::new(inner), unit } }
+}
+
+/// Whether a parenthesis holds a vector: a comma on its first level.
+pub(super) fn is_vector(input: ParseStream<'_>) -> bool {
+    let ahead = input.fork();
+    let Ok(group) = ahead.parse::<proc_macro2::Group>() else { return false };
+    let is_comma = |token| matches!(token, proc_macro2::TokenTree::Punct(p) if p.as_char() == ',');
+    input.peek(token::Paren) && group.stream().into_iter().any(is_comma)
+}
+
+/// Nothing may be left.
+pub(super) fn end(input: ParseStream<'_>) -> Result<()> {
+    if input.is_empty() {
+        return Ok(());
+    }
+    let rest: TokenStream = input.fork().parse()?;
+    Err(Error::new(rest.span(), "an operator, `;` or the end is expected here"))
+}

@@ -1,0 +1,344 @@
+//! Statements: `param …;`, `body … { … }`, `constraint …;`.
+
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::ext::IdentExt;
+use syn::parse::discouraged::Speculative;
+use syn::parse::{ParseStream, Parser};
+use syn::punctuated::Punctuated;
+use syn::spanned::Spanned;
+use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
+
+use super::formula::{end, is_vector};
+use super::{
+    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
+};
+use crate::diagnostics::{Diagnostics, nearest};
+
+const KEYWORDS: &[&str] = &[
+    "dof",
+    "crate",
+    "param",
+    "const",
+    "input",
+    "let",
+    "gravity",
+    "body",
+    "constraint",
+    "drive",
+    "force",
+    "torque",
+    "start",
+    "output",
+];
+
+/// Reads a declaration. After an error it goes on behind the next `;` or
+/// `{ … }`, so that all errors of a declaration are shown at once.
+///
+/// # Errors
+/// All errors of shape.
+pub fn parse(tokens: TokenStream) -> std::result::Result<Declaration, Diagnostics> {
+    let mut errors = Diagnostics::default();
+    let parsed = (|input: ParseStream<'_>| declaration(input, &mut errors)).parse2(tokens);
+    match parsed {
+        Ok(declaration) => errors.finish(declaration),
+        Err(error) => {
+            errors.push(error);
+            Err(errors)
+        }
+    }
+}
+
+fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Declaration> {
+    let doc = doc(input)?;
+    let visibility = input.parse::<syn::Visibility>()?.into_token_stream();
+    let name: Ident = input.parse().map_err(|error| {
+        Error::new(error.span(), "the name of the mechanism is expected here, as in `pub SliderCrank { … }`")
+    })?;
+    let content;
+    braced!(content in input);
+    let mut items = Vec::new();
+    while !content.is_empty() {
+        let behind = content.fork();
+        skip_statement(&behind)?;
+        match item(&content) {
+            Ok(item) => items.push(item),
+            Err(error) => {
+                errors.push(error);
+                content.advance_to(&behind);
+            }
+        }
+    }
+    if !input.is_empty() {
+        errors.push(input.error("one mechanism per `mechanism!`"));
+        input.parse::<TokenStream>()?;
+    }
+    Ok(Declaration { doc, visibility, name, items })
+}
+
+/// Moves behind the next `;`, or behind a `{ … }` that ends a statement.
+fn skip_statement(input: ParseStream<'_>) -> Result<()> {
+    while !input.is_empty() {
+        let token: TokenTree = input.parse()?;
+        match token {
+            TokenTree::Punct(punct) if punct.as_char() == ';' => break,
+            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => break,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn item(input: ParseStream<'_>) -> Result<Item> {
+    let doc = doc(input)?;
+    let keyword = Ident::parse_any(input).map_err(|error| {
+        Error::new(error.span(), format!("a statement is expected here: {}", KEYWORDS.join(", ")))
+    })?;
+    let kind = match keyword.to_string().as_str() {
+        "dof" => dof(input, keyword.span()),
+        "crate" => crate_path(input, keyword.span()),
+        "param" => parameter(input),
+        "const" => constant(input),
+        "input" => input_item(input),
+        "let" => let_item(input),
+        "gravity" => gravity(input, keyword.span()),
+        "body" => body(input),
+        "constraint" => constraint(input, false),
+        "drive" => constraint(input, true),
+        "force" => force(input, false),
+        "torque" => force(input, true),
+        "start" => start(input, keyword.span()),
+        "output" => output(input),
+        other => Err(unknown_statement(&keyword, other)),
+    }?;
+    Ok(Item { doc, kind })
+}
+
+fn unknown_statement(keyword: &Ident, word: &str) -> Error {
+    let hint = match nearest(word, KEYWORDS.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("statements begin with {}", KEYWORDS.join(", ")),
+    };
+    Error::new(keyword.span(), format!("`{word}` does not begin a statement\n\nhelp: {hint}"))
+}
+
+/// The text of doc comments; other attributes are refused.
+fn doc(input: ParseStream<'_>) -> Result<String> {
+    let mut lines = Vec::new();
+    for attribute in input.call(Attribute::parse_outer)? {
+        let line = match &attribute.meta {
+            syn::Meta::NameValue(pair) if pair.path.is_ident("doc") => match &pair.value {
+                syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let line = line.ok_or_else(|| Error::new(attribute.span(), "only doc comments can stand here"))?;
+        lines.push(line.strip_prefix(' ').unwrap_or(&line).to_owned());
+    }
+    Ok(lines.join("\n"))
+}
+
+fn name(input: ParseStream<'_>) -> Result<Ident> {
+    let name =
+        Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
+    if syn::parse_str::<Ident>(&name.to_string()).is_err() {
+        return Err(Error::new(name.span(), format!("`{name}` is a word of Rust and cannot be a name here")));
+    }
+    Ok(name)
+}
+
+fn equals(input: ParseStream<'_>) -> Result<Span> {
+    let equals: Token![=] =
+        input.parse().map_err(|error| Error::new(error.span(), "`=` is expected here"))?;
+    Ok(equals.span())
+}
+
+fn semicolon(input: ParseStream<'_>) -> Result<()> {
+    match input.parse::<Token![;]>() {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Error::new(error.span(), "an operator or `;` is expected here")),
+    }
+}
+
+fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let value: syn::LitInt = input.parse().map_err(|error| {
+        Error::new(error.span(), "a whole number is expected here: the degrees of freedom that are left")
+    })?;
+    semicolon(input)?;
+    Ok(ItemKind::Dof { keyword, value: value.base10_parse()? })
+}
+
+fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let path = input.call(syn::Path::parse_mod_style)?.into_token_stream();
+    semicolon(input)?;
+    Ok(ItemKind::Crate { keyword, path })
+}
+
+fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name(input)?;
+    equals(input)?;
+    let value = input.parse()?;
+    let condition = match input.parse::<Option<Token![where]>>()? {
+        Some(_) => Some(condition(input)?),
+        None => None,
+    };
+    semicolon(input)?;
+    Ok(ItemKind::Parameter { name, value, condition })
+}
+
+fn condition(input: ParseStream<'_>) -> Result<Condition> {
+    let ahead = input.fork();
+    let left = input.parse()?;
+    let comparison_span = input.span();
+    let comparison = if input.parse::<Option<Token![<=]>>()?.is_some() {
+        Comparison::LessOrEqual
+    } else if input.parse::<Option<Token![>=]>>()?.is_some() {
+        Comparison::GreaterOrEqual
+    } else if input.parse::<Option<Token![<]>>()?.is_some() {
+        Comparison::Less
+    } else if input.parse::<Option<Token![>]>>()?.is_some() {
+        Comparison::Greater
+    } else {
+        return Err(input.error("one of `<`, `<=`, `>`, `>=` is expected here, as in `where l1 > 0`"));
+    };
+    let right = input.parse()?;
+    let mut text = TokenStream::new();
+    while !ahead.is_empty() && !ahead.peek(Token![;]) {
+        text.extend([ahead.parse::<TokenTree>()?]);
+    }
+    Ok(Condition { left, comparison, comparison_span, right, text: text.to_string() })
+}
+
+fn constant(input: ParseStream<'_>) -> Result<ItemKind> {
+    let (name, value) = definition(input)?;
+    Ok(ItemKind::Constant { name, value })
+}
+
+fn let_item(input: ParseStream<'_>) -> Result<ItemKind> {
+    let (name, value) = definition(input)?;
+    Ok(ItemKind::Let { name, value })
+}
+
+fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
+    let name = name(input)?;
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok((name, value))
+}
+
+fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name(input)?;
+    if !input.peek(token::Bracket) {
+        return Err(input
+            .error(format!("an input needs its unit: `input {name} [N*m];`, or `[1]` for a bare number")));
+    }
+    let unit = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Input { name, unit })
+}
+
+fn gravity(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    if !is_vector(input) {
+        return Err(input.error("gravity is a vector: `gravity = (0, -9.81) [m/s^2];`"));
+    }
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Gravity { keyword, value })
+}
+
+fn body(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name(input)?;
+    if !input.peek(token::Paren) {
+        return Err(input.error(format!("a body needs its coordinates: `body {name} (x, y, theta) {{ … }}`")));
+    }
+    let content;
+    parenthesized!(content in input);
+    let coordinates = Punctuated::<Coordinate, Token![,]>::parse_terminated_with(&content, coordinate)?;
+    let coordinates = coordinates.into_iter().collect();
+    let content;
+    braced!(content in input);
+    let mut properties = Vec::new();
+    while !content.is_empty() {
+        let (name, value) = definition(&content)?;
+        properties.push(Property { name, value });
+    }
+    Ok(ItemKind::Body { name, coordinates, properties })
+}
+
+fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
+    let first = name(input)?;
+    if input.parse::<Option<Token![=]>>()?.is_some() {
+        return Ok(Coordinate { direction: Some(first), name: name(input)? });
+    }
+    Ok(Coordinate { direction: None, name: first })
+}
+
+fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
+    let name = name(input)?;
+    input.parse::<Token![:]>().map_err(|error| {
+        let word = if is_drive { "drive" } else { "constraint" };
+        Error::new(error.span(), format!("`:` is expected here, as in `{word} {name}: x = l*cos(theta);`"))
+    })?;
+    let left = input.parse()?;
+    let equals = equals(input)?;
+    let right = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Constraint { name, is_drive, left, equals, right })
+}
+
+fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
+    let what = name(input)?;
+    let on = Ident::parse_any(input).ok().filter(|word| word == "on");
+    if on.is_none() {
+        let word = if is_torque { "torque" } else { "force" };
+        return Err(input.error(format!("`on` is expected before this, as in `{word} {what} on crank = …;`")));
+    }
+    let target = name(input)?;
+    equals(input)?;
+    let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
+    semicolon(input)?;
+    Ok(ItemKind::Force { name: what, is_torque, target, value })
+}
+
+fn start(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    let content;
+    braced!(content in input);
+    let mut entries = Vec::new();
+    while !content.is_empty() {
+        entries.push(start_entry(&content)?);
+    }
+    Ok(ItemKind::Start { keyword, entries })
+}
+
+fn start_entry(input: ParseStream<'_>) -> Result<StartEntry> {
+    let mut first = name(input)?;
+    let is_guess = first == "guess" && input.peek(syn::Ident);
+    if is_guess {
+        first = name(input)?;
+    }
+    let is_rate = first == "der" && input.peek(token::Paren);
+    if is_rate {
+        let content;
+        parenthesized!(content in input);
+        first = name(&content)?;
+        end(&content)?;
+    }
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(StartEntry { is_guess, is_rate, coordinate: first, value })
+}
+
+fn output(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name(input)?;
+    let unit = if input.peek(token::Bracket) { Some(input.parse()?) } else { None };
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Output { name, unit, value })
+}

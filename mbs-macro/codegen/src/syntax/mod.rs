@@ -1,0 +1,142 @@
+//! The declaration as it was written: shapes are right, names are unresolved.
+
+mod formula;
+mod items;
+
+use mbs_symbolic::Number;
+use mbs_symbolic::units::Unit;
+use proc_macro2::{Ident, Span, TokenStream};
+
+pub use items::parse;
+
+/// A whole `mechanism! { … }`.
+pub struct Declaration {
+    pub doc: String,
+    pub visibility: TokenStream,
+    pub name: Ident,
+    pub items: Vec<Item>,
+}
+
+/// One statement.
+pub struct Item {
+    pub doc: String,
+    pub kind: ItemKind,
+}
+
+pub enum ItemKind {
+    /// `dof = 0;`
+    Dof { keyword: Span, value: i64 },
+    /// `crate = path;`
+    Crate { keyword: Span, path: TokenStream },
+    /// `param l = 1 [m] where l > 0;`
+    Parameter { name: Ident, value: Formula, condition: Option<Condition> },
+    /// `const l = 1 [m];`
+    Constant { name: Ident, value: Formula },
+    /// `input torque [N*m];`
+    Input { name: Ident, unit: UnitText },
+    /// `let x = …;`
+    Let { name: Ident, value: Formula },
+    /// `gravity = (gx, gy);`
+    Gravity { keyword: Span, value: Vector },
+    /// `body rod (x, y, theta) { mass = …; inertia = …; }`
+    Body { name: Ident, coordinates: Vec<Coordinate>, properties: Vec<Property> },
+    /// `constraint name: left = right;` or `drive name: left = right;`
+    Constraint { name: Ident, is_drive: bool, left: Formula, equals: Span, right: Formula },
+    /// `force name on target = …;` or `torque name on target = …;`
+    Force { name: Ident, is_torque: bool, target: Ident, value: Load },
+    /// `start { … }`
+    Start { keyword: Span, entries: Vec<StartEntry> },
+    /// `output name [unit] = …;`
+    Output { name: Ident, unit: Option<UnitText>, value: Formula },
+}
+
+/// `where left < right`
+pub struct Condition {
+    pub left: Formula,
+    pub comparison: Comparison,
+    pub comparison_span: Span,
+    pub right: Formula,
+    /// As it was written.
+    pub text: String,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Comparison {
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+/// A coordinate of a body, with its direction where that was written:
+/// `x = s`.
+pub struct Coordinate {
+    pub direction: Option<Ident>,
+    pub name: Ident,
+}
+
+/// `mass = …;` in a body.
+pub struct Property {
+    pub name: Ident,
+    pub value: Formula,
+}
+
+/// `(x, y)`, or a scalar.
+pub enum Load {
+    Scalar(Formula),
+    Vector(Vector),
+}
+
+/// `(x, y)` with an optional unit for both.
+pub struct Vector {
+    pub span: Span,
+    pub x: Formula,
+    pub y: Formula,
+}
+
+/// `theta = 0;`, `der(theta) = omega;` or either with `guess` before it.
+pub struct StartEntry {
+    pub is_guess: bool,
+    pub is_rate: bool,
+    pub coordinate: Ident,
+    pub value: Formula,
+}
+
+/// A unit in brackets.
+#[derive(Clone)]
+pub struct UnitText {
+    pub text: String,
+    pub unit: Unit,
+}
+
+/// A mathematical expression.
+pub struct Formula {
+    pub span: Span,
+    pub kind: FormulaKind,
+}
+
+pub enum FormulaKind {
+    /// A number, with a unit or bare.
+    Number {
+        value: Number,
+        unit: Option<UnitText>,
+    },
+    Name(Ident),
+    Negative(Box<Formula>),
+    /// `op` is one of `+ - * / ^`; the span is the operator's.
+    Binary {
+        op: char,
+        op_span: Span,
+        left: Box<Formula>,
+        right: Box<Formula>,
+    },
+    Call {
+        function: Ident,
+        arguments: Vec<Formula>,
+    },
+    /// `( … ) [unit]`
+    WithUnit {
+        inner: Box<Formula>,
+        unit: UnitText,
+    },
+}

@@ -1,0 +1,97 @@
+//! The assembly at the declared dimensions.
+
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::model::{Meaning, Model};
+use crate::plan::Plan;
+
+const ITERATIONS: usize = 50;
+const HALVINGS: usize = 10;
+
+/// Positions on Φ = 0 at t = 0, found with the very programs that are emitted.
+///
+/// # Errors
+/// The constraint that cannot be met.
+pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
+    let assembly = Assembly::new(model, plan);
+    let mut q = assembly.start.clone();
+    let mut phi = assembly.phi(&q);
+    for _ in 0..ITERATIONS {
+        let delta = assembly.correction(&q, &phi);
+        if largest(&delta).1 <= 1e-12 * (1.0 + largest(&q).1) {
+            return Ok(());
+        }
+        let mut length = 1.0;
+        for _ in 0..=HALVINGS {
+            let next: Vec<f64> = q.iter().zip(&delta).map(|(q, d)| q + length * d).collect();
+            let next_phi = assembly.phi(&next);
+            let improves = norm(&next_phi) < norm(&phi);
+            if improves || length < 1.0 / f64::from(1 << (HALVINGS - 1)) {
+                (q, phi) = (next, next_phi);
+                break;
+            }
+            length *= 0.5;
+        }
+    }
+    let (row, violation) = largest(&phi);
+    if violation <= 1e-10 * (1.0 + largest(&q).1) {
+        return Ok(());
+    }
+    let Some(constraint) = model.constraints.get(row) else { return Ok(()) };
+    Err(Diagnostic::new(
+        constraint.span,
+        format!(
+            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.3e}",
+            constraint.name
+        ),
+    )
+    .help("check the lengths (can the links reach each other?), or give closer `guess` values in `start`")
+    .into())
+}
+
+struct Assembly<'a> {
+    model: &'a Model,
+    plan: &'a Plan,
+    hoisted: Vec<f64>,
+    start: Vec<f64>,
+}
+
+impl<'a> Assembly<'a> {
+    fn new(model: &'a Model, plan: &'a Plan) -> Self {
+        let declared = model.values(|_| f64::NAN);
+        let hoisted = plan.prepare.evaluate(&declared, &[]);
+        let mut start = plan.start.evaluate(&declared, &[]);
+        start.truncate(model.coordinates.len());
+        Self { model, plan, hoisted, start }
+    }
+
+    fn phi(&self, q: &[f64]) -> Vec<f64> {
+        self.plan.phi.evaluate(&self.model.values(|meaning| at_position(meaning, q, &[])), &self.hoisted)
+    }
+
+    fn correction(&self, q: &[f64], phi: &[f64]) -> Vec<f64> {
+        let residual: Vec<f64> = phi.iter().map(|x| -x).collect();
+        let values = self.model.values(|meaning| at_position(meaning, q, &residual));
+        let mut delta = self.plan.position_correction.evaluate(&values, &self.hoisted);
+        delta.truncate(q.len());
+        delta
+    }
+}
+
+fn at_position(meaning: Meaning, q: &[f64], residual: &[f64]) -> f64 {
+    let known = match meaning {
+        Meaning::Time => Some(0.0),
+        Meaning::Coordinate(at) => q.get(at).copied(),
+        Meaning::Feedback(at) => residual.get(at).copied(),
+        _ => None,
+    };
+    known.unwrap_or(f64::NAN)
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn largest(values: &[f64]) -> (usize, f64) {
+    let magnitude = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
+    values.iter().map(magnitude).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+}

@@ -1,0 +1,82 @@
+//! What must hold before code is emitted: the degrees of freedom of the
+//! contract, independent constraints, an assembly at the declared dimensions.
+
+mod closure;
+mod rank;
+mod samples;
+
+use mbs_symbolic::Undetermined;
+use mbs_symbolic::Unknown;
+
+pub use closure::check_closure;
+pub use samples::Samples;
+
+use crate::derive::Equations;
+use crate::diagnostics::{Diagnostic, Diagnostics, listing};
+use crate::model::Model;
+use crate::model::holds;
+
+/// Checks the equations before they are planned.
+///
+/// # Errors
+/// All violations, in mechanism words.
+pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<(), Diagnostics> {
+    let mut errors = Diagnostics::default();
+    check_declared_values(model, equations, &mut errors);
+    rank::check_independence(model, equations, samples, &mut errors);
+    rank::check_contract(model, equations, samples, &mut errors);
+    errors.finish(())
+}
+
+/// Declared parameters satisfy their own conditions; no mass is negative.
+fn check_declared_values(model: &Model, equations: &Equations, errors: &mut Diagnostics) {
+    let values = model.values(|_| f64::NAN);
+    for parameter in &model.parameters {
+        let Some(requirement) = &parameter.requirement else { continue };
+        let difference = model.arena.evaluate(&[requirement.difference], &values);
+        if !holds(difference[0], requirement.comparison) {
+            errors.push(
+                Diagnostic::new(
+                    requirement.span,
+                    format!("the declared value of `{}` violates its own condition", parameter.quantity.name),
+                )
+                .help("change the value or the condition"),
+            );
+        }
+    }
+    let masses = model.arena.evaluate(&equations.mass, &values);
+    for (coordinate, mass) in model.coordinates.iter().zip(masses) {
+        let body = &model.bodies[coordinate.body];
+        if mass < 0.0 || !mass.is_finite() {
+            errors.push(
+                Diagnostic::new(
+                    body.span,
+                    format!(
+                        "the mass or inertia of `{}` along `{}` is {mass}",
+                        body.name, coordinate.quantity.name
+                    ),
+                )
+                .help("it has to be finite and not negative"),
+            );
+        }
+    }
+}
+
+/// The error for unknowns that no pivot determines.
+pub fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
+    let coordinates: Vec<_> = error
+        .unknowns
+        .iter()
+        .filter_map(|unknown| match unknown {
+            Unknown::Coordinate(at) => model.coordinates.get(*at),
+            Unknown::Row(_) => None,
+        })
+        .collect();
+    let Some(first) = coordinates.first() else {
+        return Diagnostic::internal(model.name.span(), error).into();
+    };
+    let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
+    Diagnostic::new(first.span, format!("nothing determines the acceleration of {}", listing(names)))
+        .help("give its body a mass or inertia, or constrain it")
+        .into()
+}

@@ -1,0 +1,246 @@
+//! Hash-consed expressions: equal expressions are the same node.
+
+use std::collections::HashMap;
+
+use crate::number::Number;
+use crate::operators::Function;
+
+/// An expression: a handle into an [`Arena`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Expr(pub(crate) u32);
+
+/// A symbol: a handle into an [`Arena`]'s list of symbols.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Symbol(pub(crate) u32);
+
+impl Symbol {
+    /// Its position in the list of symbols.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// When the value of a symbol or an expression is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// At compile time.
+    Constant,
+    /// When the parameters are.
+    Parameter,
+    /// In every evaluation anew.
+    Variable,
+}
+
+/// The canonical form of an expression.
+///
+/// A coefficient lives in a sum only: −3x is a sum of one term. Terms and
+/// factors are in the order of their handles, without repetition, and no sum
+/// stands directly in a sum, no product in a product: [`Node::Shared`] marks a
+/// value that is to be computed once, and stops that flattening.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A constant.
+    Number(Number),
+    /// A symbol.
+    Symbol(Symbol),
+    /// constant + Σ coefficient·term
+    Sum(Number, Vec<(Expr, Number)>),
+    /// Π factor^exponent, exponents not 0
+    Product(Vec<(Expr, i32)>),
+    /// f(x)
+    Call(Function, Expr),
+    /// f(x, y)
+    Call2(Function, Expr, Expr),
+    /// The same value, computed once.
+    Shared(Expr),
+}
+
+struct SymbolEntry {
+    name: String,
+    stage: Stage,
+}
+
+/// Holds expressions, each once.
+pub struct Arena {
+    nodes: Vec<Node>,
+    stages: Vec<Stage>,
+    index: HashMap<Node, Expr>,
+    symbols: Vec<SymbolEntry>,
+    labels: HashMap<Expr, String>,
+}
+
+impl Default for Arena {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Arena {
+    /// An empty arena.
+    pub fn new() -> Self {
+        let mut arena = Self {
+            nodes: Vec::new(),
+            stages: Vec::new(),
+            index: HashMap::new(),
+            symbols: Vec::new(),
+            labels: HashMap::new(),
+        };
+        // `zero` and `one` rely on these two being the first.
+        arena.number(Number::ZERO);
+        arena.number(Number::ONE);
+        arena
+    }
+
+    /// A new symbol, different from all others even of the same name.
+    pub fn symbol(&mut self, name: &str, stage: Stage) -> Symbol {
+        let symbol = Symbol(self.symbols.len() as u32);
+        self.symbols.push(SymbolEntry { name: name.to_owned(), stage });
+        symbol
+    }
+
+    /// The expression that is just this symbol.
+    pub fn variable(&mut self, symbol: Symbol) -> Expr {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// The name of a symbol.
+    pub fn name(&self, symbol: Symbol) -> &str {
+        &self.symbols[symbol.index()].name
+    }
+
+    /// The symbol with this index, if there is one.
+    pub fn symbol_at(&self, index: usize) -> Option<Symbol> {
+        (index < self.symbols.len()).then_some(Symbol(index as u32))
+    }
+
+    /// How many symbols there are.
+    pub fn symbol_count(&self) -> usize {
+        self.symbols.len()
+    }
+
+    /// A constant.
+    pub fn number(&mut self, value: Number) -> Expr {
+        self.intern(Node::Number(value))
+    }
+
+    /// 0
+    pub fn zero(&self) -> Expr {
+        Expr(0)
+    }
+
+    /// 1
+    pub fn one(&self) -> Expr {
+        Expr(1)
+    }
+
+    /// The canonical form of an expression.
+    pub fn node(&self, expr: Expr) -> &Node {
+        &self.nodes[expr.0 as usize]
+    }
+
+    /// When its value is known.
+    pub fn stage(&self, expr: Expr) -> Stage {
+        self.stages[expr.0 as usize]
+    }
+
+    /// Its value if it is a constant.
+    pub fn as_number(&self, expr: Expr) -> Option<Number> {
+        match self.node(expr) {
+            Node::Number(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Whether it is the constant 0.
+    pub fn is_zero(&self, expr: Expr) -> bool {
+        self.as_number(expr).is_some_and(Number::is_zero)
+    }
+
+    /// The expression marked as one value to be computed once: sums and
+    /// products around it do not take it apart. Signs stay outside.
+    pub fn share(&mut self, expr: Expr) -> Expr {
+        match self.node(expr) {
+            Node::Sum(constant, terms) => match terms[..] {
+                [(term, coefficient)] if constant.is_zero() && coefficient == Number::MINUS_ONE => {
+                    let shared = self.share(term);
+                    self.neg(shared)
+                }
+                _ => self.intern(Node::Shared(expr)),
+            },
+            Node::Product(_) => self.intern(Node::Shared(expr)),
+            _ => expr,
+        }
+    }
+
+    /// Suggests a name for a value in generated code; the first one stays.
+    pub fn label(&mut self, expr: Expr, name: &str) {
+        self.labels.entry(expr).or_insert_with(|| name.to_owned());
+    }
+
+    /// The suggested name.
+    pub fn label_of(&self, expr: Expr) -> Option<&str> {
+        self.labels.get(&expr).map(String::as_str)
+    }
+
+    /// The node's one handle. Only canonical nodes may come here.
+    pub(crate) fn intern(&mut self, node: Node) -> Expr {
+        if let Some(&known) = self.index.get(&node) {
+            return known;
+        }
+        let expr = Expr(self.nodes.len() as u32);
+        self.stages.push(self.stage_of(&node));
+        self.nodes.push(node.clone());
+        self.index.insert(node, expr);
+        expr
+    }
+
+    fn stage_of(&self, node: &Node) -> Stage {
+        let latest = |stages: &mut dyn Iterator<Item = Stage>| stages.max().unwrap_or(Stage::Constant);
+        match node {
+            Node::Number(_) => Stage::Constant,
+            Node::Symbol(symbol) => self.symbols[symbol.index()].stage,
+            Node::Sum(_, terms) => latest(&mut terms.iter().map(|(term, _)| self.stage(*term))),
+            Node::Product(factors) => latest(&mut factors.iter().map(|(factor, _)| self.stage(*factor))),
+            Node::Call(_, x) | Node::Shared(x) => self.stage(*x),
+            Node::Call2(_, x, y) => self.stage(*x).max(self.stage(*y)),
+        }
+    }
+
+    /// The operands of an expression.
+    pub fn operands(&self, expr: Expr) -> Vec<Expr> {
+        match self.node(expr) {
+            Node::Number(_) | Node::Symbol(_) => Vec::new(),
+            Node::Sum(_, terms) => terms.iter().map(|(term, _)| *term).collect(),
+            Node::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
+            Node::Call(_, x) | Node::Shared(x) => vec![*x],
+            Node::Call2(_, x, y) => vec![*x, *y],
+        }
+    }
+
+    /// Every expression that `roots` are made of, operands before users.
+    pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
+        let mut order = Vec::new();
+        let mut seen = vec![false; self.nodes.len()];
+        let mut stack: Vec<(Expr, bool)> = roots.iter().rev().map(|&root| (root, false)).collect();
+        while let Some((expr, operands_done)) = stack.pop() {
+            if operands_done {
+                order.push(expr);
+            } else if !std::mem::replace(&mut seen[expr.0 as usize], true) {
+                stack.push((expr, true));
+                stack.extend(self.operands(expr).into_iter().rev().map(|operand| (operand, false)));
+            }
+        }
+        order
+    }
+
+    /// The symbols that an expression depends on, in order.
+    pub fn symbols_in(&self, expr: Expr) -> Vec<Symbol> {
+        let symbol = |&e: &Expr| match self.node(e) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        let mut symbols: Vec<_> = self.reachable(&[expr]).iter().filter_map(symbol).collect();
+        symbols.sort_unstable();
+        symbols
+    }
+}

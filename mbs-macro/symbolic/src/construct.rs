@@ -1,0 +1,248 @@
+//! Constructors that keep expressions canonical.
+//!
+//! Each rule names its condition. Rules marked *generic* hold wherever the
+//! original is defined and may extend it where it is not (x/x is 1 at x = 0).
+
+use std::collections::BTreeMap;
+
+use crate::arena::{Arena, Expr, Node};
+use crate::number::Number;
+use crate::operators::{Function, Parity};
+
+impl Arena {
+    /// a + b
+    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum(&[(a, Number::ONE), (b, Number::ONE)])
+    }
+
+    /// a − b
+    pub fn sub(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum(&[(a, Number::ONE), (b, Number::MINUS_ONE)])
+    }
+
+    /// −a
+    pub fn neg(&mut self, a: Expr) -> Expr {
+        self.scale(a, Number::MINUS_ONE)
+    }
+
+    /// coefficient·a
+    pub fn scale(&mut self, a: Expr, coefficient: Number) -> Expr {
+        self.sum(&[(a, coefficient)])
+    }
+
+    /// Σ coefficient·term: nested sums are opened, like terms collected, and
+    /// c sin²x·r + d cos²x·r becomes d·r + (c − d) sin²x·r (always valid).
+    pub fn sum(&mut self, terms: &[(Expr, Number)]) -> Expr {
+        let mut constant = Number::ZERO;
+        let mut collected = BTreeMap::new();
+        for &(term, coefficient) in terms {
+            self.collect_term(term, coefficient, &mut constant, &mut collected);
+        }
+        self.merge_squares(&mut constant, &mut collected);
+        collected.retain(|_, coefficient| !coefficient.is_zero());
+        let terms: Vec<_> = collected.into_iter().collect();
+        match terms[..] {
+            [] => self.number(constant),
+            [(term, coefficient)] if constant.is_zero() && coefficient.is_one() => term,
+            _ => self.intern(Node::Sum(constant, terms)),
+        }
+    }
+
+    fn collect_term(
+        &self,
+        term: Expr,
+        coefficient: Number,
+        constant: &mut Number,
+        collected: &mut BTreeMap<Expr, Number>,
+    ) {
+        let mut collect = |term, coefficient: Number| {
+            let sum = collected.entry(term).or_insert(Number::ZERO);
+            *sum = *sum + coefficient;
+        };
+        match self.node(term) {
+            Node::Number(value) => *constant = *constant + coefficient * *value,
+            Node::Sum(inner, terms) => {
+                *constant = *constant + coefficient * *inner;
+                for (term, inner) in terms {
+                    collect(*term, coefficient * *inner);
+                }
+            }
+            _ => collect(term, coefficient),
+        }
+    }
+
+    /// sin² + cos² = 1 on all pairs of terms that differ in just that.
+    fn merge_squares(&mut self, constant: &mut Number, collected: &mut BTreeMap<Expr, Number>) {
+        let candidates: Vec<Expr> = collected.keys().copied().collect();
+        for term in candidates {
+            let Some(&of_cosine) = collected.get(&term) else { continue };
+            for (partner, rest) in self.square_partners(term) {
+                let Some(&of_sine) = collected.get(&partner) else { continue };
+                collected.remove(&term);
+                collected.insert(partner, of_sine + of_cosine * Number::MINUS_ONE);
+                self.collect_term(rest, of_cosine, constant, collected);
+                break;
+            }
+        }
+    }
+
+    /// For a term cos²x·r: the pair (sin²x·r, r), for every such x.
+    fn square_partners(&mut self, term: Expr) -> Vec<(Expr, Expr)> {
+        let Node::Product(factors) = self.node(term) else { return Vec::new() };
+        let factors = factors.clone();
+        let mut partners = Vec::new();
+        for (at, &(factor, exponent)) in factors.iter().enumerate() {
+            if let Node::Call(Function::Cos, angle) = *self.node(factor)
+                && exponent >= 2
+            {
+                let mut rest = factors.clone();
+                rest[at].1 -= 2;
+                let sine = self.call(Function::Sin, angle);
+                let rest = self.product(&rest);
+                let square = self.powi(sine, 2);
+                partners.push((self.mul(square, rest), rest));
+            }
+        }
+        partners
+    }
+
+    /// a·b
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        self.product(&[(a, 1), (b, 1)])
+    }
+
+    /// a/b; `None` if b is the constant 0.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Option<Expr> {
+        (!self.is_zero(b)).then(|| self.product(&[(a, 1), (b, -1)]))
+    }
+
+    /// a to an integer power; the constant 0 to a negative power is left
+    /// standing as a float infinity, which no caller should provoke.
+    pub fn powi(&mut self, a: Expr, exponent: i32) -> Expr {
+        self.product(&[(a, exponent)])
+    }
+
+    /// Π factor^exponent: nested products are opened, coefficients move in
+    /// front, equal factors collect (x/x = 1 is *generic*), and (√x)² = x
+    /// (*generic*: for x < 0 the original is undefined).
+    pub fn product(&mut self, factors: &[(Expr, i32)]) -> Expr {
+        let mut coefficient = Number::ONE;
+        let mut collected = BTreeMap::new();
+        for &(factor, exponent) in factors {
+            self.collect_factor(factor, exponent, &mut coefficient, &mut collected);
+        }
+        self.merge_roots(&mut coefficient, &mut collected);
+        collected.retain(|_, exponent| *exponent != 0);
+        if coefficient.is_zero() {
+            return self.zero();
+        }
+        let factors: Vec<_> = collected.into_iter().collect();
+        let product = match factors[..] {
+            [] => return self.number(coefficient),
+            [(factor, 1)] => factor,
+            _ => self.intern(Node::Product(factors)),
+        };
+        if coefficient.is_one() { product } else { self.scale(product, coefficient) }
+    }
+
+    fn collect_factor(
+        &self,
+        factor: Expr,
+        exponent: i32,
+        coefficient: &mut Number,
+        collected: &mut BTreeMap<Expr, i32>,
+    ) {
+        if exponent == 0 {
+            return;
+        }
+        match self.node(factor) {
+            Node::Number(value) => *coefficient = *coefficient * value.powi(exponent),
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                let (term, inner) = terms[0];
+                *coefficient = *coefficient * inner.powi(exponent);
+                self.collect_factor(term, exponent, coefficient, collected);
+            }
+            Node::Product(factors) => {
+                for (factor, inner) in factors {
+                    *collected.entry(*factor).or_insert(0) += inner * exponent;
+                }
+            }
+            _ => *collected.entry(factor).or_insert(0) += exponent,
+        }
+    }
+
+    fn merge_roots(&mut self, coefficient: &mut Number, collected: &mut BTreeMap<Expr, i32>) {
+        let roots: Vec<_> = collected
+            .iter()
+            .filter_map(|(&factor, &exponent)| match self.node(factor) {
+                Node::Call(Function::Sqrt, inner) if exponent.abs() >= 2 => Some((factor, *inner, exponent)),
+                _ => None,
+            })
+            .collect();
+        for (root, inner, exponent) in roots {
+            collected.insert(root, exponent % 2);
+            self.collect_factor(inner, exponent / 2, coefficient, collected);
+        }
+    }
+
+    /// xʸ: integer and half-integer constant exponents become products and
+    /// square roots, all others stay a power (defined for x > 0).
+    pub fn pow(&mut self, x: Expr, y: Expr) -> Expr {
+        const LARGEST: i64 = 64;
+        match self.as_number(y) {
+            Some(Number::Rational(n, 1)) if n.abs() <= LARGEST => self.powi(x, n as i32),
+            Some(Number::Rational(n, 2)) if n.abs() <= LARGEST => {
+                let root = self.call(Function::Sqrt, x);
+                self.powi(root, n as i32)
+            }
+            _ => self.call2(Function::Pow, x, y),
+        }
+    }
+
+    /// f(x), with f(−x) turned into ±f(x) where f is odd or even.
+    pub fn call(&mut self, function: Function, x: Expr) -> Expr {
+        if let Some(value) = self.as_number(x)
+            && let Some(folded) = fold(function, value)
+        {
+            return self.number(folded);
+        }
+        if function.row().parity != Parity::Neither && self.leads_negative(x) {
+            let positive = self.neg(x);
+            let value = self.intern(Node::Call(function, positive));
+            return if function.row().parity == Parity::Odd { self.neg(value) } else { value };
+        }
+        self.intern(Node::Call(function, x))
+    }
+
+    /// f(x, y)
+    pub fn call2(&mut self, function: Function, x: Expr, y: Expr) -> Expr {
+        if let (Some(a), Some(b)) = (self.as_number(x), self.as_number(y)) {
+            let value = (function.row().value)(a.to_f64(), b.to_f64());
+            let exact = [a, b].into_iter().find(|n| n.to_f64() == value);
+            if value.is_finite() {
+                return self.number(exact.unwrap_or(value.into()));
+            }
+        }
+        self.intern(Node::Call2(function, x, y))
+    }
+
+    /// Whether the first term has a negative coefficient: one of x and −x does.
+    fn leads_negative(&self, x: Expr) -> bool {
+        match self.node(x) {
+            Node::Sum(_, terms) => terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative()),
+            Node::Number(value) => value.is_negative(),
+            _ => false,
+        }
+    }
+}
+
+/// f of a constant: exact where that exists; `None` where it is not finite.
+fn fold(function: Function, value: Number) -> Option<Number> {
+    match function {
+        Function::Sqrt => return value.sqrt(),
+        Function::Abs => return Some(value.abs()),
+        _ => {}
+    }
+    let result = (function.row().value)(value.to_f64(), 0.0);
+    result.is_finite().then(|| result.into())
+}

@@ -1,0 +1,74 @@
+//! Derivatives along a direction.
+
+use std::collections::HashMap;
+
+use crate::arena::{Arena, Expr, Node, Symbol};
+use crate::number::Number;
+
+impl Arena {
+    /// Σ ∂e/∂s · direction(s) over all symbols s: a partial derivative with the
+    /// direction 1 for one symbol, a total time derivative with q → q̇, t → 1.
+    ///
+    /// Symbols without a direction are held constant.
+    pub fn derivative(&mut self, expr: Expr, direction: &HashMap<Symbol, Expr>) -> Expr {
+        let mut known: HashMap<Expr, Expr> = HashMap::new();
+        for operand in self.reachable(&[expr]) {
+            let derivative = self.derivative_of_node(operand, direction, &known);
+            known.insert(operand, derivative);
+        }
+        known[&expr]
+    }
+
+    /// ∂e/∂s
+    pub fn partial(&mut self, expr: Expr, symbol: Symbol) -> Expr {
+        let direction = HashMap::from([(symbol, self.one())]);
+        self.derivative(expr, &direction)
+    }
+
+    fn derivative_of_node(
+        &mut self,
+        expr: Expr,
+        direction: &HashMap<Symbol, Expr>,
+        known: &HashMap<Expr, Expr>,
+    ) -> Expr {
+        match self.node(expr).clone() {
+            Node::Number(_) => self.zero(),
+            Node::Symbol(symbol) => direction.get(&symbol).copied().unwrap_or(self.zero()),
+            Node::Sum(_, terms) => {
+                let terms: Vec<_> = terms.iter().map(|(term, c)| (known[term], *c)).collect();
+                self.sum(&terms)
+            }
+            Node::Product(factors) => {
+                // Π fᵢ^eᵢ · Σ eᵢ fᵢ′/fᵢ, each term written without the division
+                let mut terms = Vec::new();
+                for (at, &(factor, exponent)) in factors.iter().enumerate() {
+                    let slope = known[&factor];
+                    if self.is_zero(slope) {
+                        continue;
+                    }
+                    let mut rest = factors.clone();
+                    rest[at].1 -= 1;
+                    rest.push((slope, 1));
+                    terms.push((self.product(&rest), Number::integer(exponent.into())));
+                }
+                self.sum(&terms)
+            }
+            Node::Call(function, x) => {
+                if self.is_zero(known[&x]) {
+                    return self.zero();
+                }
+                let [dx, _] = (function.row().partials)(self, x, x, expr);
+                self.mul(dx, known[&x])
+            }
+            Node::Call2(function, x, y) => {
+                if self.is_zero(known[&x]) && self.is_zero(known[&y]) {
+                    return self.zero();
+                }
+                let [dx, dy] = (function.row().partials)(self, x, y, expr);
+                let (along_x, along_y) = (self.mul(dx, known[&x]), self.mul(dy, known[&y]));
+                self.add(along_x, along_y)
+            }
+            Node::Shared(x) => known[&x],
+        }
+    }
+}

@@ -1,0 +1,390 @@
+//! Elimination steps and the solution for a right-hand side.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::matrix::{Kkt, Unknown};
+use super::order::{Pivot, Strategy};
+use crate::arena::{Arena, Expr, Node, Stage};
+use crate::number::Number;
+use crate::operators::Function;
+
+/// Matrix entries with more terms than this are computed once instead of
+/// being opened in the sums that use them.
+const LONGEST_OPEN_SUM: usize = 12;
+
+/// One elimination step: what the right-hand side has to go through.
+enum Step {
+    /// u_c = g − Σ wⱼ uⱼ and u_r = (f − Σ kⱼ uⱼ)/p …, see `eliminate_pair`.
+    Pair {
+        row: Unknown,
+        coordinate: Unknown,
+        /// 1/p
+        inverse: Expr,
+        /// K_cc
+        mass: Expr,
+        /// wⱼ = K_rj/p
+        weights: BTreeMap<Unknown, Expr>,
+        /// kⱼ = K_cj
+        couplings: BTreeMap<Unknown, Expr>,
+    },
+    /// u = b/d − Σ lⱼ uⱼ
+    Diagonal { unknown: Unknown, inverse: Expr, multipliers: BTreeMap<Unknown, Expr> },
+}
+
+/// A pivot that may vanish, with its growth: the size of what it was made of
+/// over its own size.
+#[derive(Clone, Copy, Debug)]
+pub struct WatchedPivot {
+    /// The constraint of the pivot.
+    pub row: Option<usize>,
+    /// The coordinate of the pivot.
+    pub coordinate: Option<usize>,
+    /// Its growth.
+    pub growth: Expr,
+    /// Whether the growth can signal a lost pivot before it is exactly 0.
+    pub can_cancel: bool,
+}
+
+/// An eliminated matrix.
+pub struct Factorization {
+    steps: Vec<Step>,
+    /// The pivots that may vanish, in the order of elimination.
+    pub pivots: Vec<WatchedPivot>,
+}
+
+pub(super) struct Work<'a> {
+    pub arena: &'a mut Arena,
+    pub matrix: Kkt,
+    /// Σ of the contributions to a diagonal entry that enlarge it.
+    gross: BTreeMap<Unknown, Expr>,
+    /// Entries that were reduced by a later pivot of their own kind.
+    reduced: BTreeSet<Unknown>,
+    is_open: bool,
+    steps: Vec<Step>,
+    pivots: Vec<WatchedPivot>,
+}
+
+impl<'a> Work<'a> {
+    pub fn new(arena: &'a mut Arena, kkt: &Kkt, strategy: Strategy) -> Self {
+        let matrix = kkt.clone();
+        let gross = matrix.unknowns().filter_map(|u| Some((u, matrix.get(u, u)?))).collect();
+        let is_open = strategy == Strategy::NullSpace;
+        Self {
+            arena,
+            matrix,
+            gross,
+            reduced: BTreeSet::new(),
+            is_open,
+            steps: Vec::new(),
+            pivots: Vec::new(),
+        }
+    }
+
+    pub fn finish(self) -> Factorization {
+        Factorization { steps: self.steps, pivots: self.pivots }
+    }
+
+    pub fn eliminate(&mut self, pivot: Pivot) {
+        match pivot {
+            Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
+            Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),
+        }
+    }
+
+    /// With p = K_rc and K_rr = 0, row r gives u_c = (b_r − Σ K_rj u_j)/p, and
+    /// with w_j = K_rj/p what is left is
+    /// K′_ij = K_ij − w_i K_cj − K_ic w_j + w_i K_cc w_j.
+    fn eliminate_pair(&mut self, row: Unknown, coordinate: Unknown) {
+        let zero = self.arena.zero();
+        let pivot = self.matrix.get(row, coordinate).unwrap_or(zero);
+        let mass = self.matrix.get(coordinate, coordinate).unwrap_or(zero);
+        let inverse = self.inverse(pivot);
+        let is_other = |other: &Unknown| *other != row && *other != coordinate;
+        let of_row: Vec<_> = self.matrix.neighbours(row).filter(|(u, _)| is_other(u)).collect();
+        let weights: BTreeMap<_, _> = of_row
+            .into_iter()
+            .map(|(other, entry)| {
+                let weight = self.arena.mul(entry, inverse);
+                (other, self.settle(weight))
+            })
+            .collect();
+        let couplings: BTreeMap<_, _> =
+            self.matrix.neighbours(coordinate).filter(|(u, _)| is_other(u)).collect();
+
+        let touched: BTreeSet<_> = weights.keys().chain(couplings.keys()).copied().collect();
+        for &i in &touched {
+            for &j in touched.range(i..) {
+                let weight = |u: &Unknown| weights.get(u).copied();
+                let coupling = |u: &Unknown| couplings.get(u).copied();
+                if weight(&i).is_none() && weight(&j).is_none() {
+                    continue;
+                }
+                let entry = self.matrix.get(i, j).unwrap_or(zero);
+                let mut terms = vec![(entry, Number::ONE)];
+                for (w, k) in [(weight(&i), coupling(&j)), (weight(&j), coupling(&i))] {
+                    if let (Some(w), Some(k)) = (w, k) {
+                        terms.push((self.arena.mul(w, k), Number::MINUS_ONE));
+                    }
+                }
+                if let (Some(wi), Some(wj)) = (weight(&i), weight(&j)) {
+                    let square = self.arena.product(&[(wi, 1), (wj, 1), (mass, 1)]);
+                    if i == j {
+                        self.enlarge(i, square);
+                    }
+                    terms.push((square, Number::ONE));
+                }
+                let entry = self.arena.sum(&terms);
+                let entry = self.settle(entry);
+                self.matrix.set(self.arena, i, j, entry);
+            }
+        }
+        self.watch_pair(row, coordinate, pivot, inverse);
+        self.matrix.remove(row);
+        self.matrix.remove(coordinate);
+        self.steps.push(Step::Pair { row, coordinate, inverse, mass, weights, couplings });
+    }
+
+    /// K′_ij = K_ij − K_ip K_pj / K_pp
+    fn eliminate_diagonal(&mut self, unknown: Unknown) {
+        let zero = self.arena.zero();
+        let pivot = self.matrix.get(unknown, unknown).unwrap_or(zero);
+        let pivot = self.arena.share(pivot);
+        let inverse = self.inverse(pivot);
+        let couplings: BTreeMap<_, _> = self
+            .matrix
+            .neighbours(unknown)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .map(|(other, entry)| (other, self.arena.share(entry)))
+            .collect();
+        let multipliers: BTreeMap<_, _> = couplings
+            .iter()
+            .map(|(&other, &entry)| {
+                let multiplier = self.arena.mul(entry, inverse);
+                (other, self.arena.share(multiplier))
+            })
+            .collect();
+        for (&i, &multiplier) in &multipliers {
+            for (&j, &coupling) in couplings.range(i..) {
+                let product = self.arena.mul(multiplier, coupling);
+                let entry = self.matrix.get(i, j).unwrap_or(zero);
+                let updated = self.arena.sub(entry, product);
+                if i == j {
+                    self.track(unknown, i, product);
+                }
+                let updated = self.arena.share(updated);
+                self.matrix.set(self.arena, i, j, updated);
+            }
+        }
+        self.watch_diagonal(unknown, pivot, inverse);
+        self.matrix.remove(unknown);
+        self.steps.push(Step::Diagonal { unknown, inverse, multipliers });
+    }
+
+    /// 1/p, computed once.
+    fn inverse(&mut self, pivot: Expr) -> Expr {
+        let inverse = self.arena.powi(pivot, -1);
+        self.arena.share(inverse)
+    }
+
+    /// Leaves a short entry open to algebra, closes a long one.
+    fn settle(&mut self, entry: Expr) -> Expr {
+        let length = match self.arena.node(entry) {
+            Node::Sum(_, terms) => terms.len(),
+            _ => 1,
+        };
+        if self.is_open && length <= LONGEST_OPEN_SUM { entry } else { self.arena.share(entry) }
+    }
+
+    fn enlarge(&mut self, unknown: Unknown, contribution: Expr) {
+        let gross = self.gross.get(&unknown).copied().unwrap_or(self.arena.zero());
+        let gross = self.arena.add(gross, contribution);
+        let gross = self.settle(gross);
+        self.gross.insert(unknown, gross);
+    }
+
+    /// A pivot of the other kind (a mass for a row) enlarges an entry of the
+    /// Schur complement, one of the same kind reduces it.
+    fn track(&mut self, pivot: Unknown, unknown: Unknown, contribution: Expr) {
+        let same_kind = matches!(pivot, Unknown::Row(_)) == matches!(unknown, Unknown::Row(_));
+        if same_kind {
+            self.reduced.insert(unknown);
+        } else {
+            let negative = self.arena.neg(contribution);
+            self.enlarge(unknown, negative);
+        }
+    }
+
+    fn watch_pair(&mut self, row: Unknown, coordinate: Unknown, pivot: Expr, inverse: Expr) {
+        if self.arena.as_number(pivot).is_some() {
+            return;
+        }
+        let bound = self.arena.bound(pivot);
+        let size = bound.unwrap_or_else(|| self.arena.share(pivot));
+        self.watch(Some(row), Some(coordinate), size, inverse, bound.is_some());
+    }
+
+    fn watch_diagonal(&mut self, unknown: Unknown, pivot: Expr, inverse: Expr) {
+        if self.arena.as_number(pivot).is_some() {
+            return;
+        }
+        let can_cancel = self.reduced.contains(&unknown);
+        let gross = self.gross.get(&unknown).copied().filter(|_| can_cancel).unwrap_or(pivot);
+        let size = self.arena.share(gross);
+        match unknown {
+            Unknown::Row(_) => self.watch(Some(unknown), None, size, inverse, can_cancel),
+            Unknown::Coordinate(_) => self.watch(None, Some(unknown), size, inverse, can_cancel),
+        }
+    }
+
+    fn watch(
+        &mut self,
+        row: Option<Unknown>,
+        coordinate: Option<Unknown>,
+        size: Expr,
+        inverse: Expr,
+        can_cancel: bool,
+    ) {
+        let ratio = self.arena.mul(size, inverse);
+        let growth = self.arena.call(Function::Abs, ratio);
+        let index = |unknown| match unknown {
+            Unknown::Row(index) | Unknown::Coordinate(index) => index,
+        };
+        let (row, coordinate) = (row.map(index), coordinate.map(index));
+        self.pivots.push(WatchedPivot { row, coordinate, growth, can_cancel });
+    }
+}
+
+impl Factorization {
+    /// The solution for the right-hand side `rhs`, 0 where it has no entry.
+    pub fn solve(&self, arena: &mut Arena, rhs: &BTreeMap<Unknown, Expr>) -> BTreeMap<Unknown, Expr> {
+        let mut b = rhs.clone();
+        let halves: Vec<_> = self.steps.iter().map(|step| step.forward(arena, &mut b)).collect();
+        let mut solution = BTreeMap::new();
+        for (step, half) in self.steps.iter().zip(halves).rev() {
+            step.backward(arena, half, &mut solution);
+        }
+        solution
+    }
+
+    /// Σ of the growth of the pivots that can cancel.
+    pub fn growth(&self, arena: &mut Arena) -> Expr {
+        let terms: Vec<_> =
+            self.pivots.iter().filter(|p| p.can_cancel).map(|p| (p.growth, Number::ONE)).collect();
+        arena.sum(&terms)
+    }
+}
+
+impl Step {
+    /// Carries the right-hand side `b` through this step and gives what the
+    /// way back needs: (g, f) of a pair, (b/d, 0) of a diagonal pivot.
+    fn forward(&self, arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>) -> (Expr, Expr) {
+        let zero = arena.zero();
+        match self {
+            Self::Pair { row, coordinate, inverse, mass, weights, couplings } => {
+                let of_row = b.remove(row).unwrap_or(zero);
+                let g = arena.mul(of_row, *inverse);
+                let g = arena.share(g);
+                let of_coordinate = b.remove(coordinate).unwrap_or(zero);
+                let inertia = arena.mul(*mass, g);
+                let f = arena.sub(of_coordinate, inertia);
+                let f = arena.share(f);
+                for (other, factor, value) in
+                    weights.iter().map(|(u, w)| (u, w, f)).chain(couplings.iter().map(|(u, k)| (u, k, g)))
+                {
+                    subtract_product(arena, b, *other, *factor, value);
+                }
+                (g, f)
+            }
+            Self::Diagonal { unknown, inverse, multipliers } => {
+                let own = b.remove(unknown).unwrap_or(zero);
+                let own = arena.share(own);
+                for (other, multiplier) in multipliers {
+                    subtract_product(arena, b, *other, *multiplier, own);
+                }
+                (arena.mul(own, *inverse), zero)
+            }
+        }
+    }
+
+    fn backward(&self, arena: &mut Arena, half: (Expr, Expr), solution: &mut BTreeMap<Unknown, Expr>) {
+        match self {
+            Self::Pair { row, coordinate, inverse, mass, weights, couplings } => {
+                let (g, f) = half;
+                let correction = inner_product(arena, weights, solution);
+                let u = arena.sub(g, correction);
+                let u = arena.share(u);
+                // f holds b_c − K_cc g, and u_c differs from g by the correction
+                let others = inner_product(arena, couplings, solution);
+                let inertia = arena.mul(*mass, correction);
+                let balance =
+                    arena.sum(&[(f, Number::ONE), (inertia, Number::ONE), (others, Number::MINUS_ONE)]);
+                let multiplier = arena.mul(balance, *inverse);
+                let multiplier = arena.share(multiplier);
+                solution.insert(*coordinate, u);
+                solution.insert(*row, multiplier);
+            }
+            Self::Diagonal { unknown, multipliers, .. } => {
+                let correction = inner_product(arena, multipliers, solution);
+                let u = arena.sub(half.0, correction);
+                let u = arena.share(u);
+                solution.insert(*unknown, u);
+            }
+        }
+    }
+}
+
+fn subtract_product(arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>, at: Unknown, x: Expr, y: Expr) {
+    let product = arena.mul(x, y);
+    let entry = b.get(&at).copied().unwrap_or(arena.zero());
+    let entry = arena.sub(entry, product);
+    b.insert(at, entry);
+}
+
+/// Σ factor·solution, computed once.
+fn inner_product(
+    arena: &mut Arena,
+    factors: &BTreeMap<Unknown, Expr>,
+    solution: &BTreeMap<Unknown, Expr>,
+) -> Expr {
+    let mut terms = Vec::new();
+    for (unknown, &factor) in factors {
+        if let Some(&value) = solution.get(unknown) {
+            terms.push((arena.mul(factor, value), Number::ONE));
+        }
+    }
+    let sum = arena.sum(&terms);
+    arena.share(sum)
+}
+
+impl Arena {
+    /// A bound of |e| that depends on parameters alone, with |sin| and |cos|
+    /// at most 1; `None` where coordinates or velocities enter otherwise.
+    fn bound(&mut self, expr: Expr) -> Option<Expr> {
+        if self.stage(expr) <= Stage::Parameter {
+            return Some(self.call(Function::Abs, expr));
+        }
+        match self.node(expr).clone() {
+            Node::Sum(constant, terms) => {
+                let mut bounds = vec![(self.number(constant.abs()), Number::ONE)];
+                for (term, coefficient) in terms {
+                    bounds.push((self.bound(term)?, coefficient.abs()));
+                }
+                Some(self.sum(&bounds))
+            }
+            Node::Product(factors) => {
+                let mut bounds = Vec::new();
+                for (factor, exponent) in factors {
+                    let is_safe = exponent > 0 || self.stage(factor) <= Stage::Parameter;
+                    bounds.push((self.bound(factor).filter(|_| is_safe)?, exponent));
+                }
+                Some(self.product(&bounds))
+            }
+            Node::Call(Function::Sin | Function::Cos | Function::Tanh | Function::Sign, _) => {
+                Some(self.one())
+            }
+            Node::Shared(x) => self.bound(x),
+            _ => None,
+        }
+    }
+}

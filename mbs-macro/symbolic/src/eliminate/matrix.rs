@@ -1,0 +1,82 @@
+//! The sparse symmetric matrix under elimination.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::arena::{Arena, Expr};
+
+/// An unknown of the constrained system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Unknown {
+    /// The acceleration of a coordinate.
+    Coordinate(usize),
+    /// The multiplier of a constraint.
+    Row(usize),
+}
+
+/// ⎡M Φ_qᵀ; Φ_q 0⎤, entries that are 0 left out.
+#[derive(Clone, Default)]
+pub struct Kkt {
+    /// Per unknown, its couplings, both halves of the symmetric matrix.
+    couplings: BTreeMap<Unknown, BTreeMap<Unknown, Expr>>,
+    /// Coordinates whose mass is positive by declaration.
+    massive: BTreeSet<Unknown>,
+}
+
+impl Kkt {
+    /// A system without unknowns.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an unknown without couplings.
+    pub fn add_unknown(&mut self, unknown: Unknown) {
+        self.couplings.entry(unknown).or_default();
+    }
+
+    /// Declares that the mass of a coordinate is positive.
+    pub fn mark_massive(&mut self, coordinate: usize) {
+        self.massive.insert(Unknown::Coordinate(coordinate));
+    }
+
+    /// Sets the entries (a, b) and (b, a).
+    pub fn set(&mut self, arena: &Arena, a: Unknown, b: Unknown, value: Expr) {
+        for (row, column) in [(a, b), (b, a)] {
+            let couplings = self.couplings.entry(row).or_default();
+            if arena.is_zero(value) {
+                couplings.remove(&column);
+            } else {
+                couplings.insert(column, value);
+            }
+        }
+    }
+
+    /// The entry (a, b), if it is not 0.
+    pub fn get(&self, a: Unknown, b: Unknown) -> Option<Expr> {
+        self.couplings.get(&a)?.get(&b).copied()
+    }
+
+    /// The unknowns that are left, in order.
+    pub fn unknowns(&self) -> impl Iterator<Item = Unknown> + '_ {
+        self.couplings.keys().copied()
+    }
+
+    /// The other unknowns that `unknown` is coupled to, with the entries.
+    pub fn neighbours(&self, unknown: Unknown) -> impl Iterator<Item = (Unknown, Expr)> + '_ {
+        let couplings = self.couplings.get(&unknown).into_iter().flatten();
+        couplings.map(|(&other, &entry)| (other, entry)).filter(move |(other, _)| *other != unknown)
+    }
+
+    /// Whether the mass of this coordinate is positive by declaration.
+    pub fn is_massive(&self, unknown: Unknown) -> bool {
+        self.massive.contains(&unknown)
+    }
+
+    /// Takes an unknown out.
+    pub(super) fn remove(&mut self, unknown: Unknown) {
+        for other in self.couplings.remove(&unknown).unwrap_or_default().into_keys() {
+            if let Some(couplings) = self.couplings.get_mut(&other) {
+                couplings.remove(&unknown);
+            }
+        }
+    }
+}

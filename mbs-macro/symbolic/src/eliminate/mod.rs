@@ -1,0 +1,45 @@
+//! Elimination of the constrained system at compile time.
+//!
+//! The matrix ⎡M Φ_qᵀ; Φ_q 0⎤ is symmetric. It is eliminated by two kinds of
+//! pivots that are safe in every regular position:
+//!
+//! * a *pair* of a constraint row and a coordinate that this row determines:
+//!   a congruence step, so what is left is a smaller system of the same kind
+//!   whose mass block is still positive definite;
+//! * a *diagonal* entry: a mass (positive), or, once every coordinate that a
+//!   row touches is gone, that row's entry of the Schur complement (negative
+//!   while the constraints are independent).
+//!
+//! [`factor`] fixes the order and the multipliers for the matrix;
+//! [`Factorization::solve`] then gives the solution for any right-hand side,
+//! as expressions.
+
+mod factorization;
+mod matrix;
+mod order;
+
+pub use factorization::{Factorization, WatchedPivot};
+pub use matrix::{Kkt, Unknown};
+pub use order::{Strategy, Undetermined};
+
+use crate::arena::{Arena, Expr};
+
+/// Eliminates the matrix in the order that `strategy` chooses.
+///
+/// `magnitude` tells how small an expression becomes over sampled positions;
+/// it decides between pivots of which none is safe by its form.
+///
+/// # Errors
+/// [`Undetermined`] names the unknowns for which no pivot is left.
+pub fn factor(
+    arena: &mut Arena,
+    kkt: &Kkt,
+    strategy: Strategy,
+    magnitude: &dyn Fn(&Arena, Expr) -> f64,
+) -> Result<Factorization, Undetermined> {
+    let mut work = factorization::Work::new(arena, kkt, strategy);
+    while let Some(pivot) = order::choose(work.arena, &work.matrix, strategy, magnitude)? {
+        work.eliminate(pivot);
+    }
+    Ok(work.finish())
+}

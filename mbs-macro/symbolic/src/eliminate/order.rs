@@ -1,0 +1,197 @@
+//! Which pivot comes next.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::matrix::{Kkt, Unknown};
+use crate::arena::{Arena, Expr, Stage};
+use crate::number::Number;
+
+/// In which order pivots are taken. Any order gives the same solution; they
+/// differ in cost, and which one is cheaper depends on the mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strategy {
+    /// Constraints first: the motion is written through the velocities that
+    /// they leave free. Cheap where few degrees of freedom are left.
+    NullSpace,
+    /// The locally cheapest pivot, mass or constraint. Keeps chains sparse.
+    Cheapest,
+}
+
+impl Strategy {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::NullSpace, Self::Cheapest];
+}
+
+/// A chosen pivot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pivot {
+    Pair { row: Unknown, coordinate: Unknown },
+    Diagonal(Unknown),
+}
+
+/// Unknowns that no pivot determines: rows that repeat others, or massless
+/// coordinates that no constraint fixes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Undetermined {
+    /// The unknowns that were left.
+    pub unknowns: Vec<Unknown>,
+}
+
+impl fmt::Display for Undetermined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no pivot determines {:?}", self.unknowns)
+    }
+}
+
+impl std::error::Error for Undetermined {}
+
+/// What makes a pivot safe, best first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Class {
+    /// A pair with a coefficient that is a number.
+    ConstantPair,
+    /// A pair in which the row touches nothing else: it vanishes exactly where
+    /// the whole system is singular.
+    LastPair,
+    /// A row whose coordinates are all eliminated.
+    SchurRow,
+    /// A positive mass.
+    Mass,
+}
+
+struct Candidate {
+    class: Class,
+    /// A massless coordinate has to find its row before rows lose their zero
+    /// diagonal entry.
+    is_urgent: bool,
+    cost: usize,
+    pivot: Pivot,
+}
+
+/// The next pivot; `None` when nothing is left.
+pub(super) fn choose(
+    arena: &Arena,
+    matrix: &Kkt,
+    strategy: Strategy,
+    magnitude: &dyn Fn(&Arena, Expr) -> f64,
+) -> Result<Option<Pivot>, Undetermined> {
+    let candidates = candidates(arena, matrix);
+    let best = candidates.into_iter().min_by_key(|candidate| {
+        let Candidate { class, is_urgent, cost, pivot } = candidate;
+        let key = match strategy {
+            Strategy::NullSpace => (*class as usize, *cost),
+            Strategy::Cheapest => (*cost, *class as usize),
+        };
+        (!is_urgent, key, first_unknown(*pivot))
+    });
+    let massless_left = matrix.unknowns().any(|u| is_massless(arena, matrix, u));
+    match best {
+        Some(candidate) if candidate.class <= Class::LastPair || !massless_left => Ok(Some(candidate.pivot)),
+        best => {
+            if let Some(pivot) = largest_pair(arena, matrix, magnitude) {
+                return Ok(Some(pivot));
+            }
+            let unknowns: Vec<_> = matrix.unknowns().collect();
+            match best {
+                Some(candidate) => Ok(Some(candidate.pivot)),
+                None if unknowns.is_empty() => Ok(None),
+                None => Err(Undetermined { unknowns }),
+            }
+        }
+    }
+}
+
+fn first_unknown(pivot: Pivot) -> Unknown {
+    match pivot {
+        Pivot::Pair { coordinate, .. } => coordinate,
+        Pivot::Diagonal(unknown) => unknown,
+    }
+}
+
+fn candidates(arena: &Arena, matrix: &Kkt) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    for unknown in matrix.unknowns() {
+        match unknown {
+            Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => {
+                pair_candidates(arena, matrix, unknown, &mut candidates);
+            }
+            Unknown::Row(_) => {
+                if !matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_))) {
+                    candidates.push(diagonal(matrix, unknown, Class::SchurRow));
+                }
+            }
+            Unknown::Coordinate(_) => {
+                if matrix.get(unknown, unknown).is_some() && !is_massless(arena, matrix, unknown) {
+                    candidates.push(diagonal(matrix, unknown, Class::Mass));
+                }
+            }
+        }
+    }
+    candidates
+}
+
+/// A coordinate whose mass is not positive for certain.
+fn is_massless(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> bool {
+    let reduced_mass_is_constant =
+        || matrix.get(unknown, unknown).is_some_and(|mass| arena.stage(mass) <= Stage::Parameter);
+    matches!(unknown, Unknown::Coordinate(_)) && !matrix.is_massive(unknown) && !reduced_mass_is_constant()
+}
+
+fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown, candidates: &mut Vec<Candidate>) {
+    let neighbours: Vec<_> = matrix.neighbours(row).collect();
+    for &(coordinate, entry) in &neighbours {
+        if !matches!(coordinate, Unknown::Coordinate(_)) {
+            continue;
+        }
+        let class = match arena.as_number(entry) {
+            Some(_) => Class::ConstantPair,
+            None if neighbours.len() == 1 => Class::LastPair,
+            None => continue,
+        };
+        let is_unit = arena.as_number(entry).is_some_and(|n| n.abs() == Number::ONE);
+        candidates.push(Candidate {
+            class,
+            is_urgent: is_massless(arena, matrix, coordinate),
+            cost: pair_cost(matrix, row, coordinate) + usize::from(!is_unit),
+            pivot: Pivot::Pair { row, coordinate },
+        });
+    }
+}
+
+/// Entries that change when the pair is eliminated, each counted in one half.
+fn pair_cost(matrix: &Kkt, row: Unknown, coordinate: Unknown) -> usize {
+    let is_other = |other: &Unknown| *other != row && *other != coordinate;
+    let of_row: BTreeSet<_> = matrix.neighbours(row).map(|(other, _)| other).filter(is_other).collect();
+    let of_coordinate: BTreeSet<_> =
+        matrix.neighbours(coordinate).map(|(other, _)| other).filter(is_other).collect();
+    let only_coordinate = of_coordinate.difference(&of_row).count();
+    of_row.len() * (of_row.len() + 1) / 2 + of_row.len() * only_coordinate
+}
+
+fn diagonal(matrix: &Kkt, unknown: Unknown, class: Class) -> Candidate {
+    let neighbours = matrix.neighbours(unknown).count();
+    let cost = neighbours * (neighbours + 1) / 2;
+    Candidate { class, is_urgent: false, cost, pivot: Pivot::Diagonal(unknown) }
+}
+
+/// For the massless coordinates: the pair whose coefficient stays largest over
+/// the sampled positions. Not safe by its form; pivot growth is watched.
+fn largest_pair(arena: &Arena, matrix: &Kkt, magnitude: &dyn Fn(&Arena, Expr) -> f64) -> Option<Pivot> {
+    let mut best: Option<(f64, Pivot)> = None;
+    for row in matrix.unknowns() {
+        if !matches!(row, Unknown::Row(_)) || matrix.get(row, row).is_some() {
+            continue;
+        }
+        for (coordinate, entry) in matrix.neighbours(row) {
+            if !is_massless(arena, matrix, coordinate) {
+                continue;
+            }
+            let size = magnitude(arena, entry);
+            if best.is_none_or(|(largest, _)| size > largest) {
+                best = Some((size, Pivot::Pair { row, coordinate }));
+            }
+        }
+    }
+    best.filter(|(size, _)| *size > 0.0).map(|(_, pivot)| pivot)
+}

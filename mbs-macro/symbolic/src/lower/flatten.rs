@@ -1,0 +1,238 @@
+//! Expressions as rows of factors and rows of signed summands.
+
+use std::collections::HashMap;
+
+use super::Hoisted;
+use crate::arena::{Arena, Expr, Node, Stage};
+use crate::number::Number;
+use crate::operators::Function;
+use crate::program::Operand;
+
+/// A value: a position in [`Flat::definitions`].
+pub(super) type Value = usize;
+
+/// How a value comes about.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Definition {
+    Leaf(Operand),
+    /// Product of two or more values, sorted, repetition allowed.
+    Product(Vec<Value>),
+    /// Sum of two or more values, each negated or not, sorted.
+    Sum(Vec<Signed>),
+    Call(Function, Value),
+    Call2(Function, Value, Value),
+    Reciprocal(Value),
+    Negative(Value),
+}
+
+/// A value or its negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Signed {
+    pub value: Value,
+    pub negative: bool,
+}
+
+impl Signed {
+    fn plus(value: Value) -> Self {
+        Self { value, negative: false }
+    }
+
+    fn flipped_if(self, flip: bool) -> Self {
+        Self { negative: self.negative ^ flip, ..self }
+    }
+}
+
+/// All values, and which are results.
+#[derive(Default)]
+pub(super) struct Flat {
+    pub definitions: Vec<Definition>,
+    pub names: HashMap<Value, String>,
+    pub outputs: Vec<Value>,
+    index: HashMap<Definition, Value>,
+}
+
+impl Flat {
+    /// The value with this definition, one per definition.
+    pub fn define(&mut self, definition: Definition) -> Value {
+        if let Some(&known) = self.index.get(&definition) {
+            return known;
+        }
+        self.definitions.push(definition.clone());
+        self.index.insert(definition, self.definitions.len() - 1);
+        self.definitions.len() - 1
+    }
+
+    /// The value itself, a negation spelled out.
+    fn settle(&mut self, signed: Signed) -> Value {
+        if !signed.negative {
+            return signed.value;
+        }
+        match &self.definitions[signed.value] {
+            Definition::Leaf(Operand::Number(number)) => {
+                let negative = -*number;
+                self.define(Definition::Leaf(Operand::Number(negative)))
+            }
+            _ => self.define(Definition::Negative(signed.value)),
+        }
+    }
+}
+
+pub(super) fn flatten(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Flat {
+    let mut flattening = Flattening { arena, hoisted, flat: Flat::default(), known: HashMap::new() };
+    // Operands first, so that no recursion is deeper than one node.
+    for expr in flattening.arena.reachable(outputs) {
+        if flattening.is_computed_whole(expr) {
+            flattening.value(expr);
+        }
+    }
+    for &output in outputs {
+        let signed = flattening.value(output);
+        let value = flattening.flat.settle(signed);
+        flattening.flat.outputs.push(value);
+    }
+    flattening.flat
+}
+
+struct Flattening<'a> {
+    arena: &'a mut Arena,
+    hoisted: Option<&'a mut Hoisted>,
+    flat: Flat,
+    known: HashMap<Expr, Signed>,
+}
+
+impl Flattening<'_> {
+    /// Whether the expression is to be computed with the parameters.
+    fn is_hoisted(&self, expr: Expr) -> bool {
+        self.hoisted.is_some() && self.arena.stage(expr) <= Stage::Parameter
+    }
+
+    /// Whether every user of the expression needs its value as it is. Products
+    /// are taken apart by the sums that they stand in.
+    fn is_computed_whole(&self, expr: Expr) -> bool {
+        let is_row = match self.arena.node(expr) {
+            Node::Product(_) => true,
+            Node::Sum(constant, terms) => constant.is_zero() && terms.len() == 1,
+            _ => false,
+        };
+        !is_row && !self.is_hoisted(expr)
+    }
+
+    fn value(&mut self, expr: Expr) -> Signed {
+        if let Some(&known) = self.known.get(&expr) {
+            return known;
+        }
+        let signed = self.new_value(expr);
+        self.known.insert(expr, signed);
+        if let Some(name) = self.arena.label_of(expr)
+            && !matches!(self.flat.definitions[signed.value], Definition::Leaf(_))
+        {
+            self.flat.names.entry(signed.value).or_insert_with(|| name.to_owned());
+        }
+        signed
+    }
+
+    fn new_value(&mut self, expr: Expr) -> Signed {
+        match self.arena.node(expr).clone() {
+            Node::Number(number) => self.constant(number),
+            Node::Symbol(symbol) => self.leaf(Operand::Symbol(symbol)),
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                let (term, coefficient) = terms[0];
+                self.product(coefficient, term)
+            }
+            Node::Product(_) => self.product(Number::ONE, expr),
+            _ if self.is_hoisted(expr) => self.hoist(expr),
+            Node::Shared(x) => self.value(x),
+            Node::Sum(constant, terms) => self.sum(constant, &terms),
+            Node::Call(function, x) => {
+                let x = self.value(x);
+                let x = self.flat.settle(x);
+                Signed::plus(self.flat.define(Definition::Call(function, x)))
+            }
+            Node::Call2(function, x, y) => {
+                let (x, y) = (self.value(x), self.value(y));
+                let (x, y) = (self.flat.settle(x), self.flat.settle(y));
+                Signed::plus(self.flat.define(Definition::Call2(function, x, y)))
+            }
+        }
+    }
+
+    fn leaf(&mut self, operand: Operand) -> Signed {
+        Signed::plus(self.flat.define(Definition::Leaf(operand)))
+    }
+
+    fn constant(&mut self, number: Number) -> Signed {
+        self.leaf(Operand::Number(number.abs())).flipped_if(number.is_negative())
+    }
+
+    fn hoist(&mut self, expr: Expr) -> Signed {
+        let Some(hoisted) = self.hoisted.as_mut() else { return self.value(expr) };
+        let position = hoisted.position(expr);
+        self.leaf(Operand::Hoisted(position))
+    }
+
+    /// coefficient·term, the part that depends on parameters alone as one factor.
+    fn product(&mut self, coefficient: Number, term: Expr) -> Signed {
+        let factors = match self.arena.node(term) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(term, 1)],
+        };
+        let (early, late): (Vec<_>, Vec<_>) =
+            factors.into_iter().partition(|(factor, _)| self.is_hoisted(*factor));
+
+        let mut values = Vec::new();
+        let mut negative = coefficient.is_negative();
+        if !early.is_empty() || !coefficient.abs().is_one() {
+            let early = self.arena.product(&early);
+            let early = self.arena.scale(early, coefficient.abs());
+            let factor = match self.arena.node(early) {
+                Node::Number(number) => self.constant(*number),
+                Node::Symbol(symbol) => self.leaf(Operand::Symbol(*symbol)),
+                _ => self.hoist(early),
+            };
+            negative ^= factor.negative;
+            values.push(factor.value);
+        }
+        for (factor, exponent) in late {
+            let base = self.value(factor);
+            negative ^= base.negative && exponent % 2 != 0;
+            let value =
+                if exponent < 0 { self.flat.define(Definition::Reciprocal(base.value)) } else { base.value };
+            values.extend((0..exponent.unsigned_abs()).map(|_| value));
+        }
+        values.sort_unstable();
+        let value = match values[..] {
+            [] => return self.constant(Number::ONE).flipped_if(negative),
+            [value] => value,
+            _ => self.flat.define(Definition::Product(values)),
+        };
+        Signed { value, negative }
+    }
+
+    fn sum(&mut self, constant: Number, terms: &[(Expr, Number)]) -> Signed {
+        let (early, late): (Vec<_>, Vec<_>) =
+            terms.iter().copied().partition(|(term, _)| self.is_hoisted(*term));
+        let mut values = Vec::new();
+        if early.is_empty() {
+            if !constant.is_zero() {
+                values.push(self.constant(constant));
+            }
+        } else {
+            let early = self.arena.sum(&early);
+            let constant = self.arena.number(constant);
+            let early = self.arena.add(early, constant);
+            values.push(self.value(early));
+        }
+        for (term, coefficient) in late {
+            values.push(self.product(coefficient, term));
+        }
+        values.sort_unstable();
+        // One sign for a sum and its negative: the first summand is positive.
+        let flip = values.first().is_some_and(|first| first.negative);
+        let values: Vec<_> = values.into_iter().map(|value| value.flipped_if(flip)).collect();
+        match values[..] {
+            [] => self.constant(Number::ZERO),
+            [value] => value.flipped_if(flip),
+            _ => Signed::plus(self.flat.define(Definition::Sum(values))).flipped_if(flip),
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! From expressions to programs.
+//!
+//! 1. `flatten` turns nodes into rows of factors and of signed summands, with
+//!    what depends on parameters alone gathered into one hoisted factor;
+//! 2. `factoring` computes pairs that occur in several rows once;
+//! 3. `schedule` puts binary instructions into order, outputs first asked for
+//!    first computed.
+
+mod factoring;
+mod flatten;
+mod schedule;
+
+use std::collections::HashMap;
+
+use crate::arena::{Arena, Expr};
+use crate::program::Program;
+
+/// Values that depend on parameters alone, shared by the programs of a
+/// mechanism.
+#[derive(Default)]
+pub struct Hoisted {
+    values: Vec<Expr>,
+    index: HashMap<Expr, usize>,
+}
+
+impl Hoisted {
+    /// The position of a value, which is added if it is new.
+    fn position(&mut self, expr: Expr) -> usize {
+        *self.index.entry(expr).or_insert_with(|| {
+            self.values.push(expr);
+            self.values.len() - 1
+        })
+    }
+
+    /// The hoisted values in the order of their positions.
+    pub fn values(&self) -> &[Expr] {
+        &self.values
+    }
+}
+
+/// The program that computes `outputs`, with everything that depends on
+/// parameters alone moved into `hoisted`.
+pub fn lower(arena: &mut Arena, outputs: &[Expr], hoisted: &mut Hoisted) -> Program {
+    lower_flat(arena, outputs, Some(hoisted))
+}
+
+/// The program that computes `outputs` from scratch.
+pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Program {
+    lower_flat(arena, outputs, None)
+}
+
+fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Program {
+    let mut flat = flatten::flatten(arena, outputs, hoisted);
+    factoring::factor(&mut flat);
+    schedule::schedule(&flat)
+}

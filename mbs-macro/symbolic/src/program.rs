@@ -1,0 +1,170 @@
+//! Straight-line programs in static single assignment form.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use crate::arena::Symbol;
+use crate::number::Number;
+use crate::operators::Function;
+
+/// Where an instruction finds an operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operand {
+    /// A constant.
+    Number(Number),
+    /// An input of the program.
+    Symbol(Symbol),
+    /// A value that depends on parameters alone, computed beforehand.
+    Hoisted(usize),
+    /// The result of an earlier instruction.
+    Value(usize),
+}
+
+/// What an instruction does with its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operation {
+    /// a + b
+    Add,
+    /// a − b
+    Sub,
+    /// a·b
+    Mul,
+    /// a/b
+    Div,
+    /// −a
+    Neg,
+    /// f(a)
+    Call(Function),
+    /// f(a, b)
+    Call2(Function),
+}
+
+/// One assignment. `b` equals `a` where the operation has one operand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instruction {
+    /// What to do.
+    pub operation: Operation,
+    /// The first operand.
+    pub a: Operand,
+    /// The second operand.
+    pub b: Operand,
+    /// A name for the result, if one was suggested.
+    pub name: Option<String>,
+}
+
+/// Instructions in order, and which values are results.
+///
+/// An instruction refers to earlier ones only, every instruction is needed by
+/// an output, and no two compute the same.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The instructions.
+    pub instructions: Vec<Instruction>,
+    /// The results.
+    pub outputs: Vec<Operand>,
+}
+
+/// Operation counts; see the fields.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: u32,
+    /// Additions, subtractions and negations.
+    pub add: u32,
+    /// Divisions.
+    pub div: u32,
+    /// Sine–cosine pairs (a sine or cosine alone counts as one).
+    pub sin_cos: u32,
+    /// Other elementary functions, comparisons and square roots.
+    pub other: u32,
+}
+
+impl Operations {
+    /// mul + add + div
+    pub fn arithmetic(&self) -> u32 {
+        self.mul + self.add + self.div
+    }
+
+    /// All of them.
+    pub fn total(&self) -> u32 {
+        self.arithmetic() + self.sin_cos + self.other
+    }
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mul + {} add + {} div + {} sincos", self.mul, self.add, self.div, self.sin_cos)?;
+        if self.other > 0 { write!(f, " + {} other", self.other) } else { Ok(()) }
+    }
+}
+
+impl Program {
+    /// The operations of the whole program.
+    pub fn operations(&self) -> Operations {
+        self.count(0..self.instructions.len())
+    }
+
+    /// The operations that the first `outputs` results need.
+    pub fn operations_for(&self, outputs: usize) -> Operations {
+        let mut needed = vec![false; self.instructions.len()];
+        let mut mark = |operand: &Operand| {
+            if let Operand::Value(at) = operand {
+                needed[*at] = true;
+            }
+        };
+        self.outputs.iter().take(outputs).for_each(&mut mark);
+        for at in (0..self.instructions.len()).rev() {
+            if needed[at] {
+                for operand in [self.instructions[at].a, self.instructions[at].b] {
+                    if let Operand::Value(earlier) = operand {
+                        needed[earlier] = true;
+                    }
+                }
+            }
+        }
+        self.count((0..needed.len()).filter(|&at| needed[at]))
+    }
+
+    fn count(&self, instructions: impl Iterator<Item = usize>) -> Operations {
+        let mut count = Operations::default();
+        let mut angles = BTreeSet::new();
+        for at in instructions {
+            let instruction = &self.instructions[at];
+            match instruction.operation {
+                Operation::Mul => count.mul += 1,
+                Operation::Add | Operation::Sub | Operation::Neg => count.add += 1,
+                Operation::Div => count.div += 1,
+                Operation::Call(Function::Sin | Function::Cos) => {
+                    angles.insert(instruction.a);
+                }
+                Operation::Call(_) | Operation::Call2(_) => count.other += 1,
+            }
+        }
+        count.sin_cos = angles.len() as u32;
+        count
+    }
+
+    /// Runs the program.
+    pub fn evaluate(&self, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
+        let read = |operand: Operand, values: &[f64]| match operand {
+            Operand::Number(number) => number.to_f64(),
+            Operand::Symbol(s) => symbol(s),
+            Operand::Hoisted(at) => hoisted[at],
+            Operand::Value(at) => values[at],
+        };
+        for instruction in &self.instructions {
+            let (a, b) = (read(instruction.a, &values), read(instruction.b, &values));
+            values.push(match instruction.operation {
+                Operation::Add => a + b,
+                Operation::Sub => a - b,
+                Operation::Mul => a * b,
+                Operation::Div => a / b,
+                Operation::Neg => -a,
+                Operation::Call(function) => (function.row().value)(a, 0.0),
+                Operation::Call2(function) => (function.row().value)(a, b),
+            });
+        }
+        self.outputs.iter().map(|&output| read(output, &values)).collect()
+    }
+}

@@ -1,0 +1,30 @@
+//! What generated code calls. Not part of the public interface.
+
+pub use nalgebra;
+
+use crate::{Components, Error, Real};
+
+/// Refuses parameters that are not finite.
+pub fn check_finite<P: Components>(parameters: &P) -> Result<(), Error> {
+    let array = parameters.into_array();
+    for (&value, &name) in array.as_ref().iter().zip(P::NAMES) {
+        if !value.is_finite() {
+            return Err(Error::Parameter { name, value: value.to_f64(), requirement: "it has to be finite" });
+        }
+    }
+    Ok(())
+}
+
+/// Position of the largest value; one that is not finite is largest.
+pub fn worst<T: Real>(values: &[T]) -> Option<usize> {
+    let mut worst: Option<(usize, T)> = None;
+    for (at, &value) in values.iter().enumerate() {
+        if !value.is_finite() {
+            return Some(at);
+        }
+        if worst.is_none_or(|(_, largest)| value > largest) {
+            worst = Some((at, value));
+        }
+    }
+    worst.map(|(at, _)| at)
+}

@@ -1,0 +1,37 @@
+//! Panels as data for the page's script.
+
+use serde_json::{Value, json};
+
+use crate::figure::{Axis, Content, Panel, Series, Stroke};
+
+/// A number with the seven digits that a screen can show; `null` if it is not finite.
+pub(super) fn number(x: f64) -> Value {
+    if !x.is_finite() {
+        return Value::Null;
+    }
+    let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
+    json!(rounded)
+}
+
+fn axis(axis: &Axis) -> Value {
+    json!({ "label": axis.heading(), "log": axis.log, "range": axis.range.map(|(a, b)| [a, b]) })
+}
+
+fn series(series: &Series) -> Value {
+    let coordinate = |at: usize| series.points.iter().map(|p| number(p[at])).collect::<Vec<_>>();
+    let stroke = match series.stroke {
+        Stroke::Solid => "solid",
+        Stroke::Dashed => "dashed",
+        Stroke::Dotted => "dotted",
+    };
+    json!({ "name": series.name, "stroke": stroke, "x": coordinate(0), "y": coordinate(1) })
+}
+
+/// A panel of curves.
+pub(super) fn panel(panel: &Panel) -> Value {
+    let curves = match &panel.content {
+        Content::Lines(curves) => curves.iter().map(series).collect::<Vec<_>>(),
+        Content::Map(_) => Vec::new(),
+    };
+    json!({ "kind": "lines", "x": axis(&panel.x), "y": axis(&panel.y), "series": curves })
+}
