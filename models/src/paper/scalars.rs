@@ -1,0 +1,124 @@
+//! The scalar results, each under the key that `--json` gives it.
+
+use std::collections::BTreeMap;
+
+use mbs_runtime::{Error, PerStage};
+use serde_json::Value;
+
+use super::setup::{Inertia, SPEEDS, Setup};
+use super::study::Study;
+use super::torque;
+
+/// Key to value, or to the error that ended the run.
+#[derive(Clone, Debug, Default)]
+pub struct Scalars(BTreeMap<String, Result<f64, Error>>);
+
+impl Scalars {
+    fn set(&mut self, key: impl Into<String>, value: impl Into<Result<f64, Error>>) {
+        self.0.insert(key.into(), value.into());
+    }
+
+    /// The value under a key, which is there if it was computed.
+    pub fn get(&self, key: &str) -> Option<Result<f64, Error>> {
+        self.0.get(key).copied()
+    }
+
+    /// The value under a key; NaN where there is none.
+    pub fn number(&self, key: &str) -> f64 {
+        self.get(key).and_then(Result::ok).unwrap_or(f64::NAN)
+    }
+
+    /// Flat JSON: numbers at full precision, errors as strings that begin with `error:`.
+    pub fn json(&self) -> String {
+        let value = |value: &Result<f64, Error>| match value {
+            // A number that is not finite has no form in JSON.
+            Ok(x) => serde_json::Number::from_f64(*x)
+                .map_or_else(|| Value::String(format!("error: {x}")), Value::Number),
+            Err(error) => Value::String(format!("error: {error}")),
+        };
+        let map = self.0.iter().map(|(key, v)| (key.clone(), value(v))).collect();
+        format!("{:#}\n", Value::Object(map))
+    }
+}
+
+/// All scalar results of a study.
+pub fn scalars(study: &Study) -> Scalars {
+    let mut s = Scalars::default();
+    stability(study, &mut s);
+    gains(&mut s);
+    torques(study, &mut s);
+    feedbacks(study, &mut s);
+    s
+}
+
+/// Figures 4–10 and 13.
+fn stability(study: &Study, s: &mut Scalars) {
+    let drift = &study.drift;
+    let [.., theta2, x3] = &drift.q;
+    let crossing = x3.iter().zip(&drift.t).find(|(x3, _)| **x3 < 0.0).map(|(_, t)| *t);
+    s.set("fig6.x3_zero_crossing_s", crossing.ok_or(Error::EndTime { end: 0.15, now: 0.15 }));
+    let rising = theta2.get(1).zip(theta2.first()).map_or(f64::NAN, |(b, a)| b - a);
+    s.set("fig4.theta2_first_change", Ok(rising));
+    s.set("drift.consistent.max_phi", study.drift_consistent.largest(&study.drift_consistent.phi));
+
+    for (name, run) in [("", &study.stabilized), ("consistent.", &study.stabilized_consistent)] {
+        s.set(format!("fig8.{name}max_phi"), run.largest(&run.phi));
+        s.set(format!("fig10.{name}max_rel_x3"), run.largest(&run.relative_x3));
+    }
+    let run = &study.held;
+    s.set("held.consistent.max_phi", run.largest(&run.phi));
+    s.set("held.consistent.max_rel_x3", run.largest(&run.relative_x3));
+    let [.., theta2, x3] = &study.stabilized_consistent.q;
+    let ranged = |column: &[f64], sign: f64| {
+        let signed: Vec<_> = column.iter().map(|x| sign * x).collect();
+        study.stabilized_consistent.largest(&signed).map(|x| sign * x)
+    };
+    s.set("fig13.theta2_max", ranged(theta2, 1.0));
+    s.set("fig13.theta2_min", ranged(theta2, -1.0));
+    s.set("fig13.x3_max", ranged(x3, 1.0));
+    s.set("fig13.x3_min", ranged(x3, -1.0));
+}
+
+/// Figures 11 and 12: max ‖Φ‖ over one turn from the paper's start.
+fn gains(s: &mut Scalars) {
+    let violation = |alpha: f64, beta: f64| Setup::gains(alpha, beta).max_violation::<PerStage>();
+    for alpha in [200, 500, 1000, 1500, 2000, 2100, 2200, 2500, 3000] {
+        s.set(format!("fig11.beta2000.alpha{alpha}"), violation(f64::from(alpha), 2000.0));
+    }
+    for beta in [200, 500, 1000, 1500, 1800, 2000] {
+        s.set(format!("fig12.alpha2000.beta{beta}"), violation(2000.0, f64::from(beta)));
+    }
+    s.set("deadbeat.per_stage.max_phi", violation(2000.0, 2000.0 * std::f64::consts::SQRT_2));
+}
+
+/// Figure 14 and Table 3.
+fn torques(study: &Study, s: &mut Scalars) {
+    let runs = study.torque.iter().zip(&study.clean);
+    for (rpm, (run, clean)) in SPEEDS.iter().zip(runs) {
+        s.set(format!("table3.{rpm}rpm"), run.steady_peak(&run.raw_torque));
+        s.set(format!("torque.clean.ml2_12.{rpm}rpm"), clean.steady_peak(&clean.clean_torque));
+        for inertia in [Inertia::Paper, Inertia::Rod] {
+            let parameters = Setup::gains(0.0, 0.0).torque(*rpm, inertia).parameters();
+            s.set(format!("torque.closed_form.{}.{rpm}rpm", inertia.key()), Ok(torque::peak(&parameters)));
+        }
+        for (at, instant) in ["t0", "t1"].into_iter().enumerate() {
+            let value = run.raw_torque.get(at).copied().ok_or(Error::EndTime { end: 0.0, now: 0.0 });
+            s.set(format!("fig14.spike.{instant}.{rpm}rpm"), value);
+        }
+    }
+}
+
+/// What the paper did not see.
+fn feedbacks(study: &Study, s: &mut Scalars) {
+    for run in &study.feedbacks {
+        let trace = &run.trace;
+        let key = |what: &str| format!("feedback.{}.{what}", run.key);
+        s.set(key("raw_torque"), trace.steady_peak(&trace.raw_torque));
+        s.set(key("clean_torque"), trace.steady_peak(&trace.clean_torque));
+        s.set(key("max_phi"), trace.steady_peak(&trace.phi));
+        s.set(key("max_phi_dot"), trace.steady_peak(&trace.phi_dot));
+        if run.key == "per_stage.a2000" {
+            s.set("torque.raw_per_stage.ml2_12.200rpm.a2000", trace.steady_peak(&trace.raw_torque));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Every run that the paper's figures and tables need, computed once.
+
+use mbs_runtime::{Error, Held, PerStage};
+use mbs_workbench::sweep;
+
+use super::setup::{Inertia, SPEEDS, STEP, Setup, TORQUE_END, Trace};
+
+/// Points of the sweep over α and over β.
+const SWEEP: usize = 73;
+
+/// One point of a sweep.
+pub type Point = (f64, Result<f64, Error>);
+
+/// All runs.
+pub struct Study {
+    /// No feedback, the paper's start, 0.15 s (Figures 4–7).
+    pub drift: Trace,
+    /// No feedback, consistent start, one turn.
+    pub drift_consistent: Trace,
+    /// α = β = 2000, the paper's start, one turn (Figures 8–10 and 13).
+    pub stabilized: Trace,
+    /// The same, consistent start.
+    pub stabilized_consistent: Trace,
+    /// Deadbeat held feedback, consistent start, one turn.
+    pub held: Trace,
+    /// The values of α and β of Figure 11.
+    pub gains: Vec<f64>,
+    /// max ‖Φ‖ over (α, β), all α for the first β first (Figure 11).
+    pub map: Vec<Result<f64, Error>>,
+    /// max ‖Φ‖ over β at α = 2000, beyond the paper's range (Figure 12).
+    pub along_beta: Vec<Point>,
+    /// max ‖Φ‖ over α at β = 2000, beyond the paper's range.
+    pub along_alpha: Vec<Point>,
+    /// The paper's torque runs, one per speed (Figure 14, Table 3).
+    pub torque: Vec<Trace>,
+    /// Clean torque with held feedback and J = m l²/12, one per speed.
+    pub clean: Vec<Trace>,
+    /// What each feedback does to the torque at 200 rpm, J = m l²/12.
+    pub feedbacks: Vec<FeedbackRun>,
+}
+
+/// A torque run with one of the feedbacks that are compared.
+pub struct FeedbackRun {
+    /// Its name in the keys of the results.
+    pub key: &'static str,
+    /// Its name for people.
+    pub name: &'static str,
+    /// αh
+    pub alpha_h: f64,
+    /// βh
+    pub beta_h: f64,
+    /// The run.
+    pub trace: Trace,
+}
+
+/// Computes everything; shows progress on the terminal.
+///
+/// # Errors
+/// What keeps a run from starting. Runs that end early are results, not errors.
+pub fn study() -> Result<Study, Error> {
+    let none = Setup::gains(0.0, 0.0);
+    let paper = Setup::gains(2000.0, 2000.0);
+    let deadbeat = Setup::gains(0.75 / STEP, 1.0 / STEP).consistent();
+
+    let gains = sweep::evenly(200.0, 2000.0, SWEEP);
+    let violation = |alpha: f64, beta: f64| Setup::gains(alpha, beta).max_violation::<PerStage>();
+    let map = sweep::grid("Figure 11: α and β", &gains, &gains, violation);
+    let wide = sweep::evenly(200.0, 3000.0, 113);
+    let along = |title: &str, f: &(dyn Fn(f64) -> Result<f64, Error> + Sync)| {
+        sweep::map(title, &wide, |&gain| (gain, f(gain)))
+    };
+    let along_beta = along("Figure 12: β", &|beta| violation(2000.0, beta));
+    let along_alpha = along("α beyond 2000", &|alpha| violation(alpha, 2000.0));
+
+    let torque = |setup: Setup, inertia: Inertia, held: bool| {
+        let runs = sweep::map("torque", &SPEEDS, |&rpm| {
+            let setup = setup.torque(rpm, inertia);
+            if held { setup.trace::<Held>() } else { setup.trace::<PerStage>() }
+        });
+        runs.into_iter().collect::<Result<Vec<_>, _>>()
+    };
+    Ok(Study {
+        drift: Setup { end: 0.15, ..none }.trace::<PerStage>()?,
+        drift_consistent: none.consistent().trace::<PerStage>()?,
+        stabilized: paper.trace::<PerStage>()?,
+        stabilized_consistent: paper.consistent().trace::<PerStage>()?,
+        held: deadbeat.trace::<Held>()?,
+        gains,
+        map,
+        along_beta,
+        along_alpha,
+        torque: torque(Setup::gains(1000.0, 1000.0), Inertia::Paper, false)?,
+        clean: torque(deadbeat, Inertia::Rod, true)?,
+        feedbacks: feedbacks()?,
+    })
+}
+
+fn feedbacks() -> Result<Vec<FeedbackRun>, Error> {
+    let root2 = std::f64::consts::SQRT_2;
+    let cases = [
+        ("per_stage.a2000", "both stages, αh = βh = 1 (paper)", 1.0, 1.0, false),
+        ("per_stage.a2000_sqrt2", "both stages, αh = 1, βh = √2", 1.0, root2, false),
+        ("per_stage.a1000", "both stages, αh = βh = ½", 0.5, 0.5, false),
+        ("held.a1500", "held, αh = ¾, βh = 1", 0.75, 1.0, true),
+        ("none", "none", 0.0, 0.0, true),
+    ];
+    let run = |(key, name, alpha_h, beta_h, held): (&'static str, &'static str, f64, f64, bool)| {
+        let setup = Setup { end: TORQUE_END, ..Setup::gains(alpha_h / STEP, beta_h / STEP) }.consistent();
+        let trace = if held { setup.trace::<Held>()? } else { setup.trace::<PerStage>()? };
+        Ok(FeedbackRun { key, name, alpha_h, beta_h, trace })
+    };
+    cases.into_iter().map(run).collect()
+}
