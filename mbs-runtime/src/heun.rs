@@ -60,7 +60,7 @@ fn diagnose<M: Mechanism>(
     predicted: &State<M::Coordinates>,
     growth_at: M::Real,
 ) -> Error {
-    if let Err(singular) = check_growth(mechanism, at.t, &at.q, growth_at) {
+    if let Err(singular) = check_solution(mechanism, at.t, &at.q, (&at.q, growth_at)) {
         return singular;
     }
     let there = if predicted.q.is_finite() { predicted } else { at };
@@ -70,15 +70,15 @@ fn diagnose<M: Mechanism>(
     non_finite(predicted)
 }
 
-/// `Ok` if the growth leaves digits in every pivot, else the error that names
-/// the pivot.
-pub(crate) fn check_growth<M: Mechanism>(
+/// `Ok` if `solution` is finite and the growth leaves digits in every pivot,
+/// else the error that names the pivot.
+pub(crate) fn check_solution<M: Mechanism>(
     mechanism: &M,
     t: M::Real,
     q: &M::Coordinates,
-    growth: M::Real,
+    (solution, growth): (&M::Coordinates, M::Real),
 ) -> Result<(), Error> {
-    if growth < growth_limit() {
+    if solution.is_finite() && growth < growth_limit() {
         return Ok(());
     }
     if !q.is_finite() {

@@ -1,6 +1,6 @@
 //! A mechanism in motion.
 
-use crate::heun::{check_growth, heun_step};
+use crate::heun::{check_solution, heun_step};
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
 
 /// A mechanism being integrated in time.
@@ -190,7 +190,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
-        check_growth(&self.mechanism, self.state.t, &self.state.q, solved.growth)
+        check_solution(&self.mechanism, self.state.t, &self.state.q, (&solved.acceleration, solved.growth))
             .map_err(|error| self.blame_inputs(error))?;
         Ok(solved)
     }

@@ -1,6 +1,6 @@
 //! Consistent starts: positions on Φ = 0, velocities on Φ̇ = 0.
 
-use crate::heun::check_growth;
+use crate::heun::check_solution;
 use crate::{Components, Error, Mechanism, Real, State};
 
 const NEWTON_ITERATIONS: usize = 50;
@@ -41,7 +41,7 @@ pub fn assemble<M: Mechanism>(
     let mut phi = mechanism.phi(t, &q);
     for _ in 0..NEWTON_ITERATIONS {
         let correction = mechanism.position_correction(t, &q, &phi.map(|x| -x));
-        check_growth(mechanism, t, &q, correction.growth)?;
+        check_solution(mechanism, t, &q, (&correction.acceleration, correction.growth))?;
         let delta = correction.acceleration;
 
         let rounding = M::Real::from_f64(4.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
@@ -94,7 +94,7 @@ pub fn project_velocities<M: Mechanism>(
     for _ in 0..2 {
         let residual = mechanism.phi_dot(&state).map(|x| -x);
         let correction = mechanism.velocity_correction(state.t, &state.q, &residual);
-        check_growth(mechanism, state.t, &state.q, correction.growth)?;
+        check_solution(mechanism, state.t, &state.q, (&correction.acceleration, correction.growth))?;
         state.v = state.v.zip_map(correction.acceleration, |v, d| v + d);
     }
     Ok(state.v)

@@ -266,14 +266,25 @@ fn correction(
     Ok(roots)
 }
 
-/// The coordinates whose start values the constraints leave free: in the order
-/// of declaration, as long as the remaining columns of Φ_q keep full rank.
-pub fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: bool) -> BTreeSet<usize> {
-    let full = samples.rank(model, equations, &BTreeSet::new());
-    let mut held = BTreeSet::new();
+/// The coordinates that keep their start values: in the order of declaration,
+/// as long as the constraints can be met by moving the others. Judged at the
+/// declared start, where x² + y² = l² cannot be met by moving y if y = 0; or,
+/// should the start be singular as it is declared, at random positions.
+fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: bool) -> BTreeSet<usize> {
+    let nothing = BTreeSet::new();
+    let generic = samples.rank(model, equations, &nothing);
+    let is_regular = samples.rank_at_start(model, equations, &nothing) == generic;
+    let rank = |held: &BTreeSet<usize>| {
+        if is_regular {
+            samples.rank_at_start(model, equations, held)
+        } else {
+            samples.rank(model, equations, held)
+        }
+    };
+    let mut held = nothing;
     for start in model.start.iter().filter(|start| start.is_rate == of_velocities && !start.is_guess) {
         held.insert(start.coordinate);
-        if samples.rank(model, equations, &held) < full {
+        if rank(&held) < generic {
             held.remove(&start.coordinate);
         }
     }

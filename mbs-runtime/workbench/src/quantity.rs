@@ -123,10 +123,7 @@ mod tests {
     #[test]
     fn nonsense_is_explained() {
         let message = |text| parse("l1", text, dimension(0, 1, 0)).unwrap_err().to_string();
-        assert_eq!(
-            message("300rpm"),
-            "l1 = `300rpm`: a rate [1/s] was given, but l1 is a length [m]"
-        );
+        assert_eq!(message("300rpm"), "l1 = `300rpm`: a rate [1/s] was given, but l1 is a length [m]");
         assert!(message("7 furlong").contains("unknown unit `furlong`"));
         assert!(message("NaN").contains("has to be finite"));
         assert!(message("inf").contains("has to be finite"));

@@ -73,8 +73,8 @@ impl Recording {
 }
 
 /// Writes columns to a CSV file: a heading `name [unit]` each, numbers in the
-/// shortest form that reads back as the same number. A shorter column is
-/// padded with empty cells.
+/// shortest form that reads back as the same number. A cell is empty where the
+/// value is not finite or the column has ended.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -85,7 +85,8 @@ pub fn write_csv(path: &Path, columns: &[Column]) -> Result<(), Error> {
     let mut write = || -> csv::Result<()> {
         writer.write_record(columns.iter().map(Column::heading))?;
         for row in 0..rows {
-            let cell = |c: &Column| c.values.get(row).map_or_else(String::new, |x| format!("{x:?}"));
+            let value = |c: &Column| c.values.get(row).copied().filter(|x| x.is_finite());
+            let cell = |c: &Column| value(c).map_or_else(String::new, |x| format!("{x:?}"));
             writer.write_record(columns.iter().map(cell))?;
         }
         Ok(writer.flush()?)

@@ -57,8 +57,8 @@ fn stability(study: &Study, s: &mut Scalars) {
     let [.., theta2, x3] = &drift.q;
     let crossing = x3.iter().zip(&drift.t).find(|(x3, _)| **x3 < 0.0).map(|(_, t)| *t);
     s.set("fig6.x3_zero_crossing_s", crossing.ok_or(Error::EndTime { end: 0.15, now: 0.15 }));
-    let rising = theta2.get(1).zip(theta2.first()).map_or(f64::NAN, |(b, a)| b - a);
-    s.set("fig4.theta2_first_change", Ok(rising));
+    let at_50_ms = theta2.iter().zip(&drift.t).find(|(_, t)| **t >= 0.05).map(|(theta2, _)| *theta2);
+    s.set("fig4.theta2_at_50ms", at_50_ms.ok_or(Error::EndTime { end: 0.05, now: 0.0 }));
     s.set("drift.consistent.max_phi", study.drift_consistent.largest(&study.drift_consistent.phi));
 
     for (name, run) in [("", &study.stabilized), ("consistent.", &study.stabilized_consistent)] {

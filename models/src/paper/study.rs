@@ -3,7 +3,7 @@
 use mbs_runtime::{Error, Held, PerStage};
 use mbs_workbench::sweep;
 
-use super::setup::{Inertia, SPEEDS, STEP, Setup, TORQUE_END, Trace};
+use super::setup::{Inertia, SPEEDS, STEP, Setup, TURN, Trace};
 
 /// Points of the sweep over α and over β.
 const SWEEP: usize = 73;
@@ -35,7 +35,7 @@ pub struct Study {
     pub torque: Vec<Trace>,
     /// Clean torque with held feedback and J = m l²/12, one per speed.
     pub clean: Vec<Trace>,
-    /// What each feedback does to the torque at 200 rpm, J = m l²/12.
+    /// What each feedback does to the torque at 200 rpm, J = m l²/12, over two turns.
     pub feedbacks: Vec<FeedbackRun>,
 }
 
@@ -105,7 +105,7 @@ fn feedbacks() -> Result<Vec<FeedbackRun>, Error> {
         ("none", "none", 0.0, 0.0, true),
     ];
     let run = |(key, name, alpha_h, beta_h, held): (&'static str, &'static str, f64, f64, bool)| {
-        let setup = Setup { end: TORQUE_END, ..Setup::gains(alpha_h / STEP, beta_h / STEP) }.consistent();
+        let setup = Setup { end: 2.0 * TURN, ..Setup::gains(alpha_h / STEP, beta_h / STEP) }.consistent();
         let trace = if held { setup.trace::<Held>()? } else { setup.trace::<PerStage>()? };
         Ok(FeedbackRun { key, name, alpha_h, beta_h, trace })
     };

@@ -174,7 +174,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if mbs_symbolic::Function::named(&text).is_some() {
+        if Function::named(&text).is_some() {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
                 .help(format!("give it its argument: `{text}(…)`"));
         }

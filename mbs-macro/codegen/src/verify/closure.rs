@@ -33,7 +33,7 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
         }
     }
     let (row, violation) = largest(&phi);
-    if violation <= 1e-10 * (1.0 + largest(&q).1) {
+    if violation.is_finite() && violation <= 1e-10 * (1.0 + largest(&q).1) {
         return Ok(());
     }
     let Some(constraint) = model.constraints.get(row) else { return Ok(()) };

@@ -12,7 +12,7 @@ use crate::model::Model;
 pub fn check_independence(model: &Model, equations: &Equations, samples: &Samples, errors: &mut Diagnostics) {
     let echelons: Vec<Echelon> = samples
         .positions()
-        .map(|position| row_echelon(samples.jacobian(model, equations, &BTreeSet::new(), position)))
+        .map(|position| row_echelon(samples.jacobian(model, equations, position)))
         .collect();
     let Some(generic) = echelons.iter().max_by_key(|echelon| echelon.rank()) else { return };
     for (row, combination) in &generic.dependent {

@@ -1,6 +1,6 @@
 //! Random positions at the declared parameters, and what the equations are there.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{Arena, Expr, Symbol};
 
@@ -19,6 +19,8 @@ pub const RANK_TOLERANCE: f64 = 1e-9;
 /// same declaration always compiles to the same code.
 pub struct Samples {
     values: Vec<Vec<f64>>,
+    /// The declared start: coordinates that it leaves out at 0, t = 0.
+    start: Vec<f64>,
 }
 
 impl Samples {
@@ -28,7 +30,7 @@ impl Samples {
         let length = typical_length(model);
         let values = (0..POSITIONS)
             .map(|_| {
-                let sample: Vec<f64> = model
+                model
                     .meanings
                     .iter()
                     .map(|&meaning| match meaning {
@@ -42,17 +44,15 @@ impl Samples {
                         Meaning::Coordinate(_) => 3.0 * generator.symmetric(),
                         _ => generator.symmetric(),
                     })
-                    .collect();
-                sample
+                    .collect()
             })
             .collect();
-        Self { values }
+        Self { values, start: declared_start(model) }
     }
 
     /// The values of expressions at one of the positions.
     pub fn evaluate(&self, arena: &Arena, roots: &[Expr], position: usize) -> Vec<f64> {
-        let sample = &self.values[position];
-        arena.evaluate(roots, &|symbol: Symbol| sample.get(symbol.index()).copied().unwrap_or(0.0))
+        evaluate_at(arena, roots, &self.values[position])
     }
 
     /// The number of positions.
@@ -72,34 +72,62 @@ impl Samples {
     /// The rank of Φ_q without the columns in `held`: the largest over the
     /// positions, which is the generic one.
     pub fn rank(&self, model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> usize {
-        let rank = |position| {
-            let matrix = self.jacobian(model, equations, held, position);
-            super::rank::row_echelon(matrix).rank()
-        };
-        self.positions().map(rank).max().unwrap_or(0)
+        let rank = |sample: &Vec<f64>| rank_at(model, equations, held, sample);
+        self.values.iter().map(rank).max().unwrap_or(0)
+    }
+
+    /// The rank of Φ_q without the columns in `held` at the declared start.
+    pub fn rank_at_start(&self, model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> usize {
+        rank_at(model, equations, held, &self.start)
     }
 
     /// Φ_q at a position, each row scaled to a largest entry of 1.
-    pub fn jacobian(
-        &self,
-        model: &Model,
-        equations: &Equations,
-        held: &BTreeSet<usize>,
-        position: usize,
-    ) -> Vec<Vec<f64>> {
-        let n = model.coordinates.len();
-        let row = |entries: &std::collections::BTreeMap<usize, Expr>| {
-            let (columns, exprs): (Vec<usize>, Vec<Expr>) =
-                entries.iter().filter(|(column, _)| !held.contains(column)).map(|(&c, &e)| (c, e)).unzip();
-            let mut row = vec![0.0; n];
-            for (column, value) in columns.into_iter().zip(self.evaluate(&model.arena, &exprs, position)) {
-                row[column] = if value.is_finite() { value } else { 0.0 };
-            }
-            let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            if largest > 0.0 { row.iter().map(|x| x / largest).collect() } else { row }
-        };
-        equations.phi_q.iter().map(row).collect()
+    pub fn jacobian(&self, model: &Model, equations: &Equations, position: usize) -> Vec<Vec<f64>> {
+        jacobian_at(model, equations, &BTreeSet::new(), &self.values[position])
     }
+}
+
+fn rank_at(model: &Model, equations: &Equations, held: &BTreeSet<usize>, sample: &[f64]) -> usize {
+    super::rank::row_echelon(jacobian_at(model, equations, held, sample)).rank()
+}
+
+fn evaluate_at(arena: &Arena, roots: &[Expr], sample: &[f64]) -> Vec<f64> {
+    arena.evaluate(roots, &|symbol: Symbol| sample.get(symbol.index()).copied().unwrap_or(0.0))
+}
+
+fn jacobian_at(
+    model: &Model,
+    equations: &Equations,
+    held: &BTreeSet<usize>,
+    sample: &[f64],
+) -> Vec<Vec<f64>> {
+    let n = model.coordinates.len();
+    let row = |entries: &BTreeMap<usize, Expr>| {
+        let (columns, exprs): (Vec<usize>, Vec<Expr>) =
+            entries.iter().filter(|(column, _)| !held.contains(column)).map(|(&c, &e)| (c, e)).unzip();
+        let mut row = vec![0.0; n];
+        for (column, value) in columns.into_iter().zip(evaluate_at(&model.arena, &exprs, sample)) {
+            row[column] = if value.is_finite() { value } else { 0.0 };
+        }
+        let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        if largest > 0.0 { row.iter().map(|x| x / largest).collect() } else { row }
+    };
+    equations.phi_q.iter().map(row).collect()
+}
+
+/// Symbol values at the declared start.
+fn declared_start(model: &Model) -> Vec<f64> {
+    let parameters = model.values(|_| 0.0);
+    let position = |at: usize| {
+        let start = model.start.iter().find(|start| start.coordinate == at && !start.is_rate);
+        start.map_or(0.0, |start| model.arena.evaluate(&[start.value], &parameters)[0])
+    };
+    let value = |&meaning: &Meaning| match meaning {
+        Meaning::Parameter(at) => model.parameters[at].value,
+        Meaning::Coordinate(at) => position(at),
+        _ => 0.0,
+    };
+    model.meanings.iter().map(value).collect()
 }
 
 /// The size of the mechanism: the largest parameter that is a length, or 1 m.

@@ -92,11 +92,7 @@ pub(super) fn bar<B: DrawingBackend>(
     canvas.frame(bar)?;
     for (at, label) in &span.ticks.major {
         let at = span.pixel(*at).round() as i32;
-        canvas.line(
-            vec![(bar.right, at), (bar.right + 4 * SCALE, at)],
-            RGBColor(30, 30, 30),
-            1.0,
-        )?;
+        canvas.line(vec![(bar.right, at), (bar.right + 4 * SCALE, at)], RGBColor(30, 30, 30), 1.0)?;
         canvas.text(label, (bar.right + 7 * SCALE, at), Place::Right, 13)?;
     }
     let middle = (bar.top + bar.bottom) / 2;

@@ -5,6 +5,7 @@
 //! draws it to SVG or PNG.
 
 mod colour;
+mod columns;
 mod contour;
 mod draw;
 mod layout;

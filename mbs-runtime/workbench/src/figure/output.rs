@@ -99,7 +99,8 @@ fn averaged(drawn: &[u8], width: usize) -> Vec<u8> {
                 let sample = |dy: usize, dx: usize| {
                     u32::from(rows[dy * stride + 3 * (OVERSAMPLING * at + dx) + channel])
                 };
-                let sum: u32 = (0..OVERSAMPLING).flat_map(|dy| (0..OVERSAMPLING).map(move |dx| (dy, dx)))
+                let sum: u32 = (0..OVERSAMPLING)
+                    .flat_map(|dy| (0..OVERSAMPLING).map(move |dx| (dy, dx)))
                     .map(|(dy, dx)| sample(dy, dx))
                     .sum();
                 pixels.push((sum / (OVERSAMPLING * OVERSAMPLING) as u32) as u8);
@@ -135,10 +136,7 @@ mod tests {
             .panel(Panel::lines(
                 Axis::new("time", "s"),
                 Axis::new("‖Φ‖", "m"),
-                [
-                    Series::new("solid", wave(1e-6)),
-                    Series::new("dashed", wave(2e-6)).stroke(Stroke::Dashed),
-                ],
+                [Series::new("solid", wave(1e-6)), Series::new("dashed", wave(2e-6)).stroke(Stroke::Dashed)],
             ))
             .panel(Panel::map(Axis::new("α", "1/s"), Axis::new("β", "1/s"), map))
     }

@@ -92,9 +92,10 @@ impl Report {
             }
             body += "</section>\n";
         }
-        let contents = self.sections.iter().enumerate().map(|(number, section)| {
-            format!("<a href=\"#s{number}\">{}</a>\n", escaped(&section.heading))
-        });
+        let contents =
+            self.sections.iter().enumerate().map(|(number, section)| {
+                format!("<a href=\"#s{number}\">{}</a>\n", escaped(&section.heading))
+            });
         // `</` would end the script element in the middle of the data.
         let data = serde_json::Value::Array(plots).to_string().replace("</", "<\\/");
         let page = PAGE
@@ -185,16 +186,11 @@ mod tests {
         let report = Report {
             title: "Test".into(),
             lead: "What it is.".into(),
-            sections: vec![
-                Section::new("One")
-                    .text("Text.")
-                    .with(Block::Table(table))
-                    .with(Block::Figure {
-                        figure: Figure::new("F").panel(panel),
-                        caption: "c".into(),
-                        files: vec!["f.csv".into()],
-                    }),
-            ],
+            sections: vec![Section::new("One").text("Text.").with(Block::Table(table)).with(Block::Figure {
+                figure: Figure::new("F").panel(panel),
+                caption: "c".into(),
+                files: vec!["f.csv".into()],
+            })],
         };
         let html = report.html().unwrap();
         assert!(html.contains("a &lt; b") && html.contains("1 &amp; 2") && html.contains("f.csv"));
