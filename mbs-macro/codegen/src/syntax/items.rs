@@ -61,8 +61,13 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     while !content.is_empty() {
         let behind = content.fork();
         skip_statement(&behind)?;
-        match item(&content) {
-            Ok(item) => items.push(item),
+        // A fork, so that what a wrong statement leaves unread is no second error.
+        let statement = content.fork();
+        match item(&statement) {
+            Ok(item) => {
+                items.push(item);
+                content.advance_to(&statement);
+            }
             Err(error) => {
                 errors.push(error);
                 content.advance_to(&behind);
@@ -96,7 +101,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
-        "crate" => crate_path(input, keyword.span()),
+        "crate" => crate_path(input),
         "param" => parameter(input),
         "const" => constant(input),
         "input" => input_item(input),
@@ -170,11 +175,11 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Dof { keyword, value: value.base10_parse()? })
 }
 
-fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+fn crate_path(input: ParseStream<'_>) -> Result<ItemKind> {
     equals(input)?;
     let path = input.call(syn::Path::parse_mod_style)?.into_token_stream();
     semicolon(input)?;
-    Ok(ItemKind::Crate { keyword, path })
+    Ok(ItemKind::Crate { path })
 }
 
 fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
