@@ -1,6 +1,20 @@
-//! codegen
+//! The compiler behind `mechanism!`: an ordinary library, so that tools and
+//! tests run the same code as the macro.
+//!
+//! One stage, one type, one module; data flows down this list:
+//!
+//! | stage | gives | after it |
+//! |---|---|---|
+//! | `syntax` | `Declaration`, a span on every node | shapes are right, names unresolved |
+//! | `model` | `Model` | names are symbols, dimensions agree |
+//! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
+//! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
+//! | `plan` | `Plan` | programs: elimination fixed, parameter-only work hoisted |
+//! | `emit` | tokens | cannot fail |
+//!
+//! Errors of a stage are collected and shown together; a stage with errors is
+//! the last.
 #![forbid(unsafe_code)]
-#![allow(missing_docs)]
 
 mod derive;
 mod diagnostics;

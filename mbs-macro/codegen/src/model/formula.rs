@@ -1,9 +1,7 @@
 //! Formulas to expressions, with dimensions checked on the way.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::units::{Dimension, Unit};
-use mbs_symbolic::{Expr, Function, Number, Symbol};
+use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
@@ -133,11 +131,17 @@ impl Scope<'_> {
     }
 
     /// Refuses what an expression may not depend on in this place.
-    fn allowed(&self, typed: Typed, name: &Ident, place: Place, errors: &mut Diagnostics) -> Option<Typed> {
+    pub(super) fn allowed(
+        &self,
+        typed: Typed,
+        name: &Ident,
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
         for symbol in self.arena.symbols_in(typed.expr) {
             if !place.allows(self.meaning(symbol)) {
                 let culprit = self.describe(symbol);
-                let message = if self.arena.name(symbol) == name.to_string() {
+                let message = if *name == self.arena.name(symbol) {
                     format!("{culprit} cannot stand here")
                 } else {
                     format!("`{name}` cannot stand here, since it depends on {culprit}")
@@ -149,7 +153,7 @@ impl Scope<'_> {
         Some(typed)
     }
 
-    fn describe(&self, symbol: Symbol) -> String {
+    pub(super) fn describe(&self, symbol: Symbol) -> String {
         let name = self.arena.name(symbol);
         match self.meaning(symbol) {
             Meaning::Time => "the time `t`".to_owned(),
@@ -174,7 +178,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if Function::named(&text).is_some() {
+        if mbs_symbolic::Function::named(&text).is_some() {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
                 .help(format!("give it its argument: `{text}(…)`"));
         }
@@ -267,229 +271,10 @@ impl Scope<'_> {
         };
         Some(Typed { expr: self.arena.pow(b.expr, e), dimension: Some(dimension) })
     }
-
-    fn call(
-        &mut self,
-        name: &Ident,
-        arguments: &[Formula],
-        place: Place,
-        errors: &mut Diagnostics,
-    ) -> Option<Typed> {
-        match name.to_string().as_str() {
-            "der" => self.time_derivative(name, arguments, place, errors),
-            "lambda" | "effort" => {
-                let result = self.multiplier(name, arguments, place);
-                errors.take(result)
-            }
-            text => match Function::named(text) {
-                Some(function) => self.function(function, name, arguments, place, errors),
-                None => {
-                    let known =
-                        mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).chain(["der", "lambda", "effort"]);
-                    let known: Vec<_> = known.filter(|name| !name.is_empty()).collect();
-                    let error = Diagnostic::new(name.span(), format!("there is no function `{text}`"));
-                    errors.push(match nearest(text, known.iter().copied()) {
-                        _ if self.values.contains_key(text) => {
-                            error.help(format!("write a product with `*`: `{text}*(…)`"))
-                        }
-                        Some(near) => error.help(format!("did you mean `{near}`?")),
-                        None => error.help(format!("the functions are {}", listing(known))),
-                    });
-                    None
-                }
-            },
-        }
-    }
-
-    fn function(
-        &mut self,
-        function: Function,
-        name: &Ident,
-        arguments: &[Formula],
-        place: Place,
-        errors: &mut Diagnostics,
-    ) -> Option<Typed> {
-        let arity = function.row().arity;
-        if arguments.len() != arity {
-            let s = if arity == 1 { "" } else { "s" };
-            errors.push(
-                Diagnostic::new(
-                    name.span(),
-                    format!("`{name}` takes {arity} argument{s}, not {}", arguments.len()),
-                )
-                .help(if arity == 1 {
-                    format!("write `{name}(x)`")
-                } else {
-                    format!("write `{name}(y, x)`")
-                }),
-            );
-            return None;
-        }
-        let values: Vec<_> = arguments.iter().map(|argument| self.formula(argument, place, errors)).collect();
-        let values: Vec<_> = values.into_iter().collect::<Option<_>>()?;
-        let dimension = errors.take(function_dimension(function, name, arguments, &values))?;
-        let expr = match values[..] {
-            [x] if function == Function::Sqrt
-                && self.arena.as_number(x.expr).is_some_and(Number::is_negative) =>
-            {
-                errors.push(
-                    Diagnostic::new(arguments[0].span, "the square root of a negative number is not real")
-                        .help("check the sign"),
-                );
-                return None;
-            }
-            [x] => self.arena.call(function, x.expr),
-            [x, y] if function == Function::Pow => self.arena.pow(x.expr, y.expr),
-            [x, y] => self.arena.call2(function, x.expr, y.expr),
-            _ => return None,
-        };
-        Some(Typed { expr, dimension })
-    }
-
-    /// `der(e)`: the total time derivative.
-    fn time_derivative(
-        &mut self,
-        name: &Ident,
-        arguments: &[Formula],
-        place: Place,
-        errors: &mut Diagnostics,
-    ) -> Option<Typed> {
-        let [argument] = arguments else {
-            errors.push(Diagnostic::new(name.span(), "`der` takes one argument").help("write `der(theta)`"));
-            return None;
-        };
-        let inner = self.formula(argument, Place::Anywhere, errors)?;
-        let mut direction = HashMap::new();
-        for symbol in self.arena.symbols_in(inner.expr) {
-            let rate = match self.meaning(symbol) {
-                Meaning::Time => self.arena.one(),
-                // the three symbols of a coordinate follow each other
-                Meaning::Coordinate(_) | Meaning::Velocity(_) => {
-                    let next = self.successor(symbol);
-                    self.arena.variable(next)
-                }
-                Meaning::Parameter(_) => continue,
-                _ => {
-                    let culprit = self.describe(symbol);
-                    errors.push(
-                        Diagnostic::new(
-                            name.span(),
-                            format!("the time derivative of {culprit} is not known"),
-                        )
-                        .help("`der` can be taken of positions, velocities, time and parameters"),
-                    );
-                    return None;
-                }
-            };
-            direction.insert(symbol, rate);
-        }
-        let expr = self.arena.derivative(inner.expr, &direction);
-        let dimension = inner.dimension.map(|dimension| dimension.over(Dimension::TIME));
-        self.allowed(Typed { expr, dimension }, name, place, errors)
-    }
-
-    fn successor(&self, symbol: Symbol) -> Symbol {
-        let wanted = match self.meaning(symbol) {
-            Meaning::Coordinate(at) => Meaning::Velocity(at),
-            Meaning::Velocity(at) => Meaning::Acceleration(at),
-            other => other,
-        };
-        let at = self.meanings.iter().position(|&meaning| meaning == wanted);
-        at.and_then(|at| self.arena.symbol_at(at)).unwrap_or(symbol)
-    }
-
-    /// `lambda(row)` is the multiplier, `effort(drive)` = −λ what a drive
-    /// exerts along its left-hand side.
-    fn multiplier(&mut self, name: &Ident, arguments: &[Formula], place: Place) -> Result<Typed, Diagnostic> {
-        let [Formula { kind: FormulaKind::Name(row), .. }] = arguments else {
-            return Err(Diagnostic::new(name.span(), format!("`{name}` takes the name of a constraint"))
-                .help(format!("the constraints are {}", listing(self.rows.keys()))));
-        };
-        let text = row.to_string();
-        let Some(known) = self.rows.get(&text) else {
-            let error = Diagnostic::new(row.span(), format!("there is no constraint `{text}`"));
-            return Err(match nearest(&text, self.rows.keys().map(String::as_str)) {
-                Some(near) => error.help(format!("did you mean `{near}`?")),
-                None => error.help(format!("the constraints are {}", listing(self.rows.keys()))),
-            });
-        };
-        if name == "effort" && !known.is_drive {
-            return Err(Diagnostic::new(row.span(), format!("`{text}` is a constraint, not a drive"))
-                .help(format!("its multiplier is `lambda({text})`")));
-        }
-        if known.is_broken {
-            // fits everywhere: no second error for the same cause
-            return Ok(Typed { expr: self.arena.zero(), dimension: None });
-        }
-        let Some(dimension) = known.dimension else {
-            return Err(Diagnostic::new(row.span(), format!("the multiplier of `{text}` cannot stand here"))
-                .help(place.rule()));
-        };
-        if !place.allows(Meaning::Multiplier(known.position)) {
-            return Err(Diagnostic::new(
-                name.span(),
-                format!("the multiplier of `{text}` cannot stand here"),
-            )
-            .help(place.rule()));
-        }
-        let multiplier = known.multiplier;
-        let lambda = self.arena.variable(multiplier);
-        let expr = if name == "effort" { self.arena.neg(lambda) } else { lambda };
-        // λᵀΦ is an energy
-        let energy = Dimension::of(1, 2, -2);
-        Ok(Typed { expr, dimension: Some(energy.over(dimension)) })
-    }
 }
 
 fn product(l: Typed, r: Typed) -> Option<Dimension> {
     Some(l.dimension?.times(r.dimension?))
-}
-
-/// The dimension of f(…), or the error of an argument.
-fn function_dimension(
-    function: Function,
-    name: &Ident,
-    arguments: &[Formula],
-    values: &[Typed],
-) -> Result<Option<Dimension>, Diagnostic> {
-    let first = values.first().and_then(|value| value.dimension);
-    match function {
-        Function::Abs => Ok(first),
-        Function::Sign => Ok(Some(Dimension::NONE)),
-        Function::Sqrt => match first {
-            None => Ok(None),
-            Some(dimension) => dimension.power(Number::ratio(1, 2)).map(Some).ok_or_else(|| {
-                Diagnostic::new(
-                    arguments[0].span,
-                    format!("the square root of a {dimension} has no dimension"),
-                )
-                .help("check the exponents of the argument")
-            }),
-        },
-        Function::Atan2 | Function::Min | Function::Max => {
-            let second = values.get(1).and_then(|value| value.dimension);
-            if let (Some(a), Some(b)) = (first, second)
-                && a != b
-            {
-                return Err(Diagnostic::new(name.span(), format!("`{name}` compares a {a} with a {b}"))
-                    .help("both arguments need the same dimension"));
-            }
-            let common = first.or(second);
-            Ok(if function == Function::Atan2 { Some(Dimension::NONE) } else { common })
-        }
-        _ => {
-            for (argument, value) in arguments.iter().zip(values) {
-                if let Some(dimension) = value.dimension.filter(|d| *d != Dimension::NONE) {
-                    return Err(Diagnostic::new(
-                        argument.span,
-                        format!("`{name}` takes an angle or a bare number, but this is a {dimension}"),
-                    )
-                    .help("divide it by a quantity of the same dimension"));
-                }
-            }
-            Ok(Some(Dimension::NONE))
-        }
-    }
 }
 
 fn unit_help(formula: &Formula, dimension: Dimension) -> String {

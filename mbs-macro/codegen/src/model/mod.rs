@@ -3,15 +3,19 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod declare;
 mod formula;
-mod items;
+mod functions;
+mod loads;
 mod names;
+mod resolver;
+mod statements;
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
-pub use items::{holds, resolve};
+pub use resolver::resolve;
 
 use crate::syntax::Comparison;
 
@@ -60,8 +64,6 @@ pub struct Symbols {
     pub two_alpha: Symbol,
     pub beta_squared: Symbol,
     /// Per constraint.
-    pub multipliers: Vec<Symbol>,
-    /// Per constraint.
     pub feedback: Vec<Symbol>,
 }
 
@@ -77,7 +79,6 @@ pub struct Quantity {
 
 pub struct Parameter {
     pub quantity: Quantity,
-    pub symbol: Symbol,
     /// Declared value in SI units.
     pub value: f64,
     pub requirement: Option<Requirement>,
@@ -98,7 +99,6 @@ pub struct Coordinate {
     pub span: Span,
     pub position: Symbol,
     pub velocity: Symbol,
-    pub acceleration: Symbol,
     pub body: usize,
     pub direction: Direction,
 }
@@ -113,7 +113,6 @@ pub enum Direction {
 pub struct Body {
     pub name: String,
     pub span: Span,
-    pub doc: String,
     /// Positions in `coordinates`.
     pub coordinates: Vec<usize>,
     pub mass: Expr,

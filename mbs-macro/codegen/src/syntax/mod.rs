@@ -27,7 +27,7 @@ pub enum ItemKind {
     /// `dof = 0;`
     Dof { keyword: Span, value: i64 },
     /// `crate = path;`
-    Crate { keyword: Span, path: TokenStream },
+    Crate { path: TokenStream },
     /// `param l = 1 [m] where l > 0;`
     Parameter { name: Ident, value: Formula, condition: Option<Condition> },
     /// `const l = 1 [m];`
@@ -66,6 +66,18 @@ pub enum Comparison {
     LessOrEqual,
     Greater,
     GreaterOrEqual,
+}
+
+impl Comparison {
+    /// Whether `difference` compares so with 0.
+    pub fn holds(self, difference: f64) -> bool {
+        match self {
+            Self::Less => difference < 0.0,
+            Self::LessOrEqual => difference <= 0.0,
+            Self::Greater => difference > 0.0,
+            Self::GreaterOrEqual => difference >= 0.0,
+        }
+    }
 }
 
 /// A coordinate of a body, with its direction where that was written:

@@ -5,8 +5,7 @@ mod closure;
 mod rank;
 mod samples;
 
-use mbs_symbolic::Undetermined;
-use mbs_symbolic::Unknown;
+use mbs_symbolic::{Undetermined, Unknown};
 
 pub use closure::check_closure;
 pub use samples::Samples;
@@ -14,7 +13,6 @@ pub use samples::Samples;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
-use crate::model::holds;
 
 /// Checks the equations before they are planned.
 ///
@@ -34,7 +32,7 @@ fn check_declared_values(model: &Model, equations: &Equations, errors: &mut Diag
     for parameter in &model.parameters {
         let Some(requirement) = &parameter.requirement else { continue };
         let difference = model.arena.evaluate(&[requirement.difference], &values);
-        if !holds(difference[0], requirement.comparison) {
+        if !requirement.comparison.holds(difference[0]) {
             errors.push(
                 Diagnostic::new(
                     requirement.span,

@@ -18,7 +18,7 @@ const BAR_MARGIN: i32 = 140;
 
 const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
-const TEXT: i32 = 15;
+const TEXT: i32 = 16;
 
 /// Height of a figure in pixels of the description.
 pub(super) fn height(figure: &Figure) -> i32 {
@@ -38,6 +38,8 @@ pub(super) enum Place {
 /// A surface to draw on, in drawn pixels.
 pub(super) struct Canvas<'a, B: DrawingBackend> {
     pub(super) surface: &'a DrawingArea<B, plotters::coord::Shift>,
+    /// By how much of their size vertically centred texts have to be lowered.
+    pub(super) lowered: f64,
 }
 
 type Drawn = Result<(), String>;
@@ -60,6 +62,9 @@ impl<B: DrawingBackend> Canvas<'_, B> {
     }
 
     pub(super) fn text(&self, text: &str, at: (i32, i32), place: Place, size: i32) -> Drawn {
+        let sideways = matches!(place, Place::Left | Place::Right);
+        let drop = if sideways { (self.lowered * f64::from(size * SCALE)) as i32 } else { 0 };
+        let at = (at.0, at.1 + drop);
         let (h, v) = match place {
             Place::Left => (HPos::Right, VPos::Center),
             Place::Right => (HPos::Left, VPos::Center),
@@ -90,9 +95,10 @@ impl<B: DrawingBackend> Canvas<'_, B> {
 pub(super) fn figure<B: DrawingBackend>(
     surface: &DrawingArea<B, plotters::coord::Shift>,
     figure: &Figure,
+    lowered: f64,
 ) -> Drawn {
     surface.fill(&plotters::style::WHITE).map_err(|e| e.to_string())?;
-    let canvas = Canvas { surface };
+    let canvas = Canvas { surface, lowered };
     canvas.text(&figure.title, (SCALE * WIDTH / 2, SCALE * 14), Place::Below, 19)?;
     for (at, shown) in figure.panels.iter().enumerate() {
         let top = TITLE + at as i32 * figure.panel_height as i32;
@@ -191,7 +197,7 @@ fn curve<B: DrawingBackend>(
     }
     for point in &series.points {
         let (px, py) = (x.pixel(point[0]), y.pixel(point[1]));
-        if px.is_finite() && py.is_finite() && py >= f64::from(area.top) && py <= f64::from(area.bottom) {
+        if area.contains(px, py) {
             canvas.dot((px.round() as i32, py.round() as i32), 3.2, colour)?;
         }
     }

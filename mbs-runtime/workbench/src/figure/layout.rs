@@ -17,6 +17,16 @@ pub(super) struct Area {
     pub(super) bottom: i32,
 }
 
+impl Area {
+    /// Whether a point lies inside; one that is not finite does not.
+    pub(super) fn contains(self, x: f64, y: f64) -> bool {
+        // The frame itself counts, to rounding.
+        let within =
+            |low: i32, value: f64, high: i32| f64::from(low) - 0.5 <= value && value <= f64::from(high) + 0.5;
+        within(self.left, x, self.right) && within(self.top, y, self.bottom)
+    }
+}
+
 /// One axis in pixels: its range, and where that lies.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Span {

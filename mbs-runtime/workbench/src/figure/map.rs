@@ -64,7 +64,13 @@ pub(super) fn cells<B: DrawingBackend>(
         }
     }
     let levels = Span::new(&map.scale, limits, area.bottom, area.top).ticks;
-    for level in levels.major.iter().map(|(at, _)| *at).chain(levels.minor) {
+    // On a logarithmic scale three lines a decade, at 1, 2 and 5.
+    let round = |level: &f64| {
+        let mantissa = level / 10_f64.powf(level.log10().floor());
+        [1.0, 2.0, 5.0, 10.0].iter().any(|m| (mantissa - m).abs() < 1e-6)
+    };
+    let minor = levels.minor.into_iter().filter(round);
+    for level in levels.major.iter().map(|(at, _)| *at).chain(minor) {
         for [a, b] in contour::segments(map, level) {
             let pixel = |p: [f64; 2]| (x.pixel(p[0]).round() as i32, y.pixel(p[1]).round() as i32);
             canvas.line(vec![pixel(a), pixel(b)], RGBColor(255, 255, 255), 0.8)?;
@@ -96,5 +102,5 @@ pub(super) fn bar<B: DrawingBackend>(
         canvas.text(label, (bar.right + 7 * SCALE, at), Place::Right, 13)?;
     }
     let middle = (bar.top + bar.bottom) / 2;
-    canvas.text(&heading(&map.scale, &span), (bar.right + 66 * SCALE, middle), Place::Upwards, 15)
+    canvas.text(&heading(&map.scale, &span), (bar.right + 56 * SCALE, middle), Place::Upwards, 15)
 }

@@ -17,6 +17,10 @@ static FONT: &[u8] = include_bytes!("../../assets/dejavu/DejaVuSans-subset.ttf")
 /// Drawn pixels per pixel of a PNG, in each direction.
 const OVERSAMPLING: usize = 2;
 
+/// The bitmap backend centres the box of a text, which holds more above its
+/// digits than below: by this part of its size they come out too high.
+const LOWERED: f64 = 0.12;
+
 fn with_font() -> Result<(), String> {
     static REGISTERED: OnceLock<bool> = OnceLock::new();
     let register = || register_font("sans-serif", FontStyle::Normal, FONT).is_ok();
@@ -53,7 +57,7 @@ impl Figure {
         with_font().map_err(|reason| self.failed(reason))?;
         {
             let surface = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
-            draw::figure(&surface, self).map_err(|reason| self.failed(reason))?;
+            draw::figure(&surface, self, 0.0).map_err(|reason| self.failed(reason))?;
             surface.present().map_err(|e| self.failed(e.to_string()))?;
         }
         // Shown at the size of the description; the viewBox keeps the drawn one.
@@ -72,7 +76,7 @@ impl Figure {
         with_font().map_err(|reason| self.failed(reason))?;
         {
             let surface = BitMapBackend::with_buffer(&mut drawn, (width, height)).into_drawing_area();
-            draw::figure(&surface, self).map_err(|reason| self.failed(reason))?;
+            draw::figure(&surface, self, LOWERED).map_err(|reason| self.failed(reason))?;
             surface.present().map_err(|e| self.failed(e.to_string()))?;
         }
         let pixels = averaged(&drawn, width as usize);

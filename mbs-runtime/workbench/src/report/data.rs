@@ -17,8 +17,10 @@ fn axis(axis: &Axis) -> Value {
     json!({ "label": axis.heading(), "log": axis.log, "range": axis.range.map(|(a, b)| [a, b]) })
 }
 
-fn series(series: &Series) -> Value {
-    let coordinate = |at: usize| series.points.iter().map(|p| number(p[at])).collect::<Vec<_>>();
+fn series(series: &Series, shown: (f64, f64)) -> Value {
+    // What lies outside a prescribed range would only make the page longer.
+    let points = || series.points.iter().filter(|p| p[0] >= shown.0 && p[0] <= shown.1);
+    let coordinate = |at: usize| points().map(|p| number(p[at])).collect::<Vec<_>>();
     let stroke = match series.stroke {
         Stroke::Solid => "solid",
         Stroke::Dashed => "dashed",
@@ -29,8 +31,9 @@ fn series(series: &Series) -> Value {
 
 /// A panel of curves.
 pub(super) fn panel(panel: &Panel) -> Value {
+    let shown = panel.x.range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let curves = match &panel.content {
-        Content::Lines(curves) => curves.iter().map(series).collect::<Vec<_>>(),
+        Content::Lines(curves) => curves.iter().map(|curve| series(curve, shown)).collect::<Vec<_>>(),
         Content::Map(_) => Vec::new(),
     };
     json!({ "kind": "lines", "x": axis(&panel.x), "y": axis(&panel.y), "series": curves })

@@ -1,0 +1,207 @@
+//! Names first: what statements declare, before any formula is read.
+
+use mbs_symbolic::units::{Dimension, Unit};
+use mbs_symbolic::{Number, Stage};
+use proc_macro2::Ident;
+
+use super::names::{Definition, Row, State, Value, duplicate};
+use super::resolver::Resolver;
+use super::{Body, Coordinate, Direction, Meaning, Parameter, Quantity};
+use crate::diagnostics::Diagnostic;
+use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind};
+
+impl<'a> Resolver<'a> {
+    pub(super) fn declare(&mut self, item: &'a Item) {
+        match &item.kind {
+            ItemKind::Parameter { name, value, .. } => self.declare_parameter(name, value, &item.doc),
+            ItemKind::Constant { name, value } => self.declare_definition(name, value, true),
+            ItemKind::Let { name, value } => self.declare_definition(name, value, false),
+            ItemKind::Input { name, unit } => {
+                let meaning = Meaning::Input(self.inputs.len());
+                let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
+                let dimension = unit.unit.dimension;
+                let value = Value::Symbol { symbol, dimension, span: name.span() };
+                self.scope.declare(name, value, &mut self.errors);
+                self.inputs.push(quantity(name, &item.doc, &unit.text, unit.unit));
+            }
+            ItemKind::Body { name, coordinates, .. } => self.declare_body(name, coordinates),
+            ItemKind::Constraint { name, is_drive, .. } => self.declare_row(name, *is_drive),
+            _ => {}
+        }
+    }
+
+    fn declare_parameter(&mut self, name: &Ident, formula: &'a Formula, doc: &str) {
+        let unit = literal_unit(formula);
+        let meaning = Meaning::Parameter(self.parameters.len());
+        let symbol = self.scope.symbol(&name.to_string(), Stage::Parameter, meaning);
+        // The dimension is that of the declared value, which uses constants
+        // only and so can be resolved as soon as those are declared.
+        let dimension = unit.as_ref().map_or(Dimension::NONE, |unit| unit.unit.dimension);
+        let value = Value::Symbol { symbol, dimension, span: name.span() };
+        self.scope.declare(name, value, &mut self.errors);
+        let (text, unit) = unit.map_or((String::new(), Unit::ONE), |unit| (unit.text, unit.unit));
+        let quantity = quantity(name, doc, &text, unit);
+        self.parameters.push(Parameter { quantity, value: f64::NAN, requirement: None });
+    }
+
+    fn declare_definition(&mut self, name: &Ident, formula: &'a Formula, is_constant: bool) {
+        let definition = Definition { formula, is_constant, span: name.span(), state: State::Untouched };
+        self.scope.declare(name, Value::Definition(definition), &mut self.errors);
+    }
+
+    fn declare_body(&mut self, name: &Ident, coordinates: &[syntax::Coordinate]) {
+        let text = name.to_string();
+        if let Some((_, earlier)) = self.body_spans.iter().find(|(known, _)| *known == text) {
+            self.errors.push(duplicate(name, *earlier));
+            return;
+        }
+        self.body_spans.push((text.clone(), name.span()));
+        let body = self.bodies.len();
+        let mut positions = Vec::new();
+        if coordinates.is_empty() || coordinates.len() > 3 {
+            self.errors.push(
+                Diagnostic::new(name.span(), format!("body `{text}` has {} coordinates", coordinates.len()))
+                    .help("a planar body has one to three: x, y and its angle"),
+            );
+        }
+        for (at, coordinate) in coordinates.iter().enumerate().take(3) {
+            let result = direction(coordinate, at, coordinates.len());
+            let Some(direction) = self.errors.take(result) else { continue };
+            let taken = positions.iter().any(|&other: &usize| self.coordinates[other].direction == direction);
+            if taken {
+                self.errors.push(
+                    Diagnostic::new(
+                        coordinate.name.span(),
+                        format!("`{}` is a second coordinate in the same direction", coordinate.name),
+                    )
+                    .help("say which direction each one has: `(x = s, angle = phi)`"),
+                );
+                continue;
+            }
+            positions.push(self.coordinates.len());
+            self.declare_coordinate(&coordinate.name, direction, body);
+        }
+        let names = coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
+        self.scope.bodies.insert(text.clone(), names);
+        let zero = self.scope.arena.zero();
+        self.bodies.push(Body {
+            name: text,
+            span: name.span(),
+            coordinates: positions,
+            mass: zero,
+            inertia: zero,
+        });
+    }
+
+    fn declare_coordinate(&mut self, name: &Ident, direction: Direction, body: usize) {
+        let at = self.coordinates.len();
+        let text = name.to_string();
+        let position = self.scope.symbol(&text, Stage::Variable, Meaning::Coordinate(at));
+        let velocity = self.scope.symbol(&format!("der({text})"), Stage::Variable, Meaning::Velocity(at));
+        self.scope.symbol(&format!("der(der({text}))"), Stage::Variable, Meaning::Acceleration(at));
+        let (unit, dimension) = match direction {
+            Direction::Angle => ("rad", Dimension::NONE),
+            _ => ("m", Dimension::LENGTH),
+        };
+        let value = Value::Symbol { symbol: position, dimension, span: name.span() };
+        self.scope.declare(name, value, &mut self.errors);
+        let quantity = quantity(name, "", unit, Unit { scale: Number::ONE, dimension });
+        self.coordinates.push(Coordinate {
+            quantity,
+            span: name.span(),
+            position,
+            velocity,
+            body,
+            direction,
+        });
+    }
+
+    fn declare_row(&mut self, name: &Ident, is_drive: bool) {
+        let text = name.to_string();
+        if let Some(earlier) = self.scope.rows.get(&text) {
+            self.errors.push(duplicate(name, earlier.span));
+            return;
+        }
+        let position = self.row_count;
+        self.row_count += 1;
+        let multiplier =
+            self.scope.symbol(&format!("lambda({text})"), Stage::Variable, Meaning::Multiplier(position));
+        let span = name.span();
+        let row = Row { position, is_drive, span, multiplier, dimension: None, is_broken: false };
+        self.scope.rows.insert(text, row);
+    }
+}
+
+pub(super) fn quantity(name: &Ident, doc: &str, unit_text: &str, unit: Unit) -> Quantity {
+    Quantity {
+        name: name.to_string(),
+        doc: doc.to_owned(),
+        unit: unit_text.to_owned(),
+        scale: unit.scale.to_f64(),
+        dimension: unit.dimension,
+    }
+}
+
+/// The unit of a number, also behind a sign; `None` for computed values.
+fn literal_unit(formula: &Formula) -> Option<syntax::UnitText> {
+    match &formula.kind {
+        FormulaKind::Number { unit, .. } => unit.clone(),
+        FormulaKind::Negative(inner) => literal_unit(inner),
+        FormulaKind::WithUnit { unit, .. } => Some(unit.clone()),
+        _ => None,
+    }
+}
+
+/// The direction of a coordinate: written, or that of its place among three,
+/// or that which its name suggests.
+fn direction(coordinate: &syntax::Coordinate, at: usize, count: usize) -> Result<Direction, Diagnostic> {
+    if let Some(word) = &coordinate.direction {
+        return match word.to_string().as_str() {
+            "x" => Ok(Direction::X),
+            "y" => Ok(Direction::Y),
+            "angle" => Ok(Direction::Angle),
+            other => Err(Diagnostic::new(word.span(), format!("`{other}` is no direction"))
+                .help("a coordinate is along `x`, along `y` or an `angle`")),
+        };
+    }
+    let name = coordinate.name.to_string();
+    let suggested = suggested_direction(&name);
+    let by_place = [Direction::X, Direction::Y, Direction::Angle].get(at).copied().filter(|_| count == 3);
+    match (by_place, suggested) {
+        (Some(place), Some(name_says)) if place != name_says => Err(Diagnostic::new(
+            coordinate.name.span(),
+            format!("`{name}` stands where the {} is expected", word(place)),
+        )
+        .help(format!("the order is (x, y, angle); or write `{} = {name}`", word_in_code(name_says)))),
+        (Some(direction), _) | (None, Some(direction)) => Ok(direction),
+        (None, None) => {
+            Err(Diagnostic::new(coordinate.name.span(), format!("the direction of `{name}` is not clear"))
+                .help(format!("write `(x = {name})`, `(y = {name})` or `(angle = {name})`")))
+        }
+    }
+}
+
+fn suggested_direction(name: &str) -> Option<Direction> {
+    const ANGLES: &[&str] = &["theta", "phi", "psi", "alpha", "beta", "angle", "rot"];
+    match name.chars().next() {
+        Some('x') => Some(Direction::X),
+        Some('y') => Some(Direction::Y),
+        _ => ANGLES.iter().any(|prefix| name.starts_with(prefix)).then_some(Direction::Angle),
+    }
+}
+
+fn word(direction: Direction) -> &'static str {
+    match direction {
+        Direction::X => "x coordinate",
+        Direction::Y => "y coordinate",
+        Direction::Angle => "angle",
+    }
+}
+
+fn word_in_code(direction: Direction) -> &'static str {
+    match direction {
+        Direction::X => "x",
+        Direction::Y => "y",
+        Direction::Angle => "angle",
+    }
+}

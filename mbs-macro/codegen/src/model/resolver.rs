@@ -1,0 +1,161 @@
+//! From statements to the model, in an order that lets statements stand in any.
+
+use mbs_symbolic::{Expr, Stage};
+use proc_macro2::Span;
+use quote::quote;
+
+use super::names::{Definition, Scope, State, Value};
+use super::{
+    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Start, Symbols,
+};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::syntax::Declaration;
+
+/// Resolves names and checks dimensions.
+///
+/// # Errors
+/// All of them, as far as they do not follow from each other.
+pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
+    let mut resolver = Resolver::new(declaration);
+    // Names first, so that statements may stand in any order.
+    for item in &declaration.items {
+        resolver.declare(item);
+    }
+    for item in &declaration.items {
+        resolver.resolve_constraint(item);
+    }
+    for item in &declaration.items {
+        resolver.resolve_item(item);
+    }
+    resolver.resolve_rest();
+    resolver.finish(declaration)
+}
+
+/// The model under construction, with what is only needed until it is done.
+pub(super) struct Resolver<'a> {
+    pub scope: Scope<'a>,
+    pub errors: Diagnostics,
+    pub mechanism: Span,
+    pub runtime: proc_macro2::TokenStream,
+    pub dof: Option<(i64, Span)>,
+    pub parameters: Vec<Parameter>,
+    pub inputs: Vec<Quantity>,
+    pub coordinates: Vec<Coordinate>,
+    pub bodies: Vec<Body>,
+    pub body_spans: Vec<(String, Span)>,
+    pub constraints: Vec<Constraint>,
+    pub row_count: usize,
+    pub gravity: Option<([Expr; 2], Span)>,
+    pub loads: Vec<Load>,
+    pub load_names: Vec<(String, Span)>,
+    pub start: Option<Span>,
+    pub starts: Vec<Start>,
+    pub outputs: Vec<Output>,
+    pub output_spans: Vec<(String, Span)>,
+}
+
+impl<'a> Resolver<'a> {
+    fn new(declaration: &Declaration) -> Self {
+        Self {
+            scope: Scope::new(),
+            errors: Diagnostics::default(),
+            mechanism: declaration.name.span(),
+            runtime: quote!(::mbs_runtime),
+            dof: None,
+            parameters: Vec::new(),
+            inputs: Vec::new(),
+            coordinates: Vec::new(),
+            bodies: Vec::new(),
+            body_spans: Vec::new(),
+            constraints: Vec::new(),
+            row_count: 0,
+            gravity: None,
+            loads: Vec::new(),
+            load_names: Vec::new(),
+            start: None,
+            starts: Vec::new(),
+            outputs: Vec::new(),
+            output_spans: Vec::new(),
+        }
+    }
+
+    /// What nothing else has asked for still has to be right.
+    fn resolve_rest(&mut self) {
+        let untouched: Vec<String> = self
+            .scope
+            .values
+            .iter()
+            .filter(|(_, value)| {
+                matches!(value, Value::Definition(Definition { state: State::Untouched, .. }))
+            })
+            .map(|(name, _)| name.clone())
+            .collect();
+        for name in untouched {
+            self.scope.definition(&name, &mut self.errors);
+        }
+    }
+
+    fn finish(mut self, declaration: &Declaration) -> Result<Model, Diagnostics> {
+        if self.coordinates.is_empty() && self.bodies.is_empty() {
+            self.errors.push(
+                Diagnostic::new(self.mechanism, format!("`{}` has no bodies", declaration.name))
+                    .help("declare one: `body bob (x, y) { mass = 1 [kg]; }`"),
+            );
+        }
+        if self.dof.is_none() {
+            let left = self.coordinates.len() as i64 - self.row_count as i64;
+            self.errors.push(
+                Diagnostic::new(
+                    self.mechanism,
+                    format!("`{}` does not say how many degrees of freedom it has", declaration.name),
+                )
+                .help(format!(
+                    "add `dof = …;` as a contract that is checked ({} coordinates − {} constraints = {left})",
+                    self.coordinates.len(),
+                    self.row_count
+                )),
+            );
+        }
+        let zero = self.scope.arena.zero();
+        let symbols = self.generated_symbols();
+        let model = Model {
+            symbols,
+            meanings: self.scope.meanings,
+            arena: self.scope.arena,
+            doc: declaration.doc.clone(),
+            visibility: declaration.visibility.clone(),
+            name: declaration.name.clone(),
+            runtime: self.runtime,
+            dof: self.dof.unwrap_or((0, self.mechanism)),
+            parameters: self.parameters,
+            inputs: self.inputs,
+            coordinates: self.coordinates,
+            bodies: self.bodies,
+            constraints: self.constraints,
+            gravity: self.gravity.map_or([zero; 2], |(gravity, _)| gravity),
+            loads: self.loads,
+            start: self.starts,
+            outputs: self.outputs,
+        };
+        self.errors.finish(model)
+    }
+
+    /// The symbols that the equations need beside the declared ones.
+    fn generated_symbols(&mut self) -> Symbols {
+        let mut rows: Vec<_> =
+            self.scope.rows.iter().map(|(name, row)| (row.position, name.clone())).collect();
+        rows.sort_unstable();
+        let feedback = rows
+            .iter()
+            .map(|(position, name)| {
+                self.scope.symbol(&format!("feedback({name})"), Stage::Variable, Meaning::Feedback(*position))
+            })
+            .collect();
+        Symbols {
+            time: self.scope.time,
+            two_alpha: self.scope.symbol("2*alpha", Stage::Variable, Meaning::TwoAlpha),
+            beta_squared: self.scope.symbol("beta^2", Stage::Variable, Meaning::BetaSquared),
+            feedback,
+        }
+    }
+}

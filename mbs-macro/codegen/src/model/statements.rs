@@ -1,0 +1,293 @@
+//! Statements to model: one function per kind of statement.
+
+use mbs_symbolic::units::{Dimension, Unit};
+use mbs_symbolic::{Expr, Number};
+use proc_macro2::{Ident, Span};
+
+use super::declare::quantity;
+use super::names::{Place, Typed, duplicate};
+use super::resolver::Resolver;
+use super::{Constraint, Direction, Meaning, Output, Requirement, Start};
+use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::syntax::{self, Formula, Item, ItemKind};
+
+impl<'a> Resolver<'a> {
+    pub(super) fn resolve_constraint(&mut self, item: &Item) {
+        let ItemKind::Constraint { name, is_drive, left, equals, right } = &item.kind else { return };
+        let l = self.scope.formula(left, Place::Constraint, &mut self.errors);
+        let r = self.scope.formula(right, Place::Constraint, &mut self.errors);
+        let result = self.equation(name, l, r, *equals);
+        let resolved = result.and_then(|result| self.errors.take(result));
+        if let Some(row) = self.scope.rows.get_mut(&name.to_string()) {
+            row.is_broken = resolved.is_none();
+            row.dimension = resolved.map(|(_, dimension)| dimension);
+        }
+        let Some((phi, dimension)) = resolved else { return };
+        let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
+        self.constraints.push(Constraint { name, doc, span, is_drive: *is_drive, phi, dimension });
+    }
+
+    /// Φ = left − right with its dimension.
+    fn equation(
+        &mut self,
+        name: &Ident,
+        left: Option<Typed>,
+        right: Option<Typed>,
+        equals: Span,
+    ) -> Option<Result<(Expr, Dimension), Diagnostic>> {
+        let (left, right) = (left?, right?);
+        if let (Some(a), Some(b)) = (left.dimension, right.dimension)
+            && a != b
+        {
+            return Some(Err(Diagnostic::new(
+                equals,
+                format!("the left side is a {a}, the right side a {b}"),
+            )
+            .help("both sides of an equation need the same dimension; check units and factors")));
+        }
+        let phi = self.scope.arena.sub(left.expr, right.expr);
+        let depends = self
+            .scope
+            .arena
+            .symbols_in(phi)
+            .into_iter()
+            .any(|symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_)));
+        if !depends {
+            return Some(Err(Diagnostic::new(
+                name.span(),
+                format!("`{name}` does not constrain anything: no coordinate is left in it"),
+            )
+            .help("write an equation between coordinates, as in `x = l*cos(theta)`")));
+        }
+        Some(Ok((phi, left.dimension.or(right.dimension).unwrap_or(Dimension::NONE))))
+    }
+
+    pub(super) fn resolve_item(&mut self, item: &'a Item) {
+        match &item.kind {
+            ItemKind::Dof { keyword, value } => match self.dof {
+                Some((_, earlier)) => self.repeated("dof", *keyword, earlier),
+                None => self.dof = Some((*value, *keyword)),
+            },
+            ItemKind::Crate { path, .. } => self.runtime = path.clone(),
+            ItemKind::Parameter { name, value, condition } => {
+                self.resolve_parameter(name, value, condition.as_ref());
+            }
+            ItemKind::Gravity { keyword, value } => {
+                if let Some((_, earlier)) = self.gravity {
+                    self.repeated("gravity", *keyword, earlier);
+                    return;
+                }
+                let what = ("gravity", Dimension::of(0, 1, -2));
+                let x = self.scope.formula_of(&value.x, Place::Property, what, &mut self.errors);
+                let y = self.scope.formula_of(&value.y, Place::Property, what, &mut self.errors);
+                if let (Some(x), Some(y)) = (x, y) {
+                    self.gravity = Some(([x, y], *keyword));
+                }
+            }
+            ItemKind::Body { name, properties, .. } => self.resolve_body(name, properties),
+            ItemKind::Force { name, is_torque, target, value } => {
+                self.resolve_load(name, *is_torque, target, value)
+            }
+            ItemKind::Start { keyword, entries } => match self.start {
+                Some(earlier) => self.repeated("start", *keyword, earlier),
+                None => {
+                    self.start = Some(*keyword);
+                    for entry in entries {
+                        self.resolve_start(entry);
+                    }
+                }
+            },
+            ItemKind::Output { name, unit, value } => {
+                self.resolve_output(name, unit.as_ref(), value, &item.doc)
+            }
+            _ => {}
+        }
+    }
+
+    fn repeated(&mut self, what: &str, again: Span, earlier: Span) {
+        self.errors.push(
+            Diagnostic::new(again, format!("`{what}` is given twice"))
+                .note(earlier, format!("`{what}` is first given here"))
+                .help("keep one of them"),
+        );
+    }
+
+    fn resolve_parameter(&mut self, name: &Ident, formula: &Formula, condition: Option<&syntax::Condition>) {
+        let text = name.to_string();
+        let Some(at) = self.parameters.iter().position(|parameter| parameter.quantity.name == text) else {
+            return;
+        };
+        if let Some(typed) = self.scope.formula(formula, Place::Constant, &mut self.errors) {
+            let declared = self.parameters[at].quantity.dimension;
+            let found = typed.dimension.unwrap_or(declared);
+            let value = self.scope.arena.as_number(typed.expr).map(Number::to_f64);
+            match value.filter(|value| value.is_finite()) {
+                Some(_) if found != declared => self.errors.push(
+                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is a {found}, which has no unit of its own here"))
+                        .help("write a number with its unit, as in `param l = 60 [mm];`, or use `const` or `let` for computed values"),
+                ),
+                Some(value) => self.parameters[at].value = value,
+                None => self.errors.push(
+                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is not a finite number"))
+                        .help("check its divisors and functions"),
+                ),
+            }
+        }
+        if let Some(condition) = condition {
+            self.parameters[at].requirement = self.requirement(condition);
+        }
+    }
+
+    fn requirement(&mut self, condition: &syntax::Condition) -> Option<Requirement> {
+        let left = self.scope.formula(&condition.left, Place::Property, &mut self.errors);
+        let right = self.scope.formula(&condition.right, Place::Property, &mut self.errors);
+        let (left, right) = (left?, right?);
+        if let (Some(a), Some(b)) = (left.dimension, right.dimension)
+            && a != b
+        {
+            self.errors.push(
+                Diagnostic::new(condition.comparison_span, format!("a {a} cannot be compared with a {b}"))
+                    .help("give the number its unit, or compare with 0"),
+            );
+            return None;
+        }
+        let difference = self.scope.arena.sub(left.expr, right.expr);
+        let text = format!("`{}` has to hold", condition.text);
+        Some(Requirement {
+            difference,
+            comparison: condition.comparison,
+            text,
+            span: condition.comparison_span,
+        })
+    }
+
+    fn resolve_body(&mut self, name: &Ident, properties: &[syntax::Property]) {
+        let Some(at) = self.bodies.iter().position(|body| *name == body.name) else { return };
+        let has = |direction: &dyn Fn(Direction) -> bool| {
+            self.bodies[at].coordinates.iter().any(|&c| direction(self.coordinates[c].direction))
+        };
+        let (moves, turns) = (has(&|d| d != Direction::Angle), has(&|d| d == Direction::Angle));
+        let (mut mass, mut inertia): (Option<Span>, Option<Span>) = (None, None);
+        for property in properties {
+            let (slot, dimension) = match property.name.to_string().as_str() {
+                "mass" => (&mut mass, Dimension::MASS),
+                "inertia" => (&mut inertia, Dimension::of(1, 2, 0)),
+                other => {
+                    let hint = nearest(other, ["mass", "inertia"]);
+                    self.errors.push(
+                        Diagnostic::new(property.name.span(), format!("a body has no `{other}`")).help(
+                            hint.map_or("its properties are `mass` and `inertia`".to_owned(), |near| {
+                                format!("did you mean `{near}`?")
+                            }),
+                        ),
+                    );
+                    continue;
+                }
+            };
+            if let Some(earlier) = slot.replace(property.name.span()) {
+                self.errors.push(duplicate(&property.name, earlier));
+                continue;
+            }
+            let what = format!("the {} of `{name}`", property.name);
+            let value =
+                self.scope.formula_of(&property.value, Place::Property, (&what, dimension), &mut self.errors);
+            if let Some(value) = value {
+                match dimension {
+                    Dimension::MASS => self.bodies[at].mass = value,
+                    _ => self.bodies[at].inertia = value,
+                }
+            }
+        }
+        for (needed, given, what, coordinate) in
+            [(moves, mass, "mass", "a position"), (turns, inertia, "inertia", "an angle")]
+        {
+            if needed && given.is_none() {
+                self.errors.push(
+                    Diagnostic::new(name.span(), format!("body `{name}` has {coordinate} but no `{what}`"))
+                        .help(format!(
+                            "add `{what} = …;` (0 is allowed, if constraints determine the motion)"
+                        )),
+                );
+            }
+        }
+    }
+
+    fn resolve_start(&mut self, entry: &syntax::StartEntry) {
+        let text = entry.coordinate.to_string();
+        let Some(coordinate) = self.coordinates.iter().position(|c| c.quantity.name == text) else {
+            let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
+            let hint = match nearest(&text, names.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the coordinates are {}", listing(&names)),
+            };
+            self.errors.push(
+                Diagnostic::new(entry.coordinate.span(), format!("there is no coordinate `{text}`"))
+                    .help(hint),
+            );
+            return;
+        };
+        let earlier = self.starts.iter().find(|s| s.coordinate == coordinate && s.is_rate == entry.is_rate);
+        if let Some(earlier) = earlier {
+            self.errors.push(duplicate(&entry.coordinate, earlier.span));
+            return;
+        }
+        let dimension = self.coordinates[coordinate].quantity.dimension;
+        let dimension = if entry.is_rate { dimension.over(Dimension::TIME) } else { dimension };
+        let what = if entry.is_rate {
+            format!("the start velocity `der({text})`")
+        } else {
+            format!("the start of `{text}`")
+        };
+        let value =
+            self.scope.formula_of(&entry.value, Place::Property, (&what, dimension), &mut self.errors);
+        if let Some(value) = value {
+            let (is_rate, is_guess, span) = (entry.is_rate, entry.is_guess, entry.coordinate.span());
+            self.starts.push(Start { coordinate, is_rate, is_guess, value, span });
+        }
+    }
+
+    fn resolve_output(
+        &mut self,
+        name: &Ident,
+        unit: Option<&syntax::UnitText>,
+        formula: &Formula,
+        doc: &str,
+    ) {
+        let text = name.to_string();
+        if let Some((_, earlier)) = self.output_spans.iter().find(|(known, _)| *known == text) {
+            self.errors.push(duplicate(name, *earlier));
+            return;
+        }
+        self.output_spans.push((text, name.span()));
+        let Some(typed) = self.scope.formula(formula, Place::Anywhere, &mut self.errors) else { return };
+        let dimension = typed.dimension.unwrap_or(unit.map_or(Dimension::NONE, |unit| unit.unit.dimension));
+        if let Some(unit) = unit
+            && unit.unit.dimension != dimension
+        {
+            self.errors.push(
+                Diagnostic::new(
+                    name.span(),
+                    format!(
+                        "output `{name}` is a {dimension}, but [{}] is a {}",
+                        unit.text, unit.unit.dimension
+                    ),
+                )
+                .help("correct the unit, or leave it out for SI"),
+            );
+            return;
+        }
+        let (text, unit) = match unit {
+            Some(unit) => (unit.text.clone(), unit.unit),
+            None => (si_unit(dimension), Unit { scale: Number::ONE, dimension }),
+        };
+        let quantity = quantity(name, doc, &text, unit);
+        self.outputs.push(Output { quantity, value: typed.expr });
+    }
+}
+
+/// The SI unit in the description of a dimension, `[m/s]`, without brackets.
+fn si_unit(dimension: Dimension) -> String {
+    let text = dimension.to_string();
+    let unit = text.split_once('[').and_then(|(_, rest)| rest.strip_suffix(']'));
+    unit.unwrap_or_default().to_owned()
+}
