@@ -45,10 +45,6 @@ pub struct FeedbackRun {
     pub key: &'static str,
     /// Its name for people.
     pub name: &'static str,
-    /// αh
-    pub alpha_h: f64,
-    /// βh
-    pub beta_h: f64,
     /// The run.
     pub trace: Trace,
 }
@@ -107,7 +103,7 @@ fn feedbacks() -> Result<Vec<FeedbackRun>, Error> {
     let run = |(key, name, alpha_h, beta_h, held): (&'static str, &'static str, f64, f64, bool)| {
         let setup = Setup { end: 2.0 * TURN, ..Setup::gains(alpha_h / STEP, beta_h / STEP) }.consistent();
         let trace = if held { setup.trace::<Held>()? } else { setup.trace::<PerStage>()? };
-        Ok(FeedbackRun { key, name, alpha_h, beta_h, trace })
+        Ok(FeedbackRun { key, name, trace })
     };
     cases.into_iter().map(run).collect()
 }

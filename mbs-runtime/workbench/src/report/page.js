@@ -38,13 +38,14 @@
       label: name(s), stroke: COLOURS[at % COLOURS.length], width: 1.8,
       dash: s.stroke === "dashed" ? [8, 5] : undefined,
       points: { show: s.stroke === "dotted", size: 6 },
+      spanGaps: false,
       value: (u, v) => format(v, 6),
     }));
     const width = () => Math.max(320, element.clientWidth);
     const options = {
       width: width(), height: 320,
       scales: { x: scale(panel.x), y: scale(panel.y) },
-      axes: [axis(panel.x, 46), axis(panel.y, 70)],
+      axes: [axis(panel.x, 46), axis(panel.y, 88)],
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
     };
