@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
-use crate::arena::{Arena, Expr, Node, Stage};
+use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 use crate::operators::Function;
 
@@ -136,6 +136,9 @@ impl<'a> Work<'a> {
                 let entry = self.arena.sum(&terms);
                 let entry = self.settle(entry);
                 self.matrix.set(self.arena, i, j, entry);
+                if let (Unknown::Coordinate(at), true) = (i, i == j && self.arena.is_positive(entry)) {
+                    self.matrix.mark_massive(at);
+                }
             }
         }
         self.watch_pair(row, coordinate, pivot, inverse);
@@ -355,36 +358,4 @@ fn inner_product(
     }
     let sum = arena.sum(&terms);
     arena.share(sum)
-}
-
-impl Arena {
-    /// A bound of |e| that depends on parameters alone, with |sin| and |cos|
-    /// at most 1; `None` where coordinates or velocities enter otherwise.
-    fn bound(&mut self, expr: Expr) -> Option<Expr> {
-        if self.stage(expr) <= Stage::Parameter {
-            return Some(self.call(Function::Abs, expr));
-        }
-        match self.node(expr).clone() {
-            Node::Sum(constant, terms) => {
-                let mut bounds = vec![(self.number(constant.abs()), Number::ONE)];
-                for (term, coefficient) in terms {
-                    bounds.push((self.bound(term)?, coefficient.abs()));
-                }
-                Some(self.sum(&bounds))
-            }
-            Node::Product(factors) => {
-                let mut bounds = Vec::new();
-                for (factor, exponent) in factors {
-                    let is_safe = exponent > 0 || self.stage(factor) <= Stage::Parameter;
-                    bounds.push((self.bound(factor).filter(|_| is_safe)?, exponent));
-                }
-                Some(self.product(&bounds))
-            }
-            Node::Call(Function::Sin | Function::Cos | Function::Tanh | Function::Sign, _) => {
-                Some(self.one())
-            }
-            Node::Shared(x) => self.bound(x),
-            _ => None,
-        }
-    }
 }

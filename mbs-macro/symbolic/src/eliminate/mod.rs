@@ -17,6 +17,7 @@
 mod factorization;
 mod matrix;
 mod order;
+mod signs;
 
 pub use factorization::{Factorization, WatchedPivot};
 pub use matrix::{Kkt, Unknown};

@@ -92,12 +92,14 @@ pub(super) fn choose(
             if let Some(pivot) = largest_pair(arena, matrix, magnitude) {
                 return Ok(Some(pivot));
             }
-            let unknowns: Vec<_> = matrix.unknowns().collect();
-            match best {
-                Some(candidate) => Ok(Some(candidate.pivot)),
-                None if unknowns.is_empty() => Ok(None),
-                None => Err(Undetermined { unknowns }),
+            if let Some(candidate) = best {
+                return Ok(Some(candidate.pivot));
             }
+            if let Some(pivot) = largest_mass(arena, matrix, magnitude) {
+                return Ok(Some(pivot));
+            }
+            let unknowns: Vec<_> = matrix.unknowns().collect();
+            if unknowns.is_empty() { Ok(None) } else { Err(Undetermined { unknowns }) }
         }
     }
 }
@@ -194,4 +196,14 @@ fn largest_pair(arena: &Arena, matrix: &Kkt, magnitude: &dyn Fn(&Arena, Expr) ->
         }
     }
     best.filter(|(size, _)| *size > 0.0).map(|(_, pivot)| pivot)
+}
+
+/// The last resort of a massless coordinate: the reduced mass that stays
+/// largest over the sampled positions.
+fn largest_mass(arena: &Arena, matrix: &Kkt, magnitude: &dyn Fn(&Arena, Expr) -> f64) -> Option<Pivot> {
+    let is_coordinate = |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(_));
+    let sized = |unknown| Some((magnitude(arena, matrix.get(unknown, unknown)?), unknown));
+    let largest =
+        matrix.unknowns().filter(is_coordinate).filter_map(sized).max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.filter(|(size, _)| *size > 0.0).map(|(_, unknown)| Pivot::Diagonal(unknown))
 }

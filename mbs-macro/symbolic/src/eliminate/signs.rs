@@ -1,0 +1,71 @@
+//! What is known of a value whatever the position: a bound, a sign.
+
+use crate::arena::{Arena, Expr, Node, Stage};
+use crate::number::Number;
+use crate::operators::Function;
+
+impl Arena {
+    /// A bound of |e| that depends on parameters alone, with |sin| and |cos|
+    /// at most 1; `None` where coordinates or velocities enter otherwise.
+    pub(super) fn bound(&mut self, expr: Expr) -> Option<Expr> {
+        if self.stage(expr) <= Stage::Parameter {
+            return Some(self.call(Function::Abs, expr));
+        }
+        match self.node(expr).clone() {
+            Node::Sum(constant, terms) => {
+                let mut bounds = vec![(self.number(constant.abs()), Number::ONE)];
+                for (term, coefficient) in terms {
+                    bounds.push((self.bound(term)?, coefficient.abs()));
+                }
+                Some(self.sum(&bounds))
+            }
+            Node::Product(factors) => {
+                let mut bounds = Vec::new();
+                for (factor, exponent) in factors {
+                    let is_safe = exponent > 0 || self.stage(factor) <= Stage::Parameter;
+                    bounds.push((self.bound(factor).filter(|_| is_safe)?, exponent));
+                }
+                Some(self.product(&bounds))
+            }
+            Node::Call(Function::Sin | Function::Cos | Function::Tanh | Function::Sign, _) => {
+                Some(self.one())
+            }
+            Node::Shared(x) => self.bound(x),
+            _ => None,
+        }
+    }
+
+    /// Whether the value is positive in every position, as a sum of squares
+    /// with at least one term that depends on parameters alone.
+    ///
+    /// Parameters count as positive: they are masses and lengths. One that is
+    /// not shows in the growth of the pivot.
+    pub(super) fn is_positive(&self, expr: Expr) -> bool {
+        match self.node(expr) {
+            Node::Number(value) => !value.is_zero() && !value.is_negative(),
+            Node::Shared(x) => self.is_positive(*x),
+            Node::Sum(constant, terms) => {
+                let anchored = |(term, _): &(Expr, Number)| self.stage(*term) <= Stage::Parameter;
+                self.is_not_negative(expr) && (!constant.is_zero() || terms.iter().any(anchored))
+            }
+            _ => self.stage(expr) <= Stage::Parameter && self.is_not_negative(expr),
+        }
+    }
+
+    fn is_not_negative(&self, expr: Expr) -> bool {
+        match self.node(expr) {
+            Node::Number(value) => !value.is_negative(),
+            Node::Symbol(_) => self.stage(expr) <= Stage::Parameter,
+            Node::Sum(constant, terms) => {
+                let fits = |(term, c): &(Expr, Number)| !c.is_negative() && self.is_not_negative(*term);
+                !constant.is_negative() && terms.iter().all(fits)
+            }
+            Node::Product(factors) => {
+                factors.iter().all(|(factor, exponent)| exponent % 2 == 0 || self.is_not_negative(*factor))
+            }
+            Node::Call(function, _) => matches!(function, Function::Sqrt | Function::Abs | Function::Exp),
+            Node::Call2(..) => false,
+            Node::Shared(x) => self.is_not_negative(*x),
+        }
+    }
+}
