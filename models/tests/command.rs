@@ -1,0 +1,144 @@
+//! The `mbs` command as people use it, and what it says when they slip.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn mbs(folder: &Path, arguments: &str) -> Output {
+    let arguments = arguments.split_whitespace();
+    Command::new(env!("CARGO_BIN_EXE_mbs")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// The message of a command that has to fail.
+fn refusal(arguments: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), arguments);
+    assert!(!output.status.success(), "`mbs {arguments}` went through");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.starts_with("error: "), "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+#[track_caller]
+fn refuses(arguments: &str, parts: &[&str]) {
+    let message = refusal(arguments);
+    for part in parts {
+        assert!(message.contains(part), "`mbs {arguments}` says\n{message}without `{part}`");
+    }
+}
+
+#[test]
+fn names_that_do_not_exist() {
+    refuses("simulate slider-cranck", &["no mechanism `slider-cranck`", "mean `slider-crank`?", "pendulum"]);
+    refuses("simulate slider-crank --set omgea=3", &["no parameter `omgea`", "mean `omega`?", "l1, l2, m1"]);
+    refuses("simulate slider-crank --input torque=1", &["no input `torque`", "no input at all"]);
+    refuses("simulate slider-crank-free --input crank_torqe=1", &["mean `crank_torque`?"]);
+    refuses("simulat slider-crank", &["'simulate'"]);
+    refuses("simulate slider-crank --feedback sometimes", &["held, per-stage"]);
+    refuses("simulate slider-crank --set l1", &["name=value"]);
+}
+
+#[test]
+fn units_and_numbers() {
+    refuses("simulate slider-crank --set omega=3mm", &["a length [m] was given", "omega is a rate [1/s]"]);
+    refuses("simulate slider-crank --set l1=7furlong", &["unknown unit `furlong`", "mm"]);
+    refuses("simulate slider-crank --set l1=long", &["not a number"]);
+    refuses("simulate slider-crank --set l1=NaN", &["l1", "has to be finite"]);
+    refuses("simulate slider-crank --step 0.5kg", &["a mass [kg] was given", "step is a time [s]"]);
+    refuses("simulate slider-crank-free --input crank_torque=2N", &["a force [N] was given"]);
+}
+
+#[test]
+fn values_out_of_bounds() {
+    refuses("simulate slider-crank --set m1=-1kg", &["mass of crank", "-1", "negative"]);
+    refuses("simulate slider-crank --set l1=0mm", &["`l1`", "0"]);
+    refuses("simulate slider-crank --step 0", &["the step is 0 s", "positive"]);
+    refuses("simulate slider-crank --step -1ms", &["the step is -0.001 s"]);
+    refuses("simulate slider-crank --end -1s", &["the end time is -1 s"]);
+    refuses("simulate slider-crank --alpha -5", &["the gain alpha is -5"]);
+    refuses("simulate slider-crank --alpha 9000", &["unstable", "held feedback", "deadbeat"]);
+    refuses("simulate slider-crank --alpha 2600 --beta 2000 --feedback per-stage", &["per-stage"]);
+    refuses("simulate slider-crank --step 1e-9 --end 10s", &["rows would be recorded", "--every"]);
+}
+
+#[test]
+fn a_rod_that_is_too_short() {
+    refuses("simulate slider-crank --set l2=50mm --end 0.3s --out part.csv", &["error: "]);
+}
+
+#[test]
+fn files_that_cannot_be_written() {
+    refuses("simulate slider-crank --end 10ms --out no/such/out.csv", &["cannot write no/such/out.csv"]);
+    refuses("simulate slider-crank --end 10ms --plot out.bmp", &["out.bmp", ".svg or .png"]);
+    refuses("paper --json no/such/file.json", &["cannot write no/such/file.json"]);
+    refuses("new 7up", &["`7up`", "begins with a letter"]);
+}
+
+#[test]
+fn a_run_with_everything() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(
+        folder.path(),
+        "simulate slider-crank-free --set omega=300rpm --set l1=70mm --input crank_torque=0.5N*m --step 0.5ms \
+         --end 0.1s --alpha 1000 --beta 1500 --feedback per-stage --start consistent --out a.csv --plot a.svg",
+    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = String::from_utf8(output.stdout).unwrap();
+    for part in ["steps", "200", "max ‖Φ‖", "energy change", "x3 at the end"] {
+        assert!(report.contains(part), "{report}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
+    let mut lines = csv.lines();
+    let heading = lines.next().unwrap();
+    assert!(heading.starts_with("t [s],x1 [m],y1 [m],theta1 [rad]"), "{heading}");
+    for part in ["der(theta1) [rad/s]", "lambda(guide) [N]", "violation [SI]"] {
+        assert!(heading.contains(part), "{heading}");
+    }
+    assert_eq!(lines.count(), 201);
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("angle (rad)"));
+}
+
+#[test]
+fn beyond_stability_only_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = "simulate slider-crank --alpha 2600 --beta 2000 --feedback per-stage --end 5ms";
+    assert!(!mbs(folder.path(), arguments).status.success());
+    assert!(mbs(folder.path(), &format!("{arguments} --allow-unstable")).status.success());
+}
+
+#[test]
+fn an_early_end_keeps_what_was_computed() {
+    // The paper's Figures 4–7: without feedback its start ends in a singular position.
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(
+        folder.path(),
+        "simulate slider-crank --start declared --alpha 0 --beta 0 --end 0.2s --out part.csv",
+    );
+    assert!(!output.status.success());
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("ended early") && message.contains("part.csv"), "{message}");
+    let rows = std::fs::read_to_string(folder.path().join("part.csv")).unwrap().lines().count();
+    assert!((290..310).contains(&rows), "{rows}");
+}
+
+#[test]
+fn the_list_has_names_units_and_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = String::from_utf8(mbs(folder.path(), "list").stdout).unwrap();
+    for part in ["slider-crank-free", "pendulum", "60 mm", "200 rpm", "crank_torque", "drive_torque", "dof"] {
+        assert!(list.contains(part), "{list}");
+    }
+}
+
+#[test]
+fn a_new_crate_is_complete_and_never_overwrites() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(mbs(folder.path(), "new demo").status.success());
+    for file in ["Cargo.toml", "README.md", "src/main.rs", "src/lib.rs", "tests/motion.rs"] {
+        assert!(folder.path().join("demo").join(file).is_file(), "{file}");
+    }
+    let again = mbs(folder.path(), "new demo");
+    assert!(!again.status.success());
+    assert!(String::from_utf8(again.stderr).unwrap().contains("cannot create demo"));
+}
