@@ -1,4 +1,36 @@
-//! Symbolic engine.
+//! The symbolic engine behind `mechanism!`: expressions, derivatives,
+//! elimination of constrained systems, straight-line programs. It knows no
+//! tokens and no joints, and has no dependencies.
+//!
+//! 1. An [`Arena`] holds [`Expr`]essions, each once, in a canonical form that
+//!    its constructors keep: exact constants, like terms collected, sines and
+//!    cosines squared and added.
+//! 2. [`Arena::derivative`] differentiates along a direction: partial
+//!    derivatives and total time derivatives are both of that kind.
+//! 3. [`factor`] eliminates a constrained system ([`Kkt`]) by pivots that are
+//!    safe in every regular position, and [`Factorization::solve`] gives its
+//!    solution as expressions.
+//! 4. [`lower`] turns expressions into a [`Program`], with what depends on
+//!    parameters alone [`Hoisted`] and pairs that occur repeatedly computed
+//!    once. A program can be counted, evaluated and printed.
+//!
+//! # Example
+//!
+//! ```
+//! use mbs_symbolic::{Arena, Function, Stage, lower_whole};
+//!
+//! let mut arena = Arena::new();
+//! let symbol = arena.symbol("theta", Stage::Variable);
+//! let theta = arena.variable(symbol);
+//! let sine = arena.call(Function::Sin, theta);
+//! let square = arena.powi(sine, 2);
+//! let slope = arena.partial(square, symbol);
+//! assert_eq!(arena.display(slope), "2*sin(theta)*cos(theta)");
+//!
+//! let program = lower_whole(&mut arena, &[square, slope]);
+//! assert_eq!(program.operations().to_string(), "3 mul + 0 add + 0 div + 1 sincos");
+//! assert_eq!(program.evaluate(&|_| 0.0, &[]), [0.0, 0.0]);
+//! ```
 #![forbid(unsafe_code)]
 
 mod arena;
