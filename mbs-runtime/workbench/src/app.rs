@@ -7,6 +7,7 @@ use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
 use crate::command::{list, new, simulate};
+use crate::console::complain;
 use crate::{Error, Model, model};
 
 /// What a command of the embedding program does.
@@ -17,9 +18,20 @@ type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + 
 ///
 /// # Example
 /// ```no_run
-/// # use mbs_runtime::mechanism;
+/// mbs_runtime::mechanism! {
+///     /// A weight on a massless rod.
+///     pub Pendulum {
+///         dof = 1;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         constraint rod: x^2 + y^2 = length^2;
+///         start { x = length; guess y = 0; }
+///     }
+/// }
+///
 /// fn main() -> std::process::ExitCode {
-///     mbs_workbench::app().run()
+///     mbs_workbench::app().mechanism::<Pendulum>("pendulum").run()
 /// }
 /// ```
 #[derive(Default)]
@@ -107,7 +119,7 @@ impl App {
         match self.dispatch(&matches) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
-                eprintln!("error: {error}");
+                complain(format_args!("error: {error}"));
                 ExitCode::FAILURE
             }
         }

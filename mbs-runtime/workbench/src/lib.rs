@@ -1,8 +1,44 @@
-//! What a person at a desk uses to work with compiled mechanisms.
+//! What a person at a desk uses to work with mechanisms that `mechanism!`
+//! compiled: a command line, recordings, sweeps, figures and reports.
+//!
+//! - [`app`] gives a program of one line the commands `list`, `simulate` and
+//!   `new` for its own mechanisms.
+//! - [`model::of`] takes any [`Mechanism`](mbs_runtime::Mechanism) in `f64` as
+//!   a [`Model`], whose type no longer matters; [`Model::simulate`] runs it with
+//!   [`Settings`] and gives a [`Recording`].
+//! - [`quantity`] reads values with units; [`Table`] and [`number`] print them.
+//! - [`sweep`] runs a computation over a grid on all cores.
+//! - [`figure`] draws curves and heat maps to SVG and PNG; [`report`] makes one
+//!   offline HTML page of figures, tables and moving pictures.
+//!
+//! # Example
+//! ```
+//! use mbs_workbench::{Settings, model};
+//!
+//! mbs_runtime::mechanism! {
+//!     /// A weight on a massless rod.
+//!     pub Pendulum {
+//!         dof = 1;
+//!         param length = 1 [m];
+//!         gravity = (0, -9.81) [m/s^2];
+//!         body bob (x, y) { mass = 2 [kg]; }
+//!         constraint rod: x^2 + y^2 = length^2;
+//!         start { x = length; guess y = 0; }
+//!     }
+//! }
+//!
+//! let pendulum = model::of::<Pendulum>();
+//! let settings = Settings { end: 0.5, parameters: vec![("length".into(), 0.8)], ..Settings::default() };
+//! let recording = pendulum.simulate(&settings, &mut |_, _| ())?;
+//! assert_eq!(recording.summary.steps, 1000);
+//! assert!(recording.column("y").is_some_and(|y| y.values.last() < Some(&0.0)));
+//! # Ok::<(), mbs_workbench::Error>(())
+//! ```
 #![forbid(unsafe_code)]
 
 mod app;
 mod command;
+mod console;
 mod error;
 pub mod figure;
 pub mod model;
@@ -16,6 +52,7 @@ pub mod sweep;
 mod table;
 
 pub use app::{App, Models, app};
+pub use console::say;
 pub use error::Error;
 pub use model::Model;
 pub use recording::{Column, Recording, Summary, write_csv};

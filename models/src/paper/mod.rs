@@ -13,7 +13,7 @@ mod verdict;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
-use mbs_workbench::{Error, sweep, write_csv};
+use mbs_workbench::{Error, say, sweep, write_csv};
 
 use figures::Picture;
 
@@ -57,10 +57,10 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
     let study = study::study()?;
     let scalars = scalars::scalars(&study);
     let results = verdict::table(&study, &scalars);
-    println!("{results}");
+    say(&results);
     if let Some(path) = json {
         std::fs::write(path, scalars.json()).map_err(Error::file("write", path))?;
-        println!("written: {}", path.display());
+        say(format_args!("written: {}", path.display()));
     }
     if let Some(folder) = &folder {
         let pictures = [
@@ -74,7 +74,7 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
         let report = page::report(&study, page::Parts { results, feedbacks, pictures });
         let index = folder.join("index.html");
         report.save(&index)?;
-        println!("written: {} and the figures beside it", index.display());
+        say(format_args!("written: {} and the figures beside it", index.display()));
     }
     Ok(())
 }

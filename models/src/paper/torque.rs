@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn work_over_a_turn_is_zero() {
         // Gravity and inertia forces are conservative: ∮ τ dθ = 0.
-        let p = SliderCrankParameters::default();
+        let p: SliderCrankParameters = SliderCrankParameters::default();
         let work: f64 = (0..360).map(|k| closed_form(&p, f64::from(k).to_radians())).sum();
         assert!(work.abs() < 1e-10, "{work}");
     }
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn torque_is_the_slope_of_the_energy() {
         // I(θ) by the definition, differenced centrally.
-        let p = SliderCrankParameters::default();
+        let p: SliderCrankParameters = SliderCrankParameters::default();
         let energy = |theta: f64| {
             let h = 1e-5;
             let places = |theta: f64| {

@@ -5,14 +5,14 @@ use mbs_runtime::Quantity;
 
 use crate::app::Models;
 use crate::number::significant;
-use crate::{Error, Table, quantity};
+use crate::{Error, Table, quantity, say};
 
 pub(crate) fn command() -> Command {
     Command::new("list").about("List the mechanisms, their parameters and inputs")
 }
 
 pub(crate) fn run(models: &Models) -> Result<(), Error> {
-    print!("{}", text(models));
+    say(text(models).trim_end());
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
-use crate::Error;
+use crate::{Error, say};
 
 /// The files of a new crate and their templates.
 const FILES: [(&str, &str); 6] = [
@@ -30,8 +30,8 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let path = matches.get_one::<PathBuf>("path").cloned().unwrap_or_default();
     let name = crate_name(&path)?;
     write(&path, &name)?;
-    println!("written: {}", path.display());
-    println!("next:    cd {} && cargo run --release", path.display());
+    say(format_args!("written: {}", path.display()));
+    say(format_args!("next:    cd {} && cargo run --release", path.display()));
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use crate::app::Models;
 use crate::figure::{Axis, Figure, Panel, Series};
 use crate::model::coordinate_unit;
 use crate::number::significant;
-use crate::{Error, FeedbackKind, Model, Recording, Settings, StartKind, Table, quantity};
+use crate::{Error, FeedbackKind, Model, Recording, Settings, StartKind, Table, quantity, say};
 
 const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -149,9 +149,9 @@ fn carry_out(
     if let Some(cause) = recording.ended {
         return Err(Error::EndedEarly { cause, kept });
     }
-    print!("{}", report(name, &recording));
+    say(report(name, &recording).trim_end());
     for path in [csv, plot].into_iter().flatten() {
-        println!("written: {}", path.display());
+        say(format_args!("written: {}", path.display()));
     }
     Ok(())
 }

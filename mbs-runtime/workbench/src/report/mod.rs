@@ -134,13 +134,15 @@ fn html_figure(
     files: &[String],
     plots: &mut Vec<serde_json::Value>,
 ) -> Result<String, Error> {
-    let mut html = format!("<figure>\n<h3>{}</h3>\n", escaped(&figure.title));
+    let mut html = String::from("<figure>\n");
     if figure.panels.iter().any(|panel| matches!(panel.content, Content::Map(_))) {
         let svg = figure.svg()?;
         // Only the element itself: an XML declaration has no place inside a page.
         html += svg.find("<svg").map_or("", |at| &svg[at..]);
         html += "\n";
     } else {
+        // The picture of a map has the title in it.
+        html += &format!("<h3>{}</h3>\n", escaped(&figure.title));
         for panel in &figure.panels {
             plots.push(data::panel(panel));
             html += &format!("<div class=\"plot\" data-plot=\"{}\"></div>\n", plots.len() - 1);

@@ -23,8 +23,18 @@
     return scale;
   }
 
+  // On a logarithmic axis: a line per decade, or at 1, 2 and 5 where there are few decades.
+  function decades(u, splits) {
+    const shown = splits.filter((v) => v != null);
+    const few = shown.length && shown[shown.length - 1] / shown[0] < 150;
+    const keep = few ? ["1", "2", "5"] : ["1"];
+    return splits.map((v) => (v != null && keep.includes(v.toExponential(6)[0]) &&
+      Math.abs(Number(v.toExponential(6).split("e")[0]) % 1) < 1e-5 ? v : null));
+  }
+
   function axis(description, size) {
     return {
+      ...(description.log ? { filter: decades } : {}),
       label: description.label, size, labelSize: 24, stroke: "#1e1e1e",
       font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif",
       grid: { stroke: "#e4e4e4", width: 1 }, ticks: { stroke: "#999", width: 1 },
