@@ -88,6 +88,7 @@ pub(super) fn flatten(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut 
     for &output in outputs {
         let signed = flattening.value(output);
         let value = flattening.flat.settle(signed);
+        flattening.name(value, output);
         flattening.flat.outputs.push(value);
     }
     flattening.flat
@@ -123,12 +124,19 @@ impl Flattening<'_> {
         }
         let signed = self.new_value(expr);
         self.known.insert(expr, signed);
-        if let Some(name) = self.arena.label_of(expr)
-            && !matches!(self.flat.definitions[signed.value], Definition::Leaf(_))
-        {
-            self.flat.names.entry(signed.value).or_insert_with(|| name.to_owned());
+        if !signed.negative {
+            self.name(signed.value, expr);
         }
         signed
+    }
+
+    /// Gives a computed value the name suggested for an expression.
+    fn name(&mut self, value: Value, expr: Expr) {
+        if let Some(name) = self.arena.label_of(expr)
+            && !matches!(self.flat.definitions[value], Definition::Leaf(_))
+        {
+            self.flat.names.entry(value).or_insert_with(|| name.to_owned());
+        }
     }
 
     fn new_value(&mut self, expr: Expr) -> Signed {
