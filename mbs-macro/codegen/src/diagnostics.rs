@@ -109,15 +109,27 @@ impl From<Diagnostic> for Diagnostics {
     }
 }
 
-/// The candidate closest to `name`, if it is close enough to be a misspelling.
+/// The candidate closest to `name`, if it is close enough to be a misspelling:
+/// other letters in one of three places, other cases anywhere, or a longer or
+/// shorter form of the same word.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let tolerance = (name.chars().count() / 3).max(1);
+    let name = name.to_lowercase();
+    // Of two letters, one is no misspelling of the other: `x1` and `y1`.
+    let tolerance = match name.chars().count() {
+        0..=2 => 0,
+        length => length.div_ceil(3),
+    };
+    let extends = |a: &str, b: &str| b.len() >= 3 && a.starts_with(b);
     candidates
         .into_iter()
-        .map(|candidate| (distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= tolerance)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+        .map(|candidate| {
+            let other = candidate.to_lowercase();
+            let is_form = extends(&name, &other) || extends(&other, &name);
+            (distance(&name, &other), is_form, candidate)
+        })
+        .filter(|(distance, is_form, _)| *distance <= tolerance || *is_form)
+        .min_by_key(|(distance, ..)| *distance)
+        .map(|(.., candidate)| candidate)
 }
 
 /// Levenshtein's distance.

@@ -100,7 +100,8 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
         let paren = parenthesized!(content in input);
         let inner = sum(&content, depth + 1)?;
         if content.peek(Token![,]) {
-            return Err(content.error("a vector stands alone; here a scalar is needed"));
+            let message = "a vector stands alone; here a scalar is needed";
+            return Err(Error::new(paren.span.join(), message));
         }
         end(&content)?;
         return Ok(Formula { span: paren.span.join(), kind: inner.kind });
@@ -128,7 +129,8 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
         }
         return Ok(Formula { span, kind: FormulaKind::Call { function: name, arguments } });
     }
-    Err(input.error("a formula is expected here: a number, a name, a function call or `( … )`"))
+    // `input.error` would speak of an unexpected end of input
+    Err(Error::new(input.span(), "a formula is expected here: a number, a name, a function call or `( … )`"))
 }
 
 fn number(literal: &Lit) -> Result<Formula> {
@@ -153,6 +155,8 @@ fn number(literal: &Lit) -> Result<Formula> {
     Ok(Formula { span: literal.span(), kind: FormulaKind::Number { value, unit: None } })
 }
 
+const JOINED: &str = "units are joined by `*`, `/` and `^`";
+
 impl Parse for UnitText {
     /// `[N*m/s^2]`
     fn parse(input: ParseStream<'_>) -> Result<Self> {
@@ -168,12 +172,12 @@ impl Parse for UnitText {
         }
         let mut unit = unit_factor(&content)?;
         while !content.is_empty() {
-            let (op, span) = operator(&content)?;
+            let (op, span) = operator(&content).map_err(|error| Error::new(error.span(), JOINED))?;
             let factor = unit_factor(&content)?;
             unit = match op {
                 '*' => unit.times(factor),
                 '/' => factor.power(-1).map_or(unit, |inverse| unit.times(inverse)),
-                _ => return Err(Error::new(span, "units are joined by `*`, `/` and `^`")),
+                _ => return Err(Error::new(span, JOINED)),
             };
         }
         Ok(Self { text, unit })
@@ -194,9 +198,15 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a unit is expected here"))?;
     let unit = units::lookup(&name.to_string()).ok_or_else(|| {
-        let nearest = crate::diagnostics::nearest(&name.to_string(), units::known());
-        let hint = nearest.map_or(String::new(), |near| format!("\n\nhelp: did you mean `{near}`?"));
-        Error::new(name.span(), format!("{}{hint}", units::UnitError::unknown(&name.to_string())))
+        let text = name.to_string();
+        let mut product = (1..text.len()).filter_map(|at| text.split_at_checked(at));
+        let product = product.find(|(a, b)| units::lookup(a).is_some() && units::lookup(b).is_some());
+        let meant = match product {
+            Some((a, b)) => Some(format!("{a}*{b}")),
+            None => crate::diagnostics::nearest(&text, units::known()).map(str::to_owned),
+        };
+        let hint = meant.map_or(String::new(), |meant| format!("\n\nhelp: did you mean `{meant}`?"));
+        Error::new(name.span(), format!("{}{hint}", units::UnitError::unknown(&text)))
     })?;
     if !input.peek(Token![^]) {
         return Ok(unit);
@@ -206,10 +216,11 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
     if negative {
         operator(input)?;
     }
-    let exponent: syn::LitInt = input.parse()?;
-    let magnitude = exponent.base10_parse::<i32>()?;
-    unit.power(if negative { -magnitude } else { magnitude })
-        .ok_or_else(|| Error::new(exponent.span(), "this exponent is out of all measure"))
+    let whole = "the exponent of a unit is a small whole number";
+    let exponent: syn::LitInt = input.parse().map_err(|error| Error::new(error.span(), whole))?;
+    let magnitude = exponent.base10_parse::<i8>().map_err(|error| Error::new(error.span(), whole))?;
+    let power = unit.power(if negative { -i32::from(magnitude) } else { magnitude.into() });
+    power.ok_or_else(|| Error::new(exponent.span(), whole))
 }
 
 impl Parse for Vector {
@@ -221,7 +232,9 @@ impl Parse for Vector {
         content.parse::<Token![,]>()?;
         let y = content.parse()?;
         content.parse::<Option<Token![,]>>()?;
-        end(&content)?;
+        if !content.is_empty() {
+            return Err(content.error("a vector of the plane has two components, `(x, y)`"));
+        }
         let mut vector = Self { span: paren.span.join(), x, y };
         if input.peek(token::Bracket) {
             let unit: UnitText = input.parse()?;

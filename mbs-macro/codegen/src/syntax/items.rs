@@ -1,5 +1,6 @@
 //! Statements: `param …;`, `body … { … }`, `constraint …;`.
 
+use mbs_symbolic::units;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
@@ -55,6 +56,7 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     let name: Ident = input.parse().map_err(|error| {
         Error::new(error.span(), "the name of the mechanism is expected here, as in `pub SliderCrank { … }`")
     })?;
+    block(input, "SliderCrank { dof = 0; … }")?;
     let content;
     braced!(content in input);
     let mut items = Vec::new();
@@ -87,7 +89,10 @@ fn skip_statement(input: ParseStream<'_>) -> Result<()> {
         let token: TokenTree = input.parse()?;
         match token {
             TokenTree::Punct(punct) if punct.as_char() == ';' => break,
-            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => break,
+            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => {
+                input.parse::<Option<Token![;]>>()?;
+                break;
+            }
             _ => {}
         }
     }
@@ -162,8 +167,27 @@ fn equals(input: ParseStream<'_>) -> Result<Span> {
 fn semicolon(input: ParseStream<'_>) -> Result<()> {
     match input.parse::<Token![;]>() {
         Ok(_) => Ok(()),
-        Err(error) => Err(Error::new(error.span(), "an operator or `;` is expected here")),
+        Err(error) => Err(unexpected(input, error.span())),
     }
+}
+
+/// The error for what follows a complete formula.
+fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
+    let message = "an operator or `;` is expected before this";
+    match input.fork().call(Ident::parse_any) {
+        Ok(word) if units::lookup(&word.to_string()).is_some() => {
+            Error::new(span, format!("{message}\n\nhelp: units stand in brackets: `[{word}]`"))
+        }
+        _ => Error::new(span, message),
+    }
+}
+
+/// What follows has to be `{ … }`.
+fn block(input: ParseStream<'_>, example: &str) -> Result<()> {
+    if input.peek(token::Brace) {
+        return Ok(());
+    }
+    Err(Error::new(input.span(), format!("`{{ … }}` is expected here, as in `{example}`")))
 }
 
 fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
@@ -172,12 +196,18 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
         Error::new(error.span(), "a whole number is expected here: the degrees of freedom that are left")
     })?;
     semicolon(input)?;
-    Ok(ItemKind::Dof { keyword, value: value.base10_parse()? })
+    let small: i32 = value
+        .base10_parse()
+        .map_err(|_| Error::new(value.span(), "no mechanism has that many degrees of freedom"))?;
+    Ok(ItemKind::Dof { keyword, value: small.into() })
 }
 
 fn crate_path(input: ParseStream<'_>) -> Result<ItemKind> {
     equals(input)?;
-    let path = input.call(syn::Path::parse_mod_style)?.into_token_stream();
+    let path = input.call(syn::Path::parse_mod_style).map_err(|error| {
+        Error::new(error.span(), "the path of the runtime is expected here, as in `crate = ::my_runtime;`")
+    })?;
+    let path = path.into_token_stream();
     semicolon(input)?;
     Ok(ItemKind::Crate { path })
 }
@@ -265,6 +295,7 @@ fn body(input: ParseStream<'_>) -> Result<ItemKind> {
     parenthesized!(content in input);
     let coordinates = Punctuated::<Coordinate, Token![,]>::parse_terminated_with(&content, coordinate)?;
     let coordinates = coordinates.into_iter().collect();
+    block(input, &format!("body {name} (x, y) {{ mass = 1 [kg]; }}"))?;
     let content;
     braced!(content in input);
     let mut properties = Vec::new();
@@ -277,17 +308,22 @@ fn body(input: ParseStream<'_>) -> Result<ItemKind> {
 
 fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
     let first = name(input)?;
-    if input.parse::<Option<Token![=]>>()?.is_some() {
-        return Ok(Coordinate { direction: Some(first), name: name(input)? });
+    let coordinate = match input.parse::<Option<Token![=]>>()? {
+        Some(_) => Coordinate { direction: Some(first), name: name(input)? },
+        None => Coordinate { direction: None, name: first },
+    };
+    if !input.is_empty() && !input.peek(Token![,]) {
+        return Err(input.error("`,` is expected between coordinates"));
     }
-    Ok(Coordinate { direction: None, name: first })
+    Ok(coordinate)
 }
 
 fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
     let name = name(input)?;
     input.parse::<Token![:]>().map_err(|error| {
-        let word = if is_drive { "drive" } else { "constraint" };
-        Error::new(error.span(), format!("`:` is expected here, as in `{word} {name}: x = l*cos(theta);`"))
+        let example =
+            if is_drive { "drive motor: theta = omega*t;" } else { "constraint rod: x = l*cos(theta);" };
+        Error::new(error.span(), format!("a name and `:` stand before an equation, as in `{example}`"))
     })?;
     let left = input.parse()?;
     let equals = equals(input)?;
@@ -297,11 +333,14 @@ fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
 }
 
 fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
+    let word = if is_torque { "torque" } else { "force" };
     let what = name(input)?;
-    let on = Ident::parse_any(input).ok().filter(|word| word == "on");
-    if on.is_none() {
-        let word = if is_torque { "torque" } else { "force" };
-        return Err(input.error(format!("`on` is expected before this, as in `{word} {what} on crank = …;`")));
+    let on = input.span();
+    if what == "on" || !Ident::parse_any(input).is_ok_and(|word| word == "on") {
+        let span = if what == "on" { what.span() } else { on };
+        let message =
+            format!("a name and what it acts on are expected here, as in `{word} push on crank = …;`");
+        return Err(Error::new(span, message));
     }
     let target = name(input)?;
     equals(input)?;
@@ -311,6 +350,7 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
 }
 
 fn start(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    block(input, "start { theta = 0; }")?;
     let content;
     braced!(content in input);
     let mut entries = Vec::new();
