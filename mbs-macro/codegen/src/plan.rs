@@ -19,7 +19,9 @@ const LARGEST_NULL_SPACE: usize = 64;
 /// The programs of all generated functions.
 pub struct Plan {
     pub strategy: Strategy,
-    /// Values that depend on parameters alone.
+    /// What depends on parameters alone, as formulas.
+    pub hoisted: Vec<Expr>,
+    /// Computes the hoisted values.
     pub prepare: Program,
     /// left − right of every requirement, then masses and inertias.
     pub requirements: Program,
@@ -103,6 +105,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         velocity_correction: program(&velocities),
         pivots: program(&growths),
         outputs: program(&outputs),
+        hoisted: Vec::new(),
         prepare: Program::default(),
         requirements: Program::default(),
         start: Program::default(),
@@ -112,6 +115,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
     let start = declared_start(model);
     Ok(Plan {
         prepare: lower_whole(&mut model.arena, hoisted.values()),
+        hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements),
         start: lower_whole(&mut model.arena, &start),
         ..plan

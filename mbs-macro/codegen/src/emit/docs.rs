@@ -42,6 +42,13 @@ pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
     text
 }
 
+/// What the hoisted values are.
+pub fn hoisted(model: &Model, plan: &Plan) -> String {
+    let formulas = plan.hoisted.iter().map(|&value| model.arena.display(value));
+    let lines: Vec<_> = formulas.enumerate().map(|(at, formula)| format!("{at}: {formula}")).collect();
+    format!("What depends on parameters alone, computed once:\n\n{}", listing(&lines))
+}
+
 /// A quantity with its unit and declared value.
 pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
     let mut text = quantity.doc.clone();

@@ -22,7 +22,8 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
     let Names { mechanism, parameters, runtime, .. } = names;
     let visibility = &model.visibility;
     let doc = docs::mechanism(model, plan, equations);
-    let hoisted = plan.prepare.outputs.len();
+    let hoisted = plan.hoisted.len();
+    let hoisted_doc = docs::hoisted(model, plan);
     let parameter_fields: Vec<_> = model
         .parameters
         .iter()
@@ -82,7 +83,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
         #visibility struct #mechanism<T = f64> {
             parameters: #parameters_type<T>,
-            /// What depends on parameters alone, computed once.
+            #[doc = #hoisted_doc]
             hoisted: [T; #hoisted],
         }
 
