@@ -288,7 +288,9 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
     /// [`Error::NonFinite`], and those of [`start::consistent`].
     pub fn build(self) -> Result<Simulation<M, F>, Error> {
         let step = self.step;
-        if !(step > 0.0 && step.is_finite()) {
+        // as the scalar holds it: 1e-60 s is 0 in `f32`
+        let h = M::Real::from_f64(step);
+        if !(h > M::Real::default() && h.is_finite()) {
             return Err(Error::Step { step });
         }
         if !self.allow_unstable && !self.baumgarte.is_stable(step) {
@@ -305,7 +307,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             state,
             baumgarte: self.baumgarte,
             gains: self.baumgarte.gains(),
-            step: M::Real::from_f64(step),
+            step: h,
             start_time: state.t,
             steps: 0,
         })
