@@ -1,1 +1,7 @@
-//! Shared pieces of the cross-checks.
+//! Shared pieces of the cross-checks: the slider-crank written out by hand,
+//! numbers that carry derivatives, random states.
+
+pub mod by_hand;
+pub mod jet;
+pub mod operators;
+pub mod random;
