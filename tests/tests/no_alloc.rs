@@ -1,0 +1,113 @@
+//! Not one allocation in 10⁶ steps: driven and free, with both kinds of
+//! feedback, with reactions and outputs, and on the way into an error.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use mbs_runtime::{Baumgarte, Feedback, Held, Kinematics, Mechanism, PerStage, Simulation, start};
+use models::slider_crank::SliderCrank;
+use models::slider_crank_free::SliderCrankFree;
+
+/// Counts on its own thread, so that the test harness does not disturb.
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that is ending has no counter any more.
+    let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+}
+
+#[allow(unsafe_code, reason = "a global allocator is unsafe by nature; it only counts and passes on")]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = COUNT.get();
+    work();
+    COUNT.get() - before
+}
+
+const H: f64 = 0.5e-3;
+const STEPS: u32 = 1_000_000;
+
+fn count_steps<M: Mechanism, F: Feedback>(mechanism: M, baumgarte: Baumgarte<F>) -> u64 {
+    allocations(|| {
+        let mut simulation = Simulation::builder(mechanism, H).baumgarte(baumgarte).build().expect("a start");
+        for _ in 0..STEPS {
+            simulation.step().expect("a step");
+        }
+        assert_eq!(simulation.steps(), u64::from(STEPS));
+    })
+}
+
+#[test]
+fn counter_counts() {
+    assert_eq!(allocations(|| drop(std::hint::black_box(vec![1, 2, 3]))), 1);
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    assert_eq!(count_steps(SliderCrank::declared(), Baumgarte::<Held>::deadbeat(H)), 0);
+    assert_eq!(count_steps(SliderCrank::declared(), Baumgarte::<PerStage>::deadbeat(H)), 0);
+    assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<Held>::deadbeat(H)), 0);
+    assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<PerStage>::deadbeat(H)), 0);
+}
+
+#[test]
+fn reactions_and_outputs_do_not_allocate() {
+    fn count<M: Mechanism>(mechanism: M) -> u64 {
+        allocations(|| {
+            let mut simulation = Simulation::new(mechanism, H).expect("a start");
+            for _ in 0..STEPS / 10 {
+                simulation.step().expect("a step");
+                let values = (
+                    simulation.reactions(),
+                    simulation.raw_reactions(),
+                    simulation.outputs(),
+                    simulation.energy(),
+                );
+                let _ = std::hint::black_box(values);
+            }
+        })
+    }
+    assert_eq!(count(SliderCrank::declared()), 0);
+    assert_eq!(count(SliderCrankFree::declared()), 0);
+}
+
+#[test]
+fn starts_kinematics_and_errors_do_not_allocate() {
+    let allocated = allocations(|| {
+        let mechanism = SliderCrank::declared();
+        let declared = mechanism.declared_start();
+        assert!(start::consistent(&mechanism, &declared).is_ok());
+        let mut kinematics = Kinematics::new(mechanism).expect("driven");
+        for k in 0..1000 {
+            assert!(kinematics.at(f64::from(k) * H).is_ok());
+        }
+        let mut bad = *mechanism.parameters();
+        bad.m1 = -1.0;
+        assert!(SliderCrank::new(bad).is_err());
+        let mut free = Simulation::new(SliderCrankFree::declared(), H).expect("a start");
+        free.inputs_mut().crank_torque = f64::NAN;
+        assert!(free.step().is_err());
+    });
+    assert_eq!(allocated, 0);
+}
