@@ -1,5 +1,6 @@
 //! Errors for the person who wrote the declaration.
 
+use mbs_symbolic::units::Dimension;
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
@@ -146,6 +147,17 @@ fn distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
+}
+
+/// A dimension with its article: `a mass [kg]`, `an area [m^2]`.
+pub fn described(dimension: Dimension) -> String {
+    let text = dimension.to_string();
+    match text.chars().next() {
+        _ if dimension == Dimension::NONE => "a bare number or angle".to_owned(),
+        Some('[') => format!("a quantity in {text}"),
+        Some('a' | 'e' | 'i' | 'o' | 'u') => format!("an {text}"),
+        _ => format!("a {text}"),
+    }
 }
 
 /// `a, b and c`

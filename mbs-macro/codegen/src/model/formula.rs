@@ -5,8 +5,8 @@ use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
-use super::names::{Place, Scope, State, Typed, Value};
-use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use super::names::{Place, RESERVED, Scope, State, Typed, Value};
+use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
 
 impl Scope<'_> {
@@ -71,7 +71,11 @@ impl Scope<'_> {
                 errors.push(
                     Diagnostic::new(
                         formula.span,
-                        format!("{what} has to be a {dimension}, but this is a {found}"),
+                        format!(
+                            "{what} has to be {}, but this is {}",
+                            described(dimension),
+                            described(found)
+                        ),
                     )
                     .help(unit_help(formula, dimension)),
                 );
@@ -178,7 +182,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if mbs_symbolic::Function::named(&text).is_some() {
+        if mbs_symbolic::Function::named(&text).is_some() || RESERVED.contains(&text.as_str()) {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
                 .help(format!("give it its argument: `{text}(…)`"));
         }
@@ -204,8 +208,8 @@ impl Scope<'_> {
         match (l.dimension, r.dimension) {
             (Some(a), Some(b)) if a != b => {
                 let message = match op {
-                    '-' => format!("a {b} cannot be subtracted from a {a}"),
-                    _ => format!("a {a} and a {b} cannot be added"),
+                    '-' => format!("{} cannot be subtracted from {}", described(b), described(a)),
+                    _ => format!("{} and {} cannot be added", described(a), described(b)),
                 };
                 // The number without a unit is the likely culprit.
                 let bare = [left, right]
@@ -264,7 +268,7 @@ impl Scope<'_> {
         let Some(dimension) = dimension else {
             let base = b.dimension.unwrap_or_default();
             errors.push(
-                Diagnostic::new(op_span, format!("a {base} to this power has no dimension"))
+                Diagnostic::new(op_span, format!("{} to this power has no dimension", described(base)))
                     .help("a quantity with a dimension takes constant exponents such as 2, -1 or 1/2"),
             );
             return None;

@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 
 use super::Meaning;
 use super::names::{Place, Scope, Typed};
-use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
 
 impl Scope<'_> {
@@ -161,14 +161,6 @@ impl Scope<'_> {
             return Err(Diagnostic::new(row.span(), format!("`{text}` is a constraint, not a drive"))
                 .help(format!("its multiplier is `lambda({text})`")));
         }
-        if known.is_broken {
-            // fits everywhere: no second error for the same cause
-            return Ok(Typed { expr: self.arena.zero(), dimension: None });
-        }
-        let Some(dimension) = known.dimension else {
-            return Err(Diagnostic::new(row.span(), format!("the multiplier of `{text}` cannot stand here"))
-                .help(place.rule()));
-        };
         if !place.allows(Meaning::Multiplier(known.position)) {
             return Err(Diagnostic::new(
                 name.span(),
@@ -176,6 +168,15 @@ impl Scope<'_> {
             )
             .help(place.rule()));
         }
+        if known.is_broken {
+            // fits everywhere: no second error for the same cause
+            return Ok(Typed { expr: self.arena.zero(), dimension: None });
+        }
+        let Some(dimension) = known.dimension else {
+            // a constraint is being resolved, by way of a `let`
+            return Err(Diagnostic::new(row.span(), format!("the multiplier of `{text}` cannot stand here"))
+                .help(Place::Constraint.rule()));
+        };
         let multiplier = known.multiplier;
         let lambda = self.arena.variable(multiplier);
         let expr = if name == "effort" { self.arena.neg(lambda) } else { lambda };
@@ -201,7 +202,7 @@ fn function_dimension(
             Some(dimension) => dimension.power(Number::ratio(1, 2)).map(Some).ok_or_else(|| {
                 Diagnostic::new(
                     arguments[0].span,
-                    format!("the square root of a {dimension} has no dimension"),
+                    format!("the square root of {} has no dimension", described(dimension)),
                 )
                 .help("check the exponents of the argument")
             }),
@@ -211,8 +212,11 @@ fn function_dimension(
             if let (Some(a), Some(b)) = (first, second)
                 && a != b
             {
-                return Err(Diagnostic::new(name.span(), format!("`{name}` compares a {a} with a {b}"))
-                    .help("both arguments need the same dimension"));
+                return Err(Diagnostic::new(
+                    name.span(),
+                    format!("`{name}` compares {} with {}", described(a), described(b)),
+                )
+                .help("both arguments need the same dimension"));
             }
             let common = first.or(second);
             Ok(if function == Function::Atan2 { Some(Dimension::NONE) } else { common })
@@ -222,7 +226,10 @@ fn function_dimension(
                 if let Some(dimension) = value.dimension.filter(|d| *d != Dimension::NONE) {
                     return Err(Diagnostic::new(
                         argument.span,
-                        format!("`{name}` takes an angle or a bare number, but this is a {dimension}"),
+                        format!(
+                            "`{name}` takes a bare number or angle, but this is {}",
+                            described(dimension)
+                        ),
                     )
                     .help("divide it by a quantity of the same dimension"));
                 }

@@ -1,5 +1,7 @@
 //! From statements to the model, in an order that lets statements stand in any.
 
+use std::collections::BTreeSet;
+
 use mbs_symbolic::{Expr, Stage};
 use proc_macro2::Span;
 use quote::quote;
@@ -39,9 +41,12 @@ pub(super) struct Resolver<'a> {
     pub runtime: proc_macro2::TokenStream,
     pub dof: Option<(i64, Span)>,
     pub parameters: Vec<Parameter>,
+    /// How many of them have their value.
+    pub resolved_parameters: usize,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
+    pub resolved_bodies: BTreeSet<usize>,
     pub body_spans: Vec<(String, Span)>,
     pub constraints: Vec<Constraint>,
     pub row_count: usize,
@@ -63,9 +68,11 @@ impl<'a> Resolver<'a> {
             runtime: quote!(::mbs_runtime),
             dof: None,
             parameters: Vec::new(),
+            resolved_parameters: 0,
             inputs: Vec::new(),
             coordinates: Vec::new(),
             bodies: Vec::new(),
+            resolved_bodies: BTreeSet::new(),
             body_spans: Vec::new(),
             constraints: Vec::new(),
             row_count: 0,

@@ -8,7 +8,7 @@ use super::declare::quantity;
 use super::names::{Place, Typed, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Meaning, Output, Requirement, Start};
-use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::syntax::{self, Formula, Item, ItemKind};
 
 impl<'a> Resolver<'a> {
@@ -41,7 +41,7 @@ impl<'a> Resolver<'a> {
         {
             return Some(Err(Diagnostic::new(
                 equals,
-                format!("the left side is a {a}, the right side a {b}"),
+                format!("the left side is {}, the right side {}", described(a), described(b)),
             )
             .help("both sides of an equation need the same dimension; check units and factors")));
         }
@@ -65,7 +65,7 @@ impl<'a> Resolver<'a> {
     pub(super) fn resolve_item(&mut self, item: &'a Item) {
         match &item.kind {
             ItemKind::Dof { keyword, value } => match self.dof {
-                Some((_, earlier)) => self.repeated("dof", *keyword, earlier),
+                Some((_, earlier)) => self.repeated("`dof`", *keyword, earlier),
                 None => self.dof = Some((*value, *keyword)),
             },
             ItemKind::Crate { path, .. } => self.runtime = path.clone(),
@@ -74,7 +74,7 @@ impl<'a> Resolver<'a> {
             }
             ItemKind::Gravity { keyword, value } => {
                 if let Some((_, earlier)) = self.gravity {
-                    self.repeated("gravity", *keyword, earlier);
+                    self.repeated("`gravity`", *keyword, earlier);
                     return;
                 }
                 let what = ("gravity", Dimension::of(0, 1, -2));
@@ -89,7 +89,7 @@ impl<'a> Resolver<'a> {
                 self.resolve_load(name, *is_torque, target, value)
             }
             ItemKind::Start { keyword, entries } => match self.start {
-                Some(earlier) => self.repeated("start", *keyword, earlier),
+                Some(earlier) => self.repeated("`start`", *keyword, earlier),
                 None => {
                     self.start = Some(*keyword);
                     for entry in entries {
@@ -106,24 +106,27 @@ impl<'a> Resolver<'a> {
 
     fn repeated(&mut self, what: &str, again: Span, earlier: Span) {
         self.errors.push(
-            Diagnostic::new(again, format!("`{what}` is given twice"))
-                .note(earlier, format!("`{what}` is first given here"))
+            Diagnostic::new(again, format!("{what} is given twice"))
+                .note(earlier, format!("{what} is first given here"))
                 .help("keep one of them"),
         );
     }
 
     fn resolve_parameter(&mut self, name: &Ident, formula: &Formula, condition: Option<&syntax::Condition>) {
         let text = name.to_string();
-        let Some(at) = self.parameters.iter().position(|parameter| parameter.quantity.name == text) else {
+        // Statements are resolved in the order in which they were declared.
+        let at = self.resolved_parameters;
+        self.resolved_parameters += 1;
+        if at >= self.parameters.len() {
             return;
-        };
+        }
         if let Some(typed) = self.scope.formula(formula, Place::Constant, &mut self.errors) {
             let declared = self.parameters[at].quantity.dimension;
             let found = typed.dimension.unwrap_or(declared);
             let value = self.scope.arena.as_number(typed.expr).map(Number::to_f64);
             match value.filter(|value| value.is_finite()) {
                 Some(_) if found != declared => self.errors.push(
-                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is a {found}, which has no unit of its own here"))
+                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is {}, but no unit stands behind it", described(found)))
                         .help("write a number with its unit, as in `param l = 60 [mm];`, or use `const` or `let` for computed values"),
                 ),
                 Some(value) => self.parameters[at].value = value,
@@ -146,8 +149,11 @@ impl<'a> Resolver<'a> {
             && a != b
         {
             self.errors.push(
-                Diagnostic::new(condition.comparison_span, format!("a {a} cannot be compared with a {b}"))
-                    .help("give the number its unit, or compare with 0"),
+                Diagnostic::new(
+                    condition.comparison_span,
+                    format!("{} cannot be compared with {}", described(a), described(b)),
+                )
+                .help("give the number its unit, or compare with 0"),
             );
             return None;
         }
@@ -163,6 +169,10 @@ impl<'a> Resolver<'a> {
 
     fn resolve_body(&mut self, name: &Ident, properties: &[syntax::Property]) {
         let Some(at) = self.bodies.iter().position(|body| *name == body.name) else { return };
+        // A second body of the same name has been refused.
+        if !self.resolved_bodies.insert(at) {
+            return;
+        }
         let has = |direction: &dyn Fn(Direction) -> bool| {
             self.bodies[at].coordinates.iter().any(|&c| direction(self.coordinates[c].direction))
         };
@@ -185,7 +195,8 @@ impl<'a> Resolver<'a> {
                 }
             };
             if let Some(earlier) = slot.replace(property.name.span()) {
-                self.errors.push(duplicate(&property.name, earlier));
+                let what = format!("the {} of `{name}`", property.name);
+                self.repeated(&what, property.name.span(), earlier);
                 continue;
             }
             let what = format!("the {} of `{name}`", property.name);
@@ -226,11 +237,6 @@ impl<'a> Resolver<'a> {
             );
             return;
         };
-        let earlier = self.starts.iter().find(|s| s.coordinate == coordinate && s.is_rate == entry.is_rate);
-        if let Some(earlier) = earlier {
-            self.errors.push(duplicate(&entry.coordinate, earlier.span));
-            return;
-        }
         let dimension = self.coordinates[coordinate].quantity.dimension;
         let dimension = if entry.is_rate { dimension.over(Dimension::TIME) } else { dimension };
         let what = if entry.is_rate {
@@ -238,6 +244,12 @@ impl<'a> Resolver<'a> {
         } else {
             format!("the start of `{text}`")
         };
+        let earlier = self.starts.iter().find(|s| s.coordinate == coordinate && s.is_rate == entry.is_rate);
+        if let Some(earlier) = earlier {
+            let earlier = earlier.span;
+            self.repeated(&what, entry.coordinate.span(), earlier);
+            return;
+        }
         let value =
             self.scope.formula_of(&entry.value, Place::Property, (&what, dimension), &mut self.errors);
         if let Some(value) = value {
@@ -268,8 +280,10 @@ impl<'a> Resolver<'a> {
                 Diagnostic::new(
                     name.span(),
                     format!(
-                        "output `{name}` is a {dimension}, but [{}] is a {}",
-                        unit.text, unit.unit.dimension
+                        "output `{name}` is {}, but [{}] is {}",
+                        described(dimension),
+                        unit.text,
+                        described(unit.unit.dimension)
                     ),
                 )
                 .help("correct the unit, or leave it out for SI"),

@@ -1,5 +1,7 @@
 //! The assembly at the declared dimensions.
 
+use mbs_symbolic::units::Dimension;
+
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
@@ -40,12 +42,18 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     Err(Diagnostic::new(
         constraint.span,
         format!(
-            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.3e}",
-            constraint.name
+            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.3e}{}",
+            constraint.name,
+            unit(constraint.dimension)
         ),
     )
     .help("check the lengths (can the links reach each other?), or give closer `guess` values in `start`")
     .into())
+}
+
+/// The SI unit of a violation, where it is that of a length.
+fn unit(dimension: Dimension) -> &'static str {
+    if dimension == Dimension::LENGTH { " m" } else { "" }
 }
 
 struct Assembly<'a> {

@@ -20,14 +20,14 @@ use crate::model::Model;
 /// All violations, in mechanism words.
 pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<(), Diagnostics> {
     let mut errors = Diagnostics::default();
-    check_declared_values(model, equations, &mut errors);
-    rank::check_independence(model, equations, samples, &mut errors);
-    rank::check_contract(model, equations, samples, &mut errors);
+    check_declared_values(model, &mut errors);
+    let independent = rank::check_independence(model, equations, samples, &mut errors);
+    rank::check_contract(model, equations, samples, independent, &mut errors);
     errors.finish(())
 }
 
 /// Declared parameters satisfy their own conditions; no mass is negative.
-fn check_declared_values(model: &Model, equations: &Equations, errors: &mut Diagnostics) {
+fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     let values = model.values(|_| f64::NAN);
     for parameter in &model.parameters {
         let Some(requirement) = &parameter.requirement else { continue };
@@ -42,20 +42,18 @@ fn check_declared_values(model: &Model, equations: &Equations, errors: &mut Diag
             );
         }
     }
-    let masses = model.arena.evaluate(&equations.mass, &values);
-    for (coordinate, mass) in model.coordinates.iter().zip(masses) {
-        let body = &model.bodies[coordinate.body];
-        if mass < 0.0 || !mass.is_finite() {
-            errors.push(
-                Diagnostic::new(
-                    body.span,
-                    format!(
-                        "the mass or inertia of `{}` along `{}` is {mass}",
-                        body.name, coordinate.quantity.name
-                    ),
-                )
-                .help("it has to be finite and not negative"),
-            );
+    for body in &model.bodies {
+        let found = model.arena.evaluate(&[body.mass, body.inertia], &values);
+        for (value, what, unit) in [(found[0], "mass", "kg"), (found[1], "inertia", "kg*m^2")] {
+            if value < 0.0 || !value.is_finite() {
+                errors.push(
+                    Diagnostic::new(
+                        body.span,
+                        format!("the {what} of `{}` is {value} {unit} at the declared parameters", body.name),
+                    )
+                    .help("it has to be finite and not negative"),
+                );
+            }
         }
     }
 }

@@ -8,18 +8,25 @@ use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
 
-/// Every constraint adds something that the ones before it do not say.
-pub fn check_independence(model: &Model, equations: &Equations, samples: &Samples, errors: &mut Diagnostics) {
+/// Every constraint adds something that the ones before it do not say. Gives
+/// how many of them do.
+pub fn check_independence(
+    model: &Model,
+    equations: &Equations,
+    samples: &Samples,
+    errors: &mut Diagnostics,
+) -> usize {
     let echelons: Vec<Echelon> = samples
         .positions()
         .map(|position| row_echelon(samples.jacobian(model, equations, position)))
         .collect();
-    let Some(generic) = echelons.iter().max_by_key(|echelon| echelon.rank()) else { return };
+    let Some(generic) = echelons.iter().max_by_key(|echelon| echelon.rank()) else { return 0 };
     for (row, combination) in &generic.dependent {
         let constraint = &model.constraints[*row];
         let others: Vec<_> =
             combination.iter().map(|&other| model.constraints[other].name.as_str()).collect();
         let what = if constraint.is_drive { "drive" } else { "constraint" };
+        let say = if others.len() == 1 { "says" } else { "say" };
         let mut error = if others.is_empty() {
             Diagnostic::new(
                 constraint.span,
@@ -28,7 +35,7 @@ pub fn check_independence(model: &Model, equations: &Equations, samples: &Sample
         } else {
             Diagnostic::new(
                 constraint.span,
-                format!("{what} `{}` repeats what {} already say", constraint.name, listing(&others)),
+                format!("{what} `{}` repeats what {} already {say}", constraint.name, listing(&others)),
             )
         };
         for &other in combination {
@@ -39,12 +46,20 @@ pub fn check_independence(model: &Model, equations: &Equations, samples: &Sample
             error.help("remove one of them, or correct the equation that was meant to say something else"),
         );
     }
+    generic.rank()
 }
 
-/// The degrees of freedom are what the declaration promises.
-pub fn check_contract(model: &Model, equations: &Equations, samples: &Samples, errors: &mut Diagnostics) {
+/// The degrees of freedom that the independent constraints leave are what the
+/// declaration promises; the others are reported for themselves.
+pub fn check_contract(
+    model: &Model,
+    equations: &Equations,
+    samples: &Samples,
+    independent: usize,
+    errors: &mut Diagnostics,
+) {
     let (declared, span) = model.dof;
-    let (n, m) = (model.coordinates.len() as i64, model.constraints.len() as i64);
+    let (n, m) = (model.coordinates.len() as i64, independent as i64);
     if n - m == declared {
         return;
     }
