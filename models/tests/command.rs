@@ -1,5 +1,7 @@
 //! The `mbs` command as people use it, and what it says when they slip.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
 use std::path::Path;
 use std::process::{Command, Output};
 

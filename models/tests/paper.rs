@@ -5,6 +5,8 @@
 //! were recorded, and has to agree to half a unit of the last of them, or to
 //! six significant digits where more were recorded.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
 use std::path::Path;
 use std::process::Command;
 
@@ -16,7 +18,9 @@ const EXPECTED: &[(&str, &str)] = &[
     ("drift.consistent.max_phi", "4.789e-6"),
     // α = β = 2000 1/s.
     ("fig8.max_phi", "1.532364545e-6"),
+    ("fig8.max_phi_at_s", "0.0010"),
     ("fig10.max_rel_x3", "5.710432891e-6"),
+    ("fig10.max_rel_x3_at_s", "0.0010"),
     ("fig8.consistent.max_phi", "3.446e-8"),
     ("fig10.consistent.max_rel_x3", "1.362e-7"),
     ("fig13.theta2_max", "0.339836912"),
@@ -137,9 +141,11 @@ fn every_value_agrees_with_the_independent_computation() {
         let exact = number(&format!("torque.closed_form.ml2_12.{rpm}rpm"));
         assert!((clean / exact - 1.0).abs() < CLEAN_TOLERANCE, "{rpm} rpm: {clean} against {exact}");
     }
-    // Beyond the stability limit: a typed error, not a NaN.
-    let unstable = results.get("fig11.beta2000.alpha3000").and_then(Value::as_str).unwrap();
-    assert!(unstable.starts_with("error:") && unstable.contains("at t = "), "{unstable}");
+    // Beyond the stability limit, and without any feedback: a typed error, not a NaN.
+    for key in ["fig11.beta2000.alpha3000", "fig4.end_s"] {
+        let error = results.get(key).and_then(Value::as_str).unwrap();
+        assert!(error.starts_with("error:") && error.contains("at t = "), "{key}: {error}");
+    }
     // With --json alone no pictures are made.
     assert!(!folder.path().join("paper").exists());
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mbs_runtime::{Error, PerStage};
 use serde_json::Value;
 
-use super::setup::{Inertia, SPEEDS, Setup};
+use super::setup::{Inertia, SPEEDS, Setup, Trace};
 use super::study::Study;
 use super::torque;
 
@@ -59,11 +59,15 @@ fn stability(study: &Study, s: &mut Scalars) {
     s.set("fig6.x3_zero_crossing_s", crossing.ok_or(Error::EndTime { end: 0.15, now: 0.15 }));
     let at_50_ms = theta2.iter().zip(&drift.t).find(|(_, t)| **t >= 0.05).map(|(theta2, _)| *theta2);
     s.set("fig4.theta2_at_50ms", at_50_ms.ok_or(Error::EndTime { end: 0.05, now: 0.0 }));
+    // How the run ends: the position becomes singular, which is an error and no number.
+    s.set("fig4.end_s", drift.ended.map_or_else(|| drift.largest(&drift.t), Err));
     s.set("drift.consistent.max_phi", study.drift_consistent.largest(&study.drift_consistent.phi));
 
     for (name, run) in [("", &study.stabilized), ("consistent.", &study.stabilized_consistent)] {
         s.set(format!("fig8.{name}max_phi"), run.largest(&run.phi));
         s.set(format!("fig10.{name}max_rel_x3"), run.largest(&run.relative_x3));
+        s.set(format!("fig8.{name}max_phi_at_s"), time_of_largest(run, &run.phi));
+        s.set(format!("fig10.{name}max_rel_x3_at_s"), time_of_largest(run, &run.relative_x3));
     }
     let run = &study.held;
     s.set("held.consistent.max_phi", run.largest(&run.phi));
@@ -77,6 +81,13 @@ fn stability(study: &Study, s: &mut Scalars) {
     s.set("fig13.theta2_min", ranged(theta2, -1.0));
     s.set("fig13.x3_max", ranged(x3, 1.0));
     s.set("fig13.x3_min", ranged(x3, -1.0));
+}
+
+/// When a column is largest.
+fn time_of_largest(run: &Trace, column: &[f64]) -> Result<f64, Error> {
+    let largest = run.largest(column)?;
+    let at = column.iter().zip(&run.t).find(|(value, _)| **value == largest);
+    Ok(at.map_or(f64::NAN, |(_, t)| *t))
 }
 
 /// Figures 11 and 12: max ‖Φ‖ over one turn from the paper's start.

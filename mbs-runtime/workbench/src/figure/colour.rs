@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 /// The colours of curves, in order: Okabe and Ito's palette without yellow
-/// (https://jfly.uni-koeln.de/color/).
+/// (<https://jfly.uni-koeln.de/color/>).
 pub const SERIES_COLOURS: [[u8; 3]; 7] = [
     [0, 114, 178],
     [213, 94, 0],

@@ -19,6 +19,8 @@ const BAR_MARGIN: i32 = 140;
 const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const TEXT: i32 = 16;
+/// Width of a curve.
+const CURVE: f64 = 2.0;
 
 /// Height of a figure in pixels of the description.
 pub(super) fn height(figure: &Figure) -> i32 {
@@ -189,7 +191,13 @@ fn curve<B: DrawingBackend>(
 ) -> Drawn {
     for piece in lines::pieces(&series.points, x, y, area) {
         for stroke in lines::stroked(&piece, series.stroke) {
-            canvas.line(stroke, colour, 2.0)?;
+            let (parts, corners) = lines::cut_at_corners(&stroke);
+            for part in parts {
+                canvas.line(part, colour, CURVE)?;
+            }
+            for corner in corners {
+                canvas.dot(corner, 0.5 * CURVE, colour)?;
+            }
         }
     }
     if series.stroke != Stroke::Dotted {

@@ -4,6 +4,8 @@ use super::Stroke;
 use super::layout::{Area, SCALE, Span};
 
 type Pixel = (f64, f64);
+/// A polyline as it is drawn.
+type Path = Vec<(i32, i32)>;
 
 /// The pieces of a curve that lie inside `area`, in pixels.
 ///
@@ -77,7 +79,7 @@ fn clip(a: Pixel, b: Pixel, area: Area) -> Option<(Pixel, Pixel)> {
 }
 
 /// A piece as it is stroked: itself, or its dashes.
-pub(super) fn stroked(piece: &[Pixel], stroke: Stroke) -> Vec<Vec<(i32, i32)>> {
+pub(super) fn stroked(piece: &[Pixel], stroke: Stroke) -> Vec<Path> {
     let rounded = |p: &Pixel| (p.0.round() as i32, p.1.round() as i32);
     if stroke != Stroke::Dashed {
         return vec![piece.iter().map(rounded).collect()];
@@ -117,6 +119,29 @@ pub(super) fn stroked(piece: &[Pixel], stroke: Stroke) -> Vec<Vec<(i32, i32)>> {
     dashes
 }
 
+/// A stroke cut at its sharp corners, where the drawing library's mitred
+/// joints would stick out far; the corners are given too.
+pub(super) fn cut_at_corners(stroke: &[(i32, i32)]) -> (Vec<Path>, Path) {
+    let is_sharp = |at: usize| {
+        let (a, b, c) = (stroke[at - 1], stroke[at], stroke[at + 1]);
+        let (u, v) =
+            ((f64::from(b.0 - a.0), f64::from(b.1 - a.1)), (f64::from(c.0 - b.0), f64::from(c.1 - b.1)));
+        // The cosine of the change of direction; a repeated point is no corner.
+        let cosine = (u.0 * v.0 + u.1 * v.1) / (u.0.hypot(u.1) * v.0.hypot(v.1));
+        cosine < 0.6
+    };
+    let corners: Vec<_> = (1..stroke.len().saturating_sub(1)).filter(|at| is_sharp(*at)).collect();
+    let ends = corners.iter().copied().chain([stroke.len().saturating_sub(1)]);
+    let mut start = 0;
+    let parts = ends.map(|end| {
+        let part = stroke[start..=end.max(start)].to_vec();
+        start = end;
+        part
+    });
+    let parts = if stroke.is_empty() { Vec::new() } else { parts.collect() };
+    (parts, corners.into_iter().map(|at| stroke[at]).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,6 +154,15 @@ mod tests {
         assert_eq!(clip((50.0, 50.0), (50.0, 250.0), AREA), Some(((50.0, 50.0), (50.0, 100.0))));
         assert_eq!(clip((-10.0, 120.0), (120.0, 130.0), AREA), None);
         assert_eq!(clip((-50.0, 50.0), (150.0, 50.0), AREA), Some(((0.0, 50.0), (100.0, 50.0))));
+    }
+
+    #[test]
+    fn a_spike_is_cut_at_its_tip() {
+        let (parts, corners) = cut_at_corners(&[(0, 0), (10, 0), (10, 500), (12, 0), (30, 1)]);
+        assert_eq!(parts.len(), 4);
+        assert_eq!(corners, [(10, 0), (10, 500), (12, 0)]);
+        assert_eq!(cut_at_corners(&[(0, 0), (10, 1), (20, 3)]).0.len(), 1);
+        assert!(cut_at_corners(&[]).0.is_empty());
     }
 
     #[test]

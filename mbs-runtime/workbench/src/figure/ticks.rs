@@ -24,7 +24,7 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Ticks {
     }
     let rough = span / count.max(1) as f64;
     let power = 10_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].iter().map(|f| f * power).find(|s| *s >= 0.99 * rough).unwrap_or(rough);
+    let step = [1.0, 2.0, 5.0, 10.0].iter().map(|f| f * power).find(|s| *s >= 0.75 * rough).unwrap_or(rough);
     let largest = low.abs().max(high.abs());
     let magnitude = largest.log10().floor() as i32;
     let exponent = if (-3..5).contains(&magnitude) { 0 } else { 3 * magnitude.div_euclid(3) };
