@@ -15,16 +15,16 @@ pub fn check_finite<P: Components>(parameters: &P) -> Result<(), Error> {
     Ok(())
 }
 
-/// Position of the largest value; one that is not finite is largest.
-pub fn worst<T: Real>(values: &[T]) -> Option<usize> {
+/// Position and size of the largest value; one that is not finite is largest.
+pub fn worst<T: Real>(values: &[T]) -> Option<(usize, T)> {
     let mut worst: Option<(usize, T)> = None;
     for (at, &value) in values.iter().enumerate() {
         if !value.is_finite() {
-            return Some(at);
+            return Some((at, value));
         }
         if worst.is_none_or(|(_, largest)| value > largest) {
             worst = Some((at, value));
         }
     }
-    worst.map(|(at, _)| at)
+    worst
 }

@@ -66,7 +66,7 @@ pub enum Error {
         /// The pivot growth.
         growth: f64,
     },
-    /// A coordinate or velocity became infinite or NaN.
+    /// A coordinate, its velocity or its acceleration became infinite or NaN.
     NonFinite {
         /// When, in s.
         t: f64,
@@ -125,7 +125,11 @@ impl fmt::Display for Error {
                 write!(f, " (pivot growth {growth:.1e})")
             }
             Self::NonFinite { t, coordinate } => {
-                write!(f, "`{coordinate}` is no longer finite at t = {t} s")
+                write!(
+                    f,
+                    "the motion of `{coordinate}` is no longer finite at t = {t} s; if the mechanism can reach \
+                 that position at all, take a smaller step or smaller gains"
+                )
             }
             Self::NotAssembled { t, constraint, violation } => write!(
                 f,

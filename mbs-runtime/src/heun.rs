@@ -49,29 +49,35 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
     };
     // One test per step; written so that a NaN fails it.
     let healthy = here.growth + there_growth < growth_limit() && next.q.is_finite() && next.v.is_finite();
-    if healthy { Ok(next) } else { Err(diagnose(mechanism, at, &predicted, here.growth)) }
+    if healthy { Ok(next) } else { Err(diagnose(mechanism, [at, &predicted], [here.acceleration, there])) }
 }
 
-/// Names what went wrong in a step that failed its test.
+/// Names what went wrong in a step that failed its test: a pivot in one of its
+/// two stages, else what first ceased to be finite.
 #[cold]
 fn diagnose<M: Mechanism>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
-    predicted: &State<M::Coordinates>,
-    growth_at: M::Real,
+    stages: [&State<M::Coordinates>; 2],
+    accelerations: [M::Coordinates; 2],
 ) -> Error {
-    if let Err(singular) = check_solution(mechanism, at.t, &at.q, (&at.q, growth_at)) {
-        return singular;
+    for (stage, acceleration) in stages.into_iter().zip(accelerations) {
+        if let Err(error) = check_finite(stage) {
+            return error;
+        }
+        if let Some(singular) = singular(mechanism, stage.t, &stage.q) {
+            return singular;
+        }
+        if let Some(error) = non_finite(stage.t, acceleration) {
+            return error;
+        }
     }
-    let there = if predicted.q.is_finite() { predicted } else { at };
-    if let Some(singular) = singular(mechanism, there.t, &there.q, None) {
-        return singular;
-    }
-    non_finite(predicted)
+    // Both stages are healthy, so the sum that leaves them is not.
+    let [_, last] = stages;
+    Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
 }
 
 /// `Ok` if `solution` is finite and the growth leaves digits in every pivot,
-/// else the error that names the pivot.
+/// else the error that names the pivot or the coordinate.
 pub(crate) fn check_solution<M: Mechanism>(
     mechanism: &M,
     t: M::Real,
@@ -81,10 +87,9 @@ pub(crate) fn check_solution<M: Mechanism>(
     if solution.is_finite() && growth < growth_limit() {
         return Ok(());
     }
-    if !q.is_finite() {
-        return Err(non_finite(&State { t, q: *q, v: *q }));
-    }
-    Err(singular(mechanism, t, q, Some(growth)).unwrap_or(Error::Singular {
+    let cause = non_finite(t, *q).or_else(|| singular(mechanism, t, q)).or_else(|| non_finite(t, *solution));
+    // Several pivots, each still good, can add up to the limit.
+    Err(cause.unwrap_or(Error::Singular {
         t: t.to_f64(),
         constraint: "",
         coordinate: "",
@@ -92,46 +97,29 @@ pub(crate) fn check_solution<M: Mechanism>(
     }))
 }
 
-/// The singular-position error at (t, q): unconditionally if its growth is
-/// given, else only if the worst pivot is over the limit there.
-fn singular<M: Mechanism>(
-    mechanism: &M,
-    t: M::Real,
-    q: &M::Coordinates,
-    known_growth: Option<M::Real>,
-) -> Option<Error> {
-    let growth = match known_growth {
-        Some(growth) => growth,
-        None => {
-            let none = M::Constraints::splat(M::Real::default());
-            let growth = mechanism.position_correction(t, q, &none).growth;
-            if growth < growth_limit() {
-                return None;
-            }
-            growth
-        }
-    };
-    let pivot = mechanism.worst_pivot(t, q).and_then(|at| M::INFO.pivots.get(at));
-    Some(Error::Singular {
-        t: t.to_f64(),
-        constraint: pivot.map_or("", |p| p.constraint),
-        coordinate: pivot.map_or("", |p| p.coordinate),
-        growth: growth.to_f64(),
-    })
+/// The singular-position error at (t, q), if the worst pivot is over the limit.
+fn singular<M: Mechanism>(mechanism: &M, t: M::Real, q: &M::Coordinates) -> Option<Error> {
+    let (at, growth) = mechanism.worst_pivot(t, q)?;
+    if growth < growth_limit() {
+        return None;
+    }
+    let pivot = M::INFO.pivots.get(at)?;
+    let (constraint, coordinate) = (pivot.constraint, pivot.coordinate);
+    Some(Error::Singular { t: t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
 }
 
 /// `Ok` if positions and velocities are finite.
 pub(crate) fn check_finite<C: Components>(state: &State<C>) -> Result<(), Error> {
-    if state.q.is_finite() && state.v.is_finite() { Ok(()) } else { Err(non_finite(state)) }
+    match non_finite(state.t, state.q).or_else(|| non_finite(state.t, state.v)) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
 }
 
 /// The error that names the first component that is not finite.
-fn non_finite<C: Components>(state: &State<C>) -> Error {
-    let first = |components: C| {
-        let array = components.into_array();
-        let at = array.as_ref().iter().position(|x| !x.is_finite())?;
-        C::NAMES.get(at).copied()
-    };
-    let coordinate = first(state.q).or_else(|| first(state.v)).unwrap_or("acceleration");
-    Error::NonFinite { t: state.t.to_f64(), coordinate }
+fn non_finite<C: Components>(t: C::Real, components: C) -> Option<Error> {
+    let array = components.into_array();
+    let at = array.as_ref().iter().position(|x| !x.is_finite())?;
+    let coordinate = C::NAMES.get(at).copied()?;
+    Some(Error::NonFinite { t: t.to_f64(), coordinate })
 }

@@ -147,9 +147,10 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         residual: &Self::Constraints,
     ) -> Accelerations<Self::Coordinates>;
 
-    /// Index into [`Info::pivots`] of the pivot with the largest growth, if
-    /// the elimination has any that can vanish. For diagnosis: slow.
-    fn worst_pivot(&self, t: Self::Real, q: &Self::Coordinates) -> Option<usize>;
+    /// Index into [`Info::pivots`] of the pivot with the largest growth, and
+    /// that growth, if the elimination has any pivot that can vanish. For
+    /// diagnosis: slow.
+    fn worst_pivot(&self, t: Self::Real, q: &Self::Coordinates) -> Option<(usize, Self::Real)>;
 
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;

@@ -147,9 +147,14 @@ fn columns(info: &Info) -> Vec<Column> {
         };
         Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
     }));
-    columns.extend(info.outputs.iter().map(|o| Column::new(o.name, quantity::si_unit(o.dimension))));
+    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, output_unit(output))));
     columns.push(Column::new("violation", "SI"));
     columns
+}
+
+/// An output is shown in the unit that it was declared in.
+fn output_unit(output: &Quantity) -> String {
+    if output.unit.is_empty() { quantity::si_unit(output.dimension) } else { output.unit.to_owned() }
 }
 
 /// A coordinate is a length or an angle.
@@ -175,7 +180,7 @@ fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
         .chain(q.as_ref().iter().copied())
         .chain(v.as_ref().iter().copied())
         .chain(multipliers.as_ref().iter().copied())
-        .chain(outputs.as_ref().iter().copied())
+        .chain(outputs.as_ref().iter().zip(M::INFO.outputs).map(|(value, output)| value / output.scale))
         .chain([simulation.violation()]);
     for (column, value) in columns.iter_mut().zip(row) {
         column.values.push(value);

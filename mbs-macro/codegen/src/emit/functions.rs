@@ -290,7 +290,7 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
                 Self::phi_dot(self, at)
             }
             #kernels
-            fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<usize> { #worst_pivot }
+            fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(usize, T)> { #worst_pivot }
             #[inline]
             fn kinetic_energy(&self, at: &#state) -> T {
                 Self::kinetic_energy(self, at)
