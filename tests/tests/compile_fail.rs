@@ -1,0 +1,16 @@
+//! Every mistake in a declaration is answered at its own token, in the words
+//! of the declaration, with a way to mend it; the answers are in `ui/`, one
+//! folder for each kind of mistake.
+//!
+//! The `.stderr` files are never edited: after a change of wording,
+//! `TRYBUILD=overwrite cargo test -p tests --test compile_fail` writes them
+//! anew, and the difference is what to review. How rustc frames a message
+//! depends on its version; they are written with rustc 1.95.
+
+#[test]
+fn mistakes_are_answered() {
+    let cases = trybuild::TestCases::new();
+    for kind in ["syntax", "names", "dimensions", "structure", "values", "forces", "start", "outputs"] {
+        cases.compile_fail(format!("tests/ui/{kind}/*.rs"));
+    }
+}

@@ -1,0 +1,60 @@
+//! What `mechanism!` expands to, formatted, for the mechanisms of `models`.
+//!
+//! A change of what is generated shows here as a difference to review;
+//! `BLESS=1 cargo test -p tests --test expansion` accepts it.
+
+mod declarations;
+
+use std::path::Path;
+
+#[test]
+fn expansions_are_the_expected_ones() {
+    let bless = std::env::var_os("BLESS").is_some();
+    let mut differences = String::new();
+    for (name, declaration) in declarations::of_models() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/expected/{name}.rs"));
+        let found = formatted(mbs_codegen::expand(declaration));
+        if bless {
+            std::fs::write(&path, &found).unwrap();
+        }
+        let expected = std::fs::read_to_string(&path).unwrap_or_default();
+        if found != expected {
+            differences.push_str(&format!("\n{}\n{}", path.display(), difference(&expected, &found)));
+        }
+    }
+    assert!(differences.is_empty(), "BLESS=1 accepts these expansions:\n{differences}");
+}
+
+#[test]
+fn expansion_is_deterministic() {
+    for (name, declaration) in declarations::of_models() {
+        let first = mbs_codegen::expand(declaration.clone()).to_string();
+        let second = mbs_codegen::expand(declaration).to_string();
+        assert!(first == second, "{name} expands differently the second time");
+    }
+}
+
+fn formatted(tokens: proc_macro2::TokenStream) -> String {
+    let file = syn::parse2(tokens).expect("an expansion is Rust");
+    prettyplease::unparse(&file)
+}
+
+/// The lines between the first and the last that differ.
+fn difference(expected: &str, found: &str) -> String {
+    let (expected, found): (Vec<_>, Vec<_>) = (expected.lines().collect(), found.lines().collect());
+    let same = |(a, b): &(&&str, &&str)| a == b;
+    let first = expected.iter().zip(&found).take_while(same).count();
+    let shorter = expected.len().min(found.len());
+    let last = expected.iter().rev().zip(found.iter().rev()).take_while(same).count().min(shorter - first);
+    let mut text = format!("from line {}:\n", first + 1);
+    for (sign, lines) in [('-', &expected), ('+', &found)] {
+        let changed = &lines[first..lines.len() - last];
+        for line in changed.iter().take(40) {
+            text.push_str(&format!("{sign} {line}\n"));
+        }
+        if changed.len() > 40 {
+            text.push_str(&format!("{sign} … and {} more lines\n", changed.len() - 40));
+        }
+    }
+    text
+}

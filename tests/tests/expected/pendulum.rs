@@ -1,0 +1,1117 @@
+/**A point mass on a massless rod.
+
+# Equations
+
+2 coordinates, 1 constraints, 1 degrees of freedom. Φ(q, t) = 0 is
+```text
+rod: 1/2*(x^2 + y^2)/length - 1/2*length = 0
+```
+
+# Cost
+
+Elimination order: constraints first, then what motion they leave free (null space). Operations per call:
+
+| function | mul | add | div | sincos | other | pivot watch |
+|---|---|---|---|---|---|---|
+| `new` | 6 | 2 | 2 | 0 | 1 | 0 |
+| `phi` | 3 | 3 | 0 | 0 | 0 | 0 |
+| `phi_dot` | 5 | 1 | 0 | 0 | 0 | 0 |
+| `phi_q` | 2 | 0 | 0 | 0 | 0 | 0 |
+| `phi_t` | 0 | 0 | 0 | 0 | 0 | 0 |
+| `gamma` | 5 | 2 | 0 | 0 | 0 | 0 |
+| `baumgarte_rhs` | 13 | 7 | 0 | 0 | 0 | 0 |
+| `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
+| `forces` | 0 | 1 | 0 | 0 | 0 | 0 |
+| `kinetic_energy` | 4 | 1 | 0 | 0 | 0 | 0 |
+| `potential_energy` | 1 | 0 | 0 | 0 | 0 | 0 |
+| `stabilized` | 22 | 12 | 1 | 0 | 0 | 0 |
+| `constrained` | 14 | 5 | 1 | 0 | 0 | 0 |
+| `reactions` | 14 | 6 | 1 | 0 | 0 | 0 |
+| `position_correction` | 1 | 0 | 1 | 0 | 0 | 0 |
+| `velocity_correction` | 8 | 1 | 1 | 0 | 0 | 0 |
+| `outputs` | 4 | 2 | 0 | 0 | 2 | 0 |
+*/
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct Pendulum<T = f64> {
+    parameters: PendulumParameters<T>,
+    /**What depends on parameters alone, computed once:
+
+```text
+0: 1/2*length
+1: 1/2*1/length
+2: 1/length
+3: 981/100*mass
+4: 1/2*mass
+5: 1/mass
+6: -981/100*mass
+7: (1/mass)*(-981/100*mass)
+8: abs(mass*(1/mass))
+```
+*/
+    hoisted: [T; 9usize],
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for Pendulum<T> {
+    /// The mechanism with its declared parameters.
+    fn default() -> Self {
+        Self::prepare(<PendulumParameters<T> as ::core::default::Default>::default())
+    }
+}
+///Parameters of [`Pendulum`], in SI units; the default is the declaration.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct PendulumParameters<T = f64> {
+    /**Length of the rod.
+
+`length`: a length [m], declared as 1 m = 1 in SI units.*/
+    pub length: T,
+    /**Mass of the bob.
+
+`mass`: a mass [kg], declared as 1 kg = 1 in SI units.*/
+    pub mass: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumParameters<T> {
+    fn default() -> Self {
+        Self {
+            length: T::from_f64(1.0),
+            mass: T::from_f64(1.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumParameters<T> {
+    type Real = T;
+    type Array = [T; 2];
+    const NAMES: &'static [&'static str] = &["length", "mass"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 2] {
+        [self.length, self.mass]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 2]) -> Self {
+        let [length, mass] = array;
+        Self { length, mass }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self { length: value, mass: value }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<PendulumParameters<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
+    fn from(components: PendulumParameters<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            2,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Coordinates of [`Pendulum`], or their rates, in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct PendulumCoordinates<T = f64> {
+    ///`x`: a length [m].
+    pub x: T,
+    ///`y`: a length [m].
+    pub y: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumCoordinates<T> {
+    fn default() -> Self {
+        Self {
+            x: T::from_f64(0.0),
+            y: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumCoordinates<T> {
+    type Real = T;
+    type Array = [T; 2];
+    const NAMES: &'static [&'static str] = &["x", "y"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 2] {
+        [self.x, self.y]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 2]) -> Self {
+        let [x, y] = array;
+        Self { x, y }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self { x: value, y: value }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<PendulumCoordinates<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
+    fn from(components: PendulumCoordinates<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            2,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///One component per constraint of [`Pendulum`]: Φ, its derivatives, or the multipliers λ.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct PendulumConstraints<T = f64> {
+    /**The rod keeps its length.
+
+`1/2*(x^2 + y^2)/length - 1/2*length = 0`*/
+    pub rod: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumConstraints<T> {
+    fn default() -> Self {
+        Self { rod: T::from_f64(0.0) }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumConstraints<T> {
+    type Real = T;
+    type Array = [T; 1];
+    const NAMES: &'static [&'static str] = &["rod"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 1] {
+        [self.rod]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 1]) -> Self {
+        let [rod] = array;
+        Self { rod }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self { rod: value }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<PendulumConstraints<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
+    fn from(components: PendulumConstraints<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            1,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Outputs of [`Pendulum`], in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct PendulumOutputs<T = f64> {
+    /**Force in the rod, positive when it pulls.
+
+`tension`: a force [N].*/
+    pub tension: T,
+    /**Angle from the lowest position.
+
+`angle`: a dimensionless.*/
+    pub angle: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumOutputs<T> {
+    fn default() -> Self {
+        Self {
+            tension: T::from_f64(0.0),
+            angle: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumOutputs<T> {
+    type Real = T;
+    type Array = [T; 2];
+    const NAMES: &'static [&'static str] = &["tension", "angle"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 2] {
+        [self.tension, self.angle]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 2]) -> Self {
+        let [tension, angle] = array;
+        Self { tension, angle }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            tension: value,
+            angle: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<PendulumOutputs<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
+    fn from(components: PendulumOutputs<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            2,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+impl Pendulum<f64> {
+    /// The mechanism with its declared parameters, in `f64`.
+    ///
+    /// For another scalar type, use `default`.
+    pub fn declared() -> Self {
+        ::core::default::Default::default()
+    }
+}
+impl<T: ::mbs_runtime::Real> Pendulum<T> {
+    /// The mechanism with these parameters.
+    ///
+    /// # Errors
+    /// If a parameter is not finite, a mass or an inertia comes out
+    /// negative, or a declared condition does not hold.
+    pub fn new(
+        parameters: PendulumParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        ::mbs_runtime::__private::check_finite(&parameters)?;
+        #[allow(unused_variables)] #[allow(clippy::all)]
+        {
+            if !(parameters.length > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "length",
+                    value: parameters.length.to_f64(),
+                    requirement: "`length > 0` has to hold",
+                });
+            }
+            if !(parameters.mass > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass",
+                    value: parameters.mass.to_f64(),
+                    requirement: "`mass > 0` has to hold",
+                });
+            }
+            if !(parameters.mass >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of bob",
+                    value: (parameters.mass).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+        }
+        ::core::result::Result::Ok(Self::prepare(parameters))
+    }
+    /// Computes what depends on parameters alone.
+    #[allow(unused_variables, clippy::all)]
+    fn prepare(parameters: PendulumParameters<T>) -> Self {
+        let v0 = parameters.length * T::from_f64(0.5);
+        let v1 = T::from_f64(1.0) / parameters.length;
+        let v2 = T::from_f64(0.5) * v1;
+        let v3 = parameters.mass * T::from_f64(9.81);
+        let v4 = parameters.mass * T::from_f64(0.5);
+        let v5 = T::from_f64(1.0) / parameters.mass;
+        let v6 = -v3;
+        let v7 = v5 * v3;
+        let v8 = -v7;
+        let v9 = parameters.mass * v5;
+        let abs_v9 = v9.abs();
+        Self {
+            parameters,
+            hoisted: [v0, v2, v1, v3, v4, v5, v6, v8, abs_v9],
+        }
+    }
+    /// The parameters.
+    pub fn parameters(&self) -> &PendulumParameters<T> {
+        &self.parameters
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> Pendulum<T> {
+    /**Constraints Φ(q, t): 0 where the mechanism is assembled.
+
+```text
+rod: 1/2*(x^2 + y^2)/length - 1/2*length
+```
+
+
+Cost: 3 mul + 3 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
+        let v0 = q.x * q.x;
+        let v1 = q.y * q.y;
+        let v2 = v0 + v1;
+        let v3 = v2 * self.hoisted[1];
+        let v4 = self.hoisted[0] - v3;
+        let phi_rod = -v4;
+        PendulumConstraints {
+            rod: phi_rod,
+        }
+    }
+    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
+
+```text
+∂rod/∂x = x/length
+∂rod/∂y = y/length
+```
+
+
+Cost: 2 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi_q(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 1usize, 2usize> {
+        let phi_q_rod_x = q.x * self.hoisted[2];
+        let phi_q_rod_y = q.y * self.hoisted[2];
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [phi_q_rod_x],
+                [phi_q_rod_y],
+            ]),
+        )
+    }
+    /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
+
+```text
+rod: 0
+```
+
+
+Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi_t(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
+        PendulumConstraints {
+            rod: T::from_f64(0.0),
+        }
+    }
+    /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
+    #[inline]
+    pub fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> PendulumConstraints<T> {
+        let v0 = at.q.x * at.v.x;
+        let v1 = v0 * T::from_f64(2.0);
+        let v2 = at.q.y * at.v.y;
+        let v3 = v2 * T::from_f64(2.0);
+        let v4 = v1 + v3;
+        let phi_dot_rod = v4 * self.hoisted[1];
+        PendulumConstraints {
+            rod: phi_dot_rod,
+        }
+    }
+    /**γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).
+
+```text
+rod: -1/2*(2*der(x)^2 + 2*der(y)^2)/length
+```
+
+
+Cost: 5 mul + 2 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn gamma(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> PendulumConstraints<T> {
+        let v0 = at.v.x * at.v.x;
+        let v1 = v0 * T::from_f64(2.0);
+        let v2 = at.v.y * at.v.y;
+        let v3 = v2 * T::from_f64(2.0);
+        let v4 = v1 + v3;
+        let v5 = v4 * self.hoisted[1];
+        let gamma_rod = -v5;
+        PendulumConstraints {
+            rod: gamma_rod,
+        }
+    }
+    /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
+
+Cost: 13 mul + 7 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn baumgarte_rhs(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        alpha: T,
+        beta: T,
+    ) -> PendulumConstraints<T> {
+        let gains = ::mbs_runtime::Gains {
+            two_alpha: alpha + alpha,
+            beta_squared: beta * beta,
+        };
+        let v0 = at.v.x * T::from_f64(2.0);
+        let v1 = at.v.x * v0;
+        let v2 = at.v.y * T::from_f64(2.0);
+        let v3 = at.v.y * v2;
+        let v4 = v1 + v3;
+        let v5 = v4 * self.hoisted[1];
+        let v6 = at.q.x * v0;
+        let v7 = at.q.y * v2;
+        let v8 = v6 + v7;
+        let phi_dot_rod = v8 * self.hoisted[1];
+        let v10 = phi_dot_rod * gains.two_alpha;
+        let v11 = at.q.x * at.q.x;
+        let v12 = at.q.y * at.q.y;
+        let v13 = v11 + v12;
+        let v14 = self.hoisted[1] * v13;
+        let v15 = self.hoisted[0] - v14;
+        let v16 = v15 * gains.beta_squared;
+        let v17 = v5 + v10;
+        let v18 = v17 - v16;
+        let v19 = -v18;
+        PendulumConstraints { rod: v19 }
+    }
+    /**Mass matrix M. Its diagonal, all that is not 0:
+
+```text
+x: mass
+y: mass
+```
+
+
+Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn mass(
+        &self,
+        q: &PendulumCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 2usize, 2usize> {
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [self.parameters.mass, T::from_f64(0.0)],
+                [T::from_f64(0.0), self.parameters.mass],
+            ]),
+        )
+    }
+    /**Generalized forces Q: gravity and applied loads.
+
+```text
+x: 0
+y: -981/100*mass
+```
+
+
+Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn forces(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> PendulumCoordinates<T> {
+        let v0 = -self.hoisted[3];
+        PendulumCoordinates {
+            x: T::from_f64(0.0),
+            y: v0,
+        }
+    }
+    /**Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.
+
+In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
+
+Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
+    #[inline]
+    pub fn accelerations(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>> {
+        let none = <PendulumConstraints<
+            T,
+        > as ::mbs_runtime::Components>::splat(T::from_f64(0.0));
+        ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
+    }
+    /// Kinetic energy ½ vᵀMv in J.
+    #[inline]
+    pub fn kinetic_energy(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> T {
+        let v0 = at.v.x * at.v.x;
+        let v1 = v0 * self.hoisted[4];
+        let v2 = at.v.y * at.v.y;
+        let v3 = v2 * self.hoisted[4];
+        let v4 = v1 + v3;
+        v4
+    }
+    /// Potential energy of gravity in J, 0 at the origin.
+    #[inline]
+    pub fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> T {
+        let v0 = at.q.y * self.hoisted[3];
+        v0
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
+    type Real = T;
+    type Parameters = PendulumParameters<T>;
+    type Inputs = ::mbs_runtime::NoComponents<T>;
+    type Coordinates = PendulumCoordinates<T>;
+    type Constraints = PendulumConstraints<T>;
+    type Outputs = PendulumOutputs<T>;
+    const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
+        "Pendulum",
+        "A point mass on a massless rod.",
+        1,
+        &[
+            ::mbs_runtime::Quantity {
+                name: "length",
+                doc: "Length of the rod.",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 1f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "mass",
+                doc: "Mass of the bob.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 1f64,
+            },
+        ],
+        &[],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "x",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 1f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "y",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "tension",
+                doc: "Force in the rod, positive when it pulls.",
+                unit: "N",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 1i8,
+                    time: -2i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "angle",
+                doc: "Angle from the lowest position.",
+                unit: "deg",
+                scale: 0.017453292519943295f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Constraint {
+                name: "rod",
+                doc: "The rod keeps its length.",
+                formula: "1/2*(x^2 + y^2)/length - 1/2*length",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+        ],
+        &[
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "x",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "y",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "rod",
+                coordinate: "",
+            },
+        ],
+        &[
+            ::mbs_runtime::Function {
+                name: "new",
+                operations: ::mbs_runtime::Operations {
+                    mul: 6u32,
+                    add: 2u32,
+                    div: 2u32,
+                    sin_cos: 0u32,
+                    other: 1u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi",
+                operations: ::mbs_runtime::Operations {
+                    mul: 3u32,
+                    add: 3u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_dot",
+                operations: ::mbs_runtime::Operations {
+                    mul: 5u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_q",
+                operations: ::mbs_runtime::Operations {
+                    mul: 2u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_t",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "gamma",
+                operations: ::mbs_runtime::Operations {
+                    mul: 5u32,
+                    add: 2u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "baumgarte_rhs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 13u32,
+                    add: 7u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "mass",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "forces",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "kinetic_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 4u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "potential_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 1u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "stabilized",
+                operations: ::mbs_runtime::Operations {
+                    mul: 22u32,
+                    add: 12u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "constrained",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 5u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "reactions",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 6u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "position_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 1u32,
+                    add: 0u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "velocity_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 8u32,
+                    add: 1u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "outputs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 4u32,
+                    add: 2u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 2u32,
+                    watch: 0u32,
+                },
+            },
+        ],
+    );
+    fn new(
+        parameters: PendulumParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        Self::new(parameters)
+    }
+    fn parameters(&self) -> &PendulumParameters<T> {
+        &self.parameters
+    }
+    fn declared_start(&self) -> ::mbs_runtime::State<PendulumCoordinates<T>> {
+        ::mbs_runtime::State {
+            t: T::from_f64(0.0),
+            q: PendulumCoordinates {
+                x: self.parameters.length,
+                y: T::from_f64(0.0),
+            },
+            v: PendulumCoordinates {
+                x: T::from_f64(0.0),
+                y: T::from_f64(0.0),
+            },
+        }
+    }
+    #[inline]
+    fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
+        Self::phi(self, t, q)
+    }
+    #[inline]
+    fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> PendulumConstraints<T> {
+        Self::phi_dot(self, at)
+    }
+    #[inline]
+    fn stabilized(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+    ) -> ::mbs_runtime::Stabilized<PendulumCoordinates<T>, PendulumConstraints<T>> {
+        let phi_q_rod_x = at.q.x * self.hoisted[2];
+        let v1 = phi_q_rod_x * self.hoisted[5];
+        let v2 = phi_q_rod_x * v1;
+        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let v4 = self.hoisted[5] * phi_q_rod_y;
+        let v5 = phi_q_rod_y * v4;
+        let v6 = v2 + v5;
+        let v7 = at.v.x * T::from_f64(2.0);
+        let v8 = at.q.x * v7;
+        let v9 = at.v.y * T::from_f64(2.0);
+        let v10 = at.q.y * v9;
+        let v11 = v8 + v10;
+        let phi_dot_rod = v11 * self.hoisted[1];
+        let v13 = phi_dot_rod * gains.two_alpha;
+        let v14 = at.q.x * at.q.x;
+        let v15 = at.q.y * at.q.y;
+        let v16 = v14 + v15;
+        let v17 = self.hoisted[1] * v16;
+        let v18 = self.hoisted[0] - v17;
+        let v19 = v18 * gains.beta_squared;
+        let v20 = v13 - v19;
+        let v21 = at.v.x * v7;
+        let v22 = at.v.y * v9;
+        let v23 = v21 + v22;
+        let v24 = v23 * self.hoisted[1];
+        let v25 = v4 * self.hoisted[6];
+        let v26 = v20 + v24;
+        let v27 = v26 + v25;
+        let v28 = v27 / v6;
+        let v29 = v1 * v28;
+        let acc_x = -v29;
+        let v31 = v4 * v28;
+        let v32 = v31 - self.hoisted[7];
+        let acc_y = -v32;
+        let v34 = -v20;
+        ::mbs_runtime::Stabilized {
+            acceleration: PendulumCoordinates {
+                x: acc_x,
+                y: acc_y,
+            },
+            feedback: PendulumConstraints { rod: v34 },
+            growth: T::from_f64(0.0),
+        }
+    }
+    #[inline]
+    fn constrained(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        feedback: &PendulumConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
+        let phi_q_rod_x = at.q.x * self.hoisted[2];
+        let v1 = phi_q_rod_x * self.hoisted[5];
+        let v2 = phi_q_rod_x * v1;
+        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let v4 = self.hoisted[5] * phi_q_rod_y;
+        let v5 = phi_q_rod_y * v4;
+        let v6 = v2 + v5;
+        let v7 = at.v.x * at.v.x;
+        let v8 = v7 * T::from_f64(2.0);
+        let v9 = at.v.y * at.v.y;
+        let v10 = v9 * T::from_f64(2.0);
+        let v11 = v8 + v10;
+        let v12 = v11 * self.hoisted[1];
+        let v13 = v4 * self.hoisted[6];
+        let v14 = feedback.rod - v12;
+        let v15 = v14 - v13;
+        let v16 = v15 / v6;
+        let acc_x = v1 * v16;
+        let v18 = v4 * v16;
+        let acc_y = v18 + self.hoisted[7];
+        ::mbs_runtime::Accelerations {
+            acceleration: PendulumCoordinates {
+                x: acc_x,
+                y: acc_y,
+            },
+            growth: T::from_f64(0.0),
+        }
+    }
+    #[inline]
+    fn reactions(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        feedback: &PendulumConstraints<T>,
+    ) -> ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>> {
+        let phi_q_rod_x = at.q.x * self.hoisted[2];
+        let v1 = phi_q_rod_x * self.hoisted[5];
+        let v2 = phi_q_rod_x * v1;
+        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let v4 = self.hoisted[5] * phi_q_rod_y;
+        let v5 = phi_q_rod_y * v4;
+        let v6 = v2 + v5;
+        let v7 = at.v.x * at.v.x;
+        let v8 = v7 * T::from_f64(2.0);
+        let v9 = at.v.y * at.v.y;
+        let v10 = v9 * T::from_f64(2.0);
+        let v11 = v8 + v10;
+        let v12 = v11 * self.hoisted[1];
+        let v13 = v4 * self.hoisted[6];
+        let v14 = feedback.rod - v12;
+        let v15 = v14 - v13;
+        let v16 = v15 / v6;
+        let acc_x = v1 * v16;
+        let v18 = v4 * v16;
+        let acc_y = v18 + self.hoisted[7];
+        let lambda_rod = -v16;
+        ::mbs_runtime::Reactions {
+            acceleration: PendulumCoordinates {
+                x: acc_x,
+                y: acc_y,
+            },
+            multipliers: PendulumConstraints {
+                rod: lambda_rod,
+            },
+            growth: T::from_f64(0.0),
+        }
+    }
+    fn position_correction(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+        feedback: &PendulumConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
+        let v0 = self.parameters.length / q.x;
+        let v1 = v0 * feedback.rod;
+        ::mbs_runtime::Accelerations {
+            acceleration: PendulumCoordinates {
+                x: v1,
+                y: T::from_f64(0.0),
+            },
+            growth: T::from_f64(0.0),
+        }
+    }
+    fn velocity_correction(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+        feedback: &PendulumConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
+        let phi_q_rod_x = q.x * self.hoisted[2];
+        let v1 = phi_q_rod_x * self.hoisted[5];
+        let v2 = phi_q_rod_x * v1;
+        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let v4 = self.hoisted[5] * phi_q_rod_y;
+        let v5 = phi_q_rod_y * v4;
+        let v6 = v2 + v5;
+        let v7 = feedback.rod / v6;
+        let v8 = v1 * v7;
+        let v9 = v4 * v7;
+        ::mbs_runtime::Accelerations {
+            acceleration: PendulumCoordinates {
+                x: v8,
+                y: v9,
+            },
+            growth: T::from_f64(0.0),
+        }
+    }
+    fn worst_pivot(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+    ) -> ::core::option::Option<usize> {
+        let phi_q_rod_x = q.x * self.hoisted[2];
+        let v1 = phi_q_rod_x * self.hoisted[5];
+        let v2 = phi_q_rod_x * v1;
+        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let v4 = self.hoisted[5] * phi_q_rod_y;
+        let v5 = phi_q_rod_y * v4;
+        let v6 = v2 + v5;
+        let v7 = v6 / v6;
+        let abs_v7 = v7.abs();
+        ::mbs_runtime::__private::worst(&[self.hoisted[8], self.hoisted[8], abs_v7])
+    }
+    #[inline]
+    fn kinetic_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {
+        Self::kinetic_energy(self, at)
+    }
+    #[inline]
+    fn potential_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {
+        Self::potential_energy(self, at)
+    }
+    #[inline]
+    fn outputs(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        reactions: &::mbs_runtime::Reactions<
+            PendulumCoordinates<T>,
+            PendulumConstraints<T>,
+        >,
+    ) -> PendulumOutputs<T> {
+        let v0 = at.q.x * at.q.x;
+        let v1 = at.q.y * at.q.y;
+        let v2 = v0 + v1;
+        let sqrt_v2 = v2.sqrt();
+        let v4 = reactions.multipliers.rod * sqrt_v2;
+        let v5 = v4 * self.hoisted[2];
+        let v6 = -at.q.y;
+        let v7 = at.q.x.atan2(v6);
+        PendulumOutputs {
+            tension: v5,
+            angle: v7,
+        }
+    }
+}

@@ -1,0 +1,2129 @@
+/**Slider-crank driven at constant speed.
+
+# Equations
+
+7 coordinates, 7 constraints, 0 degrees of freedom. Φ(q, t) = 0 is
+```text
+crank_x: x1 - 1/2*l1*cos(theta1) = 0
+crank_y: y1 - 1/2*l1*sin(theta1) = 0
+crank_speed: theta1 - omega*t = 0
+rod_x: x2 - l1*cos(theta1) - 1/2*l2*cos(theta2) = 0
+rod_y: y2 - l1*sin(theta1) - 1/2*l2*sin(theta2) = 0
+guide: l1*sin(theta1) + l2*sin(theta2) = 0
+slider: x3 - l1*cos(theta1) - l2*cos(theta2) = 0
+```
+
+# Cost
+
+Elimination order: constraints first, then what motion they leave free (null space). Operations per call:
+
+| function | mul | add | div | sincos | other | pivot watch |
+|---|---|---|---|---|---|---|
+| `new` | 17 | 1 | 1 | 0 | 1 | 0 |
+| `phi` | 9 | 11 | 0 | 2 | 0 | 0 |
+| `phi_dot` | 12 | 10 | 0 | 2 | 0 | 0 |
+| `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
+| `phi_t` | 0 | 1 | 0 | 0 | 0 | 0 |
+| `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 47 | 43 | 0 | 2 | 0 | 0 |
+| `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
+| `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
+| `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
+| `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
+| `stabilized` | 55 | 56 | 1 | 2 | 0 | 2 |
+| `constrained` | 26 | 19 | 1 | 2 | 0 | 2 |
+| `reactions` | 48 | 39 | 1 | 2 | 0 | 2 |
+| `position_correction` | 12 | 10 | 1 | 2 | 0 | 2 |
+| `velocity_correction` | 12 | 10 | 1 | 2 | 0 | 2 |
+| `outputs` | 0 | 1 | 0 | 0 | 0 | 0 |
+*/
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrank<T = f64> {
+    parameters: SliderCrankParameters<T>,
+    /**What depends on parameters alone, computed once:
+
+```text
+0: 1/2*l1
+1: 1/2*l2
+2: l1^2*m1*inertia_factor
+3: l2^2*inertia_factor*m2
+4: 981/100*m1
+5: 981/100*m2
+6: 1/2*m1
+7: 1/2*l1^2*m1*inertia_factor
+8: 1/2*m2
+9: 1/2*l2^2*inertia_factor*m2
+10: 1/2*m3
+11: 1/l2
+12: abs(l2)
+13: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
+14: l2^2*m3
+```
+*/
+    hoisted: [T; 15usize],
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrank<T> {
+    /// The mechanism with its declared parameters.
+    fn default() -> Self {
+        Self::prepare(<SliderCrankParameters<T> as ::core::default::Default>::default())
+    }
+}
+///Parameters of [`SliderCrank`], in SI units; the default is the declaration.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankParameters<T = f64> {
+    /**Length of the crank.
+
+`l1`: a length [m], declared as 60 mm = 0.06 in SI units.*/
+    pub l1: T,
+    /**Length of the rod.
+
+`l2`: a length [m], declared as 180 mm = 0.18 in SI units.*/
+    pub l2: T,
+    /**Mass of the crank, at its middle.
+
+`m1`: a mass [kg], declared as 0.5 kg = 0.5 in SI units.*/
+    pub m1: T,
+    /**Mass of the rod, at its middle.
+
+`m2`: a mass [kg], declared as 1.2 kg = 1.2 in SI units.*/
+    pub m2: T,
+    /**Mass of the slider.
+
+`m3`: a mass [kg], declared as 2 kg = 2 in SI units.*/
+    pub m3: T,
+    /**Moment of inertia of crank and rod about their middles over m l²:
+1/12 for slender rods, 0 for point masses. The paper's torques come
+out with 1/3.
+
+`inertia_factor`: a dimensionless, declared as 0.08333333333333333.*/
+    pub inertia_factor: T,
+    /**Speed of the crank.
+
+`omega`: a rate [1/s], declared as 200 rpm = 20.94395102393195 in SI units.*/
+    pub omega: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankParameters<T> {
+    fn default() -> Self {
+        Self {
+            l1: T::from_f64(0.06),
+            l2: T::from_f64(0.18),
+            m1: T::from_f64(0.5),
+            m2: T::from_f64(1.2),
+            m3: T::from_f64(2.0),
+            inertia_factor: T::from_f64(0.08333333333333333),
+            omega: T::from_f64(20.94395102393195),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankParameters<T> {
+    type Real = T;
+    type Array = [T; 7];
+    const NAMES: &'static [&'static str] = &[
+        "l1",
+        "l2",
+        "m1",
+        "m2",
+        "m3",
+        "inertia_factor",
+        "omega",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 7] {
+        [self.l1, self.l2, self.m1, self.m2, self.m3, self.inertia_factor, self.omega]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 7]) -> Self {
+        let [l1, l2, m1, m2, m3, inertia_factor, omega] = array;
+        Self {
+            l1,
+            l2,
+            m1,
+            m2,
+            m3,
+            inertia_factor,
+            omega,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            l1: value,
+            l2: value,
+            m1: value,
+            m2: value,
+            m3: value,
+            inertia_factor: value,
+            omega: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankParameters<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
+    fn from(components: SliderCrankParameters<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            7,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Coordinates of [`SliderCrank`], or their rates, in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankCoordinates<T = f64> {
+    ///`x1`: a length [m].
+    pub x1: T,
+    ///`y1`: a length [m].
+    pub y1: T,
+    ///`theta1`: a dimensionless.
+    pub theta1: T,
+    ///`x2`: a length [m].
+    pub x2: T,
+    ///`y2`: a length [m].
+    pub y2: T,
+    ///`theta2`: a dimensionless.
+    pub theta2: T,
+    ///`x3`: a length [m].
+    pub x3: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankCoordinates<T> {
+    fn default() -> Self {
+        Self {
+            x1: T::from_f64(0.0),
+            y1: T::from_f64(0.0),
+            theta1: T::from_f64(0.0),
+            x2: T::from_f64(0.0),
+            y2: T::from_f64(0.0),
+            theta2: T::from_f64(0.0),
+            x3: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankCoordinates<T> {
+    type Real = T;
+    type Array = [T; 7];
+    const NAMES: &'static [&'static str] = &[
+        "x1",
+        "y1",
+        "theta1",
+        "x2",
+        "y2",
+        "theta2",
+        "x3",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 7] {
+        [self.x1, self.y1, self.theta1, self.x2, self.y2, self.theta2, self.x3]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 7]) -> Self {
+        let [x1, y1, theta1, x2, y2, theta2, x3] = array;
+        Self {
+            x1,
+            y1,
+            theta1,
+            x2,
+            y2,
+            theta2,
+            x3,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            x1: value,
+            y1: value,
+            theta1: value,
+            x2: value,
+            y2: value,
+            theta2: value,
+            x3: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankCoordinates<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
+    fn from(components: SliderCrankCoordinates<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            7,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///One component per constraint of [`SliderCrank`]: Φ, its derivatives, or the multipliers λ.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankConstraints<T = f64> {
+    /**The crank turns about the origin.
+
+`x1 - 1/2*l1*cos(theta1) = 0`*/
+    pub crank_x: T,
+    /**The crank turns about the origin.
+
+`y1 - 1/2*l1*sin(theta1) = 0`*/
+    pub crank_y: T,
+    /**The crank turns at constant speed.
+
+`theta1 - omega*t = 0`*/
+    pub crank_speed: T,
+    /**The rod begins at the crank's tip.
+
+`x2 - l1*cos(theta1) - 1/2*l2*cos(theta2) = 0`*/
+    pub rod_x: T,
+    /**The rod begins at the crank's tip.
+
+`y2 - l1*sin(theta1) - 1/2*l2*sin(theta2) = 0`*/
+    pub rod_y: T,
+    /**The rod ends on the x axis.
+
+`l1*sin(theta1) + l2*sin(theta2) = 0`*/
+    pub guide: T,
+    /**The slider sits at the rod's end.
+
+`x3 - l1*cos(theta1) - l2*cos(theta2) = 0`*/
+    pub slider: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankConstraints<T> {
+    fn default() -> Self {
+        Self {
+            crank_x: T::from_f64(0.0),
+            crank_y: T::from_f64(0.0),
+            crank_speed: T::from_f64(0.0),
+            rod_x: T::from_f64(0.0),
+            rod_y: T::from_f64(0.0),
+            guide: T::from_f64(0.0),
+            slider: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankConstraints<T> {
+    type Real = T;
+    type Array = [T; 7];
+    const NAMES: &'static [&'static str] = &[
+        "crank_x",
+        "crank_y",
+        "crank_speed",
+        "rod_x",
+        "rod_y",
+        "guide",
+        "slider",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 7] {
+        [
+            self.crank_x,
+            self.crank_y,
+            self.crank_speed,
+            self.rod_x,
+            self.rod_y,
+            self.guide,
+            self.slider,
+        ]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 7]) -> Self {
+        let [crank_x, crank_y, crank_speed, rod_x, rod_y, guide, slider] = array;
+        Self {
+            crank_x,
+            crank_y,
+            crank_speed,
+            rod_x,
+            rod_y,
+            guide,
+            slider,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            crank_x: value,
+            crank_y: value,
+            crank_speed: value,
+            rod_x: value,
+            rod_y: value,
+            guide: value,
+            slider: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankConstraints<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
+    fn from(components: SliderCrankConstraints<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            7,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Outputs of [`SliderCrank`], in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankOutputs<T = f64> {
+    /**Torque that keeps the crank at its speed.
+
+`drive_torque`: a torque or energy [N*m].*/
+    pub drive_torque: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankOutputs<T> {
+    fn default() -> Self {
+        Self {
+            drive_torque: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankOutputs<T> {
+    type Real = T;
+    type Array = [T; 1];
+    const NAMES: &'static [&'static str] = &["drive_torque"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 1] {
+        [self.drive_torque]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 1]) -> Self {
+        let [drive_torque] = array;
+        Self { drive_torque }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self { drive_torque: value }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankOutputs<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
+    fn from(components: SliderCrankOutputs<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            1,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+impl SliderCrank<f64> {
+    /// The mechanism with its declared parameters, in `f64`.
+    ///
+    /// For another scalar type, use `default`.
+    pub fn declared() -> Self {
+        ::core::default::Default::default()
+    }
+}
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    /// The mechanism with these parameters.
+    ///
+    /// # Errors
+    /// If a parameter is not finite, a mass or an inertia comes out
+    /// negative, or a declared condition does not hold.
+    pub fn new(
+        parameters: SliderCrankParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        ::mbs_runtime::__private::check_finite(&parameters)?;
+        #[allow(unused_variables)] #[allow(clippy::all)]
+        {
+            let v0 = parameters.l1 * parameters.l1;
+            let v1 = v0 * parameters.m1;
+            let v2 = v1 * parameters.inertia_factor;
+            let v3 = parameters.l2 * parameters.l2;
+            let v4 = v3 * parameters.inertia_factor;
+            let v5 = v4 * parameters.m2;
+            if !(parameters.l1 > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "l1",
+                    value: parameters.l1.to_f64(),
+                    requirement: "`l1 > 0` has to hold",
+                });
+            }
+            if !(parameters.l2 > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "l2",
+                    value: parameters.l2.to_f64(),
+                    requirement: "`l2 > 0` has to hold",
+                });
+            }
+            if !(parameters.m1 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of crank",
+                    value: (parameters.m1).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(v2 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "inertia of crank",
+                    value: (v2).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(parameters.m2 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of rod",
+                    value: (parameters.m2).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(v5 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "inertia of rod",
+                    value: (v5).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(parameters.m3 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of slider",
+                    value: (parameters.m3).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+        }
+        ::core::result::Result::Ok(Self::prepare(parameters))
+    }
+    /// Computes what depends on parameters alone.
+    #[allow(unused_variables, clippy::all)]
+    fn prepare(parameters: SliderCrankParameters<T>) -> Self {
+        let v0 = parameters.l1 * T::from_f64(0.5);
+        let v1 = parameters.l2 * T::from_f64(0.5);
+        let v2 = parameters.l1 * parameters.l1;
+        let v3 = parameters.m1 * parameters.inertia_factor;
+        let v4 = v2 * v3;
+        let v5 = parameters.l2 * parameters.l2;
+        let v6 = parameters.m2 * v5;
+        let v7 = parameters.inertia_factor * v6;
+        let v8 = parameters.m1 * T::from_f64(9.81);
+        let v9 = parameters.m2 * T::from_f64(9.81);
+        let v10 = parameters.m1 * T::from_f64(0.5);
+        let v11 = T::from_f64(0.5) * v4;
+        let v12 = parameters.m2 * T::from_f64(0.5);
+        let v13 = T::from_f64(0.5) * v7;
+        let v14 = parameters.m3 * T::from_f64(0.5);
+        let v15 = T::from_f64(1.0) / parameters.l2;
+        let abs_l2 = parameters.l2.abs();
+        let v17 = T::from_f64(0.25) * v6;
+        let v18 = v7 + v17;
+        let v19 = parameters.m3 * v5;
+        Self {
+            parameters,
+            hoisted: [
+                v0,
+                v1,
+                v4,
+                v7,
+                v8,
+                v9,
+                v10,
+                v11,
+                v12,
+                v13,
+                v14,
+                v15,
+                abs_l2,
+                v18,
+                v19,
+            ],
+        }
+    }
+    /// The parameters.
+    pub fn parameters(&self) -> &SliderCrankParameters<T> {
+        &self.parameters
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    /**Constraints Φ(q, t): 0 where the mechanism is assembled.
+
+```text
+crank_x: x1 - 1/2*l1*cos(theta1)
+crank_y: y1 - 1/2*l1*sin(theta1)
+crank_speed: theta1 - omega*t
+rod_x: x2 - l1*cos(theta1) - 1/2*l2*cos(theta2)
+rod_y: y2 - l1*sin(theta1) - 1/2*l2*sin(theta2)
+guide: l1*sin(theta1) + l2*sin(theta2)
+slider: x3 - l1*cos(theta1) - l2*cos(theta2)
+```
+
+
+Cost: 9 mul + 11 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let v1 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = q.x1 - v1;
+        let v4 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = q.y1 - v4;
+        let v6 = t * self.parameters.omega;
+        let phi_crank_speed = q.theta1 - v6;
+        let v8 = cos_theta1 * self.parameters.l1;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v10 = cos_theta2 * self.hoisted[1];
+        let v11 = q.x2 - v8;
+        let phi_rod_x = v11 - v10;
+        let v13 = sin_theta1 * self.parameters.l1;
+        let v15 = self.hoisted[1] * sin_theta2;
+        let v16 = q.y2 - v13;
+        let phi_rod_y = v16 - v15;
+        let v18 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v13 + v18;
+        let v20 = cos_theta2 * self.parameters.l2;
+        let v21 = v8 - q.x3;
+        let v22 = v21 + v20;
+        let phi_slider = -v22;
+        SliderCrankConstraints {
+            crank_x: phi_crank_x,
+            crank_y: phi_crank_y,
+            crank_speed: phi_crank_speed,
+            rod_x: phi_rod_x,
+            rod_y: phi_rod_y,
+            guide: phi_guide,
+            slider: phi_slider,
+        }
+    }
+    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
+
+```text
+∂crank_x/∂x1 = 1
+∂crank_x/∂theta1 = 1/2*l1*sin(theta1)
+∂crank_y/∂y1 = 1
+∂crank_y/∂theta1 = -1/2*l1*cos(theta1)
+∂crank_speed/∂theta1 = 1
+∂rod_x/∂theta1 = l1*sin(theta1)
+∂rod_x/∂x2 = 1
+∂rod_x/∂theta2 = 1/2*l2*sin(theta2)
+∂rod_y/∂theta1 = -l1*cos(theta1)
+∂rod_y/∂y2 = 1
+∂rod_y/∂theta2 = -1/2*l2*cos(theta2)
+∂guide/∂theta1 = l1*cos(theta1)
+∂guide/∂theta2 = l2*cos(theta2)
+∂slider/∂theta1 = l1*sin(theta1)
+∂slider/∂theta2 = l2*sin(theta2)
+∂slider/∂x3 = 1
+```
+
+
+Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn phi_q(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
+        let v3 = cos_theta1 * self.hoisted[0];
+        let phi_q_crank_y_theta1 = -v3;
+        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let phi_q_rod_x_theta2 = sin_theta2 * self.hoisted[1];
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
+        let v11 = cos_theta2 * self.hoisted[1];
+        let phi_q_rod_y_theta2 = -v11;
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let phi_q_slider_theta2 = sin_theta2 * self.parameters.l2;
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    phi_q_crank_x_theta1,
+                    phi_q_crank_y_theta1,
+                    T::from_f64(1.0),
+                    phi_q_rod_x_theta1,
+                    phi_q_rod_y_theta1,
+                    phi_q_guide_theta1,
+                    phi_q_rod_x_theta1,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    phi_q_rod_x_theta2,
+                    phi_q_rod_y_theta2,
+                    phi_q_guide_theta2,
+                    phi_q_slider_theta2,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                ],
+            ]),
+        )
+    }
+    /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
+
+```text
+crank_x: 0
+crank_y: 0
+crank_speed: -omega
+rod_x: 0
+rod_y: 0
+guide: 0
+slider: 0
+```
+
+
+Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi_t(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+    ) -> SliderCrankConstraints<T> {
+        let v0 = -self.parameters.omega;
+        SliderCrankConstraints {
+            crank_x: T::from_f64(0.0),
+            crank_y: T::from_f64(0.0),
+            crank_speed: v0,
+            rod_x: T::from_f64(0.0),
+            rod_y: T::from_f64(0.0),
+            guide: T::from_f64(0.0),
+            slider: T::from_f64(0.0),
+        }
+    }
+    /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
+    #[inline]
+    pub fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> SliderCrankConstraints<T> {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = sin_theta1 * at.v.theta1;
+        let v2 = self.hoisted[0] * v1;
+        let phi_dot_crank_x = at.v.x1 + v2;
+        let v5 = at.v.theta1 * cos_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let phi_dot_crank_y = at.v.y1 - v6;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v9 = self.parameters.l1 * v1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v11 = sin_theta2 * at.v.theta2;
+        let v12 = self.hoisted[1] * v11;
+        let v13 = at.v.x2 + v9;
+        let phi_dot_rod_x = v13 + v12;
+        let v15 = self.parameters.l1 * v5;
+        let v17 = at.v.theta2 * cos_theta2;
+        let v18 = self.hoisted[1] * v17;
+        let v19 = at.v.y2 - v15;
+        let phi_dot_rod_y = v19 - v18;
+        let v21 = self.parameters.l2 * v17;
+        let phi_dot_guide = v15 + v21;
+        let v23 = self.parameters.l2 * v11;
+        let v24 = v9 + at.v.x3;
+        let phi_dot_slider = v24 + v23;
+        SliderCrankConstraints {
+            crank_x: phi_dot_crank_x,
+            crank_y: phi_dot_crank_y,
+            crank_speed: phi_dot_crank_speed,
+            rod_x: phi_dot_rod_x,
+            rod_y: phi_dot_rod_y,
+            guide: phi_dot_guide,
+            slider: phi_dot_slider,
+        }
+    }
+    /**γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).
+
+```text
+crank_x: -1/2*l1*cos(theta1)*der(theta1)^2
+crank_y: -1/2*l1*sin(theta1)*der(theta1)^2
+crank_speed: 0
+rod_x: -l1*cos(theta1)*der(theta1)^2 - 1/2*l2*cos(theta2)*der(theta2)^2
+rod_y: -l1*sin(theta1)*der(theta1)^2 - 1/2*l2*sin(theta2)*der(theta2)^2
+guide: l1*sin(theta1)*der(theta1)^2 + l2*sin(theta2)*der(theta2)^2
+slider: -l1*cos(theta1)*der(theta1)^2 - l2*cos(theta2)*der(theta2)^2
+```
+
+
+Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn gamma(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> SliderCrankConstraints<T> {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = at.v.theta1 * at.v.theta1;
+        let v2 = cos_theta1 * v1;
+        let v3 = self.hoisted[0] * v2;
+        let gamma_crank_x = -v3;
+        let v6 = sin_theta1 * v1;
+        let v7 = self.hoisted[0] * v6;
+        let gamma_crank_y = -v7;
+        let v9 = self.parameters.l1 * v2;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v11 = at.v.theta2 * at.v.theta2;
+        let v12 = cos_theta2 * v11;
+        let v13 = self.hoisted[1] * v12;
+        let v14 = v9 + v13;
+        let gamma_rod_x = -v14;
+        let v16 = self.parameters.l1 * v6;
+        let v18 = sin_theta2 * v11;
+        let v19 = self.hoisted[1] * v18;
+        let v20 = v16 + v19;
+        let gamma_rod_y = -v20;
+        let v22 = self.parameters.l2 * v18;
+        let gamma_guide = v16 + v22;
+        let v24 = self.parameters.l2 * v12;
+        let v25 = v9 + v24;
+        let gamma_slider = -v25;
+        SliderCrankConstraints {
+            crank_x: gamma_crank_x,
+            crank_y: gamma_crank_y,
+            crank_speed: T::from_f64(0.0),
+            rod_x: gamma_rod_x,
+            rod_y: gamma_rod_y,
+            guide: gamma_guide,
+            slider: gamma_slider,
+        }
+    }
+    /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
+
+Cost: 47 mul + 43 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn baumgarte_rhs(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        alpha: T,
+        beta: T,
+    ) -> SliderCrankConstraints<T> {
+        let gains = ::mbs_runtime::Gains {
+            two_alpha: alpha + alpha,
+            beta_squared: beta * beta,
+        };
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = cos_theta1 * at.v.theta1;
+        let v2 = at.v.theta1 * self.hoisted[0];
+        let v3 = v1 * v2;
+        let v5 = at.v.theta1 * sin_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let phi_dot_crank_x = at.v.x1 + v6;
+        let v8 = phi_dot_crank_x * gains.two_alpha;
+        let v9 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v9;
+        let v11 = phi_crank_x * gains.beta_squared;
+        let v12 = v3 + v8;
+        let v13 = v12 + v11;
+        let v14 = -v13;
+        let v15 = v5 * v2;
+        let v16 = self.hoisted[0] * v1;
+        let phi_dot_crank_y = at.v.y1 - v16;
+        let v18 = gains.two_alpha * phi_dot_crank_y;
+        let v19 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v19;
+        let v21 = gains.beta_squared * phi_crank_y;
+        let v22 = v15 + v18;
+        let v23 = v22 + v21;
+        let v24 = -v23;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v26 = gains.two_alpha * phi_dot_crank_speed;
+        let v27 = self.parameters.omega * at.t;
+        let phi_crank_speed = at.q.theta1 - v27;
+        let v29 = gains.beta_squared * phi_crank_speed;
+        let v30 = v26 + v29;
+        let feedback_crank_speed = -v30;
+        let v32 = at.v.theta1 * self.parameters.l1;
+        let v33 = v1 * v32;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v35 = cos_theta2 * at.v.theta2;
+        let v36 = at.v.theta2 * self.hoisted[1];
+        let v37 = v35 * v36;
+        let v38 = self.parameters.l1 * v5;
+        let v40 = at.v.theta2 * sin_theta2;
+        let v41 = self.hoisted[1] * v40;
+        let v42 = at.v.x2 + v38;
+        let phi_dot_rod_x = v42 + v41;
+        let v44 = gains.two_alpha * phi_dot_rod_x;
+        let v45 = cos_theta1 * self.parameters.l1;
+        let v46 = cos_theta2 * self.hoisted[1];
+        let v47 = at.q.x2 - v45;
+        let phi_rod_x = v47 - v46;
+        let v49 = gains.beta_squared * phi_rod_x;
+        let v50 = v33 + v37;
+        let v51 = v50 + v44;
+        let v52 = v51 + v49;
+        let v53 = -v52;
+        let v54 = v5 * v32;
+        let v55 = v40 * v36;
+        let v56 = self.parameters.l1 * v1;
+        let v57 = self.hoisted[1] * v35;
+        let v58 = at.v.y2 - v56;
+        let phi_dot_rod_y = v58 - v57;
+        let v60 = gains.two_alpha * phi_dot_rod_y;
+        let v61 = sin_theta1 * self.parameters.l1;
+        let v62 = sin_theta2 * self.hoisted[1];
+        let v63 = at.q.y2 - v61;
+        let phi_rod_y = v63 - v62;
+        let v65 = gains.beta_squared * phi_rod_y;
+        let v66 = v54 + v55;
+        let v67 = v66 + v60;
+        let v68 = v67 + v65;
+        let v69 = -v68;
+        let v70 = at.v.theta2 * self.parameters.l2;
+        let v71 = v40 * v70;
+        let v72 = self.parameters.l2 * v35;
+        let phi_dot_guide = v56 + v72;
+        let v74 = gains.two_alpha * phi_dot_guide;
+        let v75 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v61 + v75;
+        let v77 = gains.beta_squared * phi_guide;
+        let v78 = v54 + v71;
+        let v79 = v78 - v74;
+        let v80 = v79 - v77;
+        let v81 = v35 * v70;
+        let v82 = self.parameters.l2 * v40;
+        let v83 = v38 + at.v.x3;
+        let phi_dot_slider = v83 + v82;
+        let v85 = gains.two_alpha * phi_dot_slider;
+        let v86 = cos_theta2 * self.parameters.l2;
+        let v87 = v45 - at.q.x3;
+        let v88 = v87 + v86;
+        let v89 = gains.beta_squared * v88;
+        let v90 = v33 + v81;
+        let v91 = v90 + v85;
+        let v92 = v91 - v89;
+        let v93 = -v92;
+        SliderCrankConstraints {
+            crank_x: v14,
+            crank_y: v24,
+            crank_speed: feedback_crank_speed,
+            rod_x: v53,
+            rod_y: v69,
+            guide: v80,
+            slider: v93,
+        }
+    }
+    /**Mass matrix M. Its diagonal, all that is not 0:
+
+```text
+x1: m1
+y1: m1
+theta1: l1^2*m1*inertia_factor
+x2: m2
+y2: m2
+theta2: l2^2*inertia_factor*m2
+x3: m3
+```
+
+
+Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn mass(
+        &self,
+        q: &SliderCrankCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [
+                    self.parameters.m1,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    self.parameters.m1,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.hoisted[2],
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m2,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m2,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.hoisted[3],
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m3,
+                ],
+            ]),
+        )
+    }
+    /**Generalized forces Q: gravity and applied loads.
+
+```text
+x1: 0
+y1: -981/100*m1
+theta1: 0
+x2: 0
+y2: -981/100*m2
+theta2: 0
+x3: 0
+```
+
+
+Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn forces(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> SliderCrankCoordinates<T> {
+        let v0 = -self.hoisted[4];
+        let v1 = -self.hoisted[5];
+        SliderCrankCoordinates {
+            x1: T::from_f64(0.0),
+            y1: v0,
+            theta1: T::from_f64(0.0),
+            x2: T::from_f64(0.0),
+            y2: v1,
+            theta2: T::from_f64(0.0),
+            x3: T::from_f64(0.0),
+        }
+    }
+    /**Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.
+
+In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
+
+Cost: 48 mul + 39 add + 1 div + 2 sincos.*/
+    #[inline]
+    pub fn accelerations(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>> {
+        let none = <SliderCrankConstraints<
+            T,
+        > as ::mbs_runtime::Components>::splat(T::from_f64(0.0));
+        ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
+    }
+    /// Kinetic energy ½ vᵀMv in J.
+    #[inline]
+    pub fn kinetic_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> T {
+        let v0 = at.v.x1 * at.v.x1;
+        let v1 = v0 * self.hoisted[6];
+        let v2 = at.v.y1 * at.v.y1;
+        let v3 = v2 * self.hoisted[6];
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = v4 * self.hoisted[7];
+        let v6 = at.v.x2 * at.v.x2;
+        let v7 = v6 * self.hoisted[8];
+        let v8 = at.v.y2 * at.v.y2;
+        let v9 = v8 * self.hoisted[8];
+        let v10 = at.v.theta2 * at.v.theta2;
+        let v11 = v10 * self.hoisted[9];
+        let v12 = at.v.x3 * at.v.x3;
+        let v13 = v12 * self.hoisted[10];
+        let v14 = v1 + v3;
+        let v15 = v14 + v5;
+        let v16 = v15 + v7;
+        let v17 = v16 + v9;
+        let v18 = v17 + v11;
+        let v19 = v18 + v13;
+        v19
+    }
+    /// Potential energy of gravity in J, 0 at the origin.
+    #[inline]
+    pub fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> T {
+        let v0 = at.q.y1 * self.hoisted[4];
+        let v1 = at.q.y2 * self.hoisted[5];
+        let v2 = v0 + v1;
+        v2
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
+    type Real = T;
+    type Parameters = SliderCrankParameters<T>;
+    type Inputs = ::mbs_runtime::NoComponents<T>;
+    type Coordinates = SliderCrankCoordinates<T>;
+    type Constraints = SliderCrankConstraints<T>;
+    type Outputs = SliderCrankOutputs<T>;
+    const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
+        "SliderCrank",
+        "Slider-crank driven at constant speed.",
+        0,
+        &[
+            ::mbs_runtime::Quantity {
+                name: "l1",
+                doc: "Length of the crank.",
+                unit: "mm",
+                scale: 0.001f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.06f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "l2",
+                doc: "Length of the rod.",
+                unit: "mm",
+                scale: 0.001f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.18f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m1",
+                doc: "Mass of the crank, at its middle.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0.5f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m2",
+                doc: "Mass of the rod, at its middle.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 1.2f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m3",
+                doc: "Mass of the slider.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 2f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "inertia_factor",
+                doc: "Moment of inertia of crank and rod about their middles over m l²:\n1/12 for slender rods, 0 for point masses. The paper's torques come\nout with 1/3.",
+                unit: "",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0.08333333333333333f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "omega",
+                doc: "Speed of the crank.",
+                unit: "rpm",
+                scale: 0.10471975511965977f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: -1i8,
+                },
+                default: 20.94395102393195f64,
+            },
+        ],
+        &[],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "x1",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.03f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "y1",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "theta1",
+                doc: "",
+                unit: "rad",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "x2",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.15f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "y2",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "theta2",
+                doc: "",
+                unit: "rad",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "x3",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.24f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "drive_torque",
+                doc: "Torque that keeps the crank at its speed.",
+                unit: "N*m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 2i8,
+                    time: -2i8,
+                },
+                default: 0f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Constraint {
+                name: "crank_x",
+                doc: "The crank turns about the origin.",
+                formula: "x1 - 1/2*l1*cos(theta1)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "crank_y",
+                doc: "The crank turns about the origin.",
+                formula: "y1 - 1/2*l1*sin(theta1)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "crank_speed",
+                doc: "The crank turns at constant speed.",
+                formula: "theta1 - omega*t",
+                is_drive: true,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "rod_x",
+                doc: "The rod begins at the crank's tip.",
+                formula: "x2 - l1*cos(theta1) - 1/2*l2*cos(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "rod_y",
+                doc: "The rod begins at the crank's tip.",
+                formula: "y2 - l1*sin(theta1) - 1/2*l2*sin(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "guide",
+                doc: "The rod ends on the x axis.",
+                formula: "l1*sin(theta1) + l2*sin(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "slider",
+                doc: "The slider sits at the rod's end.",
+                formula: "x3 - l1*cos(theta1) - l2*cos(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+        ],
+        &[
+            ::mbs_runtime::Pivot {
+                constraint: "guide",
+                coordinate: "theta2",
+            },
+        ],
+        &[
+            ::mbs_runtime::Function {
+                name: "new",
+                operations: ::mbs_runtime::Operations {
+                    mul: 17u32,
+                    add: 1u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 1u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi",
+                operations: ::mbs_runtime::Operations {
+                    mul: 9u32,
+                    add: 11u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_dot",
+                operations: ::mbs_runtime::Operations {
+                    mul: 12u32,
+                    add: 10u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_q",
+                operations: ::mbs_runtime::Operations {
+                    mul: 8u32,
+                    add: 3u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_t",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "gamma",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 9u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "baumgarte_rhs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 47u32,
+                    add: 43u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "mass",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "forces",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 2u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "kinetic_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 6u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "potential_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 2u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "stabilized",
+                operations: ::mbs_runtime::Operations {
+                    mul: 55u32,
+                    add: 56u32,
+                    div: 1u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "constrained",
+                operations: ::mbs_runtime::Operations {
+                    mul: 26u32,
+                    add: 19u32,
+                    div: 1u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "reactions",
+                operations: ::mbs_runtime::Operations {
+                    mul: 48u32,
+                    add: 39u32,
+                    div: 1u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "position_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 12u32,
+                    add: 10u32,
+                    div: 1u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "velocity_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 12u32,
+                    add: 10u32,
+                    div: 1u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "outputs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+        ],
+    );
+    fn new(
+        parameters: SliderCrankParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        Self::new(parameters)
+    }
+    fn parameters(&self) -> &SliderCrankParameters<T> {
+        &self.parameters
+    }
+    fn declared_start(&self) -> ::mbs_runtime::State<SliderCrankCoordinates<T>> {
+        let v0 = self.parameters.l1 * T::from_f64(0.5);
+        let v1 = self.parameters.l2 * T::from_f64(0.5);
+        let v2 = self.parameters.l1 + v1;
+        let v3 = self.parameters.l1 + self.parameters.l2;
+        ::mbs_runtime::State {
+            t: T::from_f64(0.0),
+            q: SliderCrankCoordinates {
+                x1: v0,
+                y1: T::from_f64(0.0),
+                theta1: T::from_f64(0.0),
+                x2: v2,
+                y2: T::from_f64(0.0),
+                theta2: T::from_f64(0.0),
+                x3: v3,
+            },
+            v: SliderCrankCoordinates {
+                x1: T::from_f64(0.0),
+                y1: T::from_f64(0.0),
+                theta1: self.parameters.omega,
+                x2: T::from_f64(0.0),
+                y2: T::from_f64(0.0),
+                theta2: T::from_f64(0.0),
+                x3: T::from_f64(0.0),
+            },
+        }
+    }
+    #[inline]
+    fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
+        Self::phi(self, t, q)
+    }
+    #[inline]
+    fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> SliderCrankConstraints<T> {
+        Self::phi_dot(self, at)
+    }
+    #[inline]
+    fn stabilized(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+    ) -> ::mbs_runtime::Stabilized<
+        SliderCrankCoordinates<T>,
+        SliderCrankConstraints<T>,
+    > {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = at.v.theta1 * sin_theta1;
+        let v2 = self.hoisted[0] * v1;
+        let phi_dot_crank_x = at.v.x1 + v2;
+        let v4 = phi_dot_crank_x * gains.two_alpha;
+        let v6 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v6;
+        let v8 = phi_crank_x * gains.beta_squared;
+        let v9 = v4 + v8;
+        let v10 = cos_theta1 * at.v.theta1;
+        let v11 = at.v.theta1 * self.hoisted[0];
+        let v12 = v10 * v11;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v14 = gains.two_alpha * phi_dot_crank_speed;
+        let v15 = self.parameters.omega * at.t;
+        let phi_crank_speed = at.q.theta1 - v15;
+        let v17 = gains.beta_squared * phi_crank_speed;
+        let v18 = v14 + v17;
+        let v19 = sin_theta1 * self.hoisted[0];
+        let v20 = v18 * v19;
+        let v21 = v9 + v12;
+        let v22 = v21 - v20;
+        let acc_x1 = -v22;
+        let v24 = self.hoisted[0] * v10;
+        let phi_dot_crank_y = at.v.y1 - v24;
+        let v26 = gains.two_alpha * phi_dot_crank_y;
+        let phi_crank_y = at.q.y1 - v19;
+        let v28 = gains.beta_squared * phi_crank_y;
+        let v29 = v26 + v28;
+        let v30 = v1 * v11;
+        let v31 = v6 * v18;
+        let v32 = v29 + v30;
+        let v33 = v32 + v31;
+        let acc_y1 = -v33;
+        let acc_theta1 = -v18;
+        let v36 = self.parameters.l1 * v1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v38 = at.v.theta2 * sin_theta2;
+        let v39 = self.hoisted[1] * v38;
+        let v40 = at.v.x2 + v36;
+        let phi_dot_rod_x = v40 + v39;
+        let v42 = gains.two_alpha * phi_dot_rod_x;
+        let v43 = cos_theta1 * self.parameters.l1;
+        let v45 = cos_theta2 * self.hoisted[1];
+        let v46 = at.q.x2 - v43;
+        let phi_rod_x = v46 - v45;
+        let v48 = gains.beta_squared * phi_rod_x;
+        let v49 = v42 + v48;
+        let v50 = cos_theta2 * at.v.theta2;
+        let v51 = at.v.theta2 * self.hoisted[1];
+        let v52 = v50 * v51;
+        let v53 = at.v.theta1 * self.parameters.l1;
+        let v54 = v10 * v53;
+        let v55 = sin_theta1 * self.parameters.l1;
+        let v56 = v18 * v55;
+        let v57 = v54 - v56;
+        let v58 = v49 + v52;
+        let v59 = v58 + v57;
+        let v60 = self.hoisted[11] / cos_theta2;
+        let v61 = self.parameters.l1 * v10;
+        let v62 = self.parameters.l2 * v50;
+        let phi_dot_guide = v61 + v62;
+        let v64 = gains.two_alpha * phi_dot_guide;
+        let v65 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v55 + v65;
+        let v67 = gains.beta_squared * phi_guide;
+        let v68 = v64 + v67;
+        let v69 = at.v.theta2 * self.parameters.l2;
+        let v70 = v38 * v69;
+        let v71 = v1 * v53;
+        let v72 = v18 * v43;
+        let v73 = v71 + v72;
+        let v74 = v68 - v70;
+        let v75 = v74 - v73;
+        let v76 = v60 * v75;
+        let v77 = sin_theta2 * self.hoisted[1];
+        let v78 = v76 * v77;
+        let v79 = v59 - v78;
+        let acc_x2 = -v79;
+        let v81 = self.hoisted[1] * v50;
+        let v82 = v61 - at.v.y2;
+        let v83 = v82 + v81;
+        let v84 = gains.two_alpha * v83;
+        let v85 = v55 - at.q.y2;
+        let v86 = v85 + v77;
+        let v87 = gains.beta_squared * v86;
+        let feedback_rod_y = v84 + v87;
+        let v89 = v38 * v51;
+        let v90 = v89 - feedback_rod_y;
+        let v91 = v90 + v73;
+        let v92 = v45 * v76;
+        let v93 = v91 + v92;
+        let acc_y2 = -v93;
+        let acc_theta2 = -v76;
+        let v96 = self.parameters.l2 * v38;
+        let v97 = v36 + at.v.x3;
+        let phi_dot_slider = v97 + v96;
+        let v99 = gains.two_alpha * phi_dot_slider;
+        let v100 = cos_theta2 * self.parameters.l2;
+        let v101 = v43 - at.q.x3;
+        let v102 = v101 + v100;
+        let v103 = gains.beta_squared * v102;
+        let v104 = v99 - v103;
+        let v105 = v50 * v69;
+        let v106 = v104 + v105;
+        let v107 = v106 + v57;
+        let v108 = v65 * v76;
+        let v109 = v107 - v108;
+        let acc_x3 = -v109;
+        let v111 = -v9;
+        let v112 = -v29;
+        let v113 = -v49;
+        let v114 = -v68;
+        let v115 = -v104;
+        let v116 = v60 * self.hoisted[12];
+        let abs_v116 = v116.abs();
+        ::mbs_runtime::Stabilized {
+            acceleration: SliderCrankCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: acc_theta1,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            feedback: SliderCrankConstraints {
+                crank_x: v111,
+                crank_y: v112,
+                crank_speed: acc_theta1,
+                rod_x: v113,
+                rod_y: feedback_rod_y,
+                guide: v114,
+                slider: v115,
+            },
+            growth: abs_v116,
+        }
+    }
+    #[inline]
+    fn constrained(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        feedback: &SliderCrankConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = at.v.theta1 * at.v.theta1;
+        let v2 = cos_theta1 * v1;
+        let v3 = self.hoisted[0] * v2;
+        let v5 = sin_theta1 * feedback.crank_speed;
+        let v6 = self.hoisted[0] * v5;
+        let v7 = feedback.crank_x - v3;
+        let acc_x1 = v7 - v6;
+        let v9 = sin_theta1 * v1;
+        let v10 = self.hoisted[0] * v9;
+        let v11 = cos_theta1 * feedback.crank_speed;
+        let v12 = self.hoisted[0] * v11;
+        let v13 = feedback.crank_y - v10;
+        let acc_y1 = v13 + v12;
+        let v15 = at.v.theta2 * at.v.theta2;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v17 = cos_theta2 * self.hoisted[1];
+        let v18 = v15 * v17;
+        let v19 = self.parameters.l1 * v2;
+        let v20 = self.parameters.l1 * v5;
+        let v21 = v19 + v20;
+        let v22 = feedback.rod_x - v18;
+        let v23 = v22 - v21;
+        let v24 = self.hoisted[11] / cos_theta2;
+        let v26 = sin_theta2 * self.parameters.l2;
+        let v27 = v15 * v26;
+        let v28 = self.parameters.l1 * v9;
+        let v29 = self.parameters.l1 * v11;
+        let v30 = v28 - v29;
+        let v31 = feedback.guide + v27;
+        let v32 = v31 + v30;
+        let acc_theta2 = v24 * v32;
+        let v34 = self.hoisted[1] * sin_theta2;
+        let v35 = acc_theta2 * v34;
+        let acc_x2 = v23 - v35;
+        let v37 = v15 * v34;
+        let v38 = v37 - feedback.rod_y;
+        let v39 = v38 + v30;
+        let v40 = acc_theta2 * v17;
+        let v41 = v39 - v40;
+        let acc_y2 = -v41;
+        let v43 = cos_theta2 * self.parameters.l2;
+        let v44 = v43 * v15;
+        let v45 = v44 - feedback.slider;
+        let v46 = v45 + v21;
+        let v47 = acc_theta2 * v26;
+        let v48 = v46 + v47;
+        let acc_x3 = -v48;
+        let v50 = v24 * self.hoisted[12];
+        let abs_v50 = v50.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: feedback.crank_speed,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            growth: abs_v50,
+        }
+    }
+    #[inline]
+    fn reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        feedback: &SliderCrankConstraints<T>,
+    ) -> ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>> {
+        let v0 = at.v.theta1 * at.v.theta1;
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v2 = cos_theta1 * self.hoisted[0];
+        let v3 = v0 * v2;
+        let v5 = sin_theta1 * self.hoisted[0];
+        let v6 = feedback.crank_speed * v5;
+        let v7 = feedback.crank_x - v3;
+        let acc_x1 = v7 - v6;
+        let v9 = v0 * v5;
+        let v10 = feedback.crank_speed * v2;
+        let v11 = feedback.crank_y - v9;
+        let acc_y1 = v11 + v10;
+        let v13 = at.v.theta2 * at.v.theta2;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v15 = cos_theta2 * self.hoisted[1];
+        let v16 = v13 * v15;
+        let v17 = cos_theta1 * self.parameters.l1;
+        let v18 = v17 * v0;
+        let v19 = sin_theta1 * self.parameters.l1;
+        let v20 = feedback.crank_speed * v19;
+        let v21 = v18 + v20;
+        let v22 = feedback.rod_x - v16;
+        let v23 = v22 - v21;
+        let v24 = self.hoisted[11] / cos_theta2;
+        let v26 = sin_theta2 * self.parameters.l2;
+        let v27 = v13 * v26;
+        let v28 = v0 * v19;
+        let v29 = feedback.crank_speed * v17;
+        let v30 = v28 - v29;
+        let v31 = feedback.guide + v27;
+        let v32 = v31 + v30;
+        let acc_theta2 = v24 * v32;
+        let v34 = self.hoisted[1] * sin_theta2;
+        let v35 = acc_theta2 * v34;
+        let acc_x2 = v23 - v35;
+        let v37 = v13 * v34;
+        let v38 = v37 - feedback.rod_y;
+        let v39 = v38 + v30;
+        let v40 = acc_theta2 * v15;
+        let v41 = v39 - v40;
+        let acc_y2 = -v41;
+        let v43 = cos_theta2 * self.parameters.l2;
+        let v44 = v43 * v13;
+        let v45 = v44 - feedback.slider;
+        let v46 = v45 + v21;
+        let v47 = acc_theta2 * v26;
+        let v48 = v46 + v47;
+        let acc_x3 = -v48;
+        let v50 = acc_x1 * self.parameters.m1;
+        let lambda_crank_x = -v50;
+        let v52 = acc_y1 * self.parameters.m1;
+        let v53 = self.hoisted[4] + v52;
+        let lambda_crank_y = -v53;
+        let v55 = feedback.crank_speed * self.hoisted[2];
+        let v56 = v50 * v5;
+        let v57 = v53 * v2;
+        let v58 = v23 * self.parameters.m2;
+        let v59 = v35 * self.parameters.m2;
+        let v60 = v58 - v59;
+        let v61 = v60 * v19;
+        let v62 = v39 * self.parameters.m2;
+        let v63 = self.hoisted[5] - v62;
+        let v64 = v40 * self.parameters.m2;
+        let v65 = v63 + v64;
+        let v66 = v65 * v17;
+        let v67 = v58 * v34;
+        let v68 = v63 * v15;
+        let v69 = v46 * self.parameters.m3;
+        let v70 = v69 * v26;
+        let v71 = sin_theta2 * sin_theta2;
+        let v72 = v71 * self.hoisted[14];
+        let v73 = self.hoisted[13] + v72;
+        let v74 = acc_theta2 * v73;
+        let v75 = v67 - v68;
+        let v76 = v75 - v70;
+        let v77 = v76 - v74;
+        let lambda_guide = v24 * v77;
+        let v79 = lambda_guide * v17;
+        let v80 = v47 * self.parameters.m3;
+        let lambda_slider = v69 + v80;
+        let v82 = lambda_slider * v19;
+        let v83 = v56 - v57;
+        let v84 = v83 + v61;
+        let v85 = v84 - v66;
+        let v86 = v85 - v79;
+        let v87 = v86 - v82;
+        let v88 = v55 - v87;
+        let lambda_crank_speed = -v88;
+        let lambda_rod_x = -v60;
+        let lambda_rod_y = -v65;
+        let v92 = v24 * self.hoisted[12];
+        let abs_v92 = v92.abs();
+        ::mbs_runtime::Reactions {
+            acceleration: SliderCrankCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: feedback.crank_speed,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            multipliers: SliderCrankConstraints {
+                crank_x: lambda_crank_x,
+                crank_y: lambda_crank_y,
+                crank_speed: lambda_crank_speed,
+                rod_x: lambda_rod_x,
+                rod_y: lambda_rod_y,
+                guide: lambda_guide,
+                slider: lambda_slider,
+            },
+            growth: abs_v92,
+        }
+    }
+    fn position_correction(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+        feedback: &SliderCrankConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let v1 = sin_theta1 * feedback.crank_speed;
+        let v2 = self.hoisted[0] * v1;
+        let v3 = feedback.crank_x - v2;
+        let v5 = feedback.crank_speed * cos_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let v7 = feedback.crank_y + v6;
+        let v8 = self.parameters.l1 * v1;
+        let v9 = feedback.rod_x - v8;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v12 = self.hoisted[11] / cos_theta2;
+        let v13 = self.parameters.l1 * v5;
+        let v14 = feedback.guide - v13;
+        let v15 = v12 * v14;
+        let v16 = sin_theta2 * v15;
+        let v17 = self.hoisted[1] * v16;
+        let v18 = v9 - v17;
+        let v19 = v13 + feedback.rod_y;
+        let v20 = cos_theta2 * v15;
+        let v21 = v20 * self.hoisted[1];
+        let v22 = v19 + v21;
+        let v23 = v8 - feedback.slider;
+        let v24 = self.parameters.l2 * v16;
+        let v25 = v23 + v24;
+        let v26 = -v25;
+        let v27 = v12 * self.hoisted[12];
+        let abs_v27 = v27.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankCoordinates {
+                x1: v3,
+                y1: v7,
+                theta1: feedback.crank_speed,
+                x2: v18,
+                y2: v22,
+                theta2: v15,
+                x3: v26,
+            },
+            growth: abs_v27,
+        }
+    }
+    fn velocity_correction(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+        feedback: &SliderCrankConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let v1 = sin_theta1 * feedback.crank_speed;
+        let v2 = self.hoisted[0] * v1;
+        let v3 = feedback.crank_x - v2;
+        let v5 = feedback.crank_speed * cos_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let v7 = feedback.crank_y + v6;
+        let v8 = self.parameters.l1 * v1;
+        let v9 = feedback.rod_x - v8;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v12 = self.hoisted[11] / cos_theta2;
+        let v13 = self.parameters.l1 * v5;
+        let v14 = feedback.guide - v13;
+        let v15 = v12 * v14;
+        let v16 = sin_theta2 * v15;
+        let v17 = self.hoisted[1] * v16;
+        let v18 = v9 - v17;
+        let v19 = v13 + feedback.rod_y;
+        let v20 = cos_theta2 * v15;
+        let v21 = v20 * self.hoisted[1];
+        let v22 = v19 + v21;
+        let v23 = v8 - feedback.slider;
+        let v24 = self.parameters.l2 * v16;
+        let v25 = v23 + v24;
+        let v26 = -v25;
+        let v27 = v12 * self.hoisted[12];
+        let abs_v27 = v27.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankCoordinates {
+                x1: v3,
+                y1: v7,
+                theta1: feedback.crank_speed,
+                x2: v18,
+                y2: v22,
+                theta2: v15,
+                x3: v26,
+            },
+            growth: abs_v27,
+        }
+    }
+    fn worst_pivot(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+    ) -> ::core::option::Option<usize> {
+        let cos_theta2 = q.theta2.cos();
+        let v1 = self.hoisted[11] / cos_theta2;
+        let v2 = v1 * self.hoisted[12];
+        let abs_v2 = v2.abs();
+        ::mbs_runtime::__private::worst(&[abs_v2])
+    }
+    #[inline]
+    fn kinetic_energy(&self, at: &::mbs_runtime::State<SliderCrankCoordinates<T>>) -> T {
+        Self::kinetic_energy(self, at)
+    }
+    #[inline]
+    fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> T {
+        Self::potential_energy(self, at)
+    }
+    #[inline]
+    fn outputs(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        reactions: &::mbs_runtime::Reactions<
+            SliderCrankCoordinates<T>,
+            SliderCrankConstraints<T>,
+        >,
+    ) -> SliderCrankOutputs<T> {
+        let v0 = -reactions.multipliers.crank_speed;
+        SliderCrankOutputs {
+            drive_torque: v0,
+        }
+    }
+}

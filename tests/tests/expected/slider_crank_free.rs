@@ -1,0 +1,2348 @@
+/**Slider-crank with a torque on the crank.
+
+# Equations
+
+7 coordinates, 6 constraints, 1 degrees of freedom. Φ(q, t) = 0 is
+```text
+crank_x: x1 - 1/2*l1*cos(theta1) = 0
+crank_y: y1 - 1/2*l1*sin(theta1) = 0
+rod_x: x2 - l1*cos(theta1) - 1/2*l2*cos(theta2) = 0
+rod_y: y2 - l1*sin(theta1) - 1/2*l2*sin(theta2) = 0
+guide: l1*sin(theta1) + l2*sin(theta2) = 0
+slider: x3 - l1*cos(theta1) - l2*cos(theta2) = 0
+```
+
+# Cost
+
+Elimination order: constraints first, then what motion they leave free (null space). Operations per call:
+
+| function | mul | add | div | sincos | other | pivot watch |
+|---|---|---|---|---|---|---|
+| `new` | 24 | 3 | 1 | 0 | 1 | 0 |
+| `phi` | 8 | 10 | 0 | 2 | 0 | 0 |
+| `phi_dot` | 12 | 9 | 0 | 2 | 0 | 0 |
+| `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
+| `phi_t` | 0 | 0 | 0 | 0 | 0 | 0 |
+| `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 44 | 39 | 0 | 2 | 0 | 0 |
+| `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
+| `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
+| `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
+| `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
+| `stabilized` | 82 | 76 | 3 | 2 | 0 | 2 |
+| `constrained` | 62 | 42 | 3 | 2 | 0 | 2 |
+| `reactions` | 67 | 52 | 3 | 2 | 0 | 2 |
+| `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
+| `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
+| `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
+*/
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFree<T = f64> {
+    parameters: SliderCrankFreeParameters<T>,
+    /**What depends on parameters alone, computed once:
+
+```text
+0: 1/2*l1
+1: 1/2*l2
+2: l1^2*m1*inertia_factor
+3: l2^2*inertia_factor*m2
+4: 981/100*m1
+5: 981/100*m2
+6: 1/2*m1
+7: 1/2*l1^2*m1*inertia_factor
+8: 1/2*m2
+9: 1/2*l2^2*inertia_factor*m2
+10: 1/2*m3
+11: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
+12: l1^2*m3
+13: 1/2*l1*l2*m2
+14: l1*l2*m3
+15: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
+16: l2^2*m3
+17: 1/l2
+18: abs(l2)
+```
+*/
+    hoisted: [T; 19usize],
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFree<T> {
+    /// The mechanism with its declared parameters.
+    fn default() -> Self {
+        Self::prepare(
+            <SliderCrankFreeParameters<T> as ::core::default::Default>::default(),
+        )
+    }
+}
+///Parameters of [`SliderCrankFree`], in SI units; the default is the declaration.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFreeParameters<T = f64> {
+    /**Length of the crank.
+
+`l1`: a length [m], declared as 60 mm = 0.06 in SI units.*/
+    pub l1: T,
+    /**Length of the rod.
+
+`l2`: a length [m], declared as 180 mm = 0.18 in SI units.*/
+    pub l2: T,
+    /**Mass of the crank, at its middle.
+
+`m1`: a mass [kg], declared as 0.5 kg = 0.5 in SI units.*/
+    pub m1: T,
+    /**Mass of the rod, at its middle.
+
+`m2`: a mass [kg], declared as 1.2 kg = 1.2 in SI units.*/
+    pub m2: T,
+    /**Mass of the slider.
+
+`m3`: a mass [kg], declared as 2 kg = 2 in SI units.*/
+    pub m3: T,
+    /**Moment of inertia of crank and rod about their middles over m l².
+
+`inertia_factor`: a dimensionless, declared as 0.08333333333333333.*/
+    pub inertia_factor: T,
+    /**Speed of the crank at the start.
+
+`omega`: a rate [1/s], declared as 200 rpm = 20.94395102393195 in SI units.*/
+    pub omega: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeParameters<T> {
+    fn default() -> Self {
+        Self {
+            l1: T::from_f64(0.06),
+            l2: T::from_f64(0.18),
+            m1: T::from_f64(0.5),
+            m2: T::from_f64(1.2),
+            m3: T::from_f64(2.0),
+            inertia_factor: T::from_f64(0.08333333333333333),
+            omega: T::from_f64(20.94395102393195),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeParameters<T> {
+    type Real = T;
+    type Array = [T; 7];
+    const NAMES: &'static [&'static str] = &[
+        "l1",
+        "l2",
+        "m1",
+        "m2",
+        "m3",
+        "inertia_factor",
+        "omega",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 7] {
+        [self.l1, self.l2, self.m1, self.m2, self.m3, self.inertia_factor, self.omega]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 7]) -> Self {
+        let [l1, l2, m1, m2, m3, inertia_factor, omega] = array;
+        Self {
+            l1,
+            l2,
+            m1,
+            m2,
+            m3,
+            inertia_factor,
+            omega,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            l1: value,
+            l2: value,
+            m1: value,
+            m2: value,
+            m3: value,
+            inertia_factor: value,
+            omega: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankFreeParameters<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
+    fn from(components: SliderCrankFreeParameters<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            7,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Inputs of [`SliderCrankFree`], set by the embedding program, in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFreeInputs<T = f64> {
+    /**Torque on the crank.
+
+`crank_torque`: a torque or energy [N*m].*/
+    pub crank_torque: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeInputs<T> {
+    fn default() -> Self {
+        Self {
+            crank_torque: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeInputs<T> {
+    type Real = T;
+    type Array = [T; 1];
+    const NAMES: &'static [&'static str] = &["crank_torque"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 1] {
+        [self.crank_torque]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 1]) -> Self {
+        let [crank_torque] = array;
+        Self { crank_torque }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self { crank_torque: value }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankFreeInputs<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
+    fn from(components: SliderCrankFreeInputs<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            1,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Coordinates of [`SliderCrankFree`], or their rates, in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFreeCoordinates<T = f64> {
+    ///`x1`: a length [m].
+    pub x1: T,
+    ///`y1`: a length [m].
+    pub y1: T,
+    ///`theta1`: a dimensionless.
+    pub theta1: T,
+    ///`x2`: a length [m].
+    pub x2: T,
+    ///`y2`: a length [m].
+    pub y2: T,
+    ///`theta2`: a dimensionless.
+    pub theta2: T,
+    ///`x3`: a length [m].
+    pub x3: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeCoordinates<T> {
+    fn default() -> Self {
+        Self {
+            x1: T::from_f64(0.0),
+            y1: T::from_f64(0.0),
+            theta1: T::from_f64(0.0),
+            x2: T::from_f64(0.0),
+            y2: T::from_f64(0.0),
+            theta2: T::from_f64(0.0),
+            x3: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components
+for SliderCrankFreeCoordinates<T> {
+    type Real = T;
+    type Array = [T; 7];
+    const NAMES: &'static [&'static str] = &[
+        "x1",
+        "y1",
+        "theta1",
+        "x2",
+        "y2",
+        "theta2",
+        "x3",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 7] {
+        [self.x1, self.y1, self.theta1, self.x2, self.y2, self.theta2, self.x3]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 7]) -> Self {
+        let [x1, y1, theta1, x2, y2, theta2, x3] = array;
+        Self {
+            x1,
+            y1,
+            theta1,
+            x2,
+            y2,
+            theta2,
+            x3,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            x1: value,
+            y1: value,
+            theta1: value,
+            x2: value,
+            y2: value,
+            theta2: value,
+            x3: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankFreeCoordinates<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
+    fn from(components: SliderCrankFreeCoordinates<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            7,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///One component per constraint of [`SliderCrankFree`]: Φ, its derivatives, or the multipliers λ.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFreeConstraints<T = f64> {
+    /**The crank turns about the origin.
+
+`x1 - 1/2*l1*cos(theta1) = 0`*/
+    pub crank_x: T,
+    /**The crank turns about the origin.
+
+`y1 - 1/2*l1*sin(theta1) = 0`*/
+    pub crank_y: T,
+    /**The rod begins at the crank's tip.
+
+`x2 - l1*cos(theta1) - 1/2*l2*cos(theta2) = 0`*/
+    pub rod_x: T,
+    /**The rod begins at the crank's tip.
+
+`y2 - l1*sin(theta1) - 1/2*l2*sin(theta2) = 0`*/
+    pub rod_y: T,
+    /**The rod ends on the x axis.
+
+`l1*sin(theta1) + l2*sin(theta2) = 0`*/
+    pub guide: T,
+    /**The slider sits at the rod's end.
+
+`x3 - l1*cos(theta1) - l2*cos(theta2) = 0`*/
+    pub slider: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeConstraints<T> {
+    fn default() -> Self {
+        Self {
+            crank_x: T::from_f64(0.0),
+            crank_y: T::from_f64(0.0),
+            rod_x: T::from_f64(0.0),
+            rod_y: T::from_f64(0.0),
+            guide: T::from_f64(0.0),
+            slider: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components
+for SliderCrankFreeConstraints<T> {
+    type Real = T;
+    type Array = [T; 6];
+    const NAMES: &'static [&'static str] = &[
+        "crank_x",
+        "crank_y",
+        "rod_x",
+        "rod_y",
+        "guide",
+        "slider",
+    ];
+    #[inline(always)]
+    fn into_array(self) -> [T; 6] {
+        [self.crank_x, self.crank_y, self.rod_x, self.rod_y, self.guide, self.slider]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 6]) -> Self {
+        let [crank_x, crank_y, rod_x, rod_y, guide, slider] = array;
+        Self {
+            crank_x,
+            crank_y,
+            rod_x,
+            rod_y,
+            guide,
+            slider,
+        }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            crank_x: value,
+            crank_y: value,
+            rod_x: value,
+            rod_y: value,
+            guide: value,
+            slider: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankFreeConstraints<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 6> {
+    fn from(components: SliderCrankFreeConstraints<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            6,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+///Outputs of [`SliderCrankFree`], in SI units.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
+)]
+pub struct SliderCrankFreeOutputs<T = f64> {
+    /**Speed of the crank.
+
+`crank_speed`: a rate [1/s].*/
+    pub crank_speed: T,
+    /**Power of the motor.
+
+`motor_power`: a power [W].*/
+    pub motor_power: T,
+}
+impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeOutputs<T> {
+    fn default() -> Self {
+        Self {
+            crank_speed: T::from_f64(0.0),
+            motor_power: T::from_f64(0.0),
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeOutputs<T> {
+    type Real = T;
+    type Array = [T; 2];
+    const NAMES: &'static [&'static str] = &["crank_speed", "motor_power"];
+    #[inline(always)]
+    fn into_array(self) -> [T; 2] {
+        [self.crank_speed, self.motor_power]
+    }
+    #[inline(always)]
+    fn from_array(array: [T; 2]) -> Self {
+        let [crank_speed, motor_power] = array;
+        Self { crank_speed, motor_power }
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self {
+            crank_speed: value,
+            motor_power: value,
+        }
+    }
+}
+impl<T: ::mbs_runtime::Real> ::core::convert::From<SliderCrankFreeOutputs<T>>
+for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
+    fn from(components: SliderCrankFreeOutputs<T>) -> Self {
+        ::mbs_runtime::__private::nalgebra::SVector::<
+            T,
+            2,
+        >::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                ::mbs_runtime::Components::into_array(components),
+            ]),
+        )
+    }
+}
+impl SliderCrankFree<f64> {
+    /// The mechanism with its declared parameters, in `f64`.
+    ///
+    /// For another scalar type, use `default`.
+    pub fn declared() -> Self {
+        ::core::default::Default::default()
+    }
+}
+impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
+    /// The mechanism with these parameters.
+    ///
+    /// # Errors
+    /// If a parameter is not finite, a mass or an inertia comes out
+    /// negative, or a declared condition does not hold.
+    pub fn new(
+        parameters: SliderCrankFreeParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        ::mbs_runtime::__private::check_finite(&parameters)?;
+        #[allow(unused_variables)] #[allow(clippy::all)]
+        {
+            let v0 = parameters.l1 * parameters.l1;
+            let v1 = v0 * parameters.m1;
+            let v2 = v1 * parameters.inertia_factor;
+            let v3 = parameters.l2 * parameters.l2;
+            let v4 = v3 * parameters.inertia_factor;
+            let v5 = v4 * parameters.m2;
+            if !(parameters.l1 > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "l1",
+                    value: parameters.l1.to_f64(),
+                    requirement: "`l1 > 0` has to hold",
+                });
+            }
+            if !(parameters.l2 > T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "l2",
+                    value: parameters.l2.to_f64(),
+                    requirement: "`l2 > 0` has to hold",
+                });
+            }
+            if !(parameters.m1 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of crank",
+                    value: (parameters.m1).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(v2 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "inertia of crank",
+                    value: (v2).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(parameters.m2 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of rod",
+                    value: (parameters.m2).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(v5 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "inertia of rod",
+                    value: (v5).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+            if !(parameters.m3 >= T::from_f64(0.0)) {
+                return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
+                    name: "mass of slider",
+                    value: (parameters.m3).to_f64(),
+                    requirement: "it must not be negative",
+                });
+            }
+        }
+        ::core::result::Result::Ok(Self::prepare(parameters))
+    }
+    /// Computes what depends on parameters alone.
+    #[allow(unused_variables, clippy::all)]
+    fn prepare(parameters: SliderCrankFreeParameters<T>) -> Self {
+        let v0 = parameters.l1 * T::from_f64(0.5);
+        let v1 = parameters.l2 * T::from_f64(0.5);
+        let v2 = parameters.l1 * parameters.l1;
+        let v3 = parameters.m1 * v2;
+        let v4 = parameters.inertia_factor * v3;
+        let v5 = parameters.l2 * parameters.l2;
+        let v6 = parameters.inertia_factor * v5;
+        let v7 = parameters.m2 * v6;
+        let v8 = parameters.m1 * T::from_f64(9.81);
+        let v9 = parameters.m2 * T::from_f64(9.81);
+        let v10 = parameters.m1 * T::from_f64(0.5);
+        let v11 = T::from_f64(0.5) * v4;
+        let v12 = parameters.m2 * T::from_f64(0.5);
+        let v13 = v12 * v6;
+        let v14 = parameters.m3 * T::from_f64(0.5);
+        let v15 = T::from_f64(0.25) * v3;
+        let v16 = parameters.m2 * v2;
+        let v17 = v4 + v15;
+        let v18 = v17 + v16;
+        let v19 = parameters.m3 * v2;
+        let v20 = parameters.l1 * parameters.l2;
+        let v21 = v12 * v20;
+        let v22 = parameters.m3 * v20;
+        let v23 = parameters.m2 * T::from_f64(0.25);
+        let v24 = v23 * v5;
+        let v25 = v7 + v24;
+        let v26 = parameters.m3 * v5;
+        let v27 = T::from_f64(1.0) / parameters.l2;
+        let abs_l2 = parameters.l2.abs();
+        Self {
+            parameters,
+            hoisted: [
+                v0,
+                v1,
+                v4,
+                v7,
+                v8,
+                v9,
+                v10,
+                v11,
+                v12,
+                v13,
+                v14,
+                v18,
+                v19,
+                v21,
+                v22,
+                v25,
+                v26,
+                v27,
+                abs_l2,
+            ],
+        }
+    }
+    /// The parameters.
+    pub fn parameters(&self) -> &SliderCrankFreeParameters<T> {
+        &self.parameters
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
+    /**Constraints Φ(q, t): 0 where the mechanism is assembled.
+
+```text
+crank_x: x1 - 1/2*l1*cos(theta1)
+crank_y: y1 - 1/2*l1*sin(theta1)
+rod_x: x2 - l1*cos(theta1) - 1/2*l2*cos(theta2)
+rod_y: y2 - l1*sin(theta1) - 1/2*l2*sin(theta2)
+guide: l1*sin(theta1) + l2*sin(theta2)
+slider: x3 - l1*cos(theta1) - l2*cos(theta2)
+```
+
+
+Cost: 8 mul + 10 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn phi(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> SliderCrankFreeConstraints<T> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let v1 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = q.x1 - v1;
+        let v4 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = q.y1 - v4;
+        let v6 = cos_theta1 * self.parameters.l1;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v8 = cos_theta2 * self.hoisted[1];
+        let v9 = q.x2 - v6;
+        let phi_rod_x = v9 - v8;
+        let v11 = sin_theta1 * self.parameters.l1;
+        let v13 = self.hoisted[1] * sin_theta2;
+        let v14 = q.y2 - v11;
+        let phi_rod_y = v14 - v13;
+        let v16 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v11 + v16;
+        let v18 = cos_theta2 * self.parameters.l2;
+        let v19 = v6 - q.x3;
+        let v20 = v19 + v18;
+        let phi_slider = -v20;
+        SliderCrankFreeConstraints {
+            crank_x: phi_crank_x,
+            crank_y: phi_crank_y,
+            rod_x: phi_rod_x,
+            rod_y: phi_rod_y,
+            guide: phi_guide,
+            slider: phi_slider,
+        }
+    }
+    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
+
+```text
+∂crank_x/∂x1 = 1
+∂crank_x/∂theta1 = 1/2*l1*sin(theta1)
+∂crank_y/∂y1 = 1
+∂crank_y/∂theta1 = -1/2*l1*cos(theta1)
+∂rod_x/∂theta1 = l1*sin(theta1)
+∂rod_x/∂x2 = 1
+∂rod_x/∂theta2 = 1/2*l2*sin(theta2)
+∂rod_y/∂theta1 = -l1*cos(theta1)
+∂rod_y/∂y2 = 1
+∂rod_y/∂theta2 = -1/2*l2*cos(theta2)
+∂guide/∂theta1 = l1*cos(theta1)
+∂guide/∂theta2 = l2*cos(theta2)
+∂slider/∂theta1 = l1*sin(theta1)
+∂slider/∂theta2 = l2*sin(theta2)
+∂slider/∂x3 = 1
+```
+
+
+Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn phi_q(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 6usize, 7usize> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
+        let v3 = cos_theta1 * self.hoisted[0];
+        let phi_q_crank_y_theta1 = -v3;
+        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let phi_q_rod_x_theta2 = sin_theta2 * self.hoisted[1];
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
+        let v11 = cos_theta2 * self.hoisted[1];
+        let phi_q_rod_y_theta2 = -v11;
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let phi_q_slider_theta2 = sin_theta2 * self.parameters.l2;
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    phi_q_crank_x_theta1,
+                    phi_q_crank_y_theta1,
+                    phi_q_rod_x_theta1,
+                    phi_q_rod_y_theta1,
+                    phi_q_guide_theta1,
+                    phi_q_rod_x_theta1,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    phi_q_rod_x_theta2,
+                    phi_q_rod_y_theta2,
+                    phi_q_guide_theta2,
+                    phi_q_slider_theta2,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                ],
+            ]),
+        )
+    }
+    /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
+
+```text
+crank_x: 0
+crank_y: 0
+rod_x: 0
+rod_y: 0
+guide: 0
+slider: 0
+```
+
+
+Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi_t(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> SliderCrankFreeConstraints<T> {
+        SliderCrankFreeConstraints {
+            crank_x: T::from_f64(0.0),
+            crank_y: T::from_f64(0.0),
+            rod_x: T::from_f64(0.0),
+            rod_y: T::from_f64(0.0),
+            guide: T::from_f64(0.0),
+            slider: T::from_f64(0.0),
+        }
+    }
+    /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
+    #[inline]
+    pub fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> SliderCrankFreeConstraints<T> {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = sin_theta1 * at.v.theta1;
+        let v2 = self.hoisted[0] * v1;
+        let phi_dot_crank_x = at.v.x1 + v2;
+        let v5 = at.v.theta1 * cos_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let phi_dot_crank_y = at.v.y1 - v6;
+        let v8 = self.parameters.l1 * v1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v10 = sin_theta2 * at.v.theta2;
+        let v11 = self.hoisted[1] * v10;
+        let v12 = at.v.x2 + v8;
+        let phi_dot_rod_x = v12 + v11;
+        let v14 = self.parameters.l1 * v5;
+        let v16 = at.v.theta2 * cos_theta2;
+        let v17 = self.hoisted[1] * v16;
+        let v18 = at.v.y2 - v14;
+        let phi_dot_rod_y = v18 - v17;
+        let v20 = self.parameters.l2 * v16;
+        let phi_dot_guide = v14 + v20;
+        let v22 = self.parameters.l2 * v10;
+        let v23 = v8 + at.v.x3;
+        let phi_dot_slider = v23 + v22;
+        SliderCrankFreeConstraints {
+            crank_x: phi_dot_crank_x,
+            crank_y: phi_dot_crank_y,
+            rod_x: phi_dot_rod_x,
+            rod_y: phi_dot_rod_y,
+            guide: phi_dot_guide,
+            slider: phi_dot_slider,
+        }
+    }
+    /**γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).
+
+```text
+crank_x: -1/2*l1*cos(theta1)*der(theta1)^2
+crank_y: -1/2*l1*sin(theta1)*der(theta1)^2
+rod_x: -l1*cos(theta1)*der(theta1)^2 - 1/2*l2*cos(theta2)*der(theta2)^2
+rod_y: -l1*sin(theta1)*der(theta1)^2 - 1/2*l2*sin(theta2)*der(theta2)^2
+guide: l1*sin(theta1)*der(theta1)^2 + l2*sin(theta2)*der(theta2)^2
+slider: -l1*cos(theta1)*der(theta1)^2 - l2*cos(theta2)*der(theta2)^2
+```
+
+
+Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn gamma(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> SliderCrankFreeConstraints<T> {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = at.v.theta1 * at.v.theta1;
+        let v2 = cos_theta1 * v1;
+        let v3 = self.hoisted[0] * v2;
+        let gamma_crank_x = -v3;
+        let v6 = sin_theta1 * v1;
+        let v7 = self.hoisted[0] * v6;
+        let gamma_crank_y = -v7;
+        let v9 = self.parameters.l1 * v2;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v11 = at.v.theta2 * at.v.theta2;
+        let v12 = cos_theta2 * v11;
+        let v13 = self.hoisted[1] * v12;
+        let v14 = v9 + v13;
+        let gamma_rod_x = -v14;
+        let v16 = self.parameters.l1 * v6;
+        let v18 = sin_theta2 * v11;
+        let v19 = self.hoisted[1] * v18;
+        let v20 = v16 + v19;
+        let gamma_rod_y = -v20;
+        let v22 = self.parameters.l2 * v18;
+        let gamma_guide = v16 + v22;
+        let v24 = self.parameters.l2 * v12;
+        let v25 = v9 + v24;
+        let gamma_slider = -v25;
+        SliderCrankFreeConstraints {
+            crank_x: gamma_crank_x,
+            crank_y: gamma_crank_y,
+            rod_x: gamma_rod_x,
+            rod_y: gamma_rod_y,
+            guide: gamma_guide,
+            slider: gamma_slider,
+        }
+    }
+    /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
+
+Cost: 44 mul + 39 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn baumgarte_rhs(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        alpha: T,
+        beta: T,
+    ) -> SliderCrankFreeConstraints<T> {
+        let gains = ::mbs_runtime::Gains {
+            two_alpha: alpha + alpha,
+            beta_squared: beta * beta,
+        };
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = cos_theta1 * at.v.theta1;
+        let v2 = at.v.theta1 * self.hoisted[0];
+        let v3 = v1 * v2;
+        let v5 = at.v.theta1 * sin_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let phi_dot_crank_x = at.v.x1 + v6;
+        let v8 = phi_dot_crank_x * gains.two_alpha;
+        let v9 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v9;
+        let v11 = phi_crank_x * gains.beta_squared;
+        let v12 = v3 + v8;
+        let v13 = v12 + v11;
+        let v14 = -v13;
+        let v15 = v5 * v2;
+        let v16 = self.hoisted[0] * v1;
+        let phi_dot_crank_y = at.v.y1 - v16;
+        let v18 = gains.two_alpha * phi_dot_crank_y;
+        let v19 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v19;
+        let v21 = gains.beta_squared * phi_crank_y;
+        let v22 = v15 + v18;
+        let v23 = v22 + v21;
+        let v24 = -v23;
+        let v25 = at.v.theta1 * self.parameters.l1;
+        let v26 = v1 * v25;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v28 = cos_theta2 * at.v.theta2;
+        let v29 = at.v.theta2 * self.hoisted[1];
+        let v30 = v28 * v29;
+        let v31 = self.parameters.l1 * v5;
+        let v33 = at.v.theta2 * sin_theta2;
+        let v34 = self.hoisted[1] * v33;
+        let v35 = at.v.x2 + v31;
+        let phi_dot_rod_x = v35 + v34;
+        let v37 = gains.two_alpha * phi_dot_rod_x;
+        let v38 = cos_theta1 * self.parameters.l1;
+        let v39 = cos_theta2 * self.hoisted[1];
+        let v40 = at.q.x2 - v38;
+        let phi_rod_x = v40 - v39;
+        let v42 = gains.beta_squared * phi_rod_x;
+        let v43 = v26 + v30;
+        let v44 = v43 + v37;
+        let v45 = v44 + v42;
+        let v46 = -v45;
+        let v47 = v5 * v25;
+        let v48 = v33 * v29;
+        let v49 = self.parameters.l1 * v1;
+        let v50 = self.hoisted[1] * v28;
+        let v51 = at.v.y2 - v49;
+        let phi_dot_rod_y = v51 - v50;
+        let v53 = gains.two_alpha * phi_dot_rod_y;
+        let v54 = sin_theta1 * self.parameters.l1;
+        let v55 = sin_theta2 * self.hoisted[1];
+        let v56 = at.q.y2 - v54;
+        let phi_rod_y = v56 - v55;
+        let v58 = gains.beta_squared * phi_rod_y;
+        let v59 = v47 + v48;
+        let v60 = v59 + v53;
+        let v61 = v60 + v58;
+        let v62 = -v61;
+        let v63 = at.v.theta2 * self.parameters.l2;
+        let v64 = v33 * v63;
+        let v65 = self.parameters.l2 * v28;
+        let phi_dot_guide = v49 + v65;
+        let v67 = gains.two_alpha * phi_dot_guide;
+        let v68 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v54 + v68;
+        let v70 = gains.beta_squared * phi_guide;
+        let v71 = v47 + v64;
+        let v72 = v71 - v67;
+        let v73 = v72 - v70;
+        let v74 = v28 * v63;
+        let v75 = self.parameters.l2 * v33;
+        let v76 = v31 + at.v.x3;
+        let phi_dot_slider = v76 + v75;
+        let v78 = gains.two_alpha * phi_dot_slider;
+        let v79 = cos_theta2 * self.parameters.l2;
+        let v80 = v38 - at.q.x3;
+        let v81 = v80 + v79;
+        let v82 = gains.beta_squared * v81;
+        let v83 = v26 + v74;
+        let v84 = v83 + v78;
+        let v85 = v84 - v82;
+        let v86 = -v85;
+        SliderCrankFreeConstraints {
+            crank_x: v14,
+            crank_y: v24,
+            rod_x: v46,
+            rod_y: v62,
+            guide: v73,
+            slider: v86,
+        }
+    }
+    /**Mass matrix M. Its diagonal, all that is not 0:
+
+```text
+x1: m1
+y1: m1
+theta1: l1^2*m1*inertia_factor
+x2: m2
+y2: m2
+theta2: l2^2*inertia_factor*m2
+x3: m3
+```
+
+
+Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn mass(
+        &self,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [
+                    self.parameters.m1,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    self.parameters.m1,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.hoisted[2],
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m2,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m2,
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.hoisted[3],
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    self.parameters.m3,
+                ],
+            ]),
+        )
+    }
+    /**Generalized forces Q: gravity and applied loads.
+
+```text
+x1: 0
+y1: -981/100*m1
+theta1: crank_torque
+x2: 0
+y2: -981/100*m2
+theta2: 0
+x3: 0
+```
+
+
+Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn forces(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+    ) -> SliderCrankFreeCoordinates<T> {
+        let v0 = -self.hoisted[4];
+        let v1 = -self.hoisted[5];
+        SliderCrankFreeCoordinates {
+            x1: T::from_f64(0.0),
+            y1: v0,
+            theta1: inputs.crank_torque,
+            x2: T::from_f64(0.0),
+            y2: v1,
+            theta2: T::from_f64(0.0),
+            x3: T::from_f64(0.0),
+        }
+    }
+    /**Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.
+
+In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
+
+Cost: 67 mul + 52 add + 3 div + 2 sincos.*/
+    #[inline]
+    pub fn accelerations(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+    ) -> ::mbs_runtime::Reactions<
+        SliderCrankFreeCoordinates<T>,
+        SliderCrankFreeConstraints<T>,
+    > {
+        let none = <SliderCrankFreeConstraints<
+            T,
+        > as ::mbs_runtime::Components>::splat(T::from_f64(0.0));
+        ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
+    }
+    /// Kinetic energy ½ vᵀMv in J.
+    #[inline]
+    pub fn kinetic_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> T {
+        let v0 = at.v.x1 * at.v.x1;
+        let v1 = v0 * self.hoisted[6];
+        let v2 = at.v.y1 * at.v.y1;
+        let v3 = v2 * self.hoisted[6];
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = v4 * self.hoisted[7];
+        let v6 = at.v.x2 * at.v.x2;
+        let v7 = v6 * self.hoisted[8];
+        let v8 = at.v.y2 * at.v.y2;
+        let v9 = v8 * self.hoisted[8];
+        let v10 = at.v.theta2 * at.v.theta2;
+        let v11 = v10 * self.hoisted[9];
+        let v12 = at.v.x3 * at.v.x3;
+        let v13 = v12 * self.hoisted[10];
+        let v14 = v1 + v3;
+        let v15 = v14 + v5;
+        let v16 = v15 + v7;
+        let v17 = v16 + v9;
+        let v18 = v17 + v11;
+        let v19 = v18 + v13;
+        v19
+    }
+    /// Potential energy of gravity in J, 0 at the origin.
+    #[inline]
+    pub fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> T {
+        let v0 = at.q.y1 * self.hoisted[4];
+        let v1 = at.q.y2 * self.hoisted[5];
+        let v2 = v0 + v1;
+        v2
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
+    type Real = T;
+    type Parameters = SliderCrankFreeParameters<T>;
+    type Inputs = SliderCrankFreeInputs<T>;
+    type Coordinates = SliderCrankFreeCoordinates<T>;
+    type Constraints = SliderCrankFreeConstraints<T>;
+    type Outputs = SliderCrankFreeOutputs<T>;
+    const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
+        "SliderCrankFree",
+        "Slider-crank with a torque on the crank.",
+        1,
+        &[
+            ::mbs_runtime::Quantity {
+                name: "l1",
+                doc: "Length of the crank.",
+                unit: "mm",
+                scale: 0.001f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.06f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "l2",
+                doc: "Length of the rod.",
+                unit: "mm",
+                scale: 0.001f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.18f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m1",
+                doc: "Mass of the crank, at its middle.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0.5f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m2",
+                doc: "Mass of the rod, at its middle.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 1.2f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "m3",
+                doc: "Mass of the slider.",
+                unit: "kg",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 2f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "inertia_factor",
+                doc: "Moment of inertia of crank and rod about their middles over m l².",
+                unit: "",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0.08333333333333333f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "omega",
+                doc: "Speed of the crank at the start.",
+                unit: "rpm",
+                scale: 0.10471975511965977f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: -1i8,
+                },
+                default: 20.94395102393195f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "crank_torque",
+                doc: "Torque on the crank.",
+                unit: "N*m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 2i8,
+                    time: -2i8,
+                },
+                default: 0f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "x1",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.03f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "y1",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "theta1",
+                doc: "",
+                unit: "rad",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "x2",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.15f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "y2",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "theta2",
+                doc: "",
+                unit: "rad",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: 0i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "x3",
+                doc: "",
+                unit: "m",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+                default: 0.24f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Quantity {
+                name: "crank_speed",
+                doc: "Speed of the crank.",
+                unit: "rpm",
+                scale: 0.10471975511965977f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 0i8,
+                    time: -1i8,
+                },
+                default: 0f64,
+            },
+            ::mbs_runtime::Quantity {
+                name: "motor_power",
+                doc: "Power of the motor.",
+                unit: "W",
+                scale: 1f64,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 1i8,
+                    length: 2i8,
+                    time: -3i8,
+                },
+                default: 0f64,
+            },
+        ],
+        &[
+            ::mbs_runtime::Constraint {
+                name: "crank_x",
+                doc: "The crank turns about the origin.",
+                formula: "x1 - 1/2*l1*cos(theta1)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "crank_y",
+                doc: "The crank turns about the origin.",
+                formula: "y1 - 1/2*l1*sin(theta1)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "rod_x",
+                doc: "The rod begins at the crank's tip.",
+                formula: "x2 - l1*cos(theta1) - 1/2*l2*cos(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "rod_y",
+                doc: "The rod begins at the crank's tip.",
+                formula: "y2 - l1*sin(theta1) - 1/2*l2*sin(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "guide",
+                doc: "The rod ends on the x axis.",
+                formula: "l1*sin(theta1) + l2*sin(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+            ::mbs_runtime::Constraint {
+                name: "slider",
+                doc: "The slider sits at the rod's end.",
+                formula: "x3 - l1*cos(theta1) - l2*cos(theta2)",
+                is_drive: false,
+                dimension: ::mbs_runtime::Dimension {
+                    mass: 0i8,
+                    length: 1i8,
+                    time: 0i8,
+                },
+            },
+        ],
+        &[
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "theta1",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "theta2",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "guide",
+                coordinate: "",
+            },
+        ],
+        &[
+            ::mbs_runtime::Function {
+                name: "new",
+                operations: ::mbs_runtime::Operations {
+                    mul: 24u32,
+                    add: 3u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 1u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi",
+                operations: ::mbs_runtime::Operations {
+                    mul: 8u32,
+                    add: 10u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_dot",
+                operations: ::mbs_runtime::Operations {
+                    mul: 12u32,
+                    add: 9u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_q",
+                operations: ::mbs_runtime::Operations {
+                    mul: 8u32,
+                    add: 3u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "phi_t",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "gamma",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 9u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "baumgarte_rhs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 44u32,
+                    add: 39u32,
+                    div: 0u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "mass",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "forces",
+                operations: ::mbs_runtime::Operations {
+                    mul: 0u32,
+                    add: 2u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "kinetic_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 14u32,
+                    add: 6u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "potential_energy",
+                operations: ::mbs_runtime::Operations {
+                    mul: 2u32,
+                    add: 1u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "stabilized",
+                operations: ::mbs_runtime::Operations {
+                    mul: 82u32,
+                    add: 76u32,
+                    div: 3u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "constrained",
+                operations: ::mbs_runtime::Operations {
+                    mul: 62u32,
+                    add: 42u32,
+                    div: 3u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "reactions",
+                operations: ::mbs_runtime::Operations {
+                    mul: 67u32,
+                    add: 52u32,
+                    div: 3u32,
+                    sin_cos: 2u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "position_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 6u32,
+                    add: 3u32,
+                    div: 1u32,
+                    sin_cos: 1u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "velocity_correction",
+                operations: ::mbs_runtime::Operations {
+                    mul: 6u32,
+                    add: 3u32,
+                    div: 1u32,
+                    sin_cos: 1u32,
+                    other: 0u32,
+                    watch: 2u32,
+                },
+            },
+            ::mbs_runtime::Function {
+                name: "outputs",
+                operations: ::mbs_runtime::Operations {
+                    mul: 1u32,
+                    add: 0u32,
+                    div: 0u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+            },
+        ],
+    );
+    fn new(
+        parameters: SliderCrankFreeParameters<T>,
+    ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
+        Self::new(parameters)
+    }
+    fn parameters(&self) -> &SliderCrankFreeParameters<T> {
+        &self.parameters
+    }
+    fn declared_start(&self) -> ::mbs_runtime::State<SliderCrankFreeCoordinates<T>> {
+        let v0 = self.parameters.l1 * T::from_f64(0.5);
+        let v1 = self.parameters.l2 * T::from_f64(0.5);
+        let v2 = self.parameters.l1 + v1;
+        let v3 = self.parameters.l1 + self.parameters.l2;
+        ::mbs_runtime::State {
+            t: T::from_f64(0.0),
+            q: SliderCrankFreeCoordinates {
+                x1: v0,
+                y1: T::from_f64(0.0),
+                theta1: T::from_f64(0.0),
+                x2: v2,
+                y2: T::from_f64(0.0),
+                theta2: T::from_f64(0.0),
+                x3: v3,
+            },
+            v: SliderCrankFreeCoordinates {
+                x1: T::from_f64(0.0),
+                y1: T::from_f64(0.0),
+                theta1: self.parameters.omega,
+                x2: T::from_f64(0.0),
+                y2: T::from_f64(0.0),
+                theta2: T::from_f64(0.0),
+                x3: T::from_f64(0.0),
+            },
+        }
+    }
+    #[inline]
+    fn phi(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> SliderCrankFreeConstraints<T> {
+        Self::phi(self, t, q)
+    }
+    #[inline]
+    fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> SliderCrankFreeConstraints<T> {
+        Self::phi_dot(self, at)
+    }
+    #[inline]
+    fn stabilized(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+    ) -> ::mbs_runtime::Stabilized<
+        SliderCrankFreeCoordinates<T>,
+        SliderCrankFreeConstraints<T>,
+    > {
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v1 = sin_theta1 * self.hoisted[0];
+        let v2 = at.v.theta1 * v1;
+        let phi_dot_crank_x = at.v.x1 + v2;
+        let v4 = phi_dot_crank_x * gains.two_alpha;
+        let v6 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v6;
+        let v8 = phi_crank_x * gains.beta_squared;
+        let v9 = v4 + v8;
+        let v10 = at.v.theta1 * at.v.theta1;
+        let v11 = v6 * v10;
+        let v12 = v9 + v11;
+        let v13 = sin_theta1 * sin_theta1;
+        let v14 = v13 * self.hoisted[12];
+        let v15 = self.hoisted[11] + v14;
+        let v16 = T::from_f64(1.0) / v15;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v18 = sin_theta1 * sin_theta2;
+        let v19 = self.hoisted[13] * v18;
+        let v21 = cos_theta1 * cos_theta2;
+        let v22 = v21 * self.hoisted[13];
+        let v23 = self.hoisted[14] * v18;
+        let v24 = v19 + v22;
+        let v25 = v24 + v23;
+        let v26 = v16 * v25;
+        let v27 = v25 * v26;
+        let v28 = sin_theta2 * sin_theta2;
+        let v29 = v28 * self.hoisted[16];
+        let v30 = self.hoisted[15] + v29;
+        let v31 = v30 - v27;
+        let v32 = T::from_f64(1.0) / v31;
+        let v33 = cos_theta2 * self.parameters.l2;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v35 = phi_q_guide_theta1 * v26;
+        let v36 = v33 - v35;
+        let v37 = v32 * v36;
+        let v38 = v16 * phi_q_guide_theta1;
+        let v39 = phi_q_guide_theta1 * v38;
+        let v40 = v36 * v37;
+        let v41 = v39 + v40;
+        let v42 = sin_theta1 * self.parameters.l1;
+        let v43 = v42 * v10;
+        let v44 = at.v.theta1 * phi_q_guide_theta1;
+        let v45 = at.v.theta2 * v33;
+        let phi_dot_guide = v44 + v45;
+        let v47 = gains.two_alpha * phi_dot_guide;
+        let v48 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v42 + v48;
+        let v50 = gains.beta_squared * phi_guide;
+        let v51 = v47 + v50;
+        let v52 = at.v.theta2 * at.v.theta2;
+        let v53 = v48 * v52;
+        let v54 = v12 * self.parameters.m1;
+        let v55 = v54 * v1;
+        let v56 = at.v.theta1 * v6;
+        let phi_dot_crank_y = at.v.y1 - v56;
+        let v58 = gains.two_alpha * phi_dot_crank_y;
+        let phi_crank_y = at.q.y1 - v1;
+        let v60 = gains.beta_squared * phi_crank_y;
+        let v61 = v58 + v60;
+        let v62 = v1 * v10;
+        let v63 = v61 + v62;
+        let v64 = self.parameters.m1 * v63;
+        let v65 = self.hoisted[4] - v64;
+        let v66 = v6 * v65;
+        let v67 = at.v.theta1 * v42;
+        let v68 = sin_theta2 * self.hoisted[1];
+        let v69 = at.v.theta2 * v68;
+        let v70 = at.v.x2 + v67;
+        let phi_dot_rod_x = v70 + v69;
+        let v72 = gains.two_alpha * phi_dot_rod_x;
+        let v73 = cos_theta2 * self.hoisted[1];
+        let v74 = at.q.x2 - phi_q_guide_theta1;
+        let phi_rod_x = v74 - v73;
+        let v76 = gains.beta_squared * phi_rod_x;
+        let v77 = v72 + v76;
+        let v78 = phi_q_guide_theta1 * v10;
+        let v79 = v73 * v52;
+        let v80 = v77 + v78;
+        let v81 = v80 + v79;
+        let v82 = v81 * self.parameters.m2;
+        let v83 = v82 * v42;
+        let v84 = at.v.theta2 * v73;
+        let v85 = at.v.y2 - v44;
+        let phi_dot_rod_y = v85 - v84;
+        let v87 = gains.two_alpha * phi_dot_rod_y;
+        let v88 = at.q.y2 - v42;
+        let phi_rod_y = v88 - v68;
+        let v90 = gains.beta_squared * phi_rod_y;
+        let v91 = v87 + v90;
+        let v92 = v68 * v52;
+        let v93 = v91 + v43;
+        let v94 = v93 + v92;
+        let v95 = self.parameters.m2 * v94;
+        let v96 = self.hoisted[5] - v95;
+        let v97 = phi_q_guide_theta1 * v96;
+        let v98 = at.v.theta2 * v48;
+        let v99 = v67 + at.v.x3;
+        let phi_dot_slider = v99 + v98;
+        let v101 = gains.two_alpha * phi_dot_slider;
+        let v102 = phi_q_guide_theta1 - at.q.x3;
+        let v103 = v102 + v33;
+        let v104 = gains.beta_squared * v103;
+        let v105 = v101 - v104;
+        let v106 = v33 * v52;
+        let v107 = v78 + v105;
+        let v108 = v107 + v106;
+        let v109 = v108 * self.parameters.m3;
+        let v110 = v42 * v109;
+        let v111 = inputs.crank_torque - v55;
+        let v112 = v111 - v66;
+        let v113 = v112 - v83;
+        let v114 = v113 - v97;
+        let v115 = v114 - v110;
+        let v116 = v115 * v38;
+        let v117 = v82 * v68;
+        let v118 = v73 * v96;
+        let v119 = v109 * v48;
+        let v120 = v115 * v26;
+        let v121 = v117 + v118;
+        let v122 = v121 + v119;
+        let v123 = v122 + v120;
+        let v124 = v123 * v37;
+        let v125 = v43 - v51;
+        let v126 = v125 + v53;
+        let v127 = v126 - v116;
+        let v128 = v127 + v124;
+        let v129 = v128 / v41;
+        let v130 = v37 * v129;
+        let v131 = v32 * v123;
+        let acc_theta2 = v130 - v131;
+        let v133 = v26 * acc_theta2;
+        let v134 = v38 * v129;
+        let v135 = v133 - v134;
+        let v136 = v16 * v115;
+        let v137 = v135 - v136;
+        let v138 = v1 * v137;
+        let v139 = v12 - v138;
+        let acc_x1 = -v139;
+        let v141 = v6 * v137;
+        let v142 = v63 + v141;
+        let acc_y1 = -v142;
+        let acc_theta1 = -v137;
+        let v145 = v42 * v137;
+        let v146 = v68 * acc_theta2;
+        let v147 = v145 - v146;
+        let v148 = v81 - v147;
+        let acc_x2 = -v148;
+        let v150 = phi_q_guide_theta1 * v137;
+        let v151 = v73 * acc_theta2;
+        let v152 = v150 - v151;
+        let v153 = v94 + v152;
+        let acc_y2 = -v153;
+        let v155 = v48 * acc_theta2;
+        let v156 = v145 - v155;
+        let v157 = v108 - v156;
+        let acc_x3 = -v157;
+        let v159 = -v9;
+        let v160 = -v61;
+        let v161 = -v77;
+        let v162 = -v91;
+        let v163 = -v51;
+        let v164 = -v105;
+        let v165 = v32 * v30;
+        let abs_v165 = v165.abs();
+        ::mbs_runtime::Stabilized {
+            acceleration: SliderCrankFreeCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: acc_theta1,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            feedback: SliderCrankFreeConstraints {
+                crank_x: v159,
+                crank_y: v160,
+                rod_x: v161,
+                rod_y: v162,
+                guide: v163,
+                slider: v164,
+            },
+            growth: abs_v165,
+        }
+    }
+    #[inline]
+    fn constrained(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        feedback: &SliderCrankFreeConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
+        let v0 = at.v.theta1 * at.v.theta1;
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v2 = cos_theta1 * self.hoisted[0];
+        let v3 = v0 * v2;
+        let v4 = feedback.crank_x - v3;
+        let v6 = sin_theta1 * sin_theta1;
+        let v7 = v6 * self.hoisted[12];
+        let v8 = self.hoisted[11] + v7;
+        let v9 = T::from_f64(1.0) / v8;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v11 = sin_theta1 * sin_theta2;
+        let v12 = self.hoisted[13] * v11;
+        let v14 = cos_theta1 * cos_theta2;
+        let v15 = v14 * self.hoisted[13];
+        let v16 = self.hoisted[14] * v11;
+        let v17 = v12 + v15;
+        let v18 = v17 + v16;
+        let v19 = v9 * v18;
+        let v20 = v18 * v19;
+        let v21 = sin_theta2 * sin_theta2;
+        let v22 = v21 * self.hoisted[16];
+        let v23 = self.hoisted[15] + v22;
+        let v24 = v23 - v20;
+        let v25 = T::from_f64(1.0) / v24;
+        let v26 = cos_theta2 * self.parameters.l2;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v28 = v19 * phi_q_guide_theta1;
+        let v29 = v26 - v28;
+        let v30 = v25 * v29;
+        let v31 = v9 * phi_q_guide_theta1;
+        let v32 = phi_q_guide_theta1 * v31;
+        let v33 = v29 * v30;
+        let v34 = v32 + v33;
+        let v35 = sin_theta1 * self.parameters.l1;
+        let v36 = v0 * v35;
+        let v37 = at.v.theta2 * at.v.theta2;
+        let v38 = sin_theta2 * self.parameters.l2;
+        let v39 = v37 * v38;
+        let v40 = v4 * self.parameters.m1;
+        let v41 = self.hoisted[0] * sin_theta1;
+        let v42 = v40 * v41;
+        let v43 = v0 * v41;
+        let v44 = feedback.crank_y - v43;
+        let v45 = self.parameters.m1 * v44;
+        let v46 = self.hoisted[4] + v45;
+        let v47 = v46 * v2;
+        let v48 = phi_q_guide_theta1 * v0;
+        let v49 = cos_theta2 * self.hoisted[1];
+        let v50 = v37 * v49;
+        let v51 = feedback.rod_x - v48;
+        let v52 = v51 - v50;
+        let v53 = v52 * self.parameters.m2;
+        let v54 = v53 * v35;
+        let v55 = self.hoisted[1] * sin_theta2;
+        let v56 = v37 * v55;
+        let v57 = feedback.rod_y - v36;
+        let v58 = v57 - v56;
+        let v59 = self.parameters.m2 * v58;
+        let v60 = self.hoisted[5] + v59;
+        let v61 = v60 * phi_q_guide_theta1;
+        let v62 = v26 * v37;
+        let v63 = v48 - feedback.slider;
+        let v64 = v63 + v62;
+        let v65 = v64 * self.parameters.m3;
+        let v66 = v65 * v35;
+        let v67 = inputs.crank_torque + v42;
+        let v68 = v67 - v47;
+        let v69 = v68 + v54;
+        let v70 = v69 - v61;
+        let v71 = v70 - v66;
+        let v72 = v71 * v31;
+        let v73 = v53 * v55;
+        let v74 = v60 * v49;
+        let v75 = v65 * v38;
+        let v76 = v71 * v19;
+        let v77 = v73 - v74;
+        let v78 = v77 - v75;
+        let v79 = v78 - v76;
+        let v80 = v79 * v30;
+        let v81 = v36 + feedback.guide;
+        let v82 = v81 + v39;
+        let v83 = v82 - v72;
+        let v84 = v83 - v80;
+        let v85 = v84 / v34;
+        let v86 = v30 * v85;
+        let v87 = v25 * v79;
+        let acc_theta2 = v86 + v87;
+        let v89 = v19 * acc_theta2;
+        let v90 = v31 * v85;
+        let v91 = v89 - v90;
+        let v92 = v9 * v71;
+        let v93 = v91 - v92;
+        let v94 = v93 * v41;
+        let acc_x1 = v4 + v94;
+        let v96 = v93 * v2;
+        let acc_y1 = v44 - v96;
+        let acc_theta1 = -v93;
+        let v99 = v93 * v35;
+        let v100 = acc_theta2 * v55;
+        let v101 = v99 - v100;
+        let acc_x2 = v52 + v101;
+        let v103 = phi_q_guide_theta1 * v93;
+        let v104 = acc_theta2 * v49;
+        let v105 = v103 - v104;
+        let acc_y2 = v58 - v105;
+        let v107 = acc_theta2 * v38;
+        let v108 = v99 - v107;
+        let v109 = v64 - v108;
+        let acc_x3 = -v109;
+        let v111 = v25 * v23;
+        let abs_v111 = v111.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankFreeCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: acc_theta1,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            growth: abs_v111,
+        }
+    }
+    #[inline]
+    fn reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        feedback: &SliderCrankFreeConstraints<T>,
+    ) -> ::mbs_runtime::Reactions<
+        SliderCrankFreeCoordinates<T>,
+        SliderCrankFreeConstraints<T>,
+    > {
+        let v0 = at.v.theta1 * at.v.theta1;
+        let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
+        let v2 = cos_theta1 * self.hoisted[0];
+        let v3 = v0 * v2;
+        let v4 = feedback.crank_x - v3;
+        let v6 = sin_theta1 * sin_theta1;
+        let v7 = v6 * self.hoisted[12];
+        let v8 = self.hoisted[11] + v7;
+        let v9 = T::from_f64(1.0) / v8;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v11 = sin_theta1 * sin_theta2;
+        let v12 = self.hoisted[13] * v11;
+        let v14 = cos_theta1 * cos_theta2;
+        let v15 = v14 * self.hoisted[13];
+        let v16 = self.hoisted[14] * v11;
+        let v17 = v12 + v15;
+        let v18 = v17 + v16;
+        let v19 = v9 * v18;
+        let v20 = v18 * v19;
+        let v21 = sin_theta2 * sin_theta2;
+        let v22 = v21 * self.hoisted[16];
+        let v23 = self.hoisted[15] + v22;
+        let v24 = v23 - v20;
+        let v25 = T::from_f64(1.0) / v24;
+        let v26 = cos_theta2 * self.parameters.l2;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v28 = v19 * phi_q_guide_theta1;
+        let v29 = v26 - v28;
+        let v30 = v25 * v29;
+        let v31 = v9 * phi_q_guide_theta1;
+        let v32 = phi_q_guide_theta1 * v31;
+        let v33 = v29 * v30;
+        let v34 = v32 + v33;
+        let v35 = sin_theta1 * self.parameters.l1;
+        let v36 = v0 * v35;
+        let v37 = at.v.theta2 * at.v.theta2;
+        let v38 = sin_theta2 * self.parameters.l2;
+        let v39 = v37 * v38;
+        let v40 = v4 * self.parameters.m1;
+        let v41 = self.hoisted[0] * sin_theta1;
+        let v42 = v40 * v41;
+        let v43 = v0 * v41;
+        let v44 = feedback.crank_y - v43;
+        let v45 = self.parameters.m1 * v44;
+        let v46 = self.hoisted[4] + v45;
+        let v47 = v46 * v2;
+        let v48 = phi_q_guide_theta1 * v0;
+        let v49 = cos_theta2 * self.hoisted[1];
+        let v50 = v37 * v49;
+        let v51 = feedback.rod_x - v48;
+        let v52 = v51 - v50;
+        let v53 = v52 * self.parameters.m2;
+        let v54 = v53 * v35;
+        let v55 = self.hoisted[1] * sin_theta2;
+        let v56 = v37 * v55;
+        let v57 = feedback.rod_y - v36;
+        let v58 = v57 - v56;
+        let v59 = self.parameters.m2 * v58;
+        let v60 = self.hoisted[5] + v59;
+        let v61 = v60 * phi_q_guide_theta1;
+        let v62 = v26 * v37;
+        let v63 = v48 - feedback.slider;
+        let v64 = v63 + v62;
+        let v65 = v64 * self.parameters.m3;
+        let v66 = v65 * v35;
+        let v67 = inputs.crank_torque + v42;
+        let v68 = v67 - v47;
+        let v69 = v68 + v54;
+        let v70 = v69 - v61;
+        let v71 = v70 - v66;
+        let v72 = v71 * v31;
+        let v73 = v53 * v55;
+        let v74 = v60 * v49;
+        let v75 = v65 * v38;
+        let v76 = v71 * v19;
+        let v77 = v73 - v74;
+        let v78 = v77 - v75;
+        let v79 = v78 - v76;
+        let v80 = v79 * v30;
+        let v81 = v36 + feedback.guide;
+        let v82 = v81 + v39;
+        let v83 = v82 - v72;
+        let v84 = v83 - v80;
+        let v85 = v84 / v34;
+        let v86 = v30 * v85;
+        let v87 = v25 * v79;
+        let acc_theta2 = v86 + v87;
+        let v89 = v19 * acc_theta2;
+        let v90 = v31 * v85;
+        let v91 = v89 - v90;
+        let v92 = v9 * v71;
+        let v93 = v91 - v92;
+        let v94 = v93 * v41;
+        let acc_x1 = v4 + v94;
+        let v96 = v93 * v2;
+        let acc_y1 = v44 - v96;
+        let acc_theta1 = -v93;
+        let v99 = v93 * v35;
+        let v100 = acc_theta2 * v55;
+        let v101 = v99 - v100;
+        let acc_x2 = v52 + v101;
+        let v103 = phi_q_guide_theta1 * v93;
+        let v104 = acc_theta2 * v49;
+        let v105 = v103 - v104;
+        let acc_y2 = v58 - v105;
+        let v107 = acc_theta2 * v38;
+        let v108 = v99 - v107;
+        let v109 = v64 - v108;
+        let acc_x3 = -v109;
+        let v111 = self.parameters.m1 * v94;
+        let v112 = v40 + v111;
+        let lambda_crank_x = -v112;
+        let v114 = self.parameters.m1 * v96;
+        let v115 = v46 - v114;
+        let lambda_crank_y = -v115;
+        let v117 = self.parameters.m2 * v101;
+        let v118 = v53 + v117;
+        let lambda_rod_x = -v118;
+        let v120 = self.parameters.m2 * v105;
+        let v121 = v60 - v120;
+        let lambda_rod_y = -v121;
+        let lambda_guide = -v85;
+        let v124 = self.parameters.m3 * v108;
+        let lambda_slider = v65 - v124;
+        let v126 = v25 * v23;
+        let abs_v126 = v126.abs();
+        ::mbs_runtime::Reactions {
+            acceleration: SliderCrankFreeCoordinates {
+                x1: acc_x1,
+                y1: acc_y1,
+                theta1: acc_theta1,
+                x2: acc_x2,
+                y2: acc_y2,
+                theta2: acc_theta2,
+                x3: acc_x3,
+            },
+            multipliers: SliderCrankFreeConstraints {
+                crank_x: lambda_crank_x,
+                crank_y: lambda_crank_y,
+                rod_x: lambda_rod_x,
+                rod_y: lambda_rod_y,
+                guide: lambda_guide,
+                slider: lambda_slider,
+            },
+            growth: abs_v126,
+        }
+    }
+    fn position_correction(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+        feedback: &SliderCrankFreeConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v2 = self.hoisted[17] / cos_theta2;
+        let v3 = v2 * feedback.guide;
+        let v4 = sin_theta2 * v3;
+        let v5 = self.hoisted[1] * v4;
+        let v6 = feedback.rod_x - v5;
+        let v7 = cos_theta2 * v3;
+        let v8 = v7 * self.hoisted[1];
+        let v9 = feedback.rod_y + v8;
+        let v10 = self.parameters.l2 * v4;
+        let v11 = feedback.slider - v10;
+        let v12 = v2 * self.hoisted[18];
+        let abs_v12 = v12.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankFreeCoordinates {
+                x1: feedback.crank_x,
+                y1: feedback.crank_y,
+                theta1: T::from_f64(0.0),
+                x2: v6,
+                y2: v9,
+                theta2: v3,
+                x3: v11,
+            },
+            growth: abs_v12,
+        }
+    }
+    fn velocity_correction(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+        feedback: &SliderCrankFreeConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v2 = self.hoisted[17] / cos_theta2;
+        let v3 = v2 * feedback.guide;
+        let v4 = sin_theta2 * v3;
+        let v5 = self.hoisted[1] * v4;
+        let v6 = feedback.rod_x - v5;
+        let v7 = cos_theta2 * v3;
+        let v8 = v7 * self.hoisted[1];
+        let v9 = feedback.rod_y + v8;
+        let v10 = self.parameters.l2 * v4;
+        let v11 = feedback.slider - v10;
+        let v12 = v2 * self.hoisted[18];
+        let abs_v12 = v12.abs();
+        ::mbs_runtime::Accelerations {
+            acceleration: SliderCrankFreeCoordinates {
+                x1: feedback.crank_x,
+                y1: feedback.crank_y,
+                theta1: T::from_f64(0.0),
+                x2: v6,
+                y2: v9,
+                theta2: v3,
+                x3: v11,
+            },
+            growth: abs_v12,
+        }
+    }
+    fn worst_pivot(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> ::core::option::Option<usize> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let v1 = sin_theta1 * sin_theta1;
+        let v2 = v1 * self.hoisted[12];
+        let v3 = self.hoisted[11] + v2;
+        let v4 = T::from_f64(1.0) / v3;
+        let v5 = v3 * v4;
+        let abs_v5 = v5.abs();
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v8 = sin_theta1 * sin_theta2;
+        let v9 = self.hoisted[13] * v8;
+        let v12 = cos_theta1 * cos_theta2;
+        let v13 = v12 * self.hoisted[13];
+        let v14 = self.hoisted[14] * v8;
+        let v15 = v9 + v13;
+        let v16 = v15 + v14;
+        let v17 = v4 * v16;
+        let v18 = v16 * v17;
+        let v19 = sin_theta2 * sin_theta2;
+        let v20 = v19 * self.hoisted[16];
+        let v21 = self.hoisted[15] + v20;
+        let v22 = v21 - v18;
+        let v23 = T::from_f64(1.0) / v22;
+        let v24 = v23 * v21;
+        let abs_v24 = v24.abs();
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v27 = v4 * phi_q_guide_theta1;
+        let v28 = phi_q_guide_theta1 * v27;
+        let v29 = cos_theta2 * self.parameters.l2;
+        let v30 = v17 * phi_q_guide_theta1;
+        let v31 = v29 - v30;
+        let v32 = v23 * v31;
+        let v33 = v31 * v32;
+        let v34 = v28 + v33;
+        let v35 = v34 / v34;
+        let abs_v35 = v35.abs();
+        ::mbs_runtime::__private::worst(&[abs_v5, abs_v24, abs_v35])
+    }
+    #[inline]
+    fn kinetic_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> T {
+        Self::kinetic_energy(self, at)
+    }
+    #[inline]
+    fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> T {
+        Self::potential_energy(self, at)
+    }
+    #[inline]
+    fn outputs(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        reactions: &::mbs_runtime::Reactions<
+            SliderCrankFreeCoordinates<T>,
+            SliderCrankFreeConstraints<T>,
+        >,
+    ) -> SliderCrankFreeOutputs<T> {
+        let v0 = at.v.theta1 * inputs.crank_torque;
+        SliderCrankFreeOutputs {
+            crank_speed: at.v.theta1,
+            motor_power: v0,
+        }
+    }
+}

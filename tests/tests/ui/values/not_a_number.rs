@@ -1,0 +1,22 @@
+//! Values that arithmetic does not give.
+
+use mbs_runtime::mechanism;
+
+mechanism! {
+    pub SliderCrank {
+        dof = 1;
+        param l1 = 60 [mm];
+        param a = 1/0;
+        param b = exp(1000);
+        param c = ln(0);
+        param d = sqrt(-2);
+        param e = 0^-1;
+        param f = (2 - 2)/(3 - 3);
+        param g = acos(2);
+        body slider (x3) { mass = 1 [kg]; }
+        let h = l1/(l1 - l1);
+        let i = 0^x3;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,13 @@
+//! A mass that divides by a parameter declared as 0.
+
+use mbs_runtime::mechanism;
+
+mechanism! {
+    pub Slider {
+        dof = 1;
+        param ratio = 0;
+        body slider (x) { mass = 2 [kg]/ratio; }
+    }
+}
+
+fn main() {}
