@@ -19,7 +19,7 @@ pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let checks = parameter_checks(model, plan, names);
     let Body { statements, outputs } = body(model, &plan.prepare, &Access::of_parameters());
     quote! {
-        impl #mechanism<f64> {
+        impl #mechanism<::core::primitive::f64> {
             /// The mechanism with its declared parameters, in `f64`.
             ///
             /// For another scalar type, use `default`.
@@ -290,7 +290,7 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
                 Self::phi_dot(self, at)
             }
             #kernels
-            fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(usize, T)> { #worst_pivot }
+            fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
             #[inline]
             fn kinetic_energy(&self, at: &#state) -> T {
                 Self::kinetic_energy(self, at)

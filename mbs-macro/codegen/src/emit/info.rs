@@ -95,7 +95,7 @@ fn float(value: f64) -> TokenStream {
         let literal = Literal::f64_suffixed(value);
         quote!(#literal)
     } else {
-        quote!(f64::NAN)
+        quote!(::core::primitive::f64::NAN)
     }
 }
 

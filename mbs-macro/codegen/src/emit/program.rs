@@ -216,7 +216,7 @@ pub fn number_tokens(number: Number) -> TokenStream {
 
 pub fn float_tokens(value: f64) -> TokenStream {
     if !value.is_finite() {
-        return quote!(T::from_f64(f64::NAN));
+        return quote!(T::from_f64(::core::primitive::f64::NAN));
     }
     let literal = Literal::f64_unsuffixed(value);
     quote!(T::from_f64(#literal))

@@ -81,7 +81,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
-        #visibility struct #mechanism<T = f64> {
+        #visibility struct #mechanism<T = ::core::primitive::f64> {
             parameters: #parameters_type<T>,
             #[doc = #hoisted_doc]
             hoisted: [T; #hoisted],
@@ -136,6 +136,7 @@ fn components(
     let idents: Vec<_> = fields.iter().map(|field| &field.name).collect();
     let texts: Vec<_> = fields.iter().map(|field| field.text.as_str()).collect();
     let docs = fields.iter().map(|field| field.doc.trim());
+    let positions = (0..fields.len()).map(Literal::usize_unsuffixed);
     let defaults = fields.iter().map(|field| float_tokens(field.value));
     // A mechanism without parameters still has the struct; it needs its `T`.
     let (marker, marker_value) = if fields.is_empty() {
@@ -146,11 +147,11 @@ fn components(
     } else {
         (TokenStream::new(), TokenStream::new())
     };
-    let unused = if fields.is_empty() { quote!(_) } else { quote!(value) };
+    let (array, value) = if fields.is_empty() { (quote!(_), quote!(_)) } else { (quote!(array), quote!(value)) };
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
-        #visibility struct #name<T = f64> {
+        #visibility struct #name<T = ::core::primitive::f64> {
             #(#[doc = #docs] pub #idents: T,)*
             #marker
         }
@@ -164,19 +165,18 @@ fn components(
         impl<T: #runtime::Real> #runtime::Components for #name<T> {
             type Real = T;
             type Array = [T; #length];
-            const NAMES: &'static [&'static str] = &[#(#texts),*];
+            const NAMES: &'static [&'static ::core::primitive::str] = &[#(#texts),*];
 
             #[inline(always)]
             fn into_array(self) -> [T; #length] {
                 [#(self.#idents),*]
             }
             #[inline(always)]
-            fn from_array(array: [T; #length]) -> Self {
-                let [#(#idents),*] = array;
-                Self { #(#idents,)* #marker_value }
+            fn from_array(#array: [T; #length]) -> Self {
+                Self { #(#idents: array[#positions],)* #marker_value }
             }
             #[inline(always)]
-            fn splat(#unused: T) -> Self {
+            fn splat(#value: T) -> Self {
                 Self { #(#idents: value,)* #marker_value }
             }
         }
