@@ -34,7 +34,8 @@ fn mutate(stream: TokenStream, all: &[TokenTree], random: &mut Random) -> TokenS
         return all[random.below(all.len())].clone().into();
     }
     // Groups are most of a declaration: descend into one where there is any.
-    let groups: Vec<usize> = (0..tokens.len()).filter(|&at| matches!(tokens[at], TokenTree::Group(_))).collect();
+    let groups: Vec<usize> =
+        (0..tokens.len()).filter(|&at| matches!(tokens[at], TokenTree::Group(_))).collect();
     let at = match groups.as_slice() {
         [_, ..] if random.below(2) == 0 => groups[random.below(groups.len())],
         _ => random.below(tokens.len()),

@@ -37,7 +37,7 @@ Elimination order: constraints first, then what motion they leave free (null spa
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct Pendulum<T = f64> {
+pub struct Pendulum<T = ::core::primitive::f64> {
     parameters: PendulumParameters<T>,
     /**What depends on parameters alone, computed once:
 
@@ -68,7 +68,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for Pendulum<T> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct PendulumParameters<T = f64> {
+pub struct PendulumParameters<T = ::core::primitive::f64> {
     /**Length of the rod.
 
 `length`: a length [m], declared as 1 m = 1 in SI units.*/
@@ -89,15 +89,17 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumParameters<T> 
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumParameters<T> {
     type Real = T;
     type Array = [T; 2];
-    const NAMES: &'static [&'static str] = &["length", "mass"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["length", "mass"];
     #[inline(always)]
     fn into_array(self) -> [T; 2] {
         [self.length, self.mass]
     }
     #[inline(always)]
     fn from_array(array: [T; 2]) -> Self {
-        let [length, mass] = array;
-        Self { length, mass }
+        Self {
+            length: array[0],
+            mass: array[1],
+        }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -124,7 +126,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct PendulumCoordinates<T = f64> {
+pub struct PendulumCoordinates<T = ::core::primitive::f64> {
     ///`x`: a length [m].
     pub x: T,
     ///`y`: a length [m].
@@ -141,15 +143,14 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumCoordinates<T>
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumCoordinates<T> {
     type Real = T;
     type Array = [T; 2];
-    const NAMES: &'static [&'static str] = &["x", "y"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["x", "y"];
     #[inline(always)]
     fn into_array(self) -> [T; 2] {
         [self.x, self.y]
     }
     #[inline(always)]
     fn from_array(array: [T; 2]) -> Self {
-        let [x, y] = array;
-        Self { x, y }
+        Self { x: array[0], y: array[1] }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -176,7 +177,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct PendulumConstraints<T = f64> {
+pub struct PendulumConstraints<T = ::core::primitive::f64> {
     /**The rod keeps its length.
 
 `1/2*(x^2 + y^2)/length - 1/2*length = 0`*/
@@ -190,15 +191,14 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumConstraints<T>
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumConstraints<T> {
     type Real = T;
     type Array = [T; 1];
-    const NAMES: &'static [&'static str] = &["rod"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["rod"];
     #[inline(always)]
     fn into_array(self) -> [T; 1] {
         [self.rod]
     }
     #[inline(always)]
     fn from_array(array: [T; 1]) -> Self {
-        let [rod] = array;
-        Self { rod }
+        Self { rod: array[0] }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -225,7 +225,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct PendulumOutputs<T = f64> {
+pub struct PendulumOutputs<T = ::core::primitive::f64> {
     /**Force in the rod, positive when it pulls.
 
 `tension`: a force [N].*/
@@ -246,15 +246,17 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumOutputs<T> {
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for PendulumOutputs<T> {
     type Real = T;
     type Array = [T; 2];
-    const NAMES: &'static [&'static str] = &["tension", "angle"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["tension", "angle"];
     #[inline(always)]
     fn into_array(self) -> [T; 2] {
         [self.tension, self.angle]
     }
     #[inline(always)]
     fn from_array(array: [T; 2]) -> Self {
-        let [tension, angle] = array;
-        Self { tension, angle }
+        Self {
+            tension: array[0],
+            angle: array[1],
+        }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -277,7 +279,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
         )
     }
 }
-impl Pendulum<f64> {
+impl Pendulum<::core::primitive::f64> {
     /// The mechanism with its declared parameters, in `f64`.
     ///
     /// For another scalar type, use `default`.
@@ -1071,7 +1073,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         &self,
         t: T,
         q: &PendulumCoordinates<T>,
-    ) -> ::core::option::Option<usize> {
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let phi_q_rod_x = q.x * self.hoisted[2];
         let v1 = phi_q_rod_x * self.hoisted[5];
         let v2 = phi_q_rod_x * v1;

@@ -43,7 +43,7 @@ Elimination order: constraints first, then what motion they leave free (null spa
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrank<T = f64> {
+pub struct SliderCrank<T = ::core::primitive::f64> {
     parameters: SliderCrankParameters<T>,
     /**What depends on parameters alone, computed once:
 
@@ -80,7 +80,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrank<T> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankParameters<T = f64> {
+pub struct SliderCrankParameters<T = ::core::primitive::f64> {
     /**Length of the crank.
 
 `l1`: a length [m], declared as 60 mm = 0.06 in SI units.*/
@@ -128,7 +128,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankParameters<
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankParameters<T> {
     type Real = T;
     type Array = [T; 7];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "l1",
         "l2",
         "m1",
@@ -143,15 +143,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankParameters
     }
     #[inline(always)]
     fn from_array(array: [T; 7]) -> Self {
-        let [l1, l2, m1, m2, m3, inertia_factor, omega] = array;
         Self {
-            l1,
-            l2,
-            m1,
-            m2,
-            m3,
-            inertia_factor,
-            omega,
+            l1: array[0],
+            l2: array[1],
+            m1: array[2],
+            m2: array[3],
+            m3: array[4],
+            inertia_factor: array[5],
+            omega: array[6],
         }
     }
     #[inline(always)]
@@ -187,7 +186,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankCoordinates<T = f64> {
+pub struct SliderCrankCoordinates<T = ::core::primitive::f64> {
     ///`x1`: a length [m].
     pub x1: T,
     ///`y1`: a length [m].
@@ -219,7 +218,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankCoordinates
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankCoordinates<T> {
     type Real = T;
     type Array = [T; 7];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "x1",
         "y1",
         "theta1",
@@ -234,15 +233,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankCoordinate
     }
     #[inline(always)]
     fn from_array(array: [T; 7]) -> Self {
-        let [x1, y1, theta1, x2, y2, theta2, x3] = array;
         Self {
-            x1,
-            y1,
-            theta1,
-            x2,
-            y2,
-            theta2,
-            x3,
+            x1: array[0],
+            y1: array[1],
+            theta1: array[2],
+            x2: array[3],
+            y2: array[4],
+            theta2: array[5],
+            x3: array[6],
         }
     }
     #[inline(always)]
@@ -278,7 +276,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankConstraints<T = f64> {
+pub struct SliderCrankConstraints<T = ::core::primitive::f64> {
     /**The crank turns about the origin.
 
 `x1 - 1/2*l1*cos(theta1) = 0`*/
@@ -324,7 +322,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankConstraints
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankConstraints<T> {
     type Real = T;
     type Array = [T; 7];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "crank_x",
         "crank_y",
         "crank_speed",
@@ -347,15 +345,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankConstraint
     }
     #[inline(always)]
     fn from_array(array: [T; 7]) -> Self {
-        let [crank_x, crank_y, crank_speed, rod_x, rod_y, guide, slider] = array;
         Self {
-            crank_x,
-            crank_y,
-            crank_speed,
-            rod_x,
-            rod_y,
-            guide,
-            slider,
+            crank_x: array[0],
+            crank_y: array[1],
+            crank_speed: array[2],
+            rod_x: array[3],
+            rod_y: array[4],
+            guide: array[5],
+            slider: array[6],
         }
     }
     #[inline(always)]
@@ -391,7 +388,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankOutputs<T = f64> {
+pub struct SliderCrankOutputs<T = ::core::primitive::f64> {
     /**Torque that keeps the crank at its speed.
 
 `drive_torque`: a torque or energy [N*m].*/
@@ -407,15 +404,14 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankOutputs<T> 
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankOutputs<T> {
     type Real = T;
     type Array = [T; 1];
-    const NAMES: &'static [&'static str] = &["drive_torque"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["drive_torque"];
     #[inline(always)]
     fn into_array(self) -> [T; 1] {
         [self.drive_torque]
     }
     #[inline(always)]
     fn from_array(array: [T; 1]) -> Self {
-        let [drive_torque] = array;
-        Self { drive_torque }
+        Self { drive_torque: array[0] }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -435,7 +431,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
         )
     }
 }
-impl SliderCrank<f64> {
+impl SliderCrank<::core::primitive::f64> {
     /// The mechanism with its declared parameters, in `f64`.
     ///
     /// For another scalar type, use `default`.
@@ -2093,7 +2089,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         &self,
         t: T,
         q: &SliderCrankCoordinates<T>,
-    ) -> ::core::option::Option<usize> {
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let cos_theta2 = q.theta2.cos();
         let v1 = self.hoisted[11] / cos_theta2;
         let v2 = v1 * self.hoisted[12];

@@ -42,7 +42,7 @@ Elimination order: constraints first, then what motion they leave free (null spa
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFree<T = f64> {
+pub struct SliderCrankFree<T = ::core::primitive::f64> {
     parameters: SliderCrankFreeParameters<T>,
     /**What depends on parameters alone, computed once:
 
@@ -85,7 +85,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFree<T> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFreeParameters<T = f64> {
+pub struct SliderCrankFreeParameters<T = ::core::primitive::f64> {
     /**Length of the crank.
 
 `l1`: a length [m], declared as 60 mm = 0.06 in SI units.*/
@@ -131,7 +131,7 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeParamet
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeParameters<T> {
     type Real = T;
     type Array = [T; 7];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "l1",
         "l2",
         "m1",
@@ -146,15 +146,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeParame
     }
     #[inline(always)]
     fn from_array(array: [T; 7]) -> Self {
-        let [l1, l2, m1, m2, m3, inertia_factor, omega] = array;
         Self {
-            l1,
-            l2,
-            m1,
-            m2,
-            m3,
-            inertia_factor,
-            omega,
+            l1: array[0],
+            l2: array[1],
+            m1: array[2],
+            m2: array[3],
+            m3: array[4],
+            inertia_factor: array[5],
+            omega: array[6],
         }
     }
     #[inline(always)]
@@ -190,7 +189,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFreeInputs<T = f64> {
+pub struct SliderCrankFreeInputs<T = ::core::primitive::f64> {
     /**Torque on the crank.
 
 `crank_torque`: a torque or energy [N*m].*/
@@ -206,15 +205,14 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeInputs<
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeInputs<T> {
     type Real = T;
     type Array = [T; 1];
-    const NAMES: &'static [&'static str] = &["crank_torque"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &["crank_torque"];
     #[inline(always)]
     fn into_array(self) -> [T; 1] {
         [self.crank_torque]
     }
     #[inline(always)]
     fn from_array(array: [T; 1]) -> Self {
-        let [crank_torque] = array;
-        Self { crank_torque }
+        Self { crank_torque: array[0] }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -241,7 +239,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 1> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFreeCoordinates<T = f64> {
+pub struct SliderCrankFreeCoordinates<T = ::core::primitive::f64> {
     ///`x1`: a length [m].
     pub x1: T,
     ///`y1`: a length [m].
@@ -274,7 +272,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components
 for SliderCrankFreeCoordinates<T> {
     type Real = T;
     type Array = [T; 7];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "x1",
         "y1",
         "theta1",
@@ -289,15 +287,14 @@ for SliderCrankFreeCoordinates<T> {
     }
     #[inline(always)]
     fn from_array(array: [T; 7]) -> Self {
-        let [x1, y1, theta1, x2, y2, theta2, x3] = array;
         Self {
-            x1,
-            y1,
-            theta1,
-            x2,
-            y2,
-            theta2,
-            x3,
+            x1: array[0],
+            y1: array[1],
+            theta1: array[2],
+            x2: array[3],
+            y2: array[4],
+            theta2: array[5],
+            x3: array[6],
         }
     }
     #[inline(always)]
@@ -333,7 +330,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 7> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFreeConstraints<T = f64> {
+pub struct SliderCrankFreeConstraints<T = ::core::primitive::f64> {
     /**The crank turns about the origin.
 
 `x1 - 1/2*l1*cos(theta1) = 0`*/
@@ -375,7 +372,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components
 for SliderCrankFreeConstraints<T> {
     type Real = T;
     type Array = [T; 6];
-    const NAMES: &'static [&'static str] = &[
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
         "crank_x",
         "crank_y",
         "rod_x",
@@ -389,14 +386,13 @@ for SliderCrankFreeConstraints<T> {
     }
     #[inline(always)]
     fn from_array(array: [T; 6]) -> Self {
-        let [crank_x, crank_y, rod_x, rod_y, guide, slider] = array;
         Self {
-            crank_x,
-            crank_y,
-            rod_x,
-            rod_y,
-            guide,
-            slider,
+            crank_x: array[0],
+            crank_y: array[1],
+            rod_x: array[2],
+            rod_y: array[3],
+            guide: array[4],
+            slider: array[5],
         }
     }
     #[inline(always)]
@@ -431,7 +427,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 6> {
     ::core::fmt::Debug,
     ::core::cmp::PartialEq
 )]
-pub struct SliderCrankFreeOutputs<T = f64> {
+pub struct SliderCrankFreeOutputs<T = ::core::primitive::f64> {
     /**Speed of the crank.
 
 `crank_speed`: a rate [1/s].*/
@@ -452,15 +448,20 @@ impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeOutputs
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Components for SliderCrankFreeOutputs<T> {
     type Real = T;
     type Array = [T; 2];
-    const NAMES: &'static [&'static str] = &["crank_speed", "motor_power"];
+    const NAMES: &'static [&'static ::core::primitive::str] = &[
+        "crank_speed",
+        "motor_power",
+    ];
     #[inline(always)]
     fn into_array(self) -> [T; 2] {
         [self.crank_speed, self.motor_power]
     }
     #[inline(always)]
     fn from_array(array: [T; 2]) -> Self {
-        let [crank_speed, motor_power] = array;
-        Self { crank_speed, motor_power }
+        Self {
+            crank_speed: array[0],
+            motor_power: array[1],
+        }
     }
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -483,7 +484,7 @@ for ::mbs_runtime::__private::nalgebra::SVector<T, 2> {
         )
     }
 }
-impl SliderCrankFree<f64> {
+impl SliderCrankFree<::core::primitive::f64> {
     /// The mechanism with its declared parameters, in `f64`.
     ///
     /// For another scalar type, use `default`.
@@ -2277,7 +2278,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         &self,
         t: T,
         q: &SliderCrankFreeCoordinates<T>,
-    ) -> ::core::option::Option<usize> {
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let v1 = sin_theta1 * sin_theta1;
         let v2 = v1 * self.hoisted[12];

@@ -147,7 +147,8 @@ fn components(
     } else {
         (TokenStream::new(), TokenStream::new())
     };
-    let (array, value) = if fields.is_empty() { (quote!(_), quote!(_)) } else { (quote!(array), quote!(value)) };
+    let (array, value) =
+        if fields.is_empty() { (quote!(_), quote!(_)) } else { (quote!(array), quote!(value)) };
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
