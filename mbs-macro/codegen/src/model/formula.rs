@@ -36,7 +36,8 @@ impl Scope<'_> {
                     '*' => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
                     _ => self.divide(right, l, r),
                 };
-                errors.take(result)
+                let typed = errors.take(result)?;
+                self.finite(typed, &[l.expr, r.expr], *op_span, errors)
             }
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
             FormulaKind::WithUnit { inner, unit } => {
@@ -273,7 +274,27 @@ impl Scope<'_> {
             );
             return None;
         };
-        Some(Typed { expr: self.arena.pow(b.expr, e), dimension: Some(dimension) })
+        let expr = self.arena.pow(b.expr, e);
+        self.finite(Typed { expr, dimension: Some(dimension) }, &[b.expr, e], op_span, errors)
+    }
+
+    /// Refuses an operation on numbers that gives none.
+    pub fn finite(
+        &self,
+        typed: Typed,
+        operands: &[Expr],
+        span: Span,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let is_constant = operands.iter().all(|&operand| self.arena.as_number(operand).is_some());
+        if is_constant && !self.arena.evaluate(&[typed.expr], &|_| f64::NAN)[0].is_finite() {
+            errors.push(
+                Diagnostic::new(span, "this does not give a finite number")
+                    .help("check what it is applied to: its sign, its range and its size"),
+            );
+            return None;
+        }
+        Some(typed)
     }
 }
 

@@ -87,7 +87,8 @@ impl Scope<'_> {
             [x, y] => self.arena.call2(function, x.expr, y.expr),
             _ => return None,
         };
-        Some(Typed { expr, dimension })
+        let operands: Vec<_> = values.iter().map(|value| value.expr).collect();
+        self.finite(Typed { expr, dimension }, &operands, name.span(), errors)
     }
 
     /// `der(e)`: the total time derivative.

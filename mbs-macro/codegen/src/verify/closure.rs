@@ -19,7 +19,8 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     let mut phi = assembly.phi(&q);
     for _ in 0..ITERATIONS {
         let delta = assembly.correction(&q, &phi);
-        if largest(&delta).1 <= 1e-12 * (1.0 + largest(&q).1) {
+        let size = largest(&delta).1;
+        if size.is_finite() && size <= 1e-12 * (1.0 + largest(&q).1) {
             return Ok(());
         }
         let mut length = 1.0;

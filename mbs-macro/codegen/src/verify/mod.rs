@@ -42,6 +42,14 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             );
         }
     }
+    for start in &model.start {
+        let value = model.arena.evaluate(&[start.value], &values)[0];
+        if !value.is_finite() {
+            let name = &model.coordinates[start.coordinate].quantity.name;
+            let message = format!("the start of `{name}` is {value} at the declared parameters");
+            errors.push(Diagnostic::new(start.span, message).help("it has to be finite"));
+        }
+    }
     for body in &model.bodies {
         let found = model.arena.evaluate(&[body.mass, body.inertia], &values);
         for (value, what, unit) in [(found[0], "mass", "kg"), (found[1], "inertia", "kg*m^2")] {

@@ -42,8 +42,11 @@ pub fn check_independence(
             let other = &model.constraints[other];
             error = error.note(other.span, format!("`{}` is one of them", other.name));
         }
+        let which = if others.is_empty() { "it" } else { "one of them" };
         errors.push(
-            error.help("remove one of them, or correct the equation that was meant to say something else"),
+            error.help(format!(
+                "remove {which}, or correct the equation that was meant to say something else"
+            )),
         );
     }
     generic.rank()
