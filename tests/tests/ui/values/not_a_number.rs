@@ -15,7 +15,10 @@ mechanism! {
         param g = acos(2);
         body slider (x3) { mass = 1 [kg]; }
         let h = l1/(l1 - l1);
-        let i = 0^x3;
+        let i = 0^(x3/l1);
+        let j = (-8)^(1/3);
+        let k = 1e300*1e300;
+        let l = atan2(ln(-1), 1);
     }
 }
 

@@ -1,4 +1,4 @@
-//! A mass that divides by a parameter declared as 0.
+//! A mass and a start that divide by a parameter declared as 0.
 
 use mbs_runtime::mechanism;
 
@@ -7,6 +7,7 @@ mechanism! {
         dof = 1;
         param ratio = 0;
         body slider (x) { mass = 2 [kg]/ratio; }
+        start { x = 1 [m]/ratio; }
     }
 }
 
