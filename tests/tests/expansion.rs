@@ -2,6 +2,7 @@
 //!
 //! A change of what is generated shows here as a difference to review;
 //! `BLESS=1 cargo test -p tests --test expansion` accepts it.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 mod declarations;
 

@@ -1,4 +1,5 @@
 //! Errors stand at the very tokens that cause them, marked here by ⟦ ⟧.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "helpers of tests")]
 
 use proc_macro2::TokenStream;
 

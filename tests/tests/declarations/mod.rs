@@ -1,4 +1,5 @@
 //! The declarations of the mechanisms in `models`, as token streams.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use proc_macro2::TokenStream;
 
