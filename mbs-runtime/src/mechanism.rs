@@ -155,7 +155,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
 
-    /// Potential energy of gravity in J, 0 at the origin.
+    /// Potential energy of gravity (0 at the origin) and springs in J.
     fn potential_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
 
     /// The declared outputs, given q̈ and λ.

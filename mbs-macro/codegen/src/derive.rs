@@ -27,7 +27,7 @@ pub struct Equations {
     pub feedback: Vec<Expr>,
     /// ½ vᵀMv
     pub kinetic_energy: Expr,
-    /// −Σ m g·x
+    /// −Σ m g·x, and the energies of springs
     pub potential_energy: Expr,
 }
 
@@ -106,7 +106,7 @@ fn kinetic_energy(model: &mut Model, mass: &[Expr]) -> Expr {
 }
 
 fn potential_energy(model: &mut Model) -> Expr {
-    let mut terms = Vec::new();
+    let mut terms: Vec<_> = model.potentials.iter().map(|&energy| (energy, Number::ONE)).collect();
     for coordinate in &model.coordinates {
         let Some(gravity) = gravity_along(model, coordinate.direction) else { continue };
         let position = model.arena.variable(coordinate.position);

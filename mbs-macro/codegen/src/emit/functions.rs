@@ -240,7 +240,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
             #[inline]
             pub fn kinetic_energy(&self, at: &#state) -> T { #kinetic }
 
-            /// Potential energy of gravity in J, 0 at the origin.
+            /// Potential energy of gravity (0 at the origin) and springs in J.
             #[inline]
             pub fn potential_energy(&self, at: &#state) -> T { #potential }
         }

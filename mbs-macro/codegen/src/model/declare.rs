@@ -5,6 +5,7 @@ use mbs_symbolic::{Number, Stage};
 use proc_macro2::Ident;
 
 use super::names::{Definition, Row, State, Value, duplicate};
+use super::places::{Frame, GROUND};
 use super::resolver::Resolver;
 use super::{Body, Coordinate, Direction, Meaning, Parameter, Quantity};
 use crate::diagnostics::Diagnostic;
@@ -25,7 +26,16 @@ impl<'a> Resolver<'a> {
                 self.inputs.push(quantity(name, &item.doc, &unit.text, unit.unit));
             }
             ItemKind::Body { name, coordinates, .. } => self.declare_body(name, coordinates),
+            _ => {}
+        }
+    }
+
+    /// Rows and points, once all bodies are known.
+    pub(super) fn declare_rows(&mut self, item: &Item) {
+        match &item.kind {
             ItemKind::Constraint { name, is_drive, .. } => self.declare_row(name, *is_drive),
+            ItemKind::Joint(joint) => self.declare_joint(joint),
+            ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
             _ => {}
         }
     }
@@ -51,6 +61,13 @@ impl<'a> Resolver<'a> {
 
     fn declare_body(&mut self, name: &Ident, coordinates: &[syntax::Coordinate]) {
         let text = name.to_string();
+        if text == GROUND {
+            self.errors.push(
+                Diagnostic::new(name.span(), "`ground` is what does not move and cannot be declared")
+                    .help("choose another name for the body"),
+            );
+            return;
+        }
         if let Some((_, earlier)) = self.body_spans.iter().find(|(known, _)| *known == text) {
             self.errors.push(duplicate(name, *earlier));
             return;
@@ -82,8 +99,12 @@ impl<'a> Resolver<'a> {
             self.declare_coordinate(&coordinate.name, direction, body);
         }
         let names = coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
-        self.scope.bodies.insert(text.clone(), names);
         let zero = self.scope.arena.zero();
+        let [x, y, angle] = [Direction::X, Direction::Y, Direction::Angle].map(|direction| {
+            let coordinate = positions.iter().find(|&&at| self.coordinates[at].direction == direction);
+            coordinate.map_or(zero, |&at| self.scope.arena.variable(self.coordinates[at].position))
+        });
+        self.scope.bodies.insert(text.clone(), Frame::new(names, [x, y], angle));
         self.bodies.push(Body {
             name: text,
             span: name.span(),
@@ -116,7 +137,7 @@ impl<'a> Resolver<'a> {
         });
     }
 
-    fn declare_row(&mut self, name: &Ident, is_drive: bool) {
+    pub(super) fn declare_row(&mut self, name: &Ident, is_drive: bool) {
         let text = name.to_string();
         if let Some(earlier) = self.scope.rows.get(&text) {
             self.errors.push(duplicate(name, earlier.span));

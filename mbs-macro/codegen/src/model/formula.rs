@@ -21,6 +21,7 @@ impl Scope<'_> {
                 Some(Typed { expr: self.arena.number(value), dimension })
             }
             FormulaKind::Name(name) => self.name(name, place, errors),
+            FormulaKind::Member(path) => self.member(path, place, errors),
             FormulaKind::Negative(inner) => {
                 let inner = self.formula(inner, place, errors)?;
                 Some(Typed { expr: self.arena.neg(inner.expr), ..inner })
@@ -174,10 +175,10 @@ impl Scope<'_> {
     fn unknown(&self, name: &Ident) -> Diagnostic {
         let text = name.to_string();
         let error = Diagnostic::new(name.span(), format!("there is no `{text}` in this mechanism"));
-        if let Some(coordinates) = self.bodies.get(&text) {
+        if let Some(frame) = self.bodies.get(&text) {
             let message = format!("`{text}` is a body, not a quantity");
             return Diagnostic::new(name.span(), message)
-                .help(format!("its coordinates are {}", listing(coordinates)));
+                .help(format!("its coordinates are {}", listing(&frame.coordinates)));
         }
         if self.rows.contains_key(&text) {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))

@@ -3,12 +3,16 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod connections;
 mod declare;
 mod formula;
 mod functions;
+mod joints;
 mod loads;
 mod names;
+mod places;
 mod resolver;
+mod springs;
 mod statements;
 
 use mbs_symbolic::units::Dimension;
@@ -38,6 +42,8 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     pub gravity: [Expr; 2],
     pub loads: Vec<Load>,
+    /// Energies of springs.
+    pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
 }

@@ -7,6 +7,7 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
+use super::places::{Frame, GROUND};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
 
@@ -84,8 +85,8 @@ pub struct Scope<'a> {
     pub arena: Arena,
     pub meanings: Vec<Meaning>,
     pub values: BTreeMap<String, Value<'a>>,
-    /// Bodies with the names of their coordinates.
-    pub bodies: BTreeMap<String, Vec<String>>,
+    /// Bodies, and the ground.
+    pub bodies: BTreeMap<String, Frame>,
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
     pub time: Symbol,
@@ -113,6 +114,8 @@ impl<'a> Scope<'a> {
             time: Arena::new().symbol("t", Stage::Variable),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
+        let zero = scope.arena.zero();
+        scope.bodies.insert(GROUND.to_owned(), Frame::new(Vec::new(), [zero; 2], zero));
         scope
     }
 

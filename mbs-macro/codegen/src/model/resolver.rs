@@ -24,6 +24,12 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
         resolver.declare(item);
     }
     for item in &declaration.items {
+        resolver.declare_rows(item);
+    }
+    for item in &declaration.items {
+        resolver.resolve_places(item);
+    }
+    for item in &declaration.items {
         resolver.resolve_constraint(item);
     }
     for item in &declaration.items {
@@ -52,6 +58,7 @@ pub(super) struct Resolver<'a> {
     pub row_count: usize,
     pub gravity: Option<([Expr; 2], Span)>,
     pub loads: Vec<Load>,
+    pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
     pub start: Option<Span>,
     pub starts: Vec<Start>,
@@ -78,6 +85,7 @@ impl<'a> Resolver<'a> {
             row_count: 0,
             gravity: None,
             loads: Vec::new(),
+            potentials: Vec::new(),
             load_names: Vec::new(),
             start: None,
             starts: Vec::new(),
@@ -141,6 +149,7 @@ impl<'a> Resolver<'a> {
             constraints: self.constraints,
             gravity: self.gravity.map_or([zero; 2], |(gravity, _)| gravity),
             loads: self.loads,
+            potentials: self.potentials,
             start: self.starts,
             outputs: self.outputs,
         };

@@ -7,12 +7,21 @@ use proc_macro2::{Ident, Span};
 use super::declare::quantity;
 use super::names::{Place, Typed, duplicate};
 use super::resolver::Resolver;
-use super::{Constraint, Direction, Meaning, Output, Requirement, Start};
+use super::{Constraint, Direction, Output, Requirement, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::syntax::{self, Formula, Item, ItemKind};
 
 impl<'a> Resolver<'a> {
+    pub(super) fn resolve_places(&mut self, item: &Item) {
+        if let ItemKind::Point { name, body, value } = &item.kind {
+            self.scope.resolve_point(name, body, value, &mut self.errors);
+        }
+    }
+
     pub(super) fn resolve_constraint(&mut self, item: &Item) {
+        if let ItemKind::Joint(joint) = &item.kind {
+            return self.resolve_joint(joint, &item.doc);
+        }
         let ItemKind::Constraint { name, is_drive, left, equals, right } = &item.kind else { return };
         let l = self.scope.formula(left, Place::Constraint, &mut self.errors);
         let r = self.scope.formula(right, Place::Constraint, &mut self.errors);
@@ -46,13 +55,7 @@ impl<'a> Resolver<'a> {
             .help("both sides of an equation need the same dimension; check units and factors")));
         }
         let phi = self.scope.arena.sub(left.expr, right.expr);
-        let depends = self
-            .scope
-            .arena
-            .symbols_in(phi)
-            .into_iter()
-            .any(|symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_)));
-        if !depends {
+        if !self.depends_on_coordinates(phi) {
             return Some(Err(Diagnostic::new(
                 name.span(),
                 format!("`{name}` does not constrain anything: no coordinate is left in it"),
@@ -88,6 +91,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Force { name, is_torque, target, value } => {
                 self.resolve_load(name, *is_torque, target, value)
             }
+            ItemKind::Spring(spring) => self.resolve_spring(spring),
             ItemKind::Start { keyword, entries } => match self.start {
                 Some(earlier) => self.repeated("`start`", *keyword, earlier),
                 None => {

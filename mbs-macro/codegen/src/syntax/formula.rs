@@ -116,7 +116,7 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
                     format!("`{name}` is a word of Rust and cannot be a name here"),
                 ));
             }
-            return Ok(Formula { span, kind: FormulaKind::Name(name) });
+            return Ok(Formula { span, kind: path(input, name)? });
         }
         let content;
         parenthesized!(content in input);
@@ -131,6 +131,21 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     }
     // `input.error` would speak of an unexpected end of input
     Err(Error::new(input.span(), "a formula is expected here: a number, a name, a function call or `( … )`"))
+}
+
+/// `theta`, or `crank.tip.x`.
+fn path(input: ParseStream<'_>, name: Ident) -> Result<FormulaKind> {
+    if !input.peek(Token![.]) {
+        return Ok(FormulaKind::Name(name));
+    }
+    let mut path = vec![name];
+    while input.parse::<Option<Token![.]>>()?.is_some() {
+        path.push(
+            Ident::parse_any(input)
+                .map_err(|error| Error::new(error.span(), "a name is expected behind `.`"))?,
+        );
+    }
+    Ok(FormulaKind::Member(path))
 }
 
 fn number(literal: &Lit) -> Result<Formula> {

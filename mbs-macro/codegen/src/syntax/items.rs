@@ -14,6 +14,7 @@ use super::formula::{end, is_vector};
 use super::{
     Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
 };
+use super::{joints, springs};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -31,6 +32,9 @@ const KEYWORDS: &[&str] = &[
     "torque",
     "start",
     "output",
+    "point",
+    "spring",
+    "torsion_spring",
 ];
 
 /// Reads a declaration. After an error it goes on behind the next `;` or
@@ -119,15 +123,22 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
         "torque" => force(input, true),
         "start" => start(input, keyword.span()),
         "output" => output(input),
-        other => Err(unknown_statement(&keyword, other)),
+        "point" => joints::point(input),
+        "spring" | "torsion_spring" => springs::spring(input, &keyword),
+        word => match joints::JOINTS.iter().find(|(known, _)| *known == word) {
+            Some((_, kind)) => joints::joint(input, *kind, &keyword),
+            None => Err(unknown_statement(&keyword, word)),
+        },
     }?;
     Ok(Item { doc, kind })
 }
 
 fn unknown_statement(keyword: &Ident, word: &str) -> Error {
-    let hint = match nearest(word, KEYWORDS.iter().copied()) {
+    let joints = joints::JOINTS.iter().map(|(joint, _)| *joint);
+    let known: Vec<_> = KEYWORDS.iter().copied().chain(joints).collect();
+    let hint = match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("statements begin with {}", KEYWORDS.join(", ")),
+        None => format!("statements begin with {}", known.join(", ")),
     };
     Error::new(keyword.span(), format!("`{word}` does not begin a statement\n\nhelp: {hint}"))
 }
@@ -149,7 +160,7 @@ fn doc(input: ParseStream<'_>) -> Result<String> {
     Ok(lines.join("\n"))
 }
 
-fn name(input: ParseStream<'_>) -> Result<Ident> {
+pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
     if syn::parse_str::<Ident>(&name.to_string()).is_err() {
@@ -158,13 +169,13 @@ fn name(input: ParseStream<'_>) -> Result<Ident> {
     Ok(name)
 }
 
-fn equals(input: ParseStream<'_>) -> Result<Span> {
+pub(super) fn equals(input: ParseStream<'_>) -> Result<Span> {
     let equals: Token![=] =
         input.parse().map_err(|error| Error::new(error.span(), "`=` is expected here"))?;
     Ok(equals.span())
 }
 
-fn semicolon(input: ParseStream<'_>) -> Result<()> {
+pub(super) fn semicolon(input: ParseStream<'_>) -> Result<()> {
     match input.parse::<Token![;]>() {
         Ok(_) => Ok(()),
         Err(error) => Err(unexpected(input, error.span())),
@@ -183,7 +194,7 @@ fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
 }
 
 /// What follows has to be `{ … }`.
-fn block(input: ParseStream<'_>, example: &str) -> Result<()> {
+pub(super) fn block(input: ParseStream<'_>, example: &str) -> Result<()> {
     if input.peek(token::Brace) {
         return Ok(());
     }
@@ -257,7 +268,7 @@ fn let_item(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Let { name, value })
 }
 
-fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
+pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
     let name = name(input)?;
     equals(input)?;
     let value = input.parse()?;
@@ -342,7 +353,7 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
             format!("a name and what it acts on are expected here, as in `{word} push on crank = …;`");
         return Err(Error::new(span, message));
     }
-    let target = name(input)?;
+    let target = input.parse()?;
     equals(input)?;
     let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
     semicolon(input)?;

@@ -2,6 +2,8 @@
 
 mod formula;
 mod items;
+mod joints;
+mod springs;
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
@@ -43,7 +45,13 @@ pub enum ItemKind {
     /// `constraint name: left = right;` or `drive name: left = right;`
     Constraint { name: Ident, is_drive: bool, left: Formula, equals: Span, right: Formula },
     /// `force name on target = …;` or `torque name on target = …;`
-    Force { name: Ident, is_torque: bool, target: Ident, value: Load },
+    Force { name: Ident, is_torque: bool, target: Attachment, value: Load },
+    /// `point tip on crank = (l/2, 0);`
+    Point { name: Ident, body: Ident, value: Vector },
+    /// `revolute pin (crank.tip, rod.base);`
+    Joint(Joint),
+    /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
+    Spring(Spring),
     /// `start { … }`
     Start { keyword: Span, entries: Vec<StartEntry> },
     /// `output name [unit] = …;`
@@ -93,6 +101,44 @@ pub struct Property {
     pub value: Formula,
 }
 
+/// A joint between two places.
+pub struct Joint {
+    pub kind: JointKind,
+    pub name: Ident,
+    pub first: Attachment,
+    pub second: Attachment,
+    /// The direction of motion, in the frame of the second body.
+    pub along: Option<Vector>,
+    /// The constant angle of the first body relative to the second.
+    pub angle: Option<Formula>,
+    /// The constant distance.
+    pub length: Option<Formula>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    Revolute,
+    Fixed,
+    Prismatic,
+    PointOnLine,
+    Distance,
+}
+
+/// A spring with a damper between two places, or two angles.
+pub struct Spring {
+    pub name: Ident,
+    pub is_torsion: bool,
+    pub first: Attachment,
+    pub second: Attachment,
+    pub properties: Vec<Property>,
+}
+
+/// A place on a body: `crank.tip`, or `crank` for its centre.
+pub struct Attachment {
+    pub body: Ident,
+    pub point: Option<Ident>,
+}
+
 /// `(x, y)`, or a scalar.
 pub enum Load {
     Scalar(Formula),
@@ -134,6 +180,8 @@ pub enum FormulaKind {
         unit: Option<UnitText>,
     },
     Name(Ident),
+    /// `crank.tip.x`
+    Member(Vec<Ident>),
     Negative(Box<Formula>),
     /// `op` is one of `+ - * / ^`; the span is the operator's.
     Binary {

@@ -1,0 +1,144 @@
+//! Joints between places: names of their rows, then the rows themselves.
+
+use mbs_symbolic::Expr;
+use mbs_symbolic::units::Dimension;
+use proc_macro2::Ident;
+
+use super::joints::{self, Connection, JointRow};
+use super::names::Place;
+use super::resolver::Resolver;
+use super::{Constraint, Meaning};
+use crate::diagnostics::Diagnostic;
+use crate::syntax::{Joint, JointKind, Vector};
+
+impl Resolver<'_> {
+    /// The rows that the joint will have. A joint that holds an angle between
+    /// bodies that do not turn has no row for it.
+    pub(super) fn declare_joint(&mut self, joint: &Joint) {
+        for suffix in self.suffixes(joint) {
+            self.declare_row(&row_name(joint, suffix), false);
+        }
+    }
+
+    fn suffixes(&self, joint: &Joint) -> Vec<&'static str> {
+        let turns = |body: &Ident| match self.scope.bodies.get(&body.to_string()) {
+            Some(frame) => self.scope.arena.as_number(frame.angle).is_none(),
+            None => true,
+        };
+        let any_turns = turns(&joint.first.body) || turns(&joint.second.body);
+        joints::row_suffixes(joint.kind)
+            .iter()
+            .copied()
+            .filter(|suffix| any_turns || *suffix != "_angle")
+            .collect()
+    }
+
+    pub(super) fn resolve_joint(&mut self, joint: &Joint, doc: &str) {
+        let rows = self.joint_rows(joint);
+        for (at, suffix) in self.suffixes(joint).into_iter().enumerate() {
+            let name = row_name(joint, suffix);
+            let row = rows.as_ref().and_then(|rows| rows.get(at));
+            let is_restricting = row.is_some_and(|row| self.depends_on_coordinates(row.phi));
+            if row.is_some() && !is_restricting {
+                self.errors.push(useless_row(joint, suffix));
+            }
+            if let Some(known) = self.scope.rows.get_mut(&name.to_string()) {
+                known.is_broken = !is_restricting;
+                known.dimension = row.map(|row| row.dimension);
+            }
+            if let (Some(JointRow { phi, dimension }), true) = (row, is_restricting) {
+                let (name, doc, span) = (name.to_string(), doc.to_owned(), joint.name.span());
+                let (phi, dimension) = (*phi, *dimension);
+                self.constraints.push(Constraint { name, doc, span, is_drive: false, phi, dimension });
+            }
+        }
+    }
+
+    fn joint_rows(&mut self, joint: &Joint) -> Option<Vec<JointRow>> {
+        let first = self.scope.attachment(&joint.first, &mut self.errors);
+        let second = self.scope.attachment(&joint.second, &mut self.errors);
+        let zero = self.scope.arena.zero();
+        let along = match &joint.along {
+            Some(vector) => self.direction_of(joint, vector),
+            None => Some([self.scope.arena.one(), zero]),
+        };
+        let angle = match &joint.angle {
+            Some(formula) => {
+                let what = ("the angle between the bodies", Dimension::NONE);
+                self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
+            }
+            None => Some(zero),
+        };
+        let length = match &joint.length {
+            Some(formula) => {
+                let what = ("the distance", Dimension::LENGTH);
+                let length = self.scope.formula_of(formula, Place::Property, what, &mut self.errors);
+                length.filter(|&length| {
+                    let is_zero = self.scope.arena.is_zero(length);
+                    if is_zero {
+                        self.errors.push(
+                            Diagnostic::new(formula.span, format!("the distance of `{}` is 0", joint.name))
+                                .help("points that coincide are a `revolute` joint"),
+                        );
+                    }
+                    !is_zero
+                })
+            }
+            None => Some(zero),
+        };
+        let connection =
+            Connection { first: first?, second: second?, along: along?, angle: angle?, length: length? };
+        Some(joints::rows(&mut self.scope.arena, joint.kind, &connection))
+    }
+
+    /// A direction: two numbers or lengths, not both 0.
+    fn direction_of(&mut self, joint: &Joint, vector: &Vector) -> Option<[Expr; 2]> {
+        let x = self.scope.formula(&vector.x, Place::Property, &mut self.errors);
+        let y = self.scope.formula(&vector.y, Place::Property, &mut self.errors);
+        let (x, y) = (x?, y?);
+        if let (Some(a), Some(b)) = (x.dimension, y.dimension)
+            && a != b
+        {
+            self.errors.push(
+                Diagnostic::new(vector.span, format!("the direction of `{}` mixes dimensions", joint.name))
+                    .help("give both components in the same unit, or both as numbers"),
+            );
+            return None;
+        }
+        if self.scope.arena.is_zero(x.expr) && self.scope.arena.is_zero(y.expr) {
+            self.errors.push(
+                Diagnostic::new(vector.span, format!("the direction of `{}` is zero", joint.name))
+                    .help("write `(1, 0)` for x, `(0, 1)` for y"),
+            );
+            return None;
+        }
+        Some([x.expr, y.expr])
+    }
+
+    pub(super) fn depends_on_coordinates(&self, phi: Expr) -> bool {
+        let is_coordinate = |symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_));
+        self.scope.arena.symbols_in(phi).into_iter().any(is_coordinate)
+    }
+}
+
+fn row_name(joint: &Joint, suffix: &str) -> Ident {
+    Ident::new(&format!("{}{suffix}", joint.name), joint.name.span())
+}
+
+/// The error for a row in which nothing can move.
+fn useless_row(joint: &Joint, suffix: &str) -> Diagnostic {
+    let what = match suffix {
+        "_x" => " along x",
+        "_y" => " along y",
+        "_normal" => " across its line",
+        "_angle" => " in its angle",
+        _ => "",
+    };
+    let help = match joint.kind {
+        JointKind::Revolute => "remove the joint, or give a body the coordinate that is missing",
+        _ => "remove the joint: its bodies cannot move otherwise",
+    };
+    let message =
+        format!("joint `{}` restricts nothing{what}: neither of its places can move so", joint.name);
+    Diagnostic::new(joint.name.span(), message).help(help)
+}

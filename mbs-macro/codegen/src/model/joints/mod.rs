@@ -1,0 +1,96 @@
+//! Joints as constraint rows, a file each.
+//!
+//! A row is Φ with its multiplier's meaning: the generalized constraint forces
+//! are −Φ_qᵀ λ, so a row Φ = p₁ − p₂ has in λ the force that acts on the second
+//! body at p₂, while the first feels −λ.
+
+mod distance;
+mod fixed;
+mod point_on_line;
+mod prismatic;
+mod revolute;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Arena, Expr, Function};
+
+use crate::syntax::JointKind;
+
+/// A place on a body, in the ground frame.
+#[derive(Clone, Copy)]
+pub struct Placed {
+    pub position: [Expr; 2],
+    /// Angle of the body.
+    pub angle: Expr,
+}
+
+/// A joint with its places and quantities resolved.
+pub struct Connection {
+    pub first: Placed,
+    pub second: Placed,
+    /// A direction in the frame of the second body, (1, 0) where it plays no part.
+    pub along: [Expr; 2],
+    /// Constant relative angle, 0 where it plays no part.
+    pub angle: Expr,
+    /// Constant distance, 0 where it plays no part.
+    pub length: Expr,
+}
+
+/// One constraint row of a joint.
+pub struct JointRow {
+    pub phi: Expr,
+    pub dimension: Dimension,
+}
+
+/// The names of a joint's rows behind its own: `pin_x`, `pin_y`; a joint with
+/// one row gives it its own name.
+pub fn row_suffixes(kind: JointKind) -> &'static [&'static str] {
+    match kind {
+        JointKind::Revolute => &["_x", "_y"],
+        JointKind::Fixed => &["_x", "_y", "_angle"],
+        JointKind::Prismatic => &["_normal", "_angle"],
+        JointKind::PointOnLine | JointKind::Distance => &[""],
+    }
+}
+
+/// The rows of a joint, in the order of their names.
+pub fn rows(arena: &mut Arena, kind: JointKind, connection: &Connection) -> Vec<JointRow> {
+    match kind {
+        JointKind::Revolute => revolute::rows(arena, connection),
+        JointKind::Fixed => fixed::rows(arena, connection),
+        JointKind::Prismatic => prismatic::rows(arena, connection),
+        JointKind::PointOnLine => point_on_line::rows(arena, connection),
+        JointKind::Distance => distance::rows(arena, connection),
+    }
+}
+
+/// Where a point of a body is: origin + R(angle)·local.
+pub fn place(arena: &mut Arena, origin: [Expr; 2], angle: Expr, local: [Expr; 2]) -> Placed {
+    let [x, y] = rotate(arena, angle, local);
+    Placed { position: [arena.add(origin[0], x), arena.add(origin[1], y)], angle }
+}
+
+/// R(angle)·v
+fn rotate(arena: &mut Arena, angle: Expr, [x, y]: [Expr; 2]) -> [Expr; 2] {
+    let (sine, cosine) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
+    let (xc, ys) = (arena.mul(x, cosine), arena.mul(y, sine));
+    let (xs, yc) = (arena.mul(x, sine), arena.mul(y, cosine));
+    [arena.sub(xc, ys), arena.add(xs, yc)]
+}
+
+/// p₁ − p₂
+fn separation(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
+    let ([x1, y1], [x2, y2]) = (connection.first.position, connection.second.position);
+    [arena.sub(x1, x2), arena.sub(y1, y2)]
+}
+
+/// x² + y²
+fn square(arena: &mut Arena, [x, y]: [Expr; 2]) -> Expr {
+    let (xx, yy) = (arena.powi(x, 2), arena.powi(y, 2));
+    arena.add(xx, yy)
+}
+
+/// φ₁ − φ₂ − angle
+fn relative_angle(arena: &mut Arena, connection: &Connection) -> JointRow {
+    let relative = arena.sub(connection.first.angle, connection.second.angle);
+    JointRow { phi: arena.sub(relative, connection.angle), dimension: Dimension::NONE }
+}

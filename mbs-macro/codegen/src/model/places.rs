@@ -1,0 +1,150 @@
+//! Points on bodies, and what a formula or a joint can say of them.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::Expr;
+use mbs_symbolic::units::Dimension;
+use proc_macro2::{Ident, Span};
+
+use super::joints::{self, Placed};
+use super::names::{Place, Scope, Typed, duplicate};
+use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::syntax::{Attachment, Vector};
+
+/// What a body without coordinates, at the origin, is called.
+pub const GROUND: &str = "ground";
+
+/// Words behind a dot that are no points.
+const MEMBERS: &[&str] = &["x", "y", "angle"];
+
+/// A body as the frame of its points.
+pub struct Frame {
+    /// The names of its coordinates.
+    pub coordinates: Vec<String>,
+    pub origin: [Expr; 2],
+    pub angle: Expr,
+    points: BTreeMap<String, Point>,
+}
+
+struct Point {
+    span: Span,
+    /// Its place on the body; `None` until resolved, or if that failed.
+    local: Option<[Expr; 2]>,
+}
+
+impl Frame {
+    pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
+        Self { coordinates, origin, angle, points: BTreeMap::new() }
+    }
+}
+
+impl Scope<'_> {
+    /// Enters the name of a point.
+    pub fn declare_point(&mut self, name: &Ident, body: &Ident, errors: &mut Diagnostics) {
+        let text = name.to_string();
+        if MEMBERS.contains(&text.as_str()) {
+            errors.push(
+                Diagnostic::new(
+                    name.span(),
+                    format!("`{text}` is a word of the language and cannot be declared"),
+                )
+                .help("choose another name"),
+            );
+            return;
+        }
+        let Some(frame) =
+            errors.take(self.frame(body).map(|_| ())).and_then(|()| self.bodies.get_mut(&body.to_string()))
+        else {
+            return;
+        };
+        match frame.points.get(&text) {
+            Some(earlier) => errors.push(duplicate(name, earlier.span)),
+            None => {
+                frame.points.insert(text, Point { span: name.span(), local: None });
+            }
+        }
+    }
+
+    /// Reads where a point is on its body.
+    pub fn resolve_point(&mut self, name: &Ident, body: &Ident, place: &Vector, errors: &mut Diagnostics) {
+        let what = ("the place of a point", Dimension::LENGTH);
+        let x = self.formula_of(&place.x, Place::Property, what, errors);
+        let y = self.formula_of(&place.y, Place::Property, what, errors);
+        let frame = self.bodies.get_mut(&body.to_string());
+        if let Some(point) = frame.and_then(|frame| frame.points.get_mut(&name.to_string())) {
+            point.local = x.zip(y).map(|(x, y)| [x, y]);
+        }
+    }
+
+    /// The body called `name`.
+    fn frame(&self, name: &Ident) -> Result<&Frame, Diagnostic> {
+        let text = name.to_string();
+        self.bodies.get(&text).ok_or_else(|| {
+            let error = Diagnostic::new(name.span(), format!("there is no body `{text}`"));
+            match nearest(&text, self.bodies.keys().map(String::as_str)) {
+                Some(near) => error.help(format!("did you mean `{near}`?")),
+                None => error.help(format!("the bodies are {}", listing(self.bodies.keys()))),
+            }
+        })
+    }
+
+    /// A place on a body; `None` if it has errors, which are added or were.
+    pub fn attachment(&mut self, attachment: &Attachment, errors: &mut Diagnostics) -> Option<Placed> {
+        let frame = errors.take(self.frame(&attachment.body))?;
+        let (origin, angle) = (frame.origin, frame.angle);
+        let Some(name) = &attachment.point else { return Some(Placed { position: origin, angle }) };
+        let Some(point) = frame.points.get(&name.to_string()) else {
+            errors.push(self.unknown_point(&attachment.body, name, frame));
+            return None;
+        };
+        let local = point.local?;
+        Some(joints::place(&mut self.arena, origin, angle, local))
+    }
+
+    fn unknown_point(&self, body: &Ident, name: &Ident, frame: &Frame) -> Diagnostic {
+        let error = Diagnostic::new(name.span(), format!("body `{body}` has no point `{name}`"));
+        match nearest(&name.to_string(), frame.points.keys().map(String::as_str)) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None => error.help(format!("declare it: `point {name} on {body} = (…, …);`")),
+        }
+    }
+
+    /// `crank.x`, `crank.angle`, `crank.tip.y`.
+    pub fn member(&mut self, path: &[Ident], place: Place, errors: &mut Diagnostics) -> Option<Typed> {
+        let (attachment, member) = match path {
+            [body, member] => (Attachment { body: body.clone(), point: None }, member),
+            [body, point, member] => (Attachment { body: body.clone(), point: Some(point.clone()) }, member),
+            _ => {
+                let span = path.last().map_or(Span::call_site(), Ident::span);
+                errors.push(
+                    Diagnostic::new(span, "this path is too long").help("write `body.x` or `body.point.x`"),
+                );
+                return None;
+            }
+        };
+        let placed = self.attachment(&attachment, errors)?;
+        let (expr, dimension) = match member.to_string().as_str() {
+            "x" => (placed.position[0], Dimension::LENGTH),
+            "y" => (placed.position[1], Dimension::LENGTH),
+            "angle" => (placed.angle, Dimension::NONE),
+            _ => {
+                let last = path.len() == 2
+                    && self
+                        .frame(&attachment.body)
+                        .is_ok_and(|frame| frame.points.contains_key(&member.to_string()));
+                let help = if last {
+                    format!(
+                        "`{member}` is a point; its coordinates are `{}.{member}.x` and `{}.{member}.y`",
+                        attachment.body, attachment.body
+                    )
+                } else {
+                    "a place has `x`, `y` and `angle`".to_owned()
+                };
+                errors
+                    .push(Diagnostic::new(member.span(), format!("there is no `{member}` here")).help(help));
+                return None;
+            }
+        };
+        self.allowed(Typed { expr, dimension: Some(dimension) }, member, place, errors)
+    }
+}
