@@ -32,6 +32,13 @@ impl Resolver<'_> {
                 self.load_on_coordinate(coordinate, body_name, load);
             }
             (_, Some(body)) => self.load_on_body(body, is_torque, target, load),
+            (Some(_), None) => self.errors.push(
+                Diagnostic::new(
+                    body_name.span(),
+                    format!("`{target_text}` is a coordinate and has no points"),
+                )
+                .help("name the body whose point it is"),
+            ),
             _ => {
                 let bodies: Vec<_> = self.bodies.iter().map(|body| body.name.clone()).collect();
                 let coordinates = self.coordinates.iter().map(|c| c.quantity.name.clone());

@@ -11,7 +11,7 @@ use mbs_symbolic::{Expr, Function, Number};
 use proc_macro2::{Ident, Span};
 
 use super::joints::Placed;
-use super::names::{Place, duplicate};
+use super::names::Place;
 use super::resolver::Resolver;
 use super::{Load, Meaning};
 use crate::diagnostics::{Diagnostic, listing, nearest};
@@ -101,7 +101,8 @@ impl Resolver<'_> {
         for Property { name, value } in &spring.properties {
             let text = name.to_string();
             if let Some(earlier) = given.insert(text.clone(), name.span()) {
-                self.errors.push(duplicate(name, earlier));
+                let what = format!("the {name} of `{}`", spring.name);
+                self.repeated(&what, name.span(), earlier);
                 is_complete = false;
                 continue;
             }
@@ -116,7 +117,9 @@ impl Resolver<'_> {
                 None => is_complete = false,
             }
         }
-        self.check_given(spring, &given, free.0);
+        if is_complete {
+            self.check_given(spring, &given, free.0);
+        }
         is_complete.then_some(values)
     }
 

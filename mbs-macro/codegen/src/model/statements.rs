@@ -108,7 +108,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn repeated(&mut self, what: &str, again: Span, earlier: Span) {
+    pub(super) fn repeated(&mut self, what: &str, again: Span, earlier: Span) {
         self.errors.push(
             Diagnostic::new(again, format!("{what} is given twice"))
                 .note(earlier, format!("{what} is first given here"))

@@ -241,6 +241,9 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
 impl Parse for Vector {
     /// `(x, y)` or `(x, y) [unit]`
     fn parse(input: ParseStream<'_>) -> Result<Self> {
+        if !is_vector(input) {
+            return Err(Error::new(input.span(), "a vector is expected here, as in `(1, 0)`"));
+        }
         let content;
         let paren = parenthesized!(content in input);
         let x = content.parse()?;

@@ -164,7 +164,8 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
     // `gen` is one since the edition of 2024, which syn does not ask for
-    if name == "gen" || syn::parse_str::<Ident>(&name.to_string()).is_err() {
+    let text = name.to_string();
+    if text == "gen" || text.starts_with("r#") || syn::parse_str::<Ident>(&text).is_err() {
         return Err(Error::new(name.span(), format!("`{name}` is a word of Rust and cannot be a name here")));
     }
     Ok(name)

@@ -4,7 +4,6 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::formula::end;
 use super::items::{equals, name, semicolon};
 use super::{Attachment, ItemKind, Joint, JointKind};
 
@@ -21,10 +20,10 @@ pub const JOINTS: &[(&str, JointKind)] = &[
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     let what = name(input)?;
     let on = input.span();
-    if !Ident::parse_any(input).is_ok_and(|word| word == "on") {
+    if what == "on" || !Ident::parse_any(input).is_ok_and(|word| word == "on") {
         return Err(Error::new(
-            on,
-            format!("`on` and a body are expected here, as in `point {what} on crank = (l/2, 0);`"),
+            if what == "on" { what.span() } else { on },
+            "a name, `on` and a body are expected here, as in `point tip on crank = (l/2, 0);`",
         ));
     }
     let body = name(input)?;
@@ -51,10 +50,12 @@ pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Re
     parenthesized!(content in input);
     let first = content.parse()?;
     if content.parse::<Option<Token![,]>>()?.is_none() {
-        return Err(content.error(format!("a joint connects two places, as in `{example}`")));
+        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
     }
     let second = content.parse()?;
-    end(&content)?;
+    if !content.is_empty() {
+        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
+    }
     let mut joint = Joint { kind, name, first, second, along: None, angle: None, length: None };
     match kind {
         JointKind::Prismatic | JointKind::PointOnLine => {

@@ -2,9 +2,8 @@
 
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
-use syn::{Result, Token, braced, parenthesized, token};
+use syn::{Error, Result, Token, braced, parenthesized, token};
 
-use super::formula::end;
 use super::items::{block, definition, name};
 use super::{ItemKind, Property, Spring};
 
@@ -23,10 +22,12 @@ pub(super) fn spring(input: ParseStream<'_>, word: &Ident) -> Result<ItemKind> {
     parenthesized!(content in input);
     let first = content.parse()?;
     if content.parse::<Option<Token![,]>>()?.is_none() {
-        return Err(content.error(format!("a spring connects two places, as in `{example}`")));
+        return Err(Error::new(content.span(), format!("a spring connects two places, as in `{example}`")));
     }
     let second = content.parse()?;
-    end(&content)?;
+    if !content.is_empty() {
+        return Err(Error::new(content.span(), format!("a spring connects two places, as in `{example}`")));
+    }
     block(input, &example)?;
     let content;
     braced!(content in input);
