@@ -104,10 +104,14 @@ mod words_of_generated_code {
             param gains = 1 [N];
             param marker = 1;
             param v1 = 1;
+            param union = 1;
+            param auto = 1;
+            param raw = 1;
+            param default = 1;
             input inputs [N];
             input none [N];
             body a (x = q, y = at, angle = v0) { mass = parameters + hoisted*array; inertia = value*1 [m^2]; }
-            body b (x = v, y = feedback, angle = growth) { mass = value*v1*marker; inertia = 1 [kg*m^2]; }
+            body b (x = v, y = feedback, angle = growth) { mass = value*v1*marker*union*auto*raw*default; inertia = 1 [kg*m^2]; }
             force reactions on a = (inputs + none, gains*cos(v0)*sin(growth));
             constraint self_: q = v*cos(growth);
             constraint state: at = feedback*exp(array - 1) + v*sin(growth);

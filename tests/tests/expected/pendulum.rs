@@ -554,7 +554,7 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
         let v4 = v1 + v3;
         v4
     }
-    /// Potential energy of gravity in J, 0 at the origin.
+    /// Potential energy of gravity (0 at the origin) and springs in J.
     #[inline]
     pub fn potential_energy(
         &self,

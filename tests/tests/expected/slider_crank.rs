@@ -1122,7 +1122,7 @@ Cost: 48 mul + 39 add + 1 div + 2 sincos.*/
         let v19 = v18 + v13;
         v19
     }
-    /// Potential energy of gravity in J, 0 at the origin.
+    /// Potential energy of gravity (0 at the origin) and springs in J.
     #[inline]
     pub fn potential_energy(
         &self,

@@ -1168,7 +1168,7 @@ Cost: 67 mul + 52 add + 3 div + 2 sincos.*/
         let v19 = v18 + v13;
         v19
     }
-    /// Potential energy of gravity in J, 0 at the origin.
+    /// Potential energy of gravity (0 at the origin) and springs in J.
     #[inline]
     pub fn potential_energy(
         &self,

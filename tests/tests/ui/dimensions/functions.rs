@@ -16,6 +16,7 @@ mechanism! {
         let g = 2^l1;
         let h = l1^pi;
         let i = sqrt(l1)^(1/5);
+        let l = sqrt(l1^(1/6));
         let j = (1 [kg*m])^(1/7);
     }
 }

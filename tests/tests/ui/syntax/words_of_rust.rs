@@ -8,6 +8,10 @@ mechanism! {
         const static = 2;
         let in = 3;
         input loop [N];
+        param gen = 4;
+        param _ = 5;
+        param r#fn = 6;
+        revolute r#in (box, ground);
         body box (x, y) { mass = 1 [kg]; }
         body fn (move) { mass = 1 [kg]; }
         constraint where: x1 = 0;

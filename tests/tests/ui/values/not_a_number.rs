@@ -13,8 +13,9 @@ mechanism! {
         param e = 0^-1;
         param f = (2 - 2)/(3 - 3);
         param g = acos(2);
+        param h = 1e308 [km];
         body slider (x3) { mass = 1 [kg]; }
-        let h = l1/(l1 - l1);
+        let m = l1/(l1 - l1);
         let i = 0^(x3/l1);
         let j = (-8)^(1/3);
         let k = 1e300*1e300;
