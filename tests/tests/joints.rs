@@ -100,14 +100,16 @@ mechanism! {
 
 #[test]
 fn two_welded_halves_swing_like_the_whole() -> Result<(), Error> {
-    let mut run = Simulation::new(WeldedRods::declared(), 1e-3)?;
+    let mut run = Simulation::new(WeldedRods::declared(), 0.5e-3)?;
     run.advance_to(1.0)?;
     let state = run.state();
-    // Same equation of motion, other roundings: a pendulum amplifies them little in 1 s.
-    assert!((state.q.phi - state.q.phi1).abs() < 1e-6, "{} {}", state.q.phi, state.q.phi1);
-    assert!((state.q.phi2 - state.q.phi1 - core::f64::consts::FRAC_PI_2).abs() < 1e-6);
+    // Same equation of motion, but the feedback acts on other constraints: both
+    // are off by Heun's truncation, h² |d³φ/dt³| t/6 = 2.5e-7 · 200 / 6 = 8e-6.
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 8e-6, "{a} {b}");
+    near(state.q.phi, state.q.phi1);
+    near(state.q.phi2, state.q.phi1 + core::f64::consts::FRAC_PI_2);
     let outputs = run.outputs()?;
-    assert!((outputs.middle / 2.0 - outputs.tip_whole).abs() < 1e-6);
+    near(outputs.middle / 2.0, outputs.tip_whole);
     Ok(())
 }
 
