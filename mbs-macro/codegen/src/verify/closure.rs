@@ -2,7 +2,8 @@
 
 use mbs_symbolic::units::Dimension;
 
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use super::rank::row_echelon;
+use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
 
@@ -20,7 +21,10 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     for _ in 0..ITERATIONS {
         let delta = assembly.correction(&q, &phi);
         let size = largest(&delta).1;
-        if size.is_finite() && size <= 1e-12 * (1.0 + largest(&q).1) {
+        if !size.is_finite() {
+            return Err(dependent(&assembly, &q, largest(&phi).0).into());
+        }
+        if size <= 1e-12 * (1.0 + largest(&q).1) {
             return Ok(());
         }
         let mut length = 1.0;
@@ -52,6 +56,26 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     .into())
 }
 
+/// The error where the equations for a correction are singular at `q`: some
+/// constraint repeats others there, if not everywhere.
+fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
+    let model = assembly.model;
+    let found = row_echelon(assembly.jacobian(q)).dependent.pop();
+    let (row, others) = found.clone().unwrap_or((worst, Vec::new()));
+    let Some(constraint) = model.constraints.get(row) else {
+        return Diagnostic::internal(model.name.span(), "an assembly without constraints is singular");
+    };
+    let (name, others) =
+        (&constraint.name, others.iter().map(|&other| model.constraints[other].name.as_str()));
+    let what = match found {
+        Some((_, others)) if others.is_empty() => format!("`{name}` restricts no motion"),
+        Some(_) => format!("`{name}` repeats what {} already say", listing(others)),
+        None => format!("`{name}` and others are not independent"),
+    };
+    Diagnostic::new(constraint.span, format!("near the declared start, {what}"))
+        .help("remove a constraint that is too many, or declare a start away from this singular position")
+}
+
 /// The SI unit of a violation, where it is that of a length.
 fn unit(dimension: Dimension) -> &'static str {
     if dimension == Dimension::LENGTH { " m" } else { "" }
@@ -75,6 +99,18 @@ impl<'a> Assembly<'a> {
 
     fn phi(&self, q: &[f64]) -> Vec<f64> {
         self.plan.phi.evaluate(&self.model.values(|meaning| at_position(meaning, q, &[])), &self.hoisted)
+    }
+
+    /// Φ_q, each row scaled to a largest entry of 1.
+    fn jacobian(&self, q: &[f64]) -> Vec<Vec<f64>> {
+        let values = self.model.values(|meaning| at_position(meaning, q, &[]));
+        let entries = self.plan.phi_q.evaluate(&values, &self.hoisted);
+        let scaled = |row: &[f64]| {
+            let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            let scale = if largest > 0.0 { largest } else { 1.0 };
+            row.iter().map(|x| x / scale).collect()
+        };
+        entries.chunks(q.len().max(1)).map(scaled).collect()
     }
 
     fn correction(&self, q: &[f64], phi: &[f64]) -> Vec<f64> {
