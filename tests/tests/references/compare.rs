@@ -1,0 +1,89 @@
+//! Numbers of a reference case against ours, and events between steps.
+
+use mbs_runtime::{Baumgarte, Error, Held, Mechanism, Simulation};
+
+/// Collects the deviations of a case; [`Case::finish`] fails if one is too large.
+pub struct Case {
+    name: &'static str,
+    compared: usize,
+    failures: Vec<String>,
+    /// Largest deviation as a fraction of its tolerance, and where.
+    worst: (f64, String),
+}
+
+impl Case {
+    pub fn new(name: &'static str) -> Self {
+        Self { name, compared: 0, failures: Vec::new(), worst: (0.0, String::new()) }
+    }
+
+    /// `ours` lies within `tolerance` of `reference`.
+    pub fn near(&mut self, what: impl std::fmt::Display, ours: f64, reference: f64, tolerance: f64) {
+        self.compared += 1;
+        let deviation = (ours - reference).abs();
+        let message = format!("{what}: {ours} against {reference}, off by {deviation:.1e} of {tolerance:.0e}");
+        // Written so that a NaN fails.
+        let is_near = deviation <= tolerance;
+        if deviation / tolerance >= self.worst.0 {
+            self.worst = (deviation / tolerance, message.clone());
+        }
+        if !is_near {
+            self.failures.push(message);
+        }
+    }
+
+    /// Several values that share a tolerance.
+    pub fn all_near<const N: usize>(
+        &mut self,
+        names: [&str; N],
+        at: impl std::fmt::Display,
+        ours: [f64; N],
+        reference: [f64; N],
+        tolerances: [f64; N],
+    ) {
+        for k in 0..N {
+            self.near(format_args!("{} at {at}", names[k]), ours[k], reference[k], tolerances[k]);
+        }
+    }
+
+    /// # Panics
+    /// If a number deviates, or none was compared.
+    pub fn finish(self) {
+        let Self { name, compared, failures, worst } = self;
+        println!("{name}: {compared} numbers, the worst is {}", worst.1);
+        assert!(compared > 0, "{name}: nothing was compared");
+        assert!(failures.is_empty(), "{name}:\n  {}", failures.join("\n  "));
+    }
+}
+
+/// Steps until `value` changes sign, then repeats the last step with the length
+/// at which it vanishes: the event is met to rounding, whatever the step.
+pub fn advance_to_zero<M: Mechanism<Real = f64>>(
+    simulation: &mut Simulation<M>,
+    value: impl Fn(&Simulation<M>) -> f64,
+) -> Result<Simulation<M>, Error> {
+    let h = simulation.step_size();
+    loop {
+        let before = *simulation;
+        let sign = value(&before).signum();
+        simulation.step()?;
+        if value(simulation).signum() == sign {
+            continue;
+        }
+        let shortened = |length: f64| {
+            let mut partial = Simulation::builder(*before.mechanism(), length)
+                .from_state(*before.state())
+                .inputs(*before.inputs())
+                .baumgarte(Baumgarte::<Held>::deadbeat(h))
+                .as_declared()
+                .build()?;
+            partial.step()?;
+            Ok::<_, Error>(partial)
+        };
+        let (mut low, mut high) = (0.0, h);
+        for _ in 0..50 {
+            let middle = f64::midpoint(low, high);
+            if value(&shortened(middle)?).signum() == sign { low = middle } else { high = middle }
+        }
+        return shortened(high);
+    }
+}
