@@ -203,7 +203,8 @@ fn direction(coordinate: &syntax::Coordinate, at: usize, count: usize) -> Result
 }
 
 fn suggested_direction(name: &str) -> Option<Direction> {
-    const ANGLES: &[&str] = &["theta", "phi", "psi", "alpha", "beta", "angle", "rot"];
+    const ANGLES: &[&str] =
+        &["theta", "phi", "psi", "alpha", "beta", "angle", "rot", "θ", "φ", "ϕ", "ψ", "α", "β"];
     match name.chars().next() {
         Some('x') => Some(Direction::X),
         Some('y') => Some(Direction::Y),

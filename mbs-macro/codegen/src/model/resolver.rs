@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use mbs_symbolic::{Expr, Stage};
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
 use super::names::{Definition, Scope, State, Value};
@@ -44,7 +44,7 @@ pub(super) struct Resolver<'a> {
     pub scope: Scope<'a>,
     pub errors: Diagnostics,
     pub mechanism: Span,
-    pub runtime: proc_macro2::TokenStream,
+    pub runtime: Option<(TokenStream, Span)>,
     pub dof: Option<(i64, Span)>,
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
@@ -72,7 +72,7 @@ impl<'a> Resolver<'a> {
             scope: Scope::new(),
             errors: Diagnostics::default(),
             mechanism: declaration.name.span(),
-            runtime: quote!(::mbs_runtime),
+            runtime: None,
             dof: None,
             parameters: Vec::new(),
             resolved_parameters: 0,
@@ -117,6 +117,12 @@ impl<'a> Resolver<'a> {
                     .help("declare one: `body bob (x, y) { mass = 1 [kg]; }`"),
             );
         }
+        if declaration.name == "T" {
+            self.errors.push(
+                Diagnostic::new(self.mechanism, "a mechanism cannot be called `T`: that is its scalar type")
+                    .help("give it a longer name"),
+            );
+        }
         if self.dof.is_none() {
             let left = self.coordinates.len() as i64 - self.row_count as i64;
             self.errors.push(
@@ -140,7 +146,7 @@ impl<'a> Resolver<'a> {
             doc: declaration.doc.clone(),
             visibility: declaration.visibility.clone(),
             name: declaration.name.clone(),
-            runtime: self.runtime,
+            runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
             parameters: self.parameters,
             inputs: self.inputs,

@@ -71,7 +71,10 @@ impl<'a> Resolver<'a> {
                 Some((_, earlier)) => self.repeated("`dof`", *keyword, earlier),
                 None => self.dof = Some((*value, *keyword)),
             },
-            ItemKind::Crate { path, .. } => self.runtime = path.clone(),
+            ItemKind::Crate { keyword, path } => match self.runtime {
+                Some((_, earlier)) => self.repeated("`crate`", *keyword, earlier),
+                None => self.runtime = Some((path.clone(), *keyword)),
+            },
             ItemKind::Parameter { name, value, condition } => {
                 self.resolve_parameter(name, value, condition.as_ref());
             }

@@ -110,7 +110,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
-        "crate" => crate_path(input),
+        "crate" => crate_path(input, keyword.span()),
         "param" => parameter(input),
         "const" => constant(input),
         "input" => input_item(input),
@@ -215,14 +215,14 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Dof { keyword, value: small.into() })
 }
 
-fn crate_path(input: ParseStream<'_>) -> Result<ItemKind> {
+fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     let path = input.call(syn::Path::parse_mod_style).map_err(|error| {
         Error::new(error.span(), "the path of the runtime is expected here, as in `crate = ::my_runtime;`")
     })?;
     let path = path.into_token_stream();
     semicolon(input)?;
-    Ok(ItemKind::Crate { path })
+    Ok(ItemKind::Crate { keyword, path })
 }
 
 fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {

@@ -73,7 +73,7 @@ pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Re
         joint.angle = Some(input.parse()?);
     }
     semicolon(input)?;
-    Ok(ItemKind::Joint(joint))
+    Ok(ItemKind::Joint(Box::new(joint)))
 }
 
 fn clause(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {

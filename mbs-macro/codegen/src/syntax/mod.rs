@@ -29,7 +29,7 @@ pub enum ItemKind {
     /// `dof = 0;`
     Dof { keyword: Span, value: i64 },
     /// `crate = path;`
-    Crate { path: TokenStream },
+    Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`
     Parameter { name: Ident, value: Formula, condition: Option<Condition> },
     /// `const l = 1 [m];`
@@ -49,7 +49,7 @@ pub enum ItemKind {
     /// `point tip on crank = (l/2, 0);`
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
-    Joint(Joint),
+    Joint(Box<Joint>),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Spring(Spring),
     /// `start { … }`
