@@ -87,3 +87,17 @@ pub fn advance_to_zero<M: Mechanism<Real = f64>>(
         return shortened(high);
     }
 }
+
+/// Where `value` changes sign between `low` and `high`.
+pub fn bisect(
+    mut low: f64,
+    mut high: f64,
+    mut value: impl FnMut(f64) -> Result<f64, Error>,
+) -> Result<f64, Error> {
+    let sign = value(low)?.signum();
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if value(middle)?.signum() == sign { low = middle } else { high = middle }
+    }
+    Ok(high)
+}

@@ -2,6 +2,7 @@
 #![allow(clippy::excessive_precision, reason = "references are copied with all their digits")]
 
 mod adams_joint_tests;
+mod andrews_squeezer;
 mod baumgarte_decay;
 mod cart_npendulum_sympy;
 mod compare;
@@ -9,7 +10,14 @@ mod double_fourbar_a02;
 mod double_pendulum_chrono;
 mod double_pendulum_modes;
 mod double_pendulum_points_exudyn;
+mod fourbar_drake_equilibrium;
+mod fourbar_nikravesh_statics;
+mod fourbar_ondsel_driven;
+mod fourbar_sympy_matrices;
 mod heun_oscillator;
+mod kinematics_exact_linkages;
+mod kinematics_fourbar;
+mod kinematics_slider_crank;
 mod ladder_sliding;
 mod pendulum_damped_modelica;
 mod pendulum_iftomm_a01;
