@@ -1,7 +1,7 @@
 //! Heun's method on the first-order form (q, v)˙ = (v, q̈).
 
 use crate::mechanism::growth_limit;
-use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State};
+use crate::{Components, Error, Feedback, Gains, Mechanism, Pivot, Real, State};
 
 /// One step of Heun's method (Jiang 2025, Eq. 9):
 ///
@@ -64,7 +64,8 @@ fn diagnose<M: Mechanism>(
         if let Err(error) = check_finite(stage) {
             return error;
         }
-        if let Some(singular) = singular(mechanism, stage.t, &stage.q) {
+        let worst = mechanism.worst_pivot(stage.t, &stage.q);
+        if let Some(singular) = singular(stage.t, worst, M::INFO.pivots) {
             return singular;
         }
         if let Some(error) = non_finite(stage.t, acceleration) {
@@ -76,18 +77,27 @@ fn diagnose<M: Mechanism>(
     Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
 }
 
-/// `Ok` if `solution` is finite and the growth leaves digits in every pivot,
-/// else the error that names the pivot or the coordinate.
-pub(crate) fn check_solution<M: Mechanism>(
-    mechanism: &M,
-    t: M::Real,
-    q: &M::Coordinates,
-    (solution, growth): (&M::Coordinates, M::Real),
+/// What [`check_solution`] looks at.
+pub(crate) struct Solution<'a, C: Components> {
+    pub t: C::Real,
+    pub q: &'a C,
+    pub value: &'a C,
+    pub growth: C::Real,
+    /// The pivots of its elimination.
+    pub pivots: &'static [Pivot],
+}
+
+/// `Ok` if a solution is finite and the growth leaves digits in every pivot,
+/// else the error that names the pivot or the coordinate; `worst` finds it.
+pub(crate) fn check_solution<C: Components>(
+    solution: &Solution<'_, C>,
+    worst: impl FnOnce() -> Option<(usize, C::Real)>,
 ) -> Result<(), Error> {
-    if solution.is_finite() && growth < growth_limit() {
+    let Solution { t, q, value, growth, pivots } = *solution;
+    if value.is_finite() && growth < growth_limit() {
         return Ok(());
     }
-    let cause = non_finite(t, *q).or_else(|| singular(mechanism, t, q)).or_else(|| non_finite(t, *solution));
+    let cause = non_finite(t, *q).or_else(|| singular(t, worst(), pivots)).or_else(|| non_finite(t, *value));
     // Several pivots, each still good, can add up to the limit.
     Err(cause.unwrap_or(Error::Singular {
         t: t.to_f64(),
@@ -97,14 +107,13 @@ pub(crate) fn check_solution<M: Mechanism>(
     }))
 }
 
-/// The singular-position error at (t, q), if the worst pivot is over the limit.
-fn singular<M: Mechanism>(mechanism: &M, t: M::Real, q: &M::Coordinates) -> Option<Error> {
-    let (at, growth) = mechanism.worst_pivot(t, q)?;
+/// The singular-position error, if the worst pivot is over the limit.
+fn singular<T: Real>(t: T, worst: Option<(usize, T)>, pivots: &[Pivot]) -> Option<Error> {
+    let (at, growth) = worst?;
     if growth < growth_limit() {
         return None;
     }
-    let pivot = M::INFO.pivots.get(at)?;
-    let (constraint, coordinate) = (pivot.constraint, pivot.coordinate);
+    let Pivot { constraint, coordinate } = *pivots.get(at)?;
     Some(Error::Singular { t: t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
 }
 

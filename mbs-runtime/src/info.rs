@@ -22,6 +22,8 @@ pub struct Info {
     pub constraints: &'static [Constraint],
     /// The pivots that can vanish.
     pub pivots: &'static [Pivot],
+    /// The pivots of the corrections of a start that can vanish.
+    pub start_pivots: &'static [Pivot],
     /// Operation counts of the generated functions.
     pub functions: &'static [Function],
 }
@@ -125,8 +127,21 @@ impl Info {
         outputs: &'static [Quantity],
         constraints: &'static [Constraint],
         pivots: &'static [Pivot],
+        start_pivots: &'static [Pivot],
         functions: &'static [Function],
     ) -> Self {
-        Self { name, doc, dof, parameters, inputs, coordinates, outputs, constraints, pivots, functions }
+        Self {
+            name,
+            doc,
+            dof,
+            parameters,
+            inputs,
+            coordinates,
+            outputs,
+            constraints,
+            pivots,
+            start_pivots,
+            functions,
+        }
     }
 }

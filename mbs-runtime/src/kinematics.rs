@@ -1,6 +1,6 @@
 //! Kinematic analysis: the motion from the constraints alone.
 
-use crate::heun::check_solution;
+use crate::heun::{Solution, check_solution};
 use crate::{Components, Error, Gains, Mechanism, State, start};
 
 /// Position, velocity and acceleration at an instant.
@@ -45,7 +45,10 @@ impl<M: Mechanism> Kinematics<M> {
         let state = start::consistent(&self.mechanism, &State { t, q: self.guess, v: still })?;
         let none = Gains { two_alpha: M::Real::default(), beta_squared: M::Real::default() };
         let solved = self.mechanism.stabilized(&state, &M::Inputs::default(), &none);
-        check_solution(&self.mechanism, t, &state.q, (&solved.acceleration, solved.growth))?;
+        let q = &state.q;
+        let solution =
+            Solution { t, q, value: &solved.acceleration, growth: solved.growth, pivots: M::INFO.pivots };
+        check_solution(&solution, || self.mechanism.worst_pivot(t, q))?;
         self.guess = state.q;
         Ok(Motion { state, acceleration: solved.acceleration })
     }

@@ -152,6 +152,11 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// diagnosis: slow.
     fn worst_pivot(&self, t: Self::Real, q: &Self::Coordinates) -> Option<(usize, Self::Real)>;
 
+    /// The same for [`position_correction`](Self::position_correction) and
+    /// [`velocity_correction`](Self::velocity_correction), as an index into
+    /// [`Info::start_pivots`].
+    fn worst_start_pivot(&self, t: Self::Real, q: &Self::Coordinates) -> Option<(usize, Self::Real)>;
+
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
 

@@ -1,6 +1,6 @@
 //! A mechanism in motion.
 
-use crate::heun::{check_solution, heun_step};
+use crate::heun::{Solution, check_solution, heun_step};
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
 
 /// A mechanism being integrated in time.
@@ -190,7 +190,10 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
-        check_solution(&self.mechanism, self.state.t, &self.state.q, (&solved.acceleration, solved.growth))
+        let (t, q) = (self.state.t, &self.state.q);
+        let solution =
+            Solution { t, q, value: &solved.acceleration, growth: solved.growth, pivots: M::INFO.pivots };
+        check_solution(&solution, || self.mechanism.worst_pivot(t, q))
             .map_err(|error| self.blame_inputs(error))?;
         Ok(solved)
     }

@@ -1,7 +1,7 @@
 //! Consistent starts: positions on Φ = 0, velocities on Φ̇ = 0.
 
-use crate::heun::check_solution;
-use crate::{Components, Error, Mechanism, Real, State};
+use crate::heun::{Solution, check_solution};
+use crate::{Accelerations, Components, Error, Mechanism, Real, State};
 
 const NEWTON_ITERATIONS: usize = 50;
 const STEP_HALVINGS: usize = 10;
@@ -41,7 +41,7 @@ pub fn assemble<M: Mechanism>(
     let mut phi = mechanism.phi(t, &q);
     for _ in 0..NEWTON_ITERATIONS {
         let correction = mechanism.position_correction(t, &q, &phi.map(|x| -x));
-        check_solution(mechanism, t, &q, (&correction.acceleration, correction.growth))?;
+        check_correction(mechanism, t, &q, &correction)?;
         let delta = correction.acceleration;
 
         let rounding = M::Real::from_f64(4.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
@@ -94,8 +94,20 @@ pub fn project_velocities<M: Mechanism>(
     for _ in 0..2 {
         let residual = mechanism.phi_dot(&state).map(|x| -x);
         let correction = mechanism.velocity_correction(state.t, &state.q, &residual);
-        check_solution(mechanism, state.t, &state.q, (&correction.acceleration, correction.growth))?;
+        check_correction(mechanism, state.t, &state.q, &correction)?;
         state.v = state.v.zip_map(correction.acceleration, |v, d| v + d);
     }
     Ok(state.v)
+}
+
+fn check_correction<M: Mechanism>(
+    mechanism: &M,
+    t: M::Real,
+    q: &M::Coordinates,
+    correction: &Accelerations<M::Coordinates>,
+) -> Result<(), Error> {
+    let Accelerations { acceleration, growth } = correction;
+    let pivots = M::INFO.start_pivots;
+    let solution = Solution { t, q, value: acceleration, growth: *growth, pivots };
+    check_solution(&solution, || mechanism.worst_start_pivot(t, q))
 }

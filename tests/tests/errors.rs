@@ -167,6 +167,29 @@ fn singular_positions_name_constraint_coordinate_and_time() {
     assert_eq!((*simulation.state(), simulation.steps()), (state, 0));
 }
 
+/// Regression: a row of the Schur complement that vanished as a whole was
+/// compared with itself and passed, with a multiplier of 6e16 N.
+#[test]
+fn row_that_vanishes_as_a_whole_is_singular() {
+    use models::slider_crank_free::SliderCrankFreeParameters;
+    let equal = SliderCrankFreeParameters { l2: 0.06, ..Default::default() };
+    let folded = SliderCrankFree::new(equal).expect("equal lengths are allowed");
+    let mut state = folded.declared_start();
+    let quarter = core::f64::consts::FRAC_PI_2;
+    // Crank up and rod down: the guide restricts neither, to first order.
+    (state.q.theta1, state.q.theta2) = (quarter, -quarter);
+    (state.q.x1, state.q.y1, state.q.x2, state.q.y2, state.q.x3) = (0.0, 0.03, 0.0, 0.03, 0.0);
+    let run = Simulation::builder(folded, H).from_state(state).as_declared().build().expect("a finite state");
+    match run.reactions().expect_err("the folded position is singular") {
+        Error::Singular { constraint, t, .. } => assert_eq!((constraint, t), ("guide", 0.0)),
+        other => panic!("{other:?}"),
+    }
+    match start::consistent(&folded, &state).expect_err("nor can it be assembled there") {
+        Error::Singular { constraint, .. } => assert_eq!(constraint, "guide"),
+        other => panic!("{other:?}"),
+    }
+}
+
 /// A crank longer than the rod cannot turn past asin(l2/l1): the drive pulls
 /// the mechanism into the singular position. However the steps fall, it ends
 /// in a typed error, with a finite state from before.

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown, factor, lower,
-    lower_whole,
+    Arena, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown, WatchedPivot, factor,
+    lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -51,9 +51,12 @@ pub struct Plan {
     pub velocity_correction: Program,
     /// Growth of every watched pivot.
     pub pivots: Program,
+    /// The same of the corrections of a start.
+    pub start_pivots: Program,
     pub outputs: Program,
     /// (constraint, coordinate) of every watched pivot.
     pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
+    pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
 /// Plans all functions.
@@ -64,8 +67,13 @@ pub struct Plan {
 pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Undetermined> {
     label(model, equations);
     let (strategy, factorization) = cheapest(model, equations, samples)?;
-    let positions = correction(model, equations, strategy, samples, false)?;
-    let velocities = correction(model, equations, strategy, samples, true)?;
+    let (positions, mut start_pivots) = correction(model, equations, strategy, samples, false)?;
+    let (velocities, more) = correction(model, equations, strategy, samples, true)?;
+    start_pivots.extend(
+        more.into_iter()
+            .filter(|new| start_pivots.iter().all(|old| old.growth != new.growth))
+            .collect::<Vec<_>>(),
+    );
 
     let mut hoisted = Hoisted::default();
     let n = model.coordinates.len();
@@ -82,7 +90,8 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         .collect();
     let stabilized = stabilized(model, equations, &factorization);
     let (constrained, reactions) = with_given_feedback(model, equations, &factorization);
-    let growths: Vec<Expr> = factorization.pivots.iter().map(|pivot| pivot.growth).collect();
+    let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
+    let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
 
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
@@ -103,13 +112,15 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         reactions: program(&reactions),
         position_correction: program(&positions),
         velocity_correction: program(&velocities),
-        pivots: program(&growths),
+        pivots: program(&growths(&factorization.pivots)),
+        start_pivots: program(&growths(&start_pivots)),
         outputs: program(&outputs),
         hoisted: Vec::new(),
         prepare: Program::default(),
         requirements: Program::default(),
         start: Program::default(),
-        pivot_names: factorization.pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect(),
+        pivot_names: names(&factorization.pivots),
+        start_pivot_names: names(&start_pivots),
     };
     let requirements = requirements(model, equations);
     let start = declared_start(model);
@@ -253,7 +264,7 @@ fn correction(
     strategy: Strategy,
     samples: &Samples,
     of_velocities: bool,
-) -> Result<Vec<Expr>, Undetermined> {
+) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
     let held = held(model, equations, samples, of_velocities);
     let kkt = system(model, equations, &held);
     let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
@@ -267,7 +278,7 @@ fn correction(
         .map(|at| solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero()))
         .collect();
     roots.push(factorization.growth(&mut model.arena));
-    Ok(roots)
+    Ok((roots, factorization.pivots))
 }
 
 /// The coordinates that keep their start values: in the order of declaration,

@@ -9,6 +9,9 @@ use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 use crate::operators::{Function, Parity};
 
+/// Larger exponents are powers, not repeated products.
+const LARGEST_EXPONENT: i64 = 64;
+
 impl Arena {
     /// a + b
     pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
@@ -129,14 +132,14 @@ impl Arena {
         let mut coefficient = Number::ONE;
         let mut collected = BTreeMap::new();
         for &(factor, exponent) in factors {
-            self.collect_factor(factor, exponent, &mut coefficient, &mut collected);
+            self.collect_factor(factor, exponent.into(), &mut coefficient, &mut collected);
         }
-        self.merge_roots(&mut coefficient, &mut collected);
+        while self.merge_roots(&mut coefficient, &mut collected) {}
         collected.retain(|_, exponent| *exponent != 0);
         if coefficient.is_zero() {
             return self.zero();
         }
-        let factors: Vec<_> = collected.into_iter().collect();
+        let factors = self.limit_exponents(collected);
         let product = match factors[..] {
             [] => return self.number(coefficient),
             [(factor, 1)] => factor,
@@ -148,30 +151,35 @@ impl Arena {
     fn collect_factor(
         &self,
         factor: Expr,
-        exponent: i32,
+        exponent: i64,
         coefficient: &mut Number,
-        collected: &mut BTreeMap<Expr, i32>,
+        collected: &mut BTreeMap<Expr, i64>,
     ) {
         if exponent == 0 {
             return;
         }
+        let mut collect = |factor, exponent: i64| {
+            let sum = collected.entry(factor).or_insert(0);
+            *sum = sum.saturating_add(exponent);
+        };
         match self.node(factor) {
-            Node::Number(value) => *coefficient = *coefficient * value.powi(exponent),
+            Node::Number(value) => *coefficient = *coefficient * power(*value, exponent),
             Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
                 let (term, inner) = terms[0];
-                *coefficient = *coefficient * inner.powi(exponent);
+                *coefficient = *coefficient * power(inner, exponent);
                 self.collect_factor(term, exponent, coefficient, collected);
             }
             Node::Product(factors) => {
                 for (factor, inner) in factors {
-                    *collected.entry(*factor).or_insert(0) += inner * exponent;
+                    collect(*factor, exponent.saturating_mul((*inner).into()));
                 }
             }
-            _ => *collected.entry(factor).or_insert(0) += exponent,
+            _ => collect(factor, exponent),
         }
     }
 
-    fn merge_roots(&mut self, coefficient: &mut Number, collected: &mut BTreeMap<Expr, i32>) {
+    /// (√x)² = x once on every factor; whether there was one.
+    fn merge_roots(&mut self, coefficient: &mut Number, collected: &mut BTreeMap<Expr, i64>) -> bool {
         let roots: Vec<_> = collected
             .iter()
             .filter_map(|(&factor, &exponent)| match self.node(factor) {
@@ -179,19 +187,36 @@ impl Arena {
                 _ => None,
             })
             .collect();
-        for (root, inner, exponent) in roots {
+        for &(root, inner, exponent) in &roots {
             collected.insert(root, exponent % 2);
             self.collect_factor(inner, exponent / 2, coefficient, collected);
         }
+        !roots.is_empty()
+    }
+
+    /// Factors with exponents that are worth multiplying out; larger ones
+    /// become powers.
+    fn limit_exponents(&mut self, collected: BTreeMap<Expr, i64>) -> Vec<(Expr, i32)> {
+        let mut factors = BTreeMap::new();
+        for (factor, exponent) in collected {
+            let (factor, exponent) = match i32::try_from(exponent) {
+                Ok(small) if exponent.abs() <= LARGEST_EXPONENT => (factor, small),
+                _ => {
+                    let exponent = self.number(Number::integer(exponent));
+                    (self.call2(Function::Pow, factor, exponent), 1)
+                }
+            };
+            *factors.entry(factor).or_insert(0) += exponent;
+        }
+        factors.into_iter().collect()
     }
 
     /// xʸ: integer and half-integer constant exponents become products and
     /// square roots, all others stay a power (defined for x > 0).
     pub fn pow(&mut self, x: Expr, y: Expr) -> Expr {
-        const LARGEST: i64 = 64;
         match self.as_number(y) {
-            Some(Number::Rational(n, 1)) if n.abs() <= LARGEST => self.powi(x, n as i32),
-            Some(Number::Rational(n, 2)) if n.abs() <= LARGEST => {
+            Some(Number::Rational(n, 1)) if n.abs() <= LARGEST_EXPONENT => self.powi(x, n as i32),
+            Some(Number::Rational(n, 2)) if n.abs() <= LARGEST_EXPONENT => {
                 let root = self.call(Function::Sqrt, x);
                 self.powi(root, n as i32)
             }
@@ -245,4 +270,12 @@ fn fold(function: Function, value: Number) -> Option<Number> {
     }
     let result = (function.row().value)(value.to_f64(), 0.0);
     result.is_finite().then(|| result.into())
+}
+
+/// A constant to an integer power, as a float where it is large.
+fn power(value: Number, exponent: i64) -> Number {
+    match i32::try_from(exponent) {
+        Ok(small) if exponent.abs() <= LARGEST_EXPONENT => value.powi(small),
+        _ => value.to_f64().powf(exponent as f64).into(),
+    }
 }

@@ -152,7 +152,7 @@ impl std::ops::Add for Number {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
                 Self::reduced(a * d + c * b, b * d)
             }
-            _ => Self::Float(self.to_f64() + other.to_f64()),
+            _ => (self.to_f64() + other.to_f64()).into(),
         }
     }
 }
@@ -164,7 +164,7 @@ impl std::ops::Mul for Number {
             (Self::Rational(a, b), Self::Rational(c, d)) => {
                 Self::reduced(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
             }
-            _ => Self::Float(self.to_f64() * other.to_f64()),
+            _ => (self.to_f64() * other.to_f64()).into(),
         }
     }
 }

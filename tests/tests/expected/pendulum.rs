@@ -683,6 +683,24 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
         ],
         &[
+            ::mbs_runtime::Pivot {
+                constraint: "rod",
+                coordinate: "x",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "x",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "",
+                coordinate: "y",
+            },
+            ::mbs_runtime::Pivot {
+                constraint: "rod",
+                coordinate: "",
+            },
+        ],
+        &[
             ::mbs_runtime::Function {
                 name: "new",
                 operations: ::mbs_runtime::Operations {
@@ -1084,6 +1102,27 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         let v7 = v6 / v6;
         let abs_v7 = v7.abs();
         ::mbs_runtime::__private::worst(&[self.hoisted[8], self.hoisted[8], abs_v7])
+    }
+    fn worst_start_pivot(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
+        let phi_q_rod_x = q.x * self.hoisted[2];
+        let v1 = self.parameters.length / q.x;
+        let v2 = phi_q_rod_x * v1;
+        let abs_v2 = v2.abs();
+        let v4 = phi_q_rod_x * self.hoisted[5];
+        let v5 = phi_q_rod_x * v4;
+        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let v7 = self.hoisted[5] * phi_q_rod_y;
+        let v8 = phi_q_rod_y * v7;
+        let v9 = v5 + v8;
+        let v10 = v9 / v9;
+        let abs_v10 = v10.abs();
+        ::mbs_runtime::__private::worst(
+            &[abs_v2, self.hoisted[8], self.hoisted[8], abs_v10],
+        )
     }
     #[inline]
     fn kinetic_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {

@@ -1419,6 +1419,12 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             },
         ],
         &[
+            ::mbs_runtime::Pivot {
+                constraint: "guide",
+                coordinate: "theta2",
+            },
+        ],
+        &[
             ::mbs_runtime::Function {
                 name: "new",
                 operations: ::mbs_runtime::Operations {
@@ -2086,6 +2092,17 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         }
     }
     fn worst_pivot(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
+        let cos_theta2 = q.theta2.cos();
+        let v1 = self.hoisted[11] / cos_theta2;
+        let v2 = v1 * self.hoisted[12];
+        let abs_v2 = v2.abs();
+        ::mbs_runtime::__private::worst(&[abs_v2])
+    }
+    fn worst_start_pivot(
         &self,
         t: T,
         q: &SliderCrankCoordinates<T>,

@@ -18,7 +18,7 @@ Elimination order: constraints first, then what motion they leave free (null spa
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
-| `new` | 24 | 3 | 1 | 0 | 1 | 0 |
+| `new` | 26 | 4 | 3 | 0 | 2 | 0 |
 | `phi` | 8 | 10 | 0 | 2 | 0 | 0 |
 | `phi_dot` | 12 | 9 | 0 | 2 | 0 | 0 |
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
@@ -29,9 +29,9 @@ Elimination order: constraints first, then what motion they leave free (null spa
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 82 | 76 | 3 | 2 | 0 | 2 |
-| `constrained` | 62 | 42 | 3 | 2 | 0 | 2 |
-| `reactions` | 67 | 52 | 3 | 2 | 0 | 2 |
+| `stabilized` | 83 | 76 | 3 | 2 | 0 | 6 |
+| `constrained` | 63 | 42 | 3 | 2 | 0 | 6 |
+| `reactions` | 68 | 52 | 3 | 2 | 0 | 6 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
@@ -64,11 +64,14 @@ pub struct SliderCrankFree<T = ::core::primitive::f64> {
 14: l1*l2*m3
 15: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
 16: l2^2*m3
-17: 1/l2
-18: abs(l2)
+17: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
+18: abs(l1)^2/(l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2) + abs(l2)^2/(l2^2*inertia_factor*m2 + 1/4*l2^2*m2)
+19: 1/l2
+20: abs(l2)
+21: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
 ```
 */
-    hoisted: [T; 19usize],
+    hoisted: [T; 22usize],
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFree<T> {
     /// The mechanism with its declared parameters.
@@ -592,8 +595,14 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v24 = v23 * v5;
         let v25 = v7 + v24;
         let v26 = parameters.m3 * v5;
-        let v27 = T::from_f64(1.0) / parameters.l2;
+        let abs_l1 = parameters.l1.abs();
+        let v28 = abs_l1 * abs_l1;
+        let v29 = v28 / v18;
         let abs_l2 = parameters.l2.abs();
+        let v31 = abs_l2 * abs_l2;
+        let v32 = v31 / v25;
+        let v33 = v29 + v32;
+        let v34 = T::from_f64(1.0) / parameters.l2;
         Self {
             parameters,
             hoisted: [
@@ -614,8 +623,11 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
                 v22,
                 v25,
                 v26,
-                v27,
+                v25,
+                v33,
+                v34,
                 abs_l2,
+                v18,
             ],
         }
     }
@@ -1125,7 +1137,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 67 mul + 52 add + 3 div + 2 sincos.*/
+Cost: 68 mul + 52 add + 3 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1487,14 +1499,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             },
         ],
         &[
+            ::mbs_runtime::Pivot {
+                constraint: "guide",
+                coordinate: "theta2",
+            },
+        ],
+        &[
             ::mbs_runtime::Function {
                 name: "new",
                 operations: ::mbs_runtime::Operations {
-                    mul: 24u32,
-                    add: 3u32,
-                    div: 1u32,
+                    mul: 26u32,
+                    add: 4u32,
+                    div: 3u32,
                     sin_cos: 0u32,
-                    other: 1u32,
+                    other: 2u32,
                     watch: 0u32,
                 },
             },
@@ -1611,34 +1629,34 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
-                    mul: 82u32,
+                    mul: 83u32,
                     add: 76u32,
                     div: 3u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 6u32,
                 },
             },
             ::mbs_runtime::Function {
                 name: "constrained",
                 operations: ::mbs_runtime::Operations {
-                    mul: 62u32,
+                    mul: 63u32,
                     add: 42u32,
                     div: 3u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 6u32,
                 },
             },
             ::mbs_runtime::Function {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
-                    mul: 67u32,
+                    mul: 68u32,
                     add: 52u32,
                     div: 3u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 6u32,
                 },
             },
             ::mbs_runtime::Function {
@@ -1761,11 +1779,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v24 = v19 + v22;
         let v25 = v24 + v23;
         let v26 = v16 * v25;
-        let v27 = v25 * v26;
-        let v28 = sin_theta2 * sin_theta2;
-        let v29 = v28 * self.hoisted[16];
-        let v30 = self.hoisted[15] + v29;
-        let v31 = v30 - v27;
+        let v27 = sin_theta2 * sin_theta2;
+        let v28 = v27 * self.hoisted[16];
+        let v29 = v25 * v26;
+        let v30 = self.hoisted[15] + v28;
+        let v31 = v30 - v29;
         let v32 = T::from_f64(1.0) / v31;
         let v33 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
@@ -1776,131 +1794,136 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v39 = phi_q_guide_theta1 * v38;
         let v40 = v36 * v37;
         let v41 = v39 + v40;
-        let v42 = sin_theta1 * self.parameters.l1;
-        let v43 = v42 * v10;
-        let v44 = at.v.theta1 * phi_q_guide_theta1;
-        let v45 = at.v.theta2 * v33;
-        let phi_dot_guide = v44 + v45;
-        let v47 = gains.two_alpha * phi_dot_guide;
-        let v48 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v42 + v48;
-        let v50 = gains.beta_squared * phi_guide;
-        let v51 = v47 + v50;
-        let v52 = at.v.theta2 * at.v.theta2;
-        let v53 = v48 * v52;
-        let v54 = v12 * self.parameters.m1;
-        let v55 = v54 * v1;
-        let v56 = at.v.theta1 * v6;
-        let phi_dot_crank_y = at.v.y1 - v56;
-        let v58 = gains.two_alpha * phi_dot_crank_y;
+        let v42 = T::from_f64(1.0) / v41;
+        let v43 = sin_theta1 * self.parameters.l1;
+        let v44 = v43 * v10;
+        let v45 = at.v.theta1 * phi_q_guide_theta1;
+        let v46 = at.v.theta2 * v33;
+        let phi_dot_guide = v45 + v46;
+        let v48 = gains.two_alpha * phi_dot_guide;
+        let v49 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v43 + v49;
+        let v51 = gains.beta_squared * phi_guide;
+        let v52 = v48 + v51;
+        let v53 = at.v.theta2 * at.v.theta2;
+        let v54 = v49 * v53;
+        let v55 = v12 * self.parameters.m1;
+        let v56 = v55 * v1;
+        let v57 = at.v.theta1 * v6;
+        let phi_dot_crank_y = at.v.y1 - v57;
+        let v59 = gains.two_alpha * phi_dot_crank_y;
         let phi_crank_y = at.q.y1 - v1;
-        let v60 = gains.beta_squared * phi_crank_y;
-        let v61 = v58 + v60;
-        let v62 = v1 * v10;
-        let v63 = v61 + v62;
-        let v64 = self.parameters.m1 * v63;
-        let v65 = self.hoisted[4] - v64;
-        let v66 = v6 * v65;
-        let v67 = at.v.theta1 * v42;
-        let v68 = sin_theta2 * self.hoisted[1];
-        let v69 = at.v.theta2 * v68;
-        let v70 = at.v.x2 + v67;
-        let phi_dot_rod_x = v70 + v69;
-        let v72 = gains.two_alpha * phi_dot_rod_x;
-        let v73 = cos_theta2 * self.hoisted[1];
-        let v74 = at.q.x2 - phi_q_guide_theta1;
-        let phi_rod_x = v74 - v73;
-        let v76 = gains.beta_squared * phi_rod_x;
-        let v77 = v72 + v76;
-        let v78 = phi_q_guide_theta1 * v10;
-        let v79 = v73 * v52;
-        let v80 = v77 + v78;
-        let v81 = v80 + v79;
-        let v82 = v81 * self.parameters.m2;
-        let v83 = v82 * v42;
-        let v84 = at.v.theta2 * v73;
-        let v85 = at.v.y2 - v44;
-        let phi_dot_rod_y = v85 - v84;
-        let v87 = gains.two_alpha * phi_dot_rod_y;
-        let v88 = at.q.y2 - v42;
-        let phi_rod_y = v88 - v68;
-        let v90 = gains.beta_squared * phi_rod_y;
-        let v91 = v87 + v90;
-        let v92 = v68 * v52;
-        let v93 = v91 + v43;
-        let v94 = v93 + v92;
-        let v95 = self.parameters.m2 * v94;
-        let v96 = self.hoisted[5] - v95;
-        let v97 = phi_q_guide_theta1 * v96;
-        let v98 = at.v.theta2 * v48;
-        let v99 = v67 + at.v.x3;
-        let phi_dot_slider = v99 + v98;
-        let v101 = gains.two_alpha * phi_dot_slider;
-        let v102 = phi_q_guide_theta1 - at.q.x3;
-        let v103 = v102 + v33;
-        let v104 = gains.beta_squared * v103;
-        let v105 = v101 - v104;
-        let v106 = v33 * v52;
-        let v107 = v78 + v105;
-        let v108 = v107 + v106;
-        let v109 = v108 * self.parameters.m3;
-        let v110 = v42 * v109;
-        let v111 = inputs.crank_torque - v55;
-        let v112 = v111 - v66;
-        let v113 = v112 - v83;
-        let v114 = v113 - v97;
-        let v115 = v114 - v110;
-        let v116 = v115 * v38;
-        let v117 = v82 * v68;
-        let v118 = v73 * v96;
-        let v119 = v109 * v48;
-        let v120 = v115 * v26;
-        let v121 = v117 + v118;
-        let v122 = v121 + v119;
+        let v61 = gains.beta_squared * phi_crank_y;
+        let v62 = v59 + v61;
+        let v63 = v1 * v10;
+        let v64 = v62 + v63;
+        let v65 = self.parameters.m1 * v64;
+        let v66 = self.hoisted[4] - v65;
+        let v67 = v6 * v66;
+        let v68 = at.v.theta1 * v43;
+        let v69 = sin_theta2 * self.hoisted[1];
+        let v70 = at.v.theta2 * v69;
+        let v71 = at.v.x2 + v68;
+        let phi_dot_rod_x = v71 + v70;
+        let v73 = gains.two_alpha * phi_dot_rod_x;
+        let v74 = cos_theta2 * self.hoisted[1];
+        let v75 = at.q.x2 - phi_q_guide_theta1;
+        let phi_rod_x = v75 - v74;
+        let v77 = gains.beta_squared * phi_rod_x;
+        let v78 = v73 + v77;
+        let v79 = phi_q_guide_theta1 * v10;
+        let v80 = v74 * v53;
+        let v81 = v78 + v79;
+        let v82 = v81 + v80;
+        let v83 = v82 * self.parameters.m2;
+        let v84 = v83 * v43;
+        let v85 = at.v.theta2 * v74;
+        let v86 = at.v.y2 - v45;
+        let phi_dot_rod_y = v86 - v85;
+        let v88 = gains.two_alpha * phi_dot_rod_y;
+        let v89 = at.q.y2 - v43;
+        let phi_rod_y = v89 - v69;
+        let v91 = gains.beta_squared * phi_rod_y;
+        let v92 = v88 + v91;
+        let v93 = v69 * v53;
+        let v94 = v92 + v44;
+        let v95 = v94 + v93;
+        let v96 = self.parameters.m2 * v95;
+        let v97 = self.hoisted[5] - v96;
+        let v98 = phi_q_guide_theta1 * v97;
+        let v99 = at.v.theta2 * v49;
+        let v100 = v68 + at.v.x3;
+        let phi_dot_slider = v100 + v99;
+        let v102 = gains.two_alpha * phi_dot_slider;
+        let v103 = phi_q_guide_theta1 - at.q.x3;
+        let v104 = v103 + v33;
+        let v105 = gains.beta_squared * v104;
+        let v106 = v102 - v105;
+        let v107 = v33 * v53;
+        let v108 = v79 + v106;
+        let v109 = v108 + v107;
+        let v110 = v109 * self.parameters.m3;
+        let v111 = v43 * v110;
+        let v112 = inputs.crank_torque - v56;
+        let v113 = v112 - v67;
+        let v114 = v113 - v84;
+        let v115 = v114 - v98;
+        let v116 = v115 - v111;
+        let v117 = v116 * v38;
+        let v118 = v83 * v69;
+        let v119 = v74 * v97;
+        let v120 = v110 * v49;
+        let v121 = v116 * v26;
+        let v122 = v118 + v119;
         let v123 = v122 + v120;
-        let v124 = v123 * v37;
-        let v125 = v43 - v51;
-        let v126 = v125 + v53;
-        let v127 = v126 - v116;
-        let v128 = v127 + v124;
-        let v129 = v128 / v41;
-        let v130 = v37 * v129;
-        let v131 = v32 * v123;
-        let acc_theta2 = v130 - v131;
-        let v133 = v26 * acc_theta2;
-        let v134 = v38 * v129;
-        let v135 = v133 - v134;
-        let v136 = v16 * v115;
-        let v137 = v135 - v136;
-        let v138 = v1 * v137;
-        let v139 = v12 - v138;
-        let acc_x1 = -v139;
-        let v141 = v6 * v137;
-        let v142 = v63 + v141;
-        let acc_y1 = -v142;
-        let acc_theta1 = -v137;
-        let v145 = v42 * v137;
-        let v146 = v68 * acc_theta2;
-        let v147 = v145 - v146;
-        let v148 = v81 - v147;
-        let acc_x2 = -v148;
-        let v150 = phi_q_guide_theta1 * v137;
-        let v151 = v73 * acc_theta2;
-        let v152 = v150 - v151;
-        let v153 = v94 + v152;
-        let acc_y2 = -v153;
-        let v155 = v48 * acc_theta2;
-        let v156 = v145 - v155;
-        let v157 = v108 - v156;
-        let acc_x3 = -v157;
-        let v159 = -v9;
-        let v160 = -v61;
-        let v161 = -v77;
-        let v162 = -v91;
-        let v163 = -v51;
-        let v164 = -v105;
-        let v165 = v32 * v30;
-        let abs_v165 = v165.abs();
+        let v124 = v123 + v121;
+        let v125 = v124 * v37;
+        let v126 = v44 - v52;
+        let v127 = v126 + v54;
+        let v128 = v127 - v117;
+        let v129 = v128 + v125;
+        let v130 = v42 * v129;
+        let v131 = v37 * v130;
+        let v132 = v32 * v124;
+        let acc_theta2 = v131 - v132;
+        let v134 = v26 * acc_theta2;
+        let v135 = v38 * v130;
+        let v136 = v134 - v135;
+        let v137 = v16 * v116;
+        let v138 = v136 - v137;
+        let v139 = v1 * v138;
+        let v140 = v12 - v139;
+        let acc_x1 = -v140;
+        let v142 = v6 * v138;
+        let v143 = v64 + v142;
+        let acc_y1 = -v143;
+        let acc_theta1 = -v138;
+        let v146 = v43 * v138;
+        let v147 = v69 * acc_theta2;
+        let v148 = v146 - v147;
+        let v149 = v82 - v148;
+        let acc_x2 = -v149;
+        let v151 = phi_q_guide_theta1 * v138;
+        let v152 = v74 * acc_theta2;
+        let v153 = v151 - v152;
+        let v154 = v95 + v153;
+        let acc_y2 = -v154;
+        let v156 = v49 * acc_theta2;
+        let v157 = v146 - v156;
+        let v158 = v109 - v157;
+        let acc_x3 = -v158;
+        let v160 = -v9;
+        let v161 = -v62;
+        let v162 = -v78;
+        let v163 = -v92;
+        let v164 = -v52;
+        let v165 = -v106;
+        let v166 = v32 * self.hoisted[17];
+        let abs_v166 = v166.abs();
+        let v168 = v42 * self.hoisted[18];
+        let v169 = -v168;
+        let abs_v169 = v169.abs();
+        let v171 = abs_v166 + abs_v169;
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -1912,14 +1935,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 x3: acc_x3,
             },
             feedback: SliderCrankFreeConstraints {
-                crank_x: v159,
-                crank_y: v160,
-                rod_x: v161,
-                rod_y: v162,
-                guide: v163,
-                slider: v164,
+                crank_x: v160,
+                crank_y: v161,
+                rod_x: v162,
+                rod_y: v163,
+                guide: v164,
+                slider: v165,
             },
-            growth: abs_v165,
+            growth: v171,
         }
     }
     #[inline]
@@ -1947,11 +1970,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v17 = v12 + v15;
         let v18 = v17 + v16;
         let v19 = v9 * v18;
-        let v20 = v18 * v19;
-        let v21 = sin_theta2 * sin_theta2;
-        let v22 = v21 * self.hoisted[16];
-        let v23 = self.hoisted[15] + v22;
-        let v24 = v23 - v20;
+        let v20 = sin_theta2 * sin_theta2;
+        let v21 = v20 * self.hoisted[16];
+        let v22 = v18 * v19;
+        let v23 = self.hoisted[15] + v21;
+        let v24 = v23 - v22;
         let v25 = T::from_f64(1.0) / v24;
         let v26 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
@@ -1962,84 +1985,89 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v32 = phi_q_guide_theta1 * v31;
         let v33 = v29 * v30;
         let v34 = v32 + v33;
-        let v35 = sin_theta1 * self.parameters.l1;
-        let v36 = v0 * v35;
-        let v37 = at.v.theta2 * at.v.theta2;
-        let v38 = sin_theta2 * self.parameters.l2;
-        let v39 = v37 * v38;
-        let v40 = v4 * self.parameters.m1;
-        let v41 = self.hoisted[0] * sin_theta1;
-        let v42 = v40 * v41;
-        let v43 = v0 * v41;
-        let v44 = feedback.crank_y - v43;
-        let v45 = self.parameters.m1 * v44;
-        let v46 = self.hoisted[4] + v45;
-        let v47 = v46 * v2;
-        let v48 = phi_q_guide_theta1 * v0;
-        let v49 = cos_theta2 * self.hoisted[1];
-        let v50 = v37 * v49;
-        let v51 = feedback.rod_x - v48;
-        let v52 = v51 - v50;
-        let v53 = v52 * self.parameters.m2;
-        let v54 = v53 * v35;
-        let v55 = self.hoisted[1] * sin_theta2;
-        let v56 = v37 * v55;
-        let v57 = feedback.rod_y - v36;
-        let v58 = v57 - v56;
-        let v59 = self.parameters.m2 * v58;
-        let v60 = self.hoisted[5] + v59;
-        let v61 = v60 * phi_q_guide_theta1;
-        let v62 = v26 * v37;
-        let v63 = v48 - feedback.slider;
-        let v64 = v63 + v62;
-        let v65 = v64 * self.parameters.m3;
-        let v66 = v65 * v35;
-        let v67 = inputs.crank_torque + v42;
-        let v68 = v67 - v47;
-        let v69 = v68 + v54;
-        let v70 = v69 - v61;
-        let v71 = v70 - v66;
-        let v72 = v71 * v31;
-        let v73 = v53 * v55;
-        let v74 = v60 * v49;
-        let v75 = v65 * v38;
-        let v76 = v71 * v19;
-        let v77 = v73 - v74;
-        let v78 = v77 - v75;
+        let v35 = T::from_f64(1.0) / v34;
+        let v36 = sin_theta1 * self.parameters.l1;
+        let v37 = v0 * v36;
+        let v38 = at.v.theta2 * at.v.theta2;
+        let v39 = sin_theta2 * self.parameters.l2;
+        let v40 = v38 * v39;
+        let v41 = v4 * self.parameters.m1;
+        let v42 = self.hoisted[0] * sin_theta1;
+        let v43 = v41 * v42;
+        let v44 = v0 * v42;
+        let v45 = feedback.crank_y - v44;
+        let v46 = self.parameters.m1 * v45;
+        let v47 = self.hoisted[4] + v46;
+        let v48 = v47 * v2;
+        let v49 = phi_q_guide_theta1 * v0;
+        let v50 = cos_theta2 * self.hoisted[1];
+        let v51 = v38 * v50;
+        let v52 = feedback.rod_x - v49;
+        let v53 = v52 - v51;
+        let v54 = v53 * self.parameters.m2;
+        let v55 = v54 * v36;
+        let v56 = self.hoisted[1] * sin_theta2;
+        let v57 = v38 * v56;
+        let v58 = feedback.rod_y - v37;
+        let v59 = v58 - v57;
+        let v60 = self.parameters.m2 * v59;
+        let v61 = self.hoisted[5] + v60;
+        let v62 = v61 * phi_q_guide_theta1;
+        let v63 = v26 * v38;
+        let v64 = v49 - feedback.slider;
+        let v65 = v64 + v63;
+        let v66 = v65 * self.parameters.m3;
+        let v67 = v66 * v36;
+        let v68 = inputs.crank_torque + v43;
+        let v69 = v68 - v48;
+        let v70 = v69 + v55;
+        let v71 = v70 - v62;
+        let v72 = v71 - v67;
+        let v73 = v72 * v31;
+        let v74 = v54 * v56;
+        let v75 = v61 * v50;
+        let v76 = v66 * v39;
+        let v77 = v72 * v19;
+        let v78 = v74 - v75;
         let v79 = v78 - v76;
-        let v80 = v79 * v30;
-        let v81 = v36 + feedback.guide;
-        let v82 = v81 + v39;
-        let v83 = v82 - v72;
-        let v84 = v83 - v80;
-        let v85 = v84 / v34;
-        let v86 = v30 * v85;
-        let v87 = v25 * v79;
-        let acc_theta2 = v86 + v87;
-        let v89 = v19 * acc_theta2;
-        let v90 = v31 * v85;
-        let v91 = v89 - v90;
-        let v92 = v9 * v71;
-        let v93 = v91 - v92;
-        let v94 = v93 * v41;
-        let acc_x1 = v4 + v94;
-        let v96 = v93 * v2;
-        let acc_y1 = v44 - v96;
-        let acc_theta1 = -v93;
-        let v99 = v93 * v35;
-        let v100 = acc_theta2 * v55;
-        let v101 = v99 - v100;
-        let acc_x2 = v52 + v101;
-        let v103 = phi_q_guide_theta1 * v93;
-        let v104 = acc_theta2 * v49;
-        let v105 = v103 - v104;
-        let acc_y2 = v58 - v105;
-        let v107 = acc_theta2 * v38;
-        let v108 = v99 - v107;
-        let v109 = v64 - v108;
-        let acc_x3 = -v109;
-        let v111 = v25 * v23;
-        let abs_v111 = v111.abs();
+        let v80 = v79 - v77;
+        let v81 = v80 * v30;
+        let v82 = v37 + feedback.guide;
+        let v83 = v82 + v40;
+        let v84 = v83 - v73;
+        let v85 = v84 - v81;
+        let v86 = v35 * v85;
+        let v87 = v30 * v86;
+        let v88 = v25 * v80;
+        let acc_theta2 = v87 + v88;
+        let v90 = v19 * acc_theta2;
+        let v91 = v31 * v86;
+        let v92 = v90 - v91;
+        let v93 = v9 * v72;
+        let v94 = v92 - v93;
+        let v95 = v94 * v42;
+        let acc_x1 = v4 + v95;
+        let v97 = v94 * v2;
+        let acc_y1 = v45 - v97;
+        let acc_theta1 = -v94;
+        let v100 = v94 * v36;
+        let v101 = acc_theta2 * v56;
+        let v102 = v100 - v101;
+        let acc_x2 = v53 + v102;
+        let v104 = phi_q_guide_theta1 * v94;
+        let v105 = acc_theta2 * v50;
+        let v106 = v104 - v105;
+        let acc_y2 = v59 - v106;
+        let v108 = acc_theta2 * v39;
+        let v109 = v100 - v108;
+        let v110 = v65 - v109;
+        let acc_x3 = -v110;
+        let v112 = v25 * self.hoisted[17];
+        let abs_v112 = v112.abs();
+        let v114 = v35 * self.hoisted[18];
+        let v115 = -v114;
+        let abs_v115 = v115.abs();
+        let v117 = abs_v112 + abs_v115;
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2050,7 +2078,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
-            growth: abs_v111,
+            growth: v117,
         }
     }
     #[inline]
@@ -2081,11 +2109,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v17 = v12 + v15;
         let v18 = v17 + v16;
         let v19 = v9 * v18;
-        let v20 = v18 * v19;
-        let v21 = sin_theta2 * sin_theta2;
-        let v22 = v21 * self.hoisted[16];
-        let v23 = self.hoisted[15] + v22;
-        let v24 = v23 - v20;
+        let v20 = sin_theta2 * sin_theta2;
+        let v21 = v20 * self.hoisted[16];
+        let v22 = v18 * v19;
+        let v23 = self.hoisted[15] + v21;
+        let v24 = v23 - v22;
         let v25 = T::from_f64(1.0) / v24;
         let v26 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
@@ -2096,99 +2124,104 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v32 = phi_q_guide_theta1 * v31;
         let v33 = v29 * v30;
         let v34 = v32 + v33;
-        let v35 = sin_theta1 * self.parameters.l1;
-        let v36 = v0 * v35;
-        let v37 = at.v.theta2 * at.v.theta2;
-        let v38 = sin_theta2 * self.parameters.l2;
-        let v39 = v37 * v38;
-        let v40 = v4 * self.parameters.m1;
-        let v41 = self.hoisted[0] * sin_theta1;
-        let v42 = v40 * v41;
-        let v43 = v0 * v41;
-        let v44 = feedback.crank_y - v43;
-        let v45 = self.parameters.m1 * v44;
-        let v46 = self.hoisted[4] + v45;
-        let v47 = v46 * v2;
-        let v48 = phi_q_guide_theta1 * v0;
-        let v49 = cos_theta2 * self.hoisted[1];
-        let v50 = v37 * v49;
-        let v51 = feedback.rod_x - v48;
-        let v52 = v51 - v50;
-        let v53 = v52 * self.parameters.m2;
-        let v54 = v53 * v35;
-        let v55 = self.hoisted[1] * sin_theta2;
-        let v56 = v37 * v55;
-        let v57 = feedback.rod_y - v36;
-        let v58 = v57 - v56;
-        let v59 = self.parameters.m2 * v58;
-        let v60 = self.hoisted[5] + v59;
-        let v61 = v60 * phi_q_guide_theta1;
-        let v62 = v26 * v37;
-        let v63 = v48 - feedback.slider;
-        let v64 = v63 + v62;
-        let v65 = v64 * self.parameters.m3;
-        let v66 = v65 * v35;
-        let v67 = inputs.crank_torque + v42;
-        let v68 = v67 - v47;
-        let v69 = v68 + v54;
-        let v70 = v69 - v61;
-        let v71 = v70 - v66;
-        let v72 = v71 * v31;
-        let v73 = v53 * v55;
-        let v74 = v60 * v49;
-        let v75 = v65 * v38;
-        let v76 = v71 * v19;
-        let v77 = v73 - v74;
-        let v78 = v77 - v75;
+        let v35 = T::from_f64(1.0) / v34;
+        let v36 = sin_theta1 * self.parameters.l1;
+        let v37 = v0 * v36;
+        let v38 = at.v.theta2 * at.v.theta2;
+        let v39 = sin_theta2 * self.parameters.l2;
+        let v40 = v38 * v39;
+        let v41 = v4 * self.parameters.m1;
+        let v42 = self.hoisted[0] * sin_theta1;
+        let v43 = v41 * v42;
+        let v44 = v0 * v42;
+        let v45 = feedback.crank_y - v44;
+        let v46 = self.parameters.m1 * v45;
+        let v47 = self.hoisted[4] + v46;
+        let v48 = v47 * v2;
+        let v49 = phi_q_guide_theta1 * v0;
+        let v50 = cos_theta2 * self.hoisted[1];
+        let v51 = v38 * v50;
+        let v52 = feedback.rod_x - v49;
+        let v53 = v52 - v51;
+        let v54 = v53 * self.parameters.m2;
+        let v55 = v54 * v36;
+        let v56 = self.hoisted[1] * sin_theta2;
+        let v57 = v38 * v56;
+        let v58 = feedback.rod_y - v37;
+        let v59 = v58 - v57;
+        let v60 = self.parameters.m2 * v59;
+        let v61 = self.hoisted[5] + v60;
+        let v62 = v61 * phi_q_guide_theta1;
+        let v63 = v26 * v38;
+        let v64 = v49 - feedback.slider;
+        let v65 = v64 + v63;
+        let v66 = v65 * self.parameters.m3;
+        let v67 = v66 * v36;
+        let v68 = inputs.crank_torque + v43;
+        let v69 = v68 - v48;
+        let v70 = v69 + v55;
+        let v71 = v70 - v62;
+        let v72 = v71 - v67;
+        let v73 = v72 * v31;
+        let v74 = v54 * v56;
+        let v75 = v61 * v50;
+        let v76 = v66 * v39;
+        let v77 = v72 * v19;
+        let v78 = v74 - v75;
         let v79 = v78 - v76;
-        let v80 = v79 * v30;
-        let v81 = v36 + feedback.guide;
-        let v82 = v81 + v39;
-        let v83 = v82 - v72;
-        let v84 = v83 - v80;
-        let v85 = v84 / v34;
-        let v86 = v30 * v85;
-        let v87 = v25 * v79;
-        let acc_theta2 = v86 + v87;
-        let v89 = v19 * acc_theta2;
-        let v90 = v31 * v85;
-        let v91 = v89 - v90;
-        let v92 = v9 * v71;
-        let v93 = v91 - v92;
-        let v94 = v93 * v41;
-        let acc_x1 = v4 + v94;
-        let v96 = v93 * v2;
-        let acc_y1 = v44 - v96;
-        let acc_theta1 = -v93;
-        let v99 = v93 * v35;
-        let v100 = acc_theta2 * v55;
-        let v101 = v99 - v100;
-        let acc_x2 = v52 + v101;
-        let v103 = phi_q_guide_theta1 * v93;
-        let v104 = acc_theta2 * v49;
-        let v105 = v103 - v104;
-        let acc_y2 = v58 - v105;
-        let v107 = acc_theta2 * v38;
-        let v108 = v99 - v107;
-        let v109 = v64 - v108;
-        let acc_x3 = -v109;
-        let v111 = self.parameters.m1 * v94;
-        let v112 = v40 + v111;
-        let lambda_crank_x = -v112;
-        let v114 = self.parameters.m1 * v96;
-        let v115 = v46 - v114;
-        let lambda_crank_y = -v115;
-        let v117 = self.parameters.m2 * v101;
-        let v118 = v53 + v117;
-        let lambda_rod_x = -v118;
-        let v120 = self.parameters.m2 * v105;
-        let v121 = v60 - v120;
-        let lambda_rod_y = -v121;
-        let lambda_guide = -v85;
-        let v124 = self.parameters.m3 * v108;
-        let lambda_slider = v65 - v124;
-        let v126 = v25 * v23;
-        let abs_v126 = v126.abs();
+        let v80 = v79 - v77;
+        let v81 = v80 * v30;
+        let v82 = v37 + feedback.guide;
+        let v83 = v82 + v40;
+        let v84 = v83 - v73;
+        let v85 = v84 - v81;
+        let v86 = v35 * v85;
+        let v87 = v30 * v86;
+        let v88 = v25 * v80;
+        let acc_theta2 = v87 + v88;
+        let v90 = v19 * acc_theta2;
+        let v91 = v31 * v86;
+        let v92 = v90 - v91;
+        let v93 = v9 * v72;
+        let v94 = v92 - v93;
+        let v95 = v94 * v42;
+        let acc_x1 = v4 + v95;
+        let v97 = v94 * v2;
+        let acc_y1 = v45 - v97;
+        let acc_theta1 = -v94;
+        let v100 = v94 * v36;
+        let v101 = acc_theta2 * v56;
+        let v102 = v100 - v101;
+        let acc_x2 = v53 + v102;
+        let v104 = phi_q_guide_theta1 * v94;
+        let v105 = acc_theta2 * v50;
+        let v106 = v104 - v105;
+        let acc_y2 = v59 - v106;
+        let v108 = acc_theta2 * v39;
+        let v109 = v100 - v108;
+        let v110 = v65 - v109;
+        let acc_x3 = -v110;
+        let v112 = self.parameters.m1 * v95;
+        let v113 = v41 + v112;
+        let lambda_crank_x = -v113;
+        let v115 = self.parameters.m1 * v97;
+        let v116 = v47 - v115;
+        let lambda_crank_y = -v116;
+        let v118 = self.parameters.m2 * v102;
+        let v119 = v54 + v118;
+        let lambda_rod_x = -v119;
+        let v121 = self.parameters.m2 * v106;
+        let v122 = v61 - v121;
+        let lambda_rod_y = -v122;
+        let lambda_guide = -v86;
+        let v125 = self.parameters.m3 * v109;
+        let lambda_slider = v66 - v125;
+        let v127 = v25 * self.hoisted[17];
+        let abs_v127 = v127.abs();
+        let v129 = v35 * self.hoisted[18];
+        let v130 = -v129;
+        let abs_v130 = v130.abs();
+        let v132 = abs_v127 + abs_v130;
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2207,7 +2240,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: abs_v126,
+            growth: v132,
         }
     }
     fn position_correction(
@@ -2217,7 +2250,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v2 = self.hoisted[17] / cos_theta2;
+        let v2 = self.hoisted[19] / cos_theta2;
         let v3 = v2 * feedback.guide;
         let v4 = sin_theta2 * v3;
         let v5 = self.hoisted[1] * v4;
@@ -2227,7 +2260,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v9 = feedback.rod_y + v8;
         let v10 = self.parameters.l2 * v4;
         let v11 = feedback.slider - v10;
-        let v12 = v2 * self.hoisted[18];
+        let v12 = v2 * self.hoisted[20];
         let abs_v12 = v12.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
@@ -2249,7 +2282,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v2 = self.hoisted[17] / cos_theta2;
+        let v2 = self.hoisted[19] / cos_theta2;
         let v3 = v2 * feedback.guide;
         let v4 = sin_theta2 * v3;
         let v5 = self.hoisted[1] * v4;
@@ -2259,7 +2292,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v9 = feedback.rod_y + v8;
         let v10 = self.parameters.l2 * v4;
         let v11 = feedback.slider - v10;
-        let v12 = v2 * self.hoisted[18];
+        let v12 = v2 * self.hoisted[20];
         let abs_v12 = v12.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
@@ -2284,37 +2317,49 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v2 = v1 * self.hoisted[12];
         let v3 = self.hoisted[11] + v2;
         let v4 = T::from_f64(1.0) / v3;
-        let v5 = v3 * v4;
+        let v5 = v4 * self.hoisted[21];
         let abs_v5 = v5.abs();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v8 = sin_theta1 * sin_theta2;
-        let v9 = self.hoisted[13] * v8;
-        let v12 = cos_theta1 * cos_theta2;
-        let v13 = v12 * self.hoisted[13];
-        let v14 = self.hoisted[14] * v8;
-        let v15 = v9 + v13;
-        let v16 = v15 + v14;
-        let v17 = v4 * v16;
-        let v18 = v16 * v17;
-        let v19 = sin_theta2 * sin_theta2;
-        let v20 = v19 * self.hoisted[16];
-        let v21 = self.hoisted[15] + v20;
-        let v22 = v21 - v18;
+        let v8 = sin_theta2 * sin_theta2;
+        let v9 = v8 * self.hoisted[16];
+        let v10 = sin_theta1 * sin_theta2;
+        let v11 = self.hoisted[13] * v10;
+        let v14 = cos_theta1 * cos_theta2;
+        let v15 = v14 * self.hoisted[13];
+        let v16 = self.hoisted[14] * v10;
+        let v17 = v11 + v15;
+        let v18 = v17 + v16;
+        let v19 = v4 * v18;
+        let v20 = v18 * v19;
+        let v21 = self.hoisted[15] + v9;
+        let v22 = v21 - v20;
         let v23 = T::from_f64(1.0) / v22;
-        let v24 = v23 * v21;
+        let v24 = v23 * self.hoisted[17];
         let abs_v24 = v24.abs();
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
         let v27 = v4 * phi_q_guide_theta1;
         let v28 = phi_q_guide_theta1 * v27;
         let v29 = cos_theta2 * self.parameters.l2;
-        let v30 = v17 * phi_q_guide_theta1;
+        let v30 = v19 * phi_q_guide_theta1;
         let v31 = v29 - v30;
         let v32 = v23 * v31;
         let v33 = v31 * v32;
         let v34 = v28 + v33;
-        let v35 = v34 / v34;
-        let abs_v35 = v35.abs();
-        ::mbs_runtime::__private::worst(&[abs_v5, abs_v24, abs_v35])
+        let v35 = self.hoisted[18] / v34;
+        let v36 = -v35;
+        let abs_v36 = v36.abs();
+        ::mbs_runtime::__private::worst(&[abs_v5, abs_v24, abs_v36])
+    }
+    fn worst_start_pivot(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+    ) -> ::core::option::Option<(::core::primitive::usize, T)> {
+        let cos_theta2 = q.theta2.cos();
+        let v1 = self.hoisted[19] / cos_theta2;
+        let v2 = v1 * self.hoisted[20];
+        let abs_v2 = v2.abs();
+        ::mbs_runtime::__private::worst(&[abs_v2])
     }
     #[inline]
     fn kinetic_energy(

@@ -256,7 +256,8 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let info = info::emit(model, plan, names);
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
-    let worst_pivot = worst_pivot(model, plan, runtime);
+    let worst_start_pivot = worst_pivot(model, &plan.start_pivots, runtime);
+    let worst_pivot = worst_pivot(model, &plan.pivots, runtime);
     let output_values = {
         let Body { statements, outputs: values } = body(model, &plan.outputs, &Access::of_state());
         let output_fields: Vec<_> = model.outputs.iter().map(|output| field(&output.quantity.name)).collect();
@@ -291,6 +292,7 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             }
             #kernels
             fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
+            fn worst_start_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_start_pivot }
             #[inline]
             fn kinetic_energy(&self, at: &#state) -> T {
                 Self::kinetic_energy(self, at)
@@ -357,10 +359,10 @@ fn declared_start(model: &Model, plan: &Plan, names: &Names, fields: &Fields) ->
     quote!(#statements #runtime::State { t: T::from_f64(0.0), q: #positions, v: #velocities })
 }
 
-fn worst_pivot(model: &Model, plan: &Plan, runtime: &TokenStream) -> TokenStream {
-    if plan.pivots.outputs.is_empty() {
+fn worst_pivot(model: &Model, pivots: &Program, runtime: &TokenStream) -> TokenStream {
+    if pivots.outputs.is_empty() {
         return quote!(::core::option::Option::None);
     }
-    let Body { statements, outputs } = body(model, &plan.pivots, &Access::of_position());
+    let Body { statements, outputs } = body(model, pivots, &Access::of_position());
     quote!(#statements #runtime::__private::worst(&[#(#outputs),*]))
 }

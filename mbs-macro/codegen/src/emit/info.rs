@@ -25,11 +25,8 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
         let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
         quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
     });
-    let pivots = plan.pivot_names.iter().map(|(row, coordinate)| {
-        let row = row.map_or("", |at| model.constraints[at].name.as_str());
-        let coordinate = coordinate.map_or("", |at| model.coordinates[at].quantity.name.as_str());
-        quote!(#runtime::Pivot { constraint: #row, coordinate: #coordinate })
-    });
+    let start_pivots = pivots(model, &plan.start_pivot_names, runtime);
+    let pivots = pivots(model, &plan.pivot_names, runtime);
     let functions = function_counts(plan).into_iter().map(|(name, operations, watch)| {
         let Operations { mul, add, div, sin_cos, other } = operations;
         quote! {
@@ -45,9 +42,19 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
         #runtime::Info::from_parts(
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
-            &[#(#constraints),*], &[#(#pivots),*], &[#(#functions),*],
+            &[#(#constraints),*], #pivots, #start_pivots, &[#(#functions),*],
         )
     }
+}
+
+/// A list of pivots by the names of what they pair.
+fn pivots(model: &Model, names: &[(Option<usize>, Option<usize>)], runtime: &TokenStream) -> TokenStream {
+    let pivots = names.iter().map(|(row, coordinate)| {
+        let row = row.map_or("", |at| model.constraints[at].name.as_str());
+        let coordinate = coordinate.map_or("", |at| model.coordinates[at].quantity.name.as_str());
+        quote!(#runtime::Pivot { constraint: #row, coordinate: #coordinate })
+    });
+    quote!(&[#(#pivots),*])
 }
 
 /// Name, operations, and the operations that watch pivots, of every function.

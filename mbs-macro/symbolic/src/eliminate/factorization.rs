@@ -59,6 +59,9 @@ pub(super) struct Work<'a> {
     gross: BTreeMap<Unknown, Expr>,
     /// Entries that were reduced by a later pivot of their own kind.
     reduced: BTreeSet<Unknown>,
+    /// What a diagonal entry is measured against, in parameters alone; filled
+    /// when the first diagonal pivot is taken.
+    scales: Option<BTreeMap<Unknown, Expr>>,
     is_open: bool,
     steps: Vec<Step>,
     pivots: Vec<WatchedPivot>,
@@ -74,6 +77,7 @@ impl<'a> Work<'a> {
             matrix,
             gross,
             reduced: BTreeSet::new(),
+            scales: None,
             is_open,
             steps: Vec::new(),
             pivots: Vec::new(),
@@ -149,6 +153,9 @@ impl<'a> Work<'a> {
 
     /// K′_ij = K_ij − K_ip K_pj / K_pp
     fn eliminate_diagonal(&mut self, unknown: Unknown) {
+        if self.scales.is_none() {
+            self.scales = Some(self.scales());
+        }
         let zero = self.arena.zero();
         let pivot = self.matrix.get(unknown, unknown).unwrap_or(zero);
         let pivot = self.arena.share(pivot);
@@ -227,17 +234,48 @@ impl<'a> Work<'a> {
         self.watch(Some(row), Some(coordinate), size, inverse, bound.is_some());
     }
 
+    /// The size that diagonal entries have in a healthy position: of a mass,
+    /// what it never falls below before other masses reduce it; of a row, the
+    /// bound of Σ Φ_q²/M over its coordinates. Left out where coordinates enter
+    /// otherwise than through sines and cosines.
+    fn scales(&mut self) -> BTreeMap<Unknown, Expr> {
+        let mut scales = BTreeMap::new();
+        for unknown in self.matrix.unknowns().collect::<Vec<_>>() {
+            let diagonal = self.matrix.get(unknown, unknown);
+            let scale = match unknown {
+                Unknown::Coordinate(_) => diagonal.and_then(|mass| self.arena.anchor(mass)),
+                Unknown::Row(_) => self.row_scale(unknown),
+            };
+            scales.extend(scale.map(|scale| (unknown, scale)));
+        }
+        scales
+    }
+
+    fn row_scale(&mut self, row: Unknown) -> Option<Expr> {
+        let mut terms = Vec::new();
+        for (coordinate, entry) in self.matrix.neighbours(row).collect::<Vec<_>>() {
+            let mass = self.matrix.get(coordinate, coordinate)?;
+            let (bound, mass) = (self.arena.bound(entry)?, self.arena.anchor(mass)?);
+            terms.push((self.arena.product(&[(bound, 2), (mass, -1)]), Number::ONE));
+        }
+        (!terms.is_empty()).then(|| self.arena.sum(&terms))
+    }
+
+    /// A mass that nothing reduced is positive, and needs no watch; a row can
+    /// vanish as a whole.
     fn watch_diagonal(&mut self, unknown: Unknown, pivot: Expr, inverse: Expr) {
         if self.arena.as_number(pivot).is_some() {
             return;
         }
-        let can_cancel = self.reduced.contains(&unknown);
-        let gross = self.gross.get(&unknown).copied().filter(|_| can_cancel).unwrap_or(pivot);
-        let size = self.arena.share(gross);
-        match unknown {
-            Unknown::Row(_) => self.watch(Some(unknown), None, size, inverse, can_cancel),
-            Unknown::Coordinate(_) => self.watch(None, Some(unknown), size, inverse, can_cancel),
-        }
+        let is_row = matches!(unknown, Unknown::Row(_));
+        let is_reduced = self.reduced.contains(&unknown);
+        let scale = self.scales.as_ref().and_then(|scales| scales.get(&unknown)).copied();
+        let gross = self.gross.get(&unknown).copied().filter(|_| is_reduced);
+        let size = scale.or(gross);
+        let can_cancel = is_reduced || (is_row && scale.is_some());
+        let size = self.arena.share(size.unwrap_or(pivot));
+        let (row, coordinate) = if is_row { (Some(unknown), None) } else { (None, Some(unknown)) };
+        self.watch(row, coordinate, size, inverse, can_cancel);
     }
 
     fn watch(

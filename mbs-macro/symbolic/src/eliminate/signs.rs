@@ -52,6 +52,23 @@ impl Arena {
         }
     }
 
+    /// The part of a positive value that depends on parameters alone: a lower
+    /// bound of it.
+    pub(super) fn anchor(&mut self, expr: Expr) -> Option<Expr> {
+        if !self.is_positive(expr) {
+            return None;
+        }
+        match self.node(expr).clone() {
+            Node::Shared(x) => self.anchor(x),
+            Node::Sum(constant, terms) => {
+                let mut early = vec![(self.number(constant), Number::ONE)];
+                early.extend(terms.into_iter().filter(|(term, _)| self.stage(*term) <= Stage::Parameter));
+                Some(self.sum(&early))
+            }
+            _ => Some(expr),
+        }
+    }
+
     fn is_not_negative(&self, expr: Expr) -> bool {
         match self.node(expr) {
             Node::Number(value) => !value.is_negative(),
