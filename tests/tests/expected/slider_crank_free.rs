@@ -18,7 +18,7 @@ Elimination order: constraints first, then what motion they leave free (null spa
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
-| `new` | 26 | 4 | 3 | 0 | 2 | 0 |
+| `new` | 26 | 4 | 1 | 0 | 2 | 0 |
 | `phi` | 8 | 10 | 0 | 2 | 0 | 0 |
 | `phi_dot` | 12 | 9 | 0 | 2 | 0 | 0 |
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
@@ -29,9 +29,9 @@ Elimination order: constraints first, then what motion they leave free (null spa
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 83 | 76 | 3 | 2 | 0 | 6 |
-| `constrained` | 63 | 42 | 3 | 2 | 0 | 6 |
-| `reactions` | 68 | 52 | 3 | 2 | 0 | 6 |
+| `stabilized` | 85 | 76 | 2 | 2 | 0 | 2 |
+| `constrained` | 65 | 42 | 2 | 2 | 0 | 2 |
+| `reactions` | 77 | 56 | 2 | 2 | 0 | 2 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
@@ -58,20 +58,18 @@ pub struct SliderCrankFree<T = ::core::primitive::f64> {
 8: 1/2*m2
 9: 1/2*l2^2*inertia_factor*m2
 10: 1/2*m3
-11: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
-12: l1^2*m3
+11: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
+12: l2^2*m3
 13: 1/2*l1*l2*m2
 14: l1*l2*m3
-15: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
-16: l2^2*m3
-17: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
-18: abs(l1)^2/(l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2) + abs(l2)^2/(l2^2*inertia_factor*m2 + 1/4*l2^2*m2)
-19: 1/l2
-20: abs(l2)
-21: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
+15: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
+16: l1^2*m3
+17: abs(l1)^2 + abs(l2)^2
+18: 1/l2
+19: abs(l2)
 ```
 */
-    hoisted: [T; 22usize],
+    hoisted: [T; 20usize],
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFree<T> {
     /// The mechanism with its declared parameters.
@@ -583,26 +581,24 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v12 = parameters.m2 * T::from_f64(0.5);
         let v13 = v12 * v6;
         let v14 = parameters.m3 * T::from_f64(0.5);
-        let v15 = T::from_f64(0.25) * v3;
-        let v16 = parameters.m2 * v2;
-        let v17 = v4 + v15;
-        let v18 = v17 + v16;
-        let v19 = parameters.m3 * v2;
-        let v20 = parameters.l1 * parameters.l2;
-        let v21 = v12 * v20;
-        let v22 = parameters.m3 * v20;
-        let v23 = parameters.m2 * T::from_f64(0.25);
-        let v24 = v23 * v5;
-        let v25 = v7 + v24;
-        let v26 = parameters.m3 * v5;
+        let v15 = parameters.m2 * T::from_f64(0.25);
+        let v16 = v15 * v5;
+        let v17 = v7 + v16;
+        let v18 = parameters.m3 * v5;
+        let v19 = parameters.l1 * parameters.l2;
+        let v20 = v12 * v19;
+        let v21 = parameters.m3 * v19;
+        let v22 = T::from_f64(0.25) * v3;
+        let v23 = parameters.m2 * v2;
+        let v24 = v4 + v22;
+        let v25 = v24 + v23;
+        let v26 = parameters.m3 * v2;
         let abs_l1 = parameters.l1.abs();
         let v28 = abs_l1 * abs_l1;
-        let v29 = v28 / v18;
         let abs_l2 = parameters.l2.abs();
-        let v31 = abs_l2 * abs_l2;
-        let v32 = v31 / v25;
-        let v33 = v29 + v32;
-        let v34 = T::from_f64(1.0) / parameters.l2;
+        let v30 = abs_l2 * abs_l2;
+        let v31 = v28 + v30;
+        let v32 = T::from_f64(1.0) / parameters.l2;
         Self {
             parameters,
             hoisted: [
@@ -617,17 +613,15 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
                 v12,
                 v13,
                 v14,
+                v17,
                 v18,
-                v19,
+                v20,
                 v21,
-                v22,
                 v25,
                 v26,
-                v25,
-                v33,
-                v34,
+                v31,
+                v32,
                 abs_l2,
-                v18,
             ],
         }
     }
@@ -1137,7 +1131,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 68 mul + 52 add + 3 div + 2 sincos.*/
+Cost: 77 mul + 56 add + 2 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1486,16 +1480,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         ],
         &[
             ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "theta1",
-            },
-            ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "theta2",
-            },
-            ::mbs_runtime::Pivot {
                 constraint: "guide",
-                coordinate: "",
+                coordinate: "theta2",
             },
         ],
         &[
@@ -1510,7 +1496,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 operations: ::mbs_runtime::Operations {
                     mul: 26u32,
                     add: 4u32,
-                    div: 3u32,
+                    div: 1u32,
                     sin_cos: 0u32,
                     other: 2u32,
                     watch: 0u32,
@@ -1629,34 +1615,34 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
-                    mul: 83u32,
+                    mul: 85u32,
                     add: 76u32,
-                    div: 3u32,
+                    div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 6u32,
+                    watch: 2u32,
                 },
             },
             ::mbs_runtime::Function {
                 name: "constrained",
                 operations: ::mbs_runtime::Operations {
-                    mul: 63u32,
+                    mul: 65u32,
                     add: 42u32,
-                    div: 3u32,
+                    div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 6u32,
+                    watch: 2u32,
                 },
             },
             ::mbs_runtime::Function {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
-                    mul: 68u32,
-                    add: 52u32,
-                    div: 3u32,
+                    mul: 77u32,
+                    add: 56u32,
+                    div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 6u32,
+                    watch: 2u32,
                 },
             },
             ::mbs_runtime::Function {
@@ -1766,164 +1752,161 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v10 = at.v.theta1 * at.v.theta1;
         let v11 = v6 * v10;
         let v12 = v9 + v11;
-        let v13 = sin_theta1 * sin_theta1;
-        let v14 = v13 * self.hoisted[12];
-        let v15 = self.hoisted[11] + v14;
-        let v16 = T::from_f64(1.0) / v15;
-        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v18 = sin_theta1 * sin_theta2;
-        let v19 = self.hoisted[13] * v18;
-        let v21 = cos_theta1 * cos_theta2;
-        let v22 = v21 * self.hoisted[13];
-        let v23 = self.hoisted[14] * v18;
-        let v24 = v19 + v22;
-        let v25 = v24 + v23;
-        let v26 = v16 * v25;
-        let v27 = sin_theta2 * sin_theta2;
-        let v28 = v27 * self.hoisted[16];
-        let v29 = v25 * v26;
-        let v30 = self.hoisted[15] + v28;
-        let v31 = v30 - v29;
-        let v32 = T::from_f64(1.0) / v31;
-        let v33 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v35 = phi_q_guide_theta1 * v26;
-        let v36 = v33 - v35;
-        let v37 = v32 * v36;
-        let v38 = v16 * phi_q_guide_theta1;
-        let v39 = phi_q_guide_theta1 * v38;
-        let v40 = v36 * v37;
-        let v41 = v39 + v40;
-        let v42 = T::from_f64(1.0) / v41;
-        let v43 = sin_theta1 * self.parameters.l1;
-        let v44 = v43 * v10;
-        let v45 = at.v.theta1 * phi_q_guide_theta1;
-        let v46 = at.v.theta2 * v33;
-        let phi_dot_guide = v45 + v46;
-        let v48 = gains.two_alpha * phi_dot_guide;
-        let v49 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v43 + v49;
-        let v51 = gains.beta_squared * phi_guide;
-        let v52 = v48 + v51;
-        let v53 = at.v.theta2 * at.v.theta2;
-        let v54 = v49 * v53;
-        let v55 = v12 * self.parameters.m1;
-        let v56 = v55 * v1;
-        let v57 = at.v.theta1 * v6;
-        let phi_dot_crank_y = at.v.y1 - v57;
-        let v59 = gains.two_alpha * phi_dot_crank_y;
+        let v14 = phi_q_guide_theta1 * phi_q_guide_theta1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let v17 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v18 = v14 + v17;
+        let v19 = T::from_f64(1.0) / v18;
+        let v20 = at.v.theta1 * phi_q_guide_theta1;
+        let v21 = phi_q_guide_theta2 * at.v.theta2;
+        let phi_dot_guide = v20 + v21;
+        let v23 = gains.two_alpha * phi_dot_guide;
+        let v24 = sin_theta1 * self.parameters.l1;
+        let v26 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v24 + v26;
+        let v28 = gains.beta_squared * phi_guide;
+        let v29 = v23 + v28;
+        let v30 = v24 * v10;
+        let v31 = at.v.theta2 * at.v.theta2;
+        let v32 = v26 * v31;
+        let v33 = v29 - v30;
+        let v34 = v33 - v32;
+        let v35 = v19 * v34;
+        let v36 = phi_q_guide_theta1 * v35;
+        let v37 = sin_theta2 * sin_theta2;
+        let v38 = v37 * self.hoisted[12];
+        let v39 = self.hoisted[11] + v38;
+        let v40 = phi_q_guide_theta1 * v39;
+        let v41 = sin_theta1 * sin_theta2;
+        let v42 = self.hoisted[13] * v41;
+        let v43 = cos_theta1 * cos_theta2;
+        let v44 = v43 * self.hoisted[13];
+        let v45 = self.hoisted[14] * v41;
+        let v46 = v42 + v44;
+        let v47 = v46 + v45;
+        let v48 = phi_q_guide_theta2 * v47;
+        let v49 = v40 - v48;
+        let v50 = phi_q_guide_theta1 * v49;
+        let v51 = phi_q_guide_theta1 * v47;
+        let v52 = sin_theta1 * sin_theta1;
+        let v53 = v52 * self.hoisted[16];
+        let v54 = self.hoisted[15] + v53;
+        let v55 = phi_q_guide_theta2 * v54;
+        let v56 = v51 - v55;
+        let v57 = phi_q_guide_theta2 * v56;
+        let v58 = v50 - v57;
+        let v59 = at.v.theta1 * v24;
+        let v60 = sin_theta2 * self.hoisted[1];
+        let v61 = at.v.theta2 * v60;
+        let v62 = at.v.x2 + v59;
+        let phi_dot_rod_x = v62 + v61;
+        let v64 = gains.two_alpha * phi_dot_rod_x;
+        let v65 = cos_theta2 * self.hoisted[1];
+        let v66 = phi_q_guide_theta1 - at.q.x2;
+        let v67 = v66 + v65;
+        let v68 = gains.beta_squared * v67;
+        let v69 = v64 - v68;
+        let v70 = phi_q_guide_theta1 * v10;
+        let v71 = v65 * v31;
+        let v72 = v69 + v70;
+        let v73 = v72 + v71;
+        let v74 = v73 * self.parameters.m2;
+        let v75 = v74 * v60;
+        let v76 = at.v.theta2 * v65;
+        let v77 = v20 - at.v.y2;
+        let v78 = v77 + v76;
+        let v79 = gains.two_alpha * v78;
+        let v80 = v24 - at.q.y2;
+        let v81 = v80 + v60;
+        let v82 = gains.beta_squared * v81;
+        let feedback_rod_y = v79 + v82;
+        let v84 = v60 * v31;
+        let v85 = v30 - feedback_rod_y;
+        let v86 = v85 + v84;
+        let v87 = self.parameters.m2 * v86;
+        let v88 = self.hoisted[5] - v87;
+        let v89 = v65 * v88;
+        let v90 = at.v.theta2 * v26;
+        let v91 = v59 + at.v.x3;
+        let phi_dot_slider = v91 + v90;
+        let v93 = gains.two_alpha * phi_dot_slider;
+        let v94 = phi_q_guide_theta1 + phi_q_guide_theta2;
+        let v95 = v94 - at.q.x3;
+        let v96 = gains.beta_squared * v95;
+        let v97 = v93 - v96;
+        let v98 = phi_q_guide_theta2 * v31;
+        let v99 = v70 + v97;
+        let v100 = v99 + v98;
+        let v101 = v100 * self.parameters.m3;
+        let v102 = v26 * v101;
+        let v103 = v75 + v89;
+        let v104 = v103 + v102;
+        let v105 = phi_q_guide_theta1 * v104;
+        let v106 = v12 * self.parameters.m1;
+        let v107 = v106 * v1;
+        let v108 = at.v.theta1 * v6;
+        let phi_dot_crank_y = at.v.y1 - v108;
+        let v110 = gains.two_alpha * phi_dot_crank_y;
         let phi_crank_y = at.q.y1 - v1;
-        let v61 = gains.beta_squared * phi_crank_y;
-        let v62 = v59 + v61;
-        let v63 = v1 * v10;
-        let v64 = v62 + v63;
-        let v65 = self.parameters.m1 * v64;
-        let v66 = self.hoisted[4] - v65;
-        let v67 = v6 * v66;
-        let v68 = at.v.theta1 * v43;
-        let v69 = sin_theta2 * self.hoisted[1];
-        let v70 = at.v.theta2 * v69;
-        let v71 = at.v.x2 + v68;
-        let phi_dot_rod_x = v71 + v70;
-        let v73 = gains.two_alpha * phi_dot_rod_x;
-        let v74 = cos_theta2 * self.hoisted[1];
-        let v75 = at.q.x2 - phi_q_guide_theta1;
-        let phi_rod_x = v75 - v74;
-        let v77 = gains.beta_squared * phi_rod_x;
-        let v78 = v73 + v77;
-        let v79 = phi_q_guide_theta1 * v10;
-        let v80 = v74 * v53;
-        let v81 = v78 + v79;
-        let v82 = v81 + v80;
-        let v83 = v82 * self.parameters.m2;
-        let v84 = v83 * v43;
-        let v85 = at.v.theta2 * v74;
-        let v86 = at.v.y2 - v45;
-        let phi_dot_rod_y = v86 - v85;
-        let v88 = gains.two_alpha * phi_dot_rod_y;
-        let v89 = at.q.y2 - v43;
-        let phi_rod_y = v89 - v69;
-        let v91 = gains.beta_squared * phi_rod_y;
-        let v92 = v88 + v91;
-        let v93 = v69 * v53;
-        let v94 = v92 + v44;
-        let v95 = v94 + v93;
-        let v96 = self.parameters.m2 * v95;
-        let v97 = self.hoisted[5] - v96;
-        let v98 = phi_q_guide_theta1 * v97;
-        let v99 = at.v.theta2 * v49;
-        let v100 = v68 + at.v.x3;
-        let phi_dot_slider = v100 + v99;
-        let v102 = gains.two_alpha * phi_dot_slider;
-        let v103 = phi_q_guide_theta1 - at.q.x3;
-        let v104 = v103 + v33;
-        let v105 = gains.beta_squared * v104;
-        let v106 = v102 - v105;
-        let v107 = v33 * v53;
-        let v108 = v79 + v106;
-        let v109 = v108 + v107;
-        let v110 = v109 * self.parameters.m3;
-        let v111 = v43 * v110;
-        let v112 = inputs.crank_torque - v56;
-        let v113 = v112 - v67;
-        let v114 = v113 - v84;
-        let v115 = v114 - v98;
-        let v116 = v115 - v111;
-        let v117 = v116 * v38;
-        let v118 = v83 * v69;
-        let v119 = v74 * v97;
-        let v120 = v110 * v49;
-        let v121 = v116 * v26;
-        let v122 = v118 + v119;
-        let v123 = v122 + v120;
-        let v124 = v123 + v121;
-        let v125 = v124 * v37;
-        let v126 = v44 - v52;
-        let v127 = v126 + v54;
-        let v128 = v127 - v117;
-        let v129 = v128 + v125;
-        let v130 = v42 * v129;
-        let v131 = v37 * v130;
-        let v132 = v32 * v124;
-        let acc_theta2 = v131 - v132;
-        let v134 = v26 * acc_theta2;
-        let v135 = v38 * v130;
-        let v136 = v134 - v135;
-        let v137 = v16 * v116;
-        let v138 = v136 - v137;
-        let v139 = v1 * v138;
-        let v140 = v12 - v139;
-        let acc_x1 = -v140;
-        let v142 = v6 * v138;
-        let v143 = v64 + v142;
-        let acc_y1 = -v143;
-        let acc_theta1 = -v138;
-        let v146 = v43 * v138;
-        let v147 = v69 * acc_theta2;
-        let v148 = v146 - v147;
-        let v149 = v82 - v148;
-        let acc_x2 = -v149;
-        let v151 = phi_q_guide_theta1 * v138;
-        let v152 = v74 * acc_theta2;
-        let v153 = v151 - v152;
-        let v154 = v95 + v153;
-        let acc_y2 = -v154;
-        let v156 = v49 * acc_theta2;
-        let v157 = v146 - v156;
-        let v158 = v109 - v157;
-        let acc_x3 = -v158;
-        let v160 = -v9;
-        let v161 = -v62;
-        let v162 = -v78;
-        let v163 = -v92;
-        let v164 = -v52;
-        let v165 = -v106;
-        let v166 = v32 * self.hoisted[17];
-        let abs_v166 = v166.abs();
-        let v168 = v42 * self.hoisted[18];
-        let v169 = -v168;
-        let abs_v169 = v169.abs();
-        let v171 = abs_v166 + abs_v169;
+        let v112 = gains.beta_squared * phi_crank_y;
+        let v113 = v110 + v112;
+        let v114 = v1 * v10;
+        let v115 = v113 + v114;
+        let v116 = self.parameters.m1 * v115;
+        let v117 = self.hoisted[4] - v116;
+        let v118 = v6 * v117;
+        let v119 = v24 * v74;
+        let v120 = phi_q_guide_theta1 * v88;
+        let v121 = v24 * v101;
+        let v122 = inputs.crank_torque - v107;
+        let v123 = v122 - v118;
+        let v124 = v123 - v119;
+        let v125 = v124 - v120;
+        let v126 = v125 - v121;
+        let v127 = phi_q_guide_theta2 * v126;
+        let v128 = v105 + v127;
+        let v129 = phi_q_guide_theta1 * v56;
+        let v130 = phi_q_guide_theta2 * v49;
+        let v131 = v129 + v130;
+        let v132 = v35 * v131;
+        let v133 = v128 - v132;
+        let v134 = v133 / v58;
+        let v135 = phi_q_guide_theta2 * v134;
+        let v136 = v36 - v135;
+        let v137 = v1 * v136;
+        let v138 = v12 - v137;
+        let acc_x1 = -v138;
+        let v140 = v6 * v136;
+        let v141 = v115 + v140;
+        let acc_y1 = -v141;
+        let acc_theta1 = -v136;
+        let v144 = v24 * v136;
+        let v145 = phi_q_guide_theta1 * v134;
+        let v146 = phi_q_guide_theta2 * v35;
+        let v147 = v145 + v146;
+        let v148 = v60 * v147;
+        let v149 = v144 + v148;
+        let v150 = v73 - v149;
+        let acc_x2 = -v150;
+        let v152 = phi_q_guide_theta1 * v136;
+        let v153 = v65 * v147;
+        let v154 = v152 + v153;
+        let v155 = v86 + v154;
+        let acc_y2 = -v155;
+        let acc_theta2 = -v147;
+        let v158 = v26 * v147;
+        let v159 = v144 + v158;
+        let v160 = v100 - v159;
+        let acc_x3 = -v160;
+        let v162 = -v9;
+        let v163 = -v113;
+        let v164 = -v69;
+        let v165 = -v29;
+        let v166 = -v97;
+        let v167 = v19 * self.hoisted[17];
+        let abs_v167 = v167.abs();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -1935,14 +1918,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 x3: acc_x3,
             },
             feedback: SliderCrankFreeConstraints {
-                crank_x: v160,
-                crank_y: v161,
-                rod_x: v162,
-                rod_y: v163,
-                guide: v164,
-                slider: v165,
+                crank_x: v162,
+                crank_y: v163,
+                rod_x: v164,
+                rod_y: feedback_rod_y,
+                guide: v165,
+                slider: v166,
             },
-            growth: v171,
+            growth: abs_v167,
         }
     }
     #[inline]
@@ -1957,117 +1940,114 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v2 = cos_theta1 * self.hoisted[0];
         let v3 = v0 * v2;
         let v4 = feedback.crank_x - v3;
-        let v6 = sin_theta1 * sin_theta1;
-        let v7 = v6 * self.hoisted[12];
-        let v8 = self.hoisted[11] + v7;
-        let v9 = T::from_f64(1.0) / v8;
-        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v11 = sin_theta1 * sin_theta2;
-        let v12 = self.hoisted[13] * v11;
-        let v14 = cos_theta1 * cos_theta2;
-        let v15 = v14 * self.hoisted[13];
-        let v16 = self.hoisted[14] * v11;
-        let v17 = v12 + v15;
-        let v18 = v17 + v16;
-        let v19 = v9 * v18;
-        let v20 = sin_theta2 * sin_theta2;
-        let v21 = v20 * self.hoisted[16];
-        let v22 = v18 * v19;
-        let v23 = self.hoisted[15] + v21;
-        let v24 = v23 - v22;
-        let v25 = T::from_f64(1.0) / v24;
-        let v26 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v28 = v19 * phi_q_guide_theta1;
-        let v29 = v26 - v28;
-        let v30 = v25 * v29;
-        let v31 = v9 * phi_q_guide_theta1;
-        let v32 = phi_q_guide_theta1 * v31;
-        let v33 = v29 * v30;
-        let v34 = v32 + v33;
-        let v35 = T::from_f64(1.0) / v34;
-        let v36 = sin_theta1 * self.parameters.l1;
-        let v37 = v0 * v36;
-        let v38 = at.v.theta2 * at.v.theta2;
-        let v39 = sin_theta2 * self.parameters.l2;
-        let v40 = v38 * v39;
-        let v41 = v4 * self.parameters.m1;
-        let v42 = self.hoisted[0] * sin_theta1;
-        let v43 = v41 * v42;
-        let v44 = v0 * v42;
-        let v45 = feedback.crank_y - v44;
-        let v46 = self.parameters.m1 * v45;
-        let v47 = self.hoisted[4] + v46;
-        let v48 = v47 * v2;
-        let v49 = phi_q_guide_theta1 * v0;
-        let v50 = cos_theta2 * self.hoisted[1];
-        let v51 = v38 * v50;
-        let v52 = feedback.rod_x - v49;
-        let v53 = v52 - v51;
-        let v54 = v53 * self.parameters.m2;
-        let v55 = v54 * v36;
-        let v56 = self.hoisted[1] * sin_theta2;
-        let v57 = v38 * v56;
-        let v58 = feedback.rod_y - v37;
-        let v59 = v58 - v57;
-        let v60 = self.parameters.m2 * v59;
-        let v61 = self.hoisted[5] + v60;
-        let v62 = v61 * phi_q_guide_theta1;
-        let v63 = v26 * v38;
-        let v64 = v49 - feedback.slider;
-        let v65 = v64 + v63;
-        let v66 = v65 * self.parameters.m3;
-        let v67 = v66 * v36;
-        let v68 = inputs.crank_torque + v43;
-        let v69 = v68 - v48;
-        let v70 = v69 + v55;
-        let v71 = v70 - v62;
-        let v72 = v71 - v67;
-        let v73 = v72 * v31;
-        let v74 = v54 * v56;
-        let v75 = v61 * v50;
-        let v76 = v66 * v39;
-        let v77 = v72 * v19;
-        let v78 = v74 - v75;
-        let v79 = v78 - v76;
-        let v80 = v79 - v77;
-        let v81 = v80 * v30;
-        let v82 = v37 + feedback.guide;
-        let v83 = v82 + v40;
-        let v84 = v83 - v73;
-        let v85 = v84 - v81;
-        let v86 = v35 * v85;
-        let v87 = v30 * v86;
-        let v88 = v25 * v80;
-        let acc_theta2 = v87 + v88;
-        let v90 = v19 * acc_theta2;
-        let v91 = v31 * v86;
-        let v92 = v90 - v91;
-        let v93 = v9 * v72;
-        let v94 = v92 - v93;
-        let v95 = v94 * v42;
-        let acc_x1 = v4 + v95;
-        let v97 = v94 * v2;
-        let acc_y1 = v45 - v97;
-        let acc_theta1 = -v94;
-        let v100 = v94 * v36;
-        let v101 = acc_theta2 * v56;
-        let v102 = v100 - v101;
-        let acc_x2 = v53 + v102;
-        let v104 = phi_q_guide_theta1 * v94;
-        let v105 = acc_theta2 * v50;
-        let v106 = v104 - v105;
-        let acc_y2 = v59 - v106;
-        let v108 = acc_theta2 * v39;
-        let v109 = v100 - v108;
-        let v110 = v65 - v109;
-        let acc_x3 = -v110;
-        let v112 = v25 * self.hoisted[17];
-        let abs_v112 = v112.abs();
-        let v114 = v35 * self.hoisted[18];
-        let v115 = -v114;
-        let abs_v115 = v115.abs();
-        let v117 = abs_v112 + abs_v115;
+        let v6 = phi_q_guide_theta1 * phi_q_guide_theta1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let v9 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v10 = v6 + v9;
+        let v11 = T::from_f64(1.0) / v10;
+        let v13 = sin_theta1 * self.parameters.l1;
+        let v14 = v0 * v13;
+        let v15 = at.v.theta2 * at.v.theta2;
+        let v17 = self.parameters.l2 * sin_theta2;
+        let v18 = v15 * v17;
+        let v19 = feedback.guide + v14;
+        let v20 = v19 + v18;
+        let v21 = v11 * v20;
+        let v22 = phi_q_guide_theta1 * v21;
+        let v23 = sin_theta2 * sin_theta2;
+        let v24 = v23 * self.hoisted[12];
+        let v25 = self.hoisted[11] + v24;
+        let v26 = phi_q_guide_theta1 * v25;
+        let v27 = sin_theta1 * sin_theta2;
+        let v28 = self.hoisted[13] * v27;
+        let v29 = cos_theta1 * cos_theta2;
+        let v30 = v29 * self.hoisted[13];
+        let v31 = self.hoisted[14] * v27;
+        let v32 = v28 + v30;
+        let v33 = v32 + v31;
+        let v34 = phi_q_guide_theta2 * v33;
+        let v35 = v26 - v34;
+        let v36 = phi_q_guide_theta1 * v35;
+        let v37 = phi_q_guide_theta1 * v33;
+        let v38 = sin_theta1 * sin_theta1;
+        let v39 = v38 * self.hoisted[16];
+        let v40 = self.hoisted[15] + v39;
+        let v41 = phi_q_guide_theta2 * v40;
+        let v42 = v37 - v41;
+        let v43 = phi_q_guide_theta2 * v42;
+        let v44 = v36 - v43;
+        let v45 = phi_q_guide_theta1 * v0;
+        let v46 = cos_theta2 * self.hoisted[1];
+        let v47 = v15 * v46;
+        let v48 = feedback.rod_x - v45;
+        let v49 = v48 - v47;
+        let v50 = v49 * self.parameters.m2;
+        let v51 = sin_theta2 * self.hoisted[1];
+        let v52 = v50 * v51;
+        let v53 = v15 * v51;
+        let v54 = v14 - feedback.rod_y;
+        let v55 = v54 + v53;
+        let v56 = self.parameters.m2 * v55;
+        let v57 = self.hoisted[5] - v56;
+        let v58 = v57 * v46;
+        let v59 = phi_q_guide_theta2 * v15;
+        let v60 = v45 - feedback.slider;
+        let v61 = v60 + v59;
+        let v62 = v61 * self.parameters.m3;
+        let v63 = v62 * v17;
+        let v64 = v52 - v58;
+        let v65 = v64 - v63;
+        let v66 = phi_q_guide_theta1 * v65;
+        let v67 = v4 * self.parameters.m1;
+        let v68 = self.hoisted[0] * sin_theta1;
+        let v69 = v67 * v68;
+        let v70 = v0 * v68;
+        let v71 = feedback.crank_y - v70;
+        let v72 = self.parameters.m1 * v71;
+        let v73 = self.hoisted[4] + v72;
+        let v74 = v73 * v2;
+        let v75 = v50 * v13;
+        let v76 = phi_q_guide_theta1 * v57;
+        let v77 = v62 * v13;
+        let v78 = inputs.crank_torque + v69;
+        let v79 = v78 - v74;
+        let v80 = v79 + v75;
+        let v81 = v80 - v76;
+        let v82 = v81 - v77;
+        let v83 = phi_q_guide_theta2 * v82;
+        let v84 = v66 - v83;
+        let v85 = phi_q_guide_theta1 * v42;
+        let v86 = phi_q_guide_theta2 * v35;
+        let v87 = v85 + v86;
+        let v88 = v21 * v87;
+        let v89 = v84 - v88;
+        let v90 = v89 / v44;
+        let v91 = phi_q_guide_theta2 * v90;
+        let acc_theta1 = v22 - v91;
+        let v93 = acc_theta1 * v68;
+        let acc_x1 = v4 - v93;
+        let v95 = acc_theta1 * v2;
+        let acc_y1 = v71 + v95;
+        let v97 = acc_theta1 * v13;
+        let v98 = phi_q_guide_theta1 * v90;
+        let v99 = phi_q_guide_theta2 * v21;
+        let acc_theta2 = v98 + v99;
+        let v101 = acc_theta2 * v51;
+        let v102 = v97 + v101;
+        let acc_x2 = v49 - v102;
+        let v104 = phi_q_guide_theta1 * acc_theta1;
+        let v105 = acc_theta2 * v46;
+        let v106 = v104 + v105;
+        let v107 = v55 - v106;
+        let acc_y2 = -v107;
+        let v109 = acc_theta2 * v17;
+        let v110 = v97 + v109;
+        let v111 = v61 + v110;
+        let acc_x3 = -v111;
+        let v113 = v11 * self.hoisted[17];
+        let abs_v113 = v113.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2078,7 +2058,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
-            growth: v117,
+            growth: abs_v113,
         }
     }
     #[inline]
@@ -2096,132 +2076,140 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v2 = cos_theta1 * self.hoisted[0];
         let v3 = v0 * v2;
         let v4 = feedback.crank_x - v3;
-        let v6 = sin_theta1 * sin_theta1;
-        let v7 = v6 * self.hoisted[12];
-        let v8 = self.hoisted[11] + v7;
-        let v9 = T::from_f64(1.0) / v8;
-        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v11 = sin_theta1 * sin_theta2;
-        let v12 = self.hoisted[13] * v11;
-        let v14 = cos_theta1 * cos_theta2;
-        let v15 = v14 * self.hoisted[13];
-        let v16 = self.hoisted[14] * v11;
-        let v17 = v12 + v15;
-        let v18 = v17 + v16;
-        let v19 = v9 * v18;
-        let v20 = sin_theta2 * sin_theta2;
-        let v21 = v20 * self.hoisted[16];
-        let v22 = v18 * v19;
-        let v23 = self.hoisted[15] + v21;
-        let v24 = v23 - v22;
-        let v25 = T::from_f64(1.0) / v24;
-        let v26 = cos_theta2 * self.parameters.l2;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v28 = v19 * phi_q_guide_theta1;
-        let v29 = v26 - v28;
-        let v30 = v25 * v29;
-        let v31 = v9 * phi_q_guide_theta1;
-        let v32 = phi_q_guide_theta1 * v31;
-        let v33 = v29 * v30;
-        let v34 = v32 + v33;
-        let v35 = T::from_f64(1.0) / v34;
-        let v36 = sin_theta1 * self.parameters.l1;
-        let v37 = v0 * v36;
-        let v38 = at.v.theta2 * at.v.theta2;
-        let v39 = sin_theta2 * self.parameters.l2;
-        let v40 = v38 * v39;
-        let v41 = v4 * self.parameters.m1;
-        let v42 = self.hoisted[0] * sin_theta1;
-        let v43 = v41 * v42;
-        let v44 = v0 * v42;
-        let v45 = feedback.crank_y - v44;
-        let v46 = self.parameters.m1 * v45;
-        let v47 = self.hoisted[4] + v46;
-        let v48 = v47 * v2;
-        let v49 = phi_q_guide_theta1 * v0;
-        let v50 = cos_theta2 * self.hoisted[1];
-        let v51 = v38 * v50;
-        let v52 = feedback.rod_x - v49;
-        let v53 = v52 - v51;
-        let v54 = v53 * self.parameters.m2;
-        let v55 = v54 * v36;
-        let v56 = self.hoisted[1] * sin_theta2;
-        let v57 = v38 * v56;
-        let v58 = feedback.rod_y - v37;
-        let v59 = v58 - v57;
-        let v60 = self.parameters.m2 * v59;
-        let v61 = self.hoisted[5] + v60;
-        let v62 = v61 * phi_q_guide_theta1;
-        let v63 = v26 * v38;
-        let v64 = v49 - feedback.slider;
-        let v65 = v64 + v63;
-        let v66 = v65 * self.parameters.m3;
-        let v67 = v66 * v36;
-        let v68 = inputs.crank_torque + v43;
-        let v69 = v68 - v48;
-        let v70 = v69 + v55;
-        let v71 = v70 - v62;
-        let v72 = v71 - v67;
-        let v73 = v72 * v31;
-        let v74 = v54 * v56;
-        let v75 = v61 * v50;
-        let v76 = v66 * v39;
-        let v77 = v72 * v19;
-        let v78 = v74 - v75;
-        let v79 = v78 - v76;
-        let v80 = v79 - v77;
-        let v81 = v80 * v30;
-        let v82 = v37 + feedback.guide;
-        let v83 = v82 + v40;
-        let v84 = v83 - v73;
-        let v85 = v84 - v81;
-        let v86 = v35 * v85;
-        let v87 = v30 * v86;
-        let v88 = v25 * v80;
-        let acc_theta2 = v87 + v88;
-        let v90 = v19 * acc_theta2;
-        let v91 = v31 * v86;
-        let v92 = v90 - v91;
-        let v93 = v9 * v72;
-        let v94 = v92 - v93;
-        let v95 = v94 * v42;
-        let acc_x1 = v4 + v95;
-        let v97 = v94 * v2;
-        let acc_y1 = v45 - v97;
-        let acc_theta1 = -v94;
-        let v100 = v94 * v36;
-        let v101 = acc_theta2 * v56;
-        let v102 = v100 - v101;
-        let acc_x2 = v53 + v102;
-        let v104 = phi_q_guide_theta1 * v94;
-        let v105 = acc_theta2 * v50;
-        let v106 = v104 - v105;
-        let acc_y2 = v59 - v106;
-        let v108 = acc_theta2 * v39;
-        let v109 = v100 - v108;
-        let v110 = v65 - v109;
-        let acc_x3 = -v110;
-        let v112 = self.parameters.m1 * v95;
-        let v113 = v41 + v112;
-        let lambda_crank_x = -v113;
-        let v115 = self.parameters.m1 * v97;
-        let v116 = v47 - v115;
-        let lambda_crank_y = -v116;
-        let v118 = self.parameters.m2 * v102;
-        let v119 = v54 + v118;
-        let lambda_rod_x = -v119;
-        let v121 = self.parameters.m2 * v106;
-        let v122 = v61 - v121;
-        let lambda_rod_y = -v122;
-        let lambda_guide = -v86;
-        let v125 = self.parameters.m3 * v109;
-        let lambda_slider = v66 - v125;
-        let v127 = v25 * self.hoisted[17];
-        let abs_v127 = v127.abs();
-        let v129 = v35 * self.hoisted[18];
-        let v130 = -v129;
-        let abs_v130 = v130.abs();
-        let v132 = abs_v127 + abs_v130;
+        let v6 = phi_q_guide_theta1 * phi_q_guide_theta1;
+        let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let v9 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v10 = v6 + v9;
+        let v11 = T::from_f64(1.0) / v10;
+        let v13 = sin_theta1 * self.parameters.l1;
+        let v14 = v0 * v13;
+        let v15 = at.v.theta2 * at.v.theta2;
+        let v17 = self.parameters.l2 * sin_theta2;
+        let v18 = v15 * v17;
+        let v19 = feedback.guide + v14;
+        let v20 = v19 + v18;
+        let v21 = v11 * v20;
+        let v22 = phi_q_guide_theta1 * v21;
+        let v23 = sin_theta2 * sin_theta2;
+        let v24 = v23 * self.hoisted[12];
+        let v25 = self.hoisted[11] + v24;
+        let v26 = phi_q_guide_theta1 * v25;
+        let v27 = sin_theta1 * sin_theta2;
+        let v28 = self.hoisted[13] * v27;
+        let v29 = cos_theta1 * cos_theta2;
+        let v30 = v29 * self.hoisted[13];
+        let v31 = self.hoisted[14] * v27;
+        let v32 = v28 + v30;
+        let v33 = v32 + v31;
+        let v34 = phi_q_guide_theta2 * v33;
+        let v35 = v26 - v34;
+        let v36 = phi_q_guide_theta1 * v35;
+        let v37 = phi_q_guide_theta1 * v33;
+        let v38 = sin_theta1 * sin_theta1;
+        let v39 = v38 * self.hoisted[16];
+        let v40 = self.hoisted[15] + v39;
+        let v41 = phi_q_guide_theta2 * v40;
+        let v42 = v37 - v41;
+        let v43 = phi_q_guide_theta2 * v42;
+        let v44 = v36 - v43;
+        let v45 = phi_q_guide_theta1 * v0;
+        let v46 = cos_theta2 * self.hoisted[1];
+        let v47 = v15 * v46;
+        let v48 = feedback.rod_x - v45;
+        let v49 = v48 - v47;
+        let v50 = v49 * self.parameters.m2;
+        let v51 = sin_theta2 * self.hoisted[1];
+        let v52 = v50 * v51;
+        let v53 = v15 * v51;
+        let v54 = v14 - feedback.rod_y;
+        let v55 = v54 + v53;
+        let v56 = self.parameters.m2 * v55;
+        let v57 = self.hoisted[5] - v56;
+        let v58 = v57 * v46;
+        let v59 = phi_q_guide_theta2 * v15;
+        let v60 = v45 - feedback.slider;
+        let v61 = v60 + v59;
+        let v62 = v61 * self.parameters.m3;
+        let v63 = v62 * v17;
+        let v64 = v52 - v58;
+        let v65 = v64 - v63;
+        let v66 = phi_q_guide_theta1 * v65;
+        let v67 = v4 * self.parameters.m1;
+        let v68 = self.hoisted[0] * sin_theta1;
+        let v69 = v67 * v68;
+        let v70 = v0 * v68;
+        let v71 = feedback.crank_y - v70;
+        let v72 = self.parameters.m1 * v71;
+        let v73 = self.hoisted[4] + v72;
+        let v74 = v73 * v2;
+        let v75 = v50 * v13;
+        let v76 = phi_q_guide_theta1 * v57;
+        let v77 = v62 * v13;
+        let v78 = inputs.crank_torque + v69;
+        let v79 = v78 - v74;
+        let v80 = v79 + v75;
+        let v81 = v80 - v76;
+        let v82 = v81 - v77;
+        let v83 = phi_q_guide_theta2 * v82;
+        let v84 = v66 - v83;
+        let v85 = phi_q_guide_theta1 * v42;
+        let v86 = phi_q_guide_theta2 * v35;
+        let v87 = v85 + v86;
+        let v88 = v21 * v87;
+        let v89 = v84 - v88;
+        let v90 = v89 / v44;
+        let v91 = phi_q_guide_theta2 * v90;
+        let acc_theta1 = v22 - v91;
+        let v93 = acc_theta1 * v68;
+        let acc_x1 = v4 - v93;
+        let v95 = acc_theta1 * v2;
+        let acc_y1 = v71 + v95;
+        let v97 = acc_theta1 * v13;
+        let v98 = phi_q_guide_theta1 * v90;
+        let v99 = phi_q_guide_theta2 * v21;
+        let acc_theta2 = v98 + v99;
+        let v101 = acc_theta2 * v51;
+        let v102 = v97 + v101;
+        let acc_x2 = v49 - v102;
+        let v104 = phi_q_guide_theta1 * acc_theta1;
+        let v105 = acc_theta2 * v46;
+        let v106 = v104 + v105;
+        let v107 = v55 - v106;
+        let acc_y2 = -v107;
+        let v109 = acc_theta2 * v17;
+        let v110 = v97 + v109;
+        let v111 = v61 + v110;
+        let acc_x3 = -v111;
+        let v113 = self.parameters.m1 * v93;
+        let v114 = v67 - v113;
+        let lambda_crank_x = -v114;
+        let v116 = self.parameters.m1 * v95;
+        let v117 = v73 + v116;
+        let lambda_crank_y = -v117;
+        let v119 = self.parameters.m2 * v102;
+        let v120 = v50 - v119;
+        let lambda_rod_x = -v120;
+        let v122 = self.parameters.m2 * v106;
+        let v123 = v57 + v122;
+        let lambda_rod_y = -v123;
+        let v125 = v40 * acc_theta1;
+        let v126 = v33 * acc_theta2;
+        let v127 = v125 + v126;
+        let v128 = v82 - v127;
+        let v129 = phi_q_guide_theta1 * v128;
+        let v130 = v33 * acc_theta1;
+        let v131 = v25 * acc_theta2;
+        let v132 = v130 + v131;
+        let v133 = v65 - v132;
+        let v134 = phi_q_guide_theta2 * v133;
+        let v135 = v129 + v134;
+        let lambda_guide = v11 * v135;
+        let v137 = self.parameters.m3 * v110;
+        let lambda_slider = v62 + v137;
+        let v139 = v11 * self.hoisted[17];
+        let abs_v139 = v139.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2240,7 +2228,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: v132,
+            growth: abs_v139,
         }
     }
     fn position_correction(
@@ -2250,7 +2238,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v2 = self.hoisted[19] / cos_theta2;
+        let v2 = self.hoisted[18] / cos_theta2;
         let v3 = v2 * feedback.guide;
         let v4 = sin_theta2 * v3;
         let v5 = self.hoisted[1] * v4;
@@ -2260,7 +2248,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v9 = feedback.rod_y + v8;
         let v10 = self.parameters.l2 * v4;
         let v11 = feedback.slider - v10;
-        let v12 = v2 * self.hoisted[20];
+        let v12 = v2 * self.hoisted[19];
         let abs_v12 = v12.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
@@ -2282,7 +2270,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v2 = self.hoisted[19] / cos_theta2;
+        let v2 = self.hoisted[18] / cos_theta2;
         let v3 = v2 * feedback.guide;
         let v4 = sin_theta2 * v3;
         let v5 = self.hoisted[1] * v4;
@@ -2292,7 +2280,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v9 = feedback.rod_y + v8;
         let v10 = self.parameters.l2 * v4;
         let v11 = feedback.slider - v10;
-        let v12 = v2 * self.hoisted[20];
+        let v12 = v2 * self.hoisted[19];
         let abs_v12 = v12.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
@@ -2312,43 +2300,16 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         t: T,
         q: &SliderCrankFreeCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
-        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let v1 = sin_theta1 * sin_theta1;
-        let v2 = v1 * self.hoisted[12];
-        let v3 = self.hoisted[11] + v2;
-        let v4 = T::from_f64(1.0) / v3;
-        let v5 = v4 * self.hoisted[21];
-        let abs_v5 = v5.abs();
-        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v8 = sin_theta2 * sin_theta2;
-        let v9 = v8 * self.hoisted[16];
-        let v10 = sin_theta1 * sin_theta2;
-        let v11 = self.hoisted[13] * v10;
-        let v14 = cos_theta1 * cos_theta2;
-        let v15 = v14 * self.hoisted[13];
-        let v16 = self.hoisted[14] * v10;
-        let v17 = v11 + v15;
-        let v18 = v17 + v16;
-        let v19 = v4 * v18;
-        let v20 = v18 * v19;
-        let v21 = self.hoisted[15] + v9;
-        let v22 = v21 - v20;
-        let v23 = T::from_f64(1.0) / v22;
-        let v24 = v23 * self.hoisted[17];
-        let abs_v24 = v24.abs();
+        let cos_theta1 = q.theta1.cos();
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v27 = v4 * phi_q_guide_theta1;
-        let v28 = phi_q_guide_theta1 * v27;
-        let v29 = cos_theta2 * self.parameters.l2;
-        let v30 = v19 * phi_q_guide_theta1;
-        let v31 = v29 - v30;
-        let v32 = v23 * v31;
-        let v33 = v31 * v32;
-        let v34 = v28 + v33;
-        let v35 = self.hoisted[18] / v34;
-        let v36 = -v35;
-        let abs_v36 = v36.abs();
-        ::mbs_runtime::__private::worst(&[abs_v5, abs_v24, abs_v36])
+        let v2 = phi_q_guide_theta1 * phi_q_guide_theta1;
+        let cos_theta2 = q.theta2.cos();
+        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
+        let v5 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v6 = v2 + v5;
+        let v7 = self.hoisted[17] / v6;
+        let abs_v7 = v7.abs();
+        ::mbs_runtime::__private::worst(&[abs_v7])
     }
     fn worst_start_pivot(
         &self,
@@ -2356,8 +2317,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         q: &SliderCrankFreeCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let cos_theta2 = q.theta2.cos();
-        let v1 = self.hoisted[19] / cos_theta2;
-        let v2 = v1 * self.hoisted[20];
+        let v1 = self.hoisted[18] / cos_theta2;
+        let v2 = v1 * self.hoisted[19];
         let abs_v2 = v2.abs();
         ::mbs_runtime::__private::worst(&[abs_v2])
     }

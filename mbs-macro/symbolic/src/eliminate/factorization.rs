@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
+use super::steps::Step;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 use crate::operators::Function;
@@ -11,25 +12,6 @@ use crate::operators::Function;
 /// Matrix entries with more terms than this are computed once instead of
 /// being opened in the sums that use them.
 const LONGEST_OPEN_SUM: usize = 12;
-
-/// One elimination step: what the right-hand side has to go through.
-enum Step {
-    /// u_c = g − Σ wⱼ uⱼ and u_r = (f − Σ kⱼ uⱼ)/p …, see `eliminate_pair`.
-    Pair {
-        row: Unknown,
-        coordinate: Unknown,
-        /// 1/p
-        inverse: Expr,
-        /// K_cc
-        mass: Expr,
-        /// wⱼ = K_rj/p
-        weights: BTreeMap<Unknown, Expr>,
-        /// kⱼ = K_cj
-        couplings: BTreeMap<Unknown, Expr>,
-    },
-    /// u = b/d − Σ lⱼ uⱼ
-    Diagonal { unknown: Unknown, inverse: Expr, multipliers: BTreeMap<Unknown, Expr> },
-}
 
 /// A pivot that may vanish, with its growth: the size of what it was made of
 /// over its own size.
@@ -63,7 +45,7 @@ pub(super) struct Work<'a> {
     /// when the first diagonal pivot is taken.
     scales: Option<BTreeMap<Unknown, Expr>>,
     is_open: bool,
-    steps: Vec<Step>,
+    pub(super) steps: Vec<Step>,
     pivots: Vec<WatchedPivot>,
 }
 
@@ -92,6 +74,7 @@ impl<'a> Work<'a> {
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
             Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),
+            Pivot::Loop { row, coordinates } => self.eliminate_loop(row, coordinates),
         }
     }
 
@@ -192,7 +175,7 @@ impl<'a> Work<'a> {
     }
 
     /// 1/p, computed once.
-    fn inverse(&mut self, pivot: Expr) -> Expr {
+    pub(super) fn inverse(&mut self, pivot: Expr) -> Expr {
         let inverse = self.arena.powi(pivot, -1);
         self.arena.share(inverse)
     }
@@ -251,7 +234,7 @@ impl<'a> Work<'a> {
         scales
     }
 
-    fn row_scale(&mut self, row: Unknown) -> Option<Expr> {
+    pub(super) fn row_scale(&mut self, row: Unknown) -> Option<Expr> {
         let mut terms = Vec::new();
         for (coordinate, entry) in self.matrix.neighbours(row).collect::<Vec<_>>() {
             let mass = self.matrix.get(coordinate, coordinate)?;
@@ -278,7 +261,7 @@ impl<'a> Work<'a> {
         self.watch(row, coordinate, size, inverse, can_cancel);
     }
 
-    fn watch(
+    pub(super) fn watch(
         &mut self,
         row: Option<Unknown>,
         coordinate: Option<Unknown>,
@@ -314,86 +297,4 @@ impl Factorization {
             self.pivots.iter().filter(|p| p.can_cancel).map(|p| (p.growth, Number::ONE)).collect();
         arena.sum(&terms)
     }
-}
-
-impl Step {
-    /// Carries the right-hand side `b` through this step and gives what the
-    /// way back needs: (g, f) of a pair, (b/d, 0) of a diagonal pivot.
-    fn forward(&self, arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>) -> (Expr, Expr) {
-        let zero = arena.zero();
-        match self {
-            Self::Pair { row, coordinate, inverse, mass, weights, couplings } => {
-                let of_row = b.remove(row).unwrap_or(zero);
-                let g = arena.mul(of_row, *inverse);
-                let g = arena.share(g);
-                let of_coordinate = b.remove(coordinate).unwrap_or(zero);
-                let inertia = arena.mul(*mass, g);
-                let f = arena.sub(of_coordinate, inertia);
-                let f = arena.share(f);
-                for (other, factor, value) in
-                    weights.iter().map(|(u, w)| (u, w, f)).chain(couplings.iter().map(|(u, k)| (u, k, g)))
-                {
-                    subtract_product(arena, b, *other, *factor, value);
-                }
-                (g, f)
-            }
-            Self::Diagonal { unknown, inverse, multipliers } => {
-                let own = b.remove(unknown).unwrap_or(zero);
-                let own = arena.share(own);
-                for (other, multiplier) in multipliers {
-                    subtract_product(arena, b, *other, *multiplier, own);
-                }
-                (arena.mul(own, *inverse), zero)
-            }
-        }
-    }
-
-    fn backward(&self, arena: &mut Arena, half: (Expr, Expr), solution: &mut BTreeMap<Unknown, Expr>) {
-        match self {
-            Self::Pair { row, coordinate, inverse, mass, weights, couplings } => {
-                let (g, f) = half;
-                let correction = inner_product(arena, weights, solution);
-                let u = arena.sub(g, correction);
-                let u = arena.share(u);
-                // f holds b_c − K_cc g, and u_c differs from g by the correction
-                let others = inner_product(arena, couplings, solution);
-                let inertia = arena.mul(*mass, correction);
-                let balance =
-                    arena.sum(&[(f, Number::ONE), (inertia, Number::ONE), (others, Number::MINUS_ONE)]);
-                let multiplier = arena.mul(balance, *inverse);
-                let multiplier = arena.share(multiplier);
-                solution.insert(*coordinate, u);
-                solution.insert(*row, multiplier);
-            }
-            Self::Diagonal { unknown, multipliers, .. } => {
-                let correction = inner_product(arena, multipliers, solution);
-                let u = arena.sub(half.0, correction);
-                let u = arena.share(u);
-                solution.insert(*unknown, u);
-            }
-        }
-    }
-}
-
-fn subtract_product(arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>, at: Unknown, x: Expr, y: Expr) {
-    let product = arena.mul(x, y);
-    let entry = b.get(&at).copied().unwrap_or(arena.zero());
-    let entry = arena.sub(entry, product);
-    b.insert(at, entry);
-}
-
-/// Σ factor·solution, computed once.
-fn inner_product(
-    arena: &mut Arena,
-    factors: &BTreeMap<Unknown, Expr>,
-    solution: &BTreeMap<Unknown, Expr>,
-) -> Expr {
-    let mut terms = Vec::new();
-    for (unknown, &factor) in factors {
-        if let Some(&value) = solution.get(unknown) {
-            terms.push((arena.mul(factor, value), Number::ONE));
-        }
-    }
-    let sum = arena.sum(&terms);
-    arena.share(sum)
 }

@@ -9,6 +9,8 @@
 //! * a *diagonal* entry: a mass (positive), or, once every coordinate that a
 //!   row touches is gone, that row's entry of the Schur complement (negative
 //!   while the constraints are independent).
+//! * a row with its last two coordinates at once (`single_loop`): the one degree
+//!   of freedom that a closed loop leaves.
 //!
 //! [`factor`] fixes the order and the multipliers for the matrix;
 //! [`Factorization::solve`] then gives the solution for any right-hand side,
@@ -18,6 +20,8 @@ mod factorization;
 mod matrix;
 mod order;
 mod signs;
+mod single_loop;
+mod steps;
 
 pub use factorization::{Factorization, WatchedPivot};
 pub use matrix::{Kkt, Unknown};

@@ -28,6 +28,7 @@ impl Strategy {
 pub(super) enum Pivot {
     Pair { row: Unknown, coordinate: Unknown },
     Diagonal(Unknown),
+    Loop { row: Unknown, coordinates: [Unknown; 2] },
 }
 
 /// Unknowns that no pivot determines: rows that repeat others, or massless
@@ -86,6 +87,10 @@ pub(super) fn choose(
         (!is_urgent, key, first_unknown(*pivot))
     });
     let massless_left = matrix.unknowns().any(|u| is_massless(arena, matrix, u));
+    let is_pair = best.as_ref().is_some_and(|candidate| candidate.class <= Class::LastPair);
+    if let (false, Some(pivot)) = (is_pair, single_loop(matrix)) {
+        return Ok(Some(pivot));
+    }
     match best {
         Some(candidate) if candidate.class <= Class::LastPair || !massless_left => Ok(Some(candidate.pivot)),
         best => {
@@ -108,7 +113,22 @@ fn first_unknown(pivot: Pivot) -> Unknown {
     match pivot {
         Pivot::Pair { coordinate, .. } => coordinate,
         Pivot::Diagonal(unknown) => unknown,
+        Pivot::Loop { row, .. } => row,
     }
+}
+
+/// All that is left, if that is two coordinates, their masses coupled, and one
+/// row over both. (Without the coupling, masses are the cheaper pivots.)
+fn single_loop(matrix: &Kkt) -> Option<Pivot> {
+    let left: Vec<_> = matrix.unknowns().take(4).collect();
+    let [first @ Unknown::Coordinate(_), second @ Unknown::Coordinate(_), row @ Unknown::Row(_)] = left[..]
+    else {
+        return None;
+    };
+    let is_set = |a, b| matrix.get(a, b).is_some();
+    let has_masses = is_set(first, first) && is_set(second, second) && is_set(first, second);
+    let fits = has_masses && is_set(row, first) && is_set(row, second);
+    (fits && !is_set(row, row)).then_some(Pivot::Loop { row, coordinates: [first, second] })
 }
 
 fn candidates(arena: &Arena, matrix: &Kkt) -> Vec<Candidate> {
