@@ -60,7 +60,7 @@ fn cart_npendulum_sympy() -> Result<(), Error> {
     for (t, reference) in SAMPLES {
         simulation.advance_to(t)?;
         let q = simulation.state().q;
-        case.all_near(names, t, [q.x0, q.q1, q.q2], reference, [1e-6; 3]);
+        case.all_near(names, t, [q.x0, q.q1, q.q2], reference, [2e-8; 3]);
     }
     case.finish();
     Ok(())

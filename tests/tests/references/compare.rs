@@ -20,7 +20,8 @@ impl Case {
     pub fn near(&mut self, what: impl std::fmt::Display, ours: f64, reference: f64, tolerance: f64) {
         self.compared += 1;
         let deviation = (ours - reference).abs();
-        let message = format!("{what}: {ours} against {reference}, off by {deviation:.1e} of {tolerance:.0e}");
+        let message =
+            format!("{what}: {ours} against {reference}, off by {deviation:.1e} of {tolerance:.0e}");
         // Written so that a NaN fails.
         let is_near = deviation <= tolerance;
         if deviation / tolerance >= self.worst.0 {

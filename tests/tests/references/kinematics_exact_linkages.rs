@@ -187,8 +187,8 @@ fn slotted_lever() -> Result<(), Error> {
     let (first, low) = turn(-1.0, 0.0)?;
     let (second, high) = turn(3.0, 4.0)?;
     let forward = second - first;
-    case.near("swing", (high - low).to_degrees(), 49.24863670432815, 1e-10);
-    case.near("time ratio", forward / (std::f64::consts::TAU - forward), 1.75331737219383, 1e-10);
+    case.near("swing", (high - low).to_degrees(), 49.24863670432815, 1e-12);
+    case.near("time ratio", forward / (std::f64::consts::TAU - forward), 1.75331737219383, 1e-12);
     case.finish();
     Ok(())
 }

@@ -69,19 +69,19 @@ fn pendulum_period_table() -> Result<(), Error> {
         let mut start = Point::<f64>::declared().declared_start();
         start.q.theta = degrees.to_radians();
         let ours = period(Point::declared(), start, |q| q.theta)?;
-        case.near(format_args!("point, {degrees} degrees"), ours, point, 1e-6);
+        case.near(format_args!("point, {degrees} degrees"), ours, point, 3e-7);
 
         let mut start = Rod::<f64>::declared().declared_start();
         start.q.theta = degrees.to_radians();
         let ours = period(Rod::declared(), start, |q| q.theta)?;
-        case.near(format_args!("rod, {degrees} degrees"), ours, rod, 1e-6);
+        case.near(format_args!("rod, {degrees} degrees"), ours, rod, 3e-7);
     }
 
     let mut start = Point::<f64>::declared().declared_start();
     start.v.theta = 8.0;
     let mut turning = Simulation::builder(Point::declared(), STEP).from_state(start).build()?;
     let turned = advance_to_zero(&mut turning, |s| s.state().q.theta - std::f64::consts::TAU)?;
-    case.near("revolution", turned.time(), REVOLUTION, 1e-6);
+    case.near("revolution", turned.time(), REVOLUTION, 3e-7);
     case.finish();
     Ok(())
 }

@@ -51,7 +51,7 @@ fn slider_crank_sundials() -> Result<(), Error> {
     for (t, reference) in SAMPLES {
         simulation.advance_to(t)?;
         let (q, v) = (simulation.state().q, simulation.state().v);
-        case.all_near(["q", "x", "p", "q rate"], t, [q.q, q.x, q.p, v.q], reference, [1e-7; 4]);
+        case.all_near(["q", "x", "p", "q rate"], t, [q.q, q.x, q.p, v.q], reference, [2e-8; 4]);
     }
     case.finish();
     Ok(())
