@@ -117,6 +117,7 @@ pub struct SliderCrankFreeParameters<T = ::core::primitive::f64> {
     pub omega: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeParameters<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             l1: T::from_f64(0.06),
@@ -197,6 +198,7 @@ pub struct SliderCrankFreeInputs<T = ::core::primitive::f64> {
     pub crank_torque: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeInputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_torque: T::from_f64(0.0),
@@ -257,6 +259,7 @@ pub struct SliderCrankFreeCoordinates<T = ::core::primitive::f64> {
     pub x3: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeCoordinates<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x1: T::from_f64(0.0),
@@ -358,6 +361,7 @@ pub struct SliderCrankFreeConstraints<T = ::core::primitive::f64> {
     pub slider: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeConstraints<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_x: T::from_f64(0.0),
@@ -439,6 +443,7 @@ pub struct SliderCrankFreeOutputs<T = ::core::primitive::f64> {
     pub motor_power: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeOutputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_speed: T::from_f64(0.0),

@@ -158,6 +158,7 @@ fn components(
         }
 
         impl<T: #runtime::Real> ::core::default::Default for #name<T> {
+            #[allow(clippy::approx_constant)]
             fn default() -> Self {
                 Self { #(#idents: #defaults,)* #marker_value }
             }
