@@ -137,6 +137,9 @@ impl<F: Feedback> Baumgarte<F> {
 
     /// The gains as the generated code takes them.
     pub(crate) fn gains<T: Real>(&self) -> Gains<T> {
-        Gains { two_alpha: T::from_f64(2.0 * self.alpha), beta_squared: T::from_f64(self.beta * self.beta) }
+        Gains {
+            minus_two_alpha: T::from_f64(-2.0 * self.alpha),
+            minus_beta_squared: T::from_f64(-self.beta * self.beta),
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Kinematic analysis: the motion from the constraints alone.
 
 use crate::heun::{Solution, check_solution};
-use crate::{Components, Error, Gains, Mechanism, State, start};
+use crate::{Baumgarte, Components, Error, Held, Mechanism, State, start};
 
 /// Position, velocity and acceleration at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl<M: Mechanism> Kinematics<M> {
     pub fn at(&mut self, t: M::Real) -> Result<Motion<M::Coordinates>, Error> {
         let still = M::Coordinates::splat(M::Real::default());
         let state = start::consistent(&self.mechanism, &State { t, q: self.guess, v: still })?;
-        let none = Gains { two_alpha: M::Real::default(), beta_squared: M::Real::default() };
+        let none = Baumgarte::<Held>::NONE.gains();
         let solved = self.mechanism.stabilized(&state, &M::Inputs::default(), &none);
         let q = &state.q;
         let solution =

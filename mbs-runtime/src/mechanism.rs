@@ -13,13 +13,14 @@ pub struct State<C: Components> {
     pub v: C,
 }
 
-/// The gains of the feedback, in the form in which Eq. (8) uses them.
+/// The gains of the feedback in the form in which Eq. (8) uses them, signs
+/// included: that spares the generated code a negation per constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
-    /// 2α in 1/s.
-    pub two_alpha: T,
-    /// β² in 1/s².
-    pub beta_squared: T,
+    /// −2α in 1/s.
+    pub minus_two_alpha: T,
+    /// −β² in 1/s².
+    pub minus_beta_squared: T,
 }
 
 /// The solution of the constrained system with feedback from the state itself.

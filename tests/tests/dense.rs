@@ -57,7 +57,7 @@ fn compare_driven(inertia_factor: f64, t: f64, q: &Coordinates, v: &Coordinates)
         v: SliderCrankCoordinates::from_array(v.data.0[0]),
     };
     let none = NoComponents::default();
-    let both = Gains { two_alpha: gains.two_alpha, beta_squared: gains.beta_squared };
+    let both = Gains { minus_two_alpha: -gains.two_alpha, minus_beta_squared: -gains.beta_squared };
     let stabilized = mechanism.stabilized(&at, &none, &both);
     let reactions = mechanism.reactions(&at, &none, &stabilized.feedback);
     let constrained = mechanism.constrained(&at, &none, &stabilized.feedback);
@@ -83,7 +83,7 @@ fn compare_free(inertia_factor: f64, torque: f64, q: &Coordinates, v: &Coordinat
     let coordinates = |x: &Coordinates| SliderCrankFreeCoordinates::from_array(x.data.0[0]);
     let at = State { t: 0.0, q: coordinates(q), v: coordinates(v) };
     let inputs = SliderCrankFreeInputs { crank_torque: torque };
-    let both = Gains { two_alpha: gains.two_alpha, beta_squared: gains.beta_squared };
+    let both = Gains { minus_two_alpha: -gains.two_alpha, minus_beta_squared: -gains.beta_squared };
     let stabilized = mechanism.stabilized(&at, &inputs, &both);
     let reactions = mechanism.reactions(&at, &inputs, &stabilized.feedback);
     let constrained = mechanism.constrained(&at, &inputs, &stabilized.feedback);

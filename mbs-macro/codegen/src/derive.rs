@@ -80,11 +80,11 @@ fn jacobian_row(model: &mut Model, row: Expr) -> BTreeMap<usize, Expr> {
 
 fn feedback(model: &mut Model, phi: Expr, phi_dot: Expr) -> Expr {
     let (phi, phi_dot) = (model.arena.share(phi), model.arena.share(phi_dot));
-    let two_alpha = model.arena.variable(model.symbols.two_alpha);
-    let beta_squared = model.arena.variable(model.symbols.beta_squared);
-    let damping = model.arena.mul(two_alpha, phi_dot);
-    let stiffness = model.arena.mul(beta_squared, phi);
-    model.arena.sum(&[(damping, Number::MINUS_ONE), (stiffness, Number::MINUS_ONE)])
+    let minus_two_alpha = model.arena.variable(model.symbols.minus_two_alpha);
+    let minus_beta_squared = model.arena.variable(model.symbols.minus_beta_squared);
+    let damping = model.arena.mul(minus_two_alpha, phi_dot);
+    let stiffness = model.arena.mul(minus_beta_squared, phi);
+    model.arena.add(damping, stiffness)
 }
 
 fn mass(model: &Model) -> Vec<Expr> {

@@ -14,17 +14,17 @@ Elimination order: constraints first, then what motion they leave free (null spa
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
 | `new` | 6 | 2 | 2 | 0 | 1 | 0 |
-| `phi` | 3 | 3 | 0 | 0 | 0 | 0 |
+| `phi` | 3 | 2 | 0 | 0 | 0 | 0 |
 | `phi_dot` | 5 | 1 | 0 | 0 | 0 | 0 |
 | `phi_q` | 2 | 0 | 0 | 0 | 0 | 0 |
 | `phi_t` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `gamma` | 5 | 2 | 0 | 0 | 0 | 0 |
-| `baumgarte_rhs` | 13 | 7 | 0 | 0 | 0 | 0 |
+| `baumgarte_rhs` | 13 | 6 | 0 | 0 | 0 | 0 |
 | `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `forces` | 0 | 1 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 4 | 1 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 0 |
-| `stabilized` | 22 | 12 | 1 | 0 | 0 | 0 |
+| `stabilized` | 22 | 9 | 1 | 0 | 0 | 0 |
 | `constrained` | 14 | 5 | 1 | 0 | 0 | 0 |
 | `reactions` | 14 | 6 | 1 | 0 | 0 | 0 |
 | `position_correction` | 1 | 0 | 1 | 0 | 0 | 0 |
@@ -79,7 +79,6 @@ pub struct PendulumParameters<T = ::core::primitive::f64> {
     pub mass: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumParameters<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             length: T::from_f64(1.0),
@@ -134,7 +133,6 @@ pub struct PendulumCoordinates<T = ::core::primitive::f64> {
     pub y: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumCoordinates<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x: T::from_f64(0.0),
@@ -186,7 +184,6 @@ pub struct PendulumConstraints<T = ::core::primitive::f64> {
     pub rod: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumConstraints<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self { rod: T::from_f64(0.0) }
     }
@@ -239,7 +236,6 @@ pub struct PendulumOutputs<T = ::core::primitive::f64> {
     pub angle: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumOutputs<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             tension: T::from_f64(0.0),
@@ -360,15 +356,14 @@ rod: 1/2*(x^2 + y^2)/length - 1/2*length
 ```
 
 
-Cost: 3 mul + 3 add + 0 div + 0 sincos.*/
+Cost: 3 mul + 2 add + 0 div + 0 sincos.*/
     #[inline]
     pub fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
         let v0 = q.x * q.x;
         let v1 = q.y * q.y;
         let v2 = v0 + v1;
         let v3 = v2 * self.hoisted[1];
-        let v4 = self.hoisted[0] - v3;
-        let phi_rod = -v4;
+        let phi_rod = v3 - self.hoisted[0];
         PendulumConstraints {
             rod: phi_rod,
         }
@@ -453,7 +448,7 @@ Cost: 5 mul + 2 add + 0 div + 0 sincos.*/
     }
     /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
 
-Cost: 13 mul + 7 add + 0 div + 0 sincos.*/
+Cost: 13 mul + 6 add + 0 div + 0 sincos.*/
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -462,8 +457,8 @@ Cost: 13 mul + 7 add + 0 div + 0 sincos.*/
         beta: T,
     ) -> PendulumConstraints<T> {
         let gains = ::mbs_runtime::Gains {
-            two_alpha: alpha + alpha,
-            beta_squared: beta * beta,
+            minus_two_alpha: -(alpha + alpha),
+            minus_beta_squared: -(beta * beta),
         };
         let v0 = at.v.x * T::from_f64(2.0);
         let v1 = at.v.x * v0;
@@ -471,21 +466,20 @@ Cost: 13 mul + 7 add + 0 div + 0 sincos.*/
         let v3 = at.v.y * v2;
         let v4 = v1 + v3;
         let v5 = v4 * self.hoisted[1];
-        let v6 = at.q.x * v0;
-        let v7 = at.q.y * v2;
+        let v6 = at.q.x * at.q.x;
+        let v7 = at.q.y * at.q.y;
         let v8 = v6 + v7;
-        let phi_dot_rod = v8 * self.hoisted[1];
-        let v10 = phi_dot_rod * gains.two_alpha;
-        let v11 = at.q.x * at.q.x;
-        let v12 = at.q.y * at.q.y;
-        let v13 = v11 + v12;
-        let v14 = self.hoisted[1] * v13;
-        let v15 = self.hoisted[0] - v14;
-        let v16 = v15 * gains.beta_squared;
-        let v17 = v5 + v10;
-        let v18 = v17 - v16;
-        let v19 = -v18;
-        PendulumConstraints { rod: v19 }
+        let v9 = self.hoisted[1] * v8;
+        let phi_rod = v9 - self.hoisted[0];
+        let v11 = phi_rod * gains.minus_beta_squared;
+        let v12 = at.q.x * v0;
+        let v13 = at.q.y * v2;
+        let v14 = v12 + v13;
+        let phi_dot_rod = v14 * self.hoisted[1];
+        let v16 = phi_dot_rod * gains.minus_two_alpha;
+        let v17 = v11 - v5;
+        let v18 = v17 + v16;
+        PendulumConstraints { rod: v18 }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
 
@@ -720,7 +714,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 name: "phi",
                 operations: ::mbs_runtime::Operations {
                     mul: 3u32,
-                    add: 3u32,
+                    add: 2u32,
                     div: 0u32,
                     sin_cos: 0u32,
                     other: 0u32,
@@ -775,7 +769,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 name: "baumgarte_rhs",
                 operations: ::mbs_runtime::Operations {
                     mul: 13u32,
-                    add: 7u32,
+                    add: 6u32,
                     div: 0u32,
                     sin_cos: 0u32,
                     other: 0u32,
@@ -830,7 +824,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
                     mul: 22u32,
-                    add: 12u32,
+                    add: 9u32,
                     div: 1u32,
                     sin_cos: 0u32,
                     other: 0u32,
@@ -940,40 +934,39 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
         let v6 = v2 + v5;
-        let v7 = at.v.x * T::from_f64(2.0);
-        let v8 = at.q.x * v7;
-        let v9 = at.v.y * T::from_f64(2.0);
-        let v10 = at.q.y * v9;
-        let v11 = v8 + v10;
-        let phi_dot_rod = v11 * self.hoisted[1];
-        let v13 = phi_dot_rod * gains.two_alpha;
-        let v14 = at.q.x * at.q.x;
-        let v15 = at.q.y * at.q.y;
-        let v16 = v14 + v15;
-        let v17 = self.hoisted[1] * v16;
-        let v18 = self.hoisted[0] - v17;
-        let v19 = v18 * gains.beta_squared;
-        let v20 = v13 - v19;
-        let v21 = at.v.x * v7;
-        let v22 = at.v.y * v9;
+        let v7 = at.q.x * at.q.x;
+        let v8 = at.q.y * at.q.y;
+        let v9 = v7 + v8;
+        let v10 = self.hoisted[1] * v9;
+        let phi_rod = v10 - self.hoisted[0];
+        let v12 = phi_rod * gains.minus_beta_squared;
+        let v13 = at.v.x * T::from_f64(2.0);
+        let v14 = at.q.x * v13;
+        let v15 = at.v.y * T::from_f64(2.0);
+        let v16 = at.q.y * v15;
+        let v17 = v14 + v16;
+        let phi_dot_rod = v17 * self.hoisted[1];
+        let v19 = phi_dot_rod * gains.minus_two_alpha;
+        let feedback_rod = v12 + v19;
+        let v21 = at.v.x * v13;
+        let v22 = at.v.y * v15;
         let v23 = v21 + v22;
         let v24 = v23 * self.hoisted[1];
         let v25 = v4 * self.hoisted[6];
-        let v26 = v20 + v24;
-        let v27 = v26 + v25;
+        let v26 = feedback_rod - v24;
+        let v27 = v26 - v25;
         let v28 = v27 / v6;
-        let v29 = v1 * v28;
-        let acc_x = -v29;
-        let v31 = v4 * v28;
-        let v32 = v31 - self.hoisted[7];
-        let acc_y = -v32;
-        let v34 = -v20;
+        let acc_x = v1 * v28;
+        let v30 = v4 * v28;
+        let acc_y = v30 + self.hoisted[7];
         ::mbs_runtime::Stabilized {
             acceleration: PendulumCoordinates {
                 x: acc_x,
                 y: acc_y,
             },
-            feedback: PendulumConstraints { rod: v34 },
+            feedback: PendulumConstraints {
+                rod: feedback_rod,
+            },
             growth: T::from_f64(0.0),
         }
     }

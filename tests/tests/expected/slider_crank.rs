@@ -20,21 +20,21 @@ Elimination order: constraints first, then what motion they leave free (null spa
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
 | `new` | 17 | 1 | 1 | 0 | 1 | 0 |
-| `phi` | 9 | 11 | 0 | 2 | 0 | 0 |
+| `phi` | 9 | 10 | 0 | 2 | 0 | 0 |
 | `phi_dot` | 12 | 10 | 0 | 2 | 0 | 0 |
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
 | `phi_t` | 0 | 1 | 0 | 0 | 0 | 0 |
 | `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
-| `baumgarte_rhs` | 47 | 43 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 47 | 37 | 0 | 2 | 0 | 0 |
 | `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 55 | 56 | 1 | 2 | 0 | 2 |
-| `constrained` | 26 | 19 | 1 | 2 | 0 | 2 |
-| `reactions` | 48 | 39 | 1 | 2 | 0 | 2 |
-| `position_correction` | 12 | 10 | 1 | 2 | 0 | 2 |
-| `velocity_correction` | 12 | 10 | 1 | 2 | 0 | 2 |
+| `stabilized` | 55 | 44 | 1 | 2 | 0 | 2 |
+| `constrained` | 26 | 17 | 1 | 2 | 0 | 2 |
+| `reactions` | 48 | 36 | 1 | 2 | 0 | 2 |
+| `position_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
+| `velocity_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
 | `outputs` | 0 | 1 | 0 | 0 | 0 | 0 |
 */
 #[derive(
@@ -113,7 +113,6 @@ out with 1/3.
     pub omega: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankParameters<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             l1: T::from_f64(0.06),
@@ -204,7 +203,6 @@ pub struct SliderCrankCoordinates<T = ::core::primitive::f64> {
     pub x3: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankCoordinates<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x1: T::from_f64(0.0),
@@ -309,7 +307,6 @@ pub struct SliderCrankConstraints<T = ::core::primitive::f64> {
     pub slider: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankConstraints<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_x: T::from_f64(0.0),
@@ -398,7 +395,6 @@ pub struct SliderCrankOutputs<T = ::core::primitive::f64> {
     pub drive_torque: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankOutputs<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             drive_torque: T::from_f64(0.0),
@@ -577,7 +573,7 @@ slider: x3 - l1*cos(theta1) - l2*cos(theta2)
 ```
 
 
-Cost: 9 mul + 11 add + 0 div + 2 sincos.*/
+Cost: 9 mul + 10 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
@@ -599,9 +595,8 @@ Cost: 9 mul + 11 add + 0 div + 2 sincos.*/
         let v18 = sin_theta2 * self.parameters.l2;
         let phi_guide = v13 + v18;
         let v20 = cos_theta2 * self.parameters.l2;
-        let v21 = v8 - q.x3;
-        let v22 = v21 + v20;
-        let phi_slider = -v22;
+        let v21 = q.x3 - v8;
+        let phi_slider = v21 - v20;
         SliderCrankConstraints {
             crank_x: phi_crank_x,
             crank_y: phi_crank_y,
@@ -849,7 +844,7 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
     }
     /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
 
-Cost: 47 mul + 43 add + 0 div + 2 sincos.*/
+Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -858,109 +853,103 @@ Cost: 47 mul + 43 add + 0 div + 2 sincos.*/
         beta: T,
     ) -> SliderCrankConstraints<T> {
         let gains = ::mbs_runtime::Gains {
-            two_alpha: alpha + alpha,
-            beta_squared: beta * beta,
+            minus_two_alpha: -(alpha + alpha),
+            minus_beta_squared: -(beta * beta),
         };
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let v1 = cos_theta1 * at.v.theta1;
         let v2 = at.v.theta1 * self.hoisted[0];
         let v3 = v1 * v2;
-        let v5 = at.v.theta1 * sin_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let phi_dot_crank_x = at.v.x1 + v6;
-        let v8 = phi_dot_crank_x * gains.two_alpha;
-        let v9 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v9;
-        let v11 = phi_crank_x * gains.beta_squared;
-        let v12 = v3 + v8;
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v4;
+        let v6 = phi_crank_x * gains.minus_beta_squared;
+        let v8 = at.v.theta1 * sin_theta1;
+        let v9 = self.hoisted[0] * v8;
+        let phi_dot_crank_x = at.v.x1 + v9;
+        let v11 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v12 = v6 - v3;
         let v13 = v12 + v11;
-        let v14 = -v13;
-        let v15 = v5 * v2;
-        let v16 = self.hoisted[0] * v1;
-        let phi_dot_crank_y = at.v.y1 - v16;
-        let v18 = gains.two_alpha * phi_dot_crank_y;
-        let v19 = sin_theta1 * self.hoisted[0];
-        let phi_crank_y = at.q.y1 - v19;
-        let v21 = gains.beta_squared * phi_crank_y;
-        let v22 = v15 + v18;
-        let v23 = v22 + v21;
-        let v24 = -v23;
+        let v14 = v8 * v2;
+        let v15 = self.hoisted[0] * v1;
+        let phi_dot_crank_y = at.v.y1 - v15;
+        let v17 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v18 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v18;
+        let v20 = gains.minus_beta_squared * phi_crank_y;
+        let v21 = v17 - v14;
+        let v22 = v21 + v20;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v26 = gains.two_alpha * phi_dot_crank_speed;
-        let v27 = self.parameters.omega * at.t;
-        let phi_crank_speed = at.q.theta1 - v27;
-        let v29 = gains.beta_squared * phi_crank_speed;
-        let v30 = v26 + v29;
-        let feedback_crank_speed = -v30;
-        let v32 = at.v.theta1 * self.parameters.l1;
-        let v33 = v1 * v32;
+        let v24 = gains.minus_two_alpha * phi_dot_crank_speed;
+        let v25 = self.parameters.omega * at.t;
+        let phi_crank_speed = at.q.theta1 - v25;
+        let v27 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v24 + v27;
+        let v29 = at.v.theta1 * self.parameters.l1;
+        let v30 = v1 * v29;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v35 = cos_theta2 * at.v.theta2;
-        let v36 = at.v.theta2 * self.hoisted[1];
-        let v37 = v35 * v36;
-        let v38 = self.parameters.l1 * v5;
-        let v40 = at.v.theta2 * sin_theta2;
-        let v41 = self.hoisted[1] * v40;
-        let v42 = at.v.x2 + v38;
-        let phi_dot_rod_x = v42 + v41;
-        let v44 = gains.two_alpha * phi_dot_rod_x;
-        let v45 = cos_theta1 * self.parameters.l1;
-        let v46 = cos_theta2 * self.hoisted[1];
-        let v47 = at.q.x2 - v45;
-        let phi_rod_x = v47 - v46;
-        let v49 = gains.beta_squared * phi_rod_x;
-        let v50 = v33 + v37;
-        let v51 = v50 + v44;
-        let v52 = v51 + v49;
-        let v53 = -v52;
-        let v54 = v5 * v32;
-        let v55 = v40 * v36;
-        let v56 = self.parameters.l1 * v1;
-        let v57 = self.hoisted[1] * v35;
-        let v58 = at.v.y2 - v56;
-        let phi_dot_rod_y = v58 - v57;
-        let v60 = gains.two_alpha * phi_dot_rod_y;
-        let v61 = sin_theta1 * self.parameters.l1;
-        let v62 = sin_theta2 * self.hoisted[1];
-        let v63 = at.q.y2 - v61;
-        let phi_rod_y = v63 - v62;
-        let v65 = gains.beta_squared * phi_rod_y;
-        let v66 = v54 + v55;
-        let v67 = v66 + v60;
-        let v68 = v67 + v65;
-        let v69 = -v68;
-        let v70 = at.v.theta2 * self.parameters.l2;
-        let v71 = v40 * v70;
-        let v72 = self.parameters.l2 * v35;
-        let phi_dot_guide = v56 + v72;
-        let v74 = gains.two_alpha * phi_dot_guide;
-        let v75 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v61 + v75;
-        let v77 = gains.beta_squared * phi_guide;
-        let v78 = v54 + v71;
-        let v79 = v78 - v74;
-        let v80 = v79 - v77;
-        let v81 = v35 * v70;
-        let v82 = self.parameters.l2 * v40;
-        let v83 = v38 + at.v.x3;
-        let phi_dot_slider = v83 + v82;
-        let v85 = gains.two_alpha * phi_dot_slider;
-        let v86 = cos_theta2 * self.parameters.l2;
-        let v87 = v45 - at.q.x3;
-        let v88 = v87 + v86;
-        let v89 = gains.beta_squared * v88;
-        let v90 = v33 + v81;
-        let v91 = v90 + v85;
-        let v92 = v91 - v89;
-        let v93 = -v92;
+        let v32 = cos_theta2 * at.v.theta2;
+        let v33 = at.v.theta2 * self.hoisted[1];
+        let v34 = v32 * v33;
+        let v35 = self.parameters.l1 * v8;
+        let v37 = at.v.theta2 * sin_theta2;
+        let v38 = self.hoisted[1] * v37;
+        let v39 = at.v.x2 + v35;
+        let phi_dot_rod_x = v39 + v38;
+        let v41 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v42 = cos_theta1 * self.parameters.l1;
+        let v43 = cos_theta2 * self.hoisted[1];
+        let v44 = at.q.x2 - v42;
+        let phi_rod_x = v44 - v43;
+        let v46 = gains.minus_beta_squared * phi_rod_x;
+        let v47 = v41 - v30;
+        let v48 = v47 - v34;
+        let v49 = v48 + v46;
+        let v50 = v8 * v29;
+        let v51 = v37 * v33;
+        let v52 = self.parameters.l1 * v1;
+        let v53 = self.hoisted[1] * v32;
+        let v54 = at.v.y2 - v52;
+        let phi_dot_rod_y = v54 - v53;
+        let v56 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v57 = sin_theta1 * self.parameters.l1;
+        let v58 = sin_theta2 * self.hoisted[1];
+        let v59 = at.q.y2 - v57;
+        let phi_rod_y = v59 - v58;
+        let v61 = gains.minus_beta_squared * phi_rod_y;
+        let v62 = v56 - v50;
+        let v63 = v62 - v51;
+        let v64 = v63 + v61;
+        let v65 = at.v.theta2 * self.parameters.l2;
+        let v66 = v37 * v65;
+        let v67 = self.parameters.l2 * v32;
+        let phi_dot_guide = v52 + v67;
+        let v69 = gains.minus_two_alpha * phi_dot_guide;
+        let v70 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v57 + v70;
+        let v72 = gains.minus_beta_squared * phi_guide;
+        let v73 = v50 + v66;
+        let v74 = v73 + v69;
+        let v75 = v74 + v72;
+        let v76 = v32 * v65;
+        let v77 = self.parameters.l2 * v37;
+        let v78 = v35 + at.v.x3;
+        let phi_dot_slider = v78 + v77;
+        let v80 = gains.minus_two_alpha * phi_dot_slider;
+        let v81 = cos_theta2 * self.parameters.l2;
+        let v82 = at.q.x3 - v42;
+        let phi_slider = v82 - v81;
+        let v84 = gains.minus_beta_squared * phi_slider;
+        let v85 = v80 - v30;
+        let v86 = v85 - v76;
+        let v87 = v86 + v84;
         SliderCrankConstraints {
-            crank_x: v14,
-            crank_y: v24,
+            crank_x: v13,
+            crank_y: v22,
             crank_speed: feedback_crank_speed,
-            rod_x: v53,
-            rod_y: v69,
-            guide: v80,
-            slider: v93,
+            rod_x: v49,
+            rod_y: v64,
+            guide: v75,
+            slider: v87,
         }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
@@ -1086,7 +1075,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 48 mul + 39 add + 1 div + 2 sincos.*/
+Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1444,7 +1433,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "phi",
                 operations: ::mbs_runtime::Operations {
                     mul: 9u32,
-                    add: 11u32,
+                    add: 10u32,
                     div: 0u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1499,7 +1488,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "baumgarte_rhs",
                 operations: ::mbs_runtime::Operations {
                     mul: 47u32,
-                    add: 43u32,
+                    add: 37u32,
                     div: 0u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1554,7 +1543,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
                     mul: 55u32,
-                    add: 56u32,
+                    add: 44u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1565,7 +1554,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "constrained",
                 operations: ::mbs_runtime::Operations {
                     mul: 26u32,
-                    add: 19u32,
+                    add: 17u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1576,7 +1565,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
                     mul: 48u32,
-                    add: 39u32,
+                    add: 36u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1587,7 +1576,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "position_correction",
                 operations: ::mbs_runtime::Operations {
                     mul: 12u32,
-                    add: 10u32,
+                    add: 9u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1598,7 +1587,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "velocity_correction",
                 operations: ::mbs_runtime::Operations {
                     mul: 12u32,
-                    add: 10u32,
+                    add: 9u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1675,141 +1664,129 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         SliderCrankConstraints<T>,
     > {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = at.v.theta1 * sin_theta1;
-        let v2 = self.hoisted[0] * v1;
-        let phi_dot_crank_x = at.v.x1 + v2;
-        let v4 = phi_dot_crank_x * gains.two_alpha;
-        let v6 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v6;
-        let v8 = phi_crank_x * gains.beta_squared;
-        let v9 = v4 + v8;
+        let v1 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v1;
+        let v3 = phi_crank_x * gains.minus_beta_squared;
+        let v5 = at.v.theta1 * sin_theta1;
+        let v6 = self.hoisted[0] * v5;
+        let phi_dot_crank_x = at.v.x1 + v6;
+        let v8 = phi_dot_crank_x * gains.minus_two_alpha;
+        let feedback_crank_x = v3 + v8;
         let v10 = cos_theta1 * at.v.theta1;
         let v11 = at.v.theta1 * self.hoisted[0];
         let v12 = v10 * v11;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v14 = gains.two_alpha * phi_dot_crank_speed;
+        let v14 = gains.minus_two_alpha * phi_dot_crank_speed;
         let v15 = self.parameters.omega * at.t;
         let phi_crank_speed = at.q.theta1 - v15;
-        let v17 = gains.beta_squared * phi_crank_speed;
-        let v18 = v14 + v17;
+        let v17 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v14 + v17;
         let v19 = sin_theta1 * self.hoisted[0];
-        let v20 = v18 * v19;
-        let v21 = v9 + v12;
-        let v22 = v21 - v20;
-        let acc_x1 = -v22;
-        let v24 = self.hoisted[0] * v10;
-        let phi_dot_crank_y = at.v.y1 - v24;
-        let v26 = gains.two_alpha * phi_dot_crank_y;
+        let v20 = feedback_crank_speed * v19;
+        let v21 = feedback_crank_x - v12;
+        let acc_x1 = v21 - v20;
+        let v23 = self.hoisted[0] * v10;
+        let phi_dot_crank_y = at.v.y1 - v23;
+        let v25 = gains.minus_two_alpha * phi_dot_crank_y;
         let phi_crank_y = at.q.y1 - v19;
-        let v28 = gains.beta_squared * phi_crank_y;
-        let v29 = v26 + v28;
-        let v30 = v1 * v11;
-        let v31 = v6 * v18;
-        let v32 = v29 + v30;
-        let v33 = v32 + v31;
-        let acc_y1 = -v33;
-        let acc_theta1 = -v18;
-        let v36 = self.parameters.l1 * v1;
+        let v27 = gains.minus_beta_squared * phi_crank_y;
+        let feedback_crank_y = v25 + v27;
+        let v29 = v1 * feedback_crank_speed;
+        let v30 = v5 * v11;
+        let v31 = feedback_crank_y + v29;
+        let acc_y1 = v31 - v30;
+        let v33 = self.parameters.l1 * v5;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v38 = at.v.theta2 * sin_theta2;
-        let v39 = self.hoisted[1] * v38;
-        let v40 = at.v.x2 + v36;
-        let phi_dot_rod_x = v40 + v39;
-        let v42 = gains.two_alpha * phi_dot_rod_x;
-        let v43 = cos_theta1 * self.parameters.l1;
-        let v45 = cos_theta2 * self.hoisted[1];
-        let v46 = at.q.x2 - v43;
-        let phi_rod_x = v46 - v45;
-        let v48 = gains.beta_squared * phi_rod_x;
-        let v49 = v42 + v48;
-        let v50 = cos_theta2 * at.v.theta2;
-        let v51 = at.v.theta2 * self.hoisted[1];
-        let v52 = v50 * v51;
-        let v53 = at.v.theta1 * self.parameters.l1;
-        let v54 = v10 * v53;
-        let v55 = sin_theta1 * self.parameters.l1;
-        let v56 = v18 * v55;
-        let v57 = v54 - v56;
-        let v58 = v49 + v52;
-        let v59 = v58 + v57;
-        let v60 = self.hoisted[11] / cos_theta2;
-        let v61 = self.parameters.l1 * v10;
-        let v62 = self.parameters.l2 * v50;
-        let phi_dot_guide = v61 + v62;
-        let v64 = gains.two_alpha * phi_dot_guide;
-        let v65 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v55 + v65;
-        let v67 = gains.beta_squared * phi_guide;
-        let v68 = v64 + v67;
-        let v69 = at.v.theta2 * self.parameters.l2;
-        let v70 = v38 * v69;
-        let v71 = v1 * v53;
-        let v72 = v18 * v43;
-        let v73 = v71 + v72;
-        let v74 = v68 - v70;
-        let v75 = v74 - v73;
-        let v76 = v60 * v75;
-        let v77 = sin_theta2 * self.hoisted[1];
-        let v78 = v76 * v77;
-        let v79 = v59 - v78;
-        let acc_x2 = -v79;
-        let v81 = self.hoisted[1] * v50;
-        let v82 = v61 - at.v.y2;
-        let v83 = v82 + v81;
-        let v84 = gains.two_alpha * v83;
-        let v85 = v55 - at.q.y2;
-        let v86 = v85 + v77;
-        let v87 = gains.beta_squared * v86;
-        let feedback_rod_y = v84 + v87;
-        let v89 = v38 * v51;
-        let v90 = v89 - feedback_rod_y;
-        let v91 = v90 + v73;
-        let v92 = v45 * v76;
-        let v93 = v91 + v92;
-        let acc_y2 = -v93;
-        let acc_theta2 = -v76;
-        let v96 = self.parameters.l2 * v38;
-        let v97 = v36 + at.v.x3;
-        let phi_dot_slider = v97 + v96;
-        let v99 = gains.two_alpha * phi_dot_slider;
-        let v100 = cos_theta2 * self.parameters.l2;
-        let v101 = v43 - at.q.x3;
-        let v102 = v101 + v100;
-        let v103 = gains.beta_squared * v102;
-        let v104 = v99 - v103;
-        let v105 = v50 * v69;
-        let v106 = v104 + v105;
-        let v107 = v106 + v57;
-        let v108 = v65 * v76;
-        let v109 = v107 - v108;
-        let acc_x3 = -v109;
-        let v111 = -v9;
-        let v112 = -v29;
-        let v113 = -v49;
-        let v114 = -v68;
-        let v115 = -v104;
-        let v116 = v60 * self.hoisted[12];
-        let abs_v116 = v116.abs();
+        let v35 = at.v.theta2 * sin_theta2;
+        let v36 = self.hoisted[1] * v35;
+        let v37 = at.v.x2 + v33;
+        let phi_dot_rod_x = v37 + v36;
+        let v39 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v40 = cos_theta1 * self.parameters.l1;
+        let v42 = cos_theta2 * self.hoisted[1];
+        let v43 = at.q.x2 - v40;
+        let phi_rod_x = v43 - v42;
+        let v45 = gains.minus_beta_squared * phi_rod_x;
+        let feedback_rod_x = v39 + v45;
+        let v47 = cos_theta2 * at.v.theta2;
+        let v48 = at.v.theta2 * self.hoisted[1];
+        let v49 = v47 * v48;
+        let v50 = at.v.theta1 * self.parameters.l1;
+        let v51 = v10 * v50;
+        let v52 = sin_theta1 * self.parameters.l1;
+        let v53 = feedback_crank_speed * v52;
+        let v54 = v51 + v53;
+        let v55 = feedback_rod_x - v49;
+        let v56 = v55 - v54;
+        let v57 = self.hoisted[11] / cos_theta2;
+        let v58 = self.parameters.l1 * v10;
+        let v59 = self.parameters.l2 * v47;
+        let phi_dot_guide = v58 + v59;
+        let v61 = gains.minus_two_alpha * phi_dot_guide;
+        let v62 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v52 + v62;
+        let v64 = gains.minus_beta_squared * phi_guide;
+        let feedback_guide = v61 + v64;
+        let v66 = at.v.theta2 * self.parameters.l2;
+        let v67 = v35 * v66;
+        let v68 = feedback_crank_speed * v40;
+        let v69 = v5 * v50;
+        let v70 = v68 - v69;
+        let v71 = feedback_guide + v67;
+        let v72 = v71 - v70;
+        let acc_theta2 = v57 * v72;
+        let v74 = sin_theta2 * self.hoisted[1];
+        let v75 = acc_theta2 * v74;
+        let acc_x2 = v56 - v75;
+        let v77 = self.hoisted[1] * v47;
+        let v78 = at.v.y2 - v58;
+        let phi_dot_rod_y = v78 - v77;
+        let v80 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v81 = at.q.y2 - v52;
+        let phi_rod_y = v81 - v74;
+        let v83 = gains.minus_beta_squared * phi_rod_y;
+        let feedback_rod_y = v80 + v83;
+        let v85 = v35 * v48;
+        let v86 = feedback_rod_y - v85;
+        let v87 = v86 + v70;
+        let v88 = v42 * acc_theta2;
+        let acc_y2 = v87 + v88;
+        let v90 = self.parameters.l2 * v35;
+        let v91 = v33 + at.v.x3;
+        let phi_dot_slider = v91 + v90;
+        let v93 = gains.minus_two_alpha * phi_dot_slider;
+        let v94 = cos_theta2 * self.parameters.l2;
+        let v95 = at.q.x3 - v40;
+        let phi_slider = v95 - v94;
+        let v97 = gains.minus_beta_squared * phi_slider;
+        let feedback_slider = v93 + v97;
+        let v99 = v47 * v66;
+        let v100 = feedback_slider - v99;
+        let v101 = v100 - v54;
+        let v102 = v62 * acc_theta2;
+        let acc_x3 = v101 - v102;
+        let v104 = v57 * self.hoisted[12];
+        let abs_v104 = v104.abs();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankCoordinates {
                 x1: acc_x1,
                 y1: acc_y1,
-                theta1: acc_theta1,
+                theta1: feedback_crank_speed,
                 x2: acc_x2,
                 y2: acc_y2,
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
             feedback: SliderCrankConstraints {
-                crank_x: v111,
-                crank_y: v112,
-                crank_speed: acc_theta1,
-                rod_x: v113,
+                crank_x: feedback_crank_x,
+                crank_y: feedback_crank_y,
+                crank_speed: feedback_crank_speed,
+                rod_x: feedback_rod_x,
                 rod_y: feedback_rod_y,
-                guide: v114,
-                slider: v115,
+                guide: feedback_guide,
+                slider: feedback_slider,
             },
-            growth: abs_v116,
+            growth: abs_v104,
         }
     }
     #[inline]
@@ -1827,12 +1804,12 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v6 = self.hoisted[0] * v5;
         let v7 = feedback.crank_x - v3;
         let acc_x1 = v7 - v6;
-        let v9 = sin_theta1 * v1;
+        let v9 = cos_theta1 * feedback.crank_speed;
         let v10 = self.hoisted[0] * v9;
-        let v11 = cos_theta1 * feedback.crank_speed;
+        let v11 = sin_theta1 * v1;
         let v12 = self.hoisted[0] * v11;
-        let v13 = feedback.crank_y - v10;
-        let acc_y1 = v13 + v12;
+        let v13 = feedback.crank_y + v10;
+        let acc_y1 = v13 - v12;
         let v15 = at.v.theta2 * at.v.theta2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v17 = cos_theta2 * self.hoisted[1];
@@ -1849,26 +1826,24 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v29 = self.parameters.l1 * v11;
         let v30 = v28 - v29;
         let v31 = feedback.guide + v27;
-        let v32 = v31 + v30;
+        let v32 = v31 - v30;
         let acc_theta2 = v24 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
         let v35 = acc_theta2 * v34;
         let acc_x2 = v23 - v35;
         let v37 = v15 * v34;
-        let v38 = v37 - feedback.rod_y;
+        let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
         let v40 = acc_theta2 * v17;
-        let v41 = v39 - v40;
-        let acc_y2 = -v41;
-        let v43 = cos_theta2 * self.parameters.l2;
-        let v44 = v43 * v15;
-        let v45 = v44 - feedback.slider;
-        let v46 = v45 + v21;
-        let v47 = acc_theta2 * v26;
-        let v48 = v46 + v47;
-        let acc_x3 = -v48;
-        let v50 = v24 * self.hoisted[12];
-        let abs_v50 = v50.abs();
+        let acc_y2 = v39 + v40;
+        let v42 = cos_theta2 * self.parameters.l2;
+        let v43 = v42 * v15;
+        let v44 = feedback.slider - v43;
+        let v45 = v44 - v21;
+        let v46 = acc_theta2 * v26;
+        let acc_x3 = v45 - v46;
+        let v48 = v24 * self.hoisted[12];
+        let abs_v48 = v48.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
                 x1: acc_x1,
@@ -1879,7 +1854,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
-            growth: abs_v50,
+            growth: abs_v48,
         }
     }
     #[inline]
@@ -1897,10 +1872,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v6 = feedback.crank_speed * v5;
         let v7 = feedback.crank_x - v3;
         let acc_x1 = v7 - v6;
-        let v9 = v0 * v5;
-        let v10 = feedback.crank_speed * v2;
-        let v11 = feedback.crank_y - v9;
-        let acc_y1 = v11 + v10;
+        let v9 = feedback.crank_speed * v2;
+        let v10 = v0 * v5;
+        let v11 = feedback.crank_y + v9;
+        let acc_y1 = v11 - v10;
         let v13 = at.v.theta2 * at.v.theta2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v15 = cos_theta2 * self.hoisted[1];
@@ -1915,72 +1890,69 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v24 = self.hoisted[11] / cos_theta2;
         let v26 = sin_theta2 * self.parameters.l2;
         let v27 = v13 * v26;
-        let v28 = v0 * v19;
-        let v29 = feedback.crank_speed * v17;
+        let v28 = feedback.crank_speed * v17;
+        let v29 = v0 * v19;
         let v30 = v28 - v29;
         let v31 = feedback.guide + v27;
-        let v32 = v31 + v30;
+        let v32 = v31 - v30;
         let acc_theta2 = v24 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
         let v35 = acc_theta2 * v34;
         let acc_x2 = v23 - v35;
         let v37 = v13 * v34;
-        let v38 = v37 - feedback.rod_y;
+        let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
         let v40 = acc_theta2 * v15;
-        let v41 = v39 - v40;
-        let acc_y2 = -v41;
-        let v43 = cos_theta2 * self.parameters.l2;
-        let v44 = v43 * v13;
-        let v45 = v44 - feedback.slider;
-        let v46 = v45 + v21;
-        let v47 = acc_theta2 * v26;
-        let v48 = v46 + v47;
-        let acc_x3 = -v48;
-        let v50 = acc_x1 * self.parameters.m1;
-        let lambda_crank_x = -v50;
-        let v52 = acc_y1 * self.parameters.m1;
-        let v53 = self.hoisted[4] + v52;
-        let lambda_crank_y = -v53;
-        let v55 = feedback.crank_speed * self.hoisted[2];
-        let v56 = v50 * v5;
-        let v57 = v53 * v2;
+        let acc_y2 = v39 + v40;
+        let v42 = cos_theta2 * self.parameters.l2;
+        let v43 = v42 * v13;
+        let v44 = feedback.slider - v43;
+        let v45 = v44 - v21;
+        let v46 = acc_theta2 * v26;
+        let acc_x3 = v45 - v46;
+        let v48 = acc_x1 * self.parameters.m1;
+        let lambda_crank_x = -v48;
+        let v50 = acc_y1 * self.parameters.m1;
+        let v51 = self.hoisted[4] + v50;
+        let lambda_crank_y = -v51;
+        let v53 = feedback.crank_speed * self.hoisted[2];
+        let v54 = v51 * v2;
+        let v55 = v39 * self.parameters.m2;
+        let v56 = self.hoisted[5] + v55;
+        let v57 = v56 * v15;
         let v58 = v23 * self.parameters.m2;
-        let v59 = v35 * self.parameters.m2;
-        let v60 = v58 - v59;
-        let v61 = v60 * v19;
-        let v62 = v39 * self.parameters.m2;
-        let v63 = self.hoisted[5] - v62;
-        let v64 = v40 * self.parameters.m2;
-        let v65 = v63 + v64;
-        let v66 = v65 * v17;
-        let v67 = v58 * v34;
-        let v68 = v63 * v15;
-        let v69 = v46 * self.parameters.m3;
-        let v70 = v69 * v26;
-        let v71 = sin_theta2 * sin_theta2;
-        let v72 = v71 * self.hoisted[14];
-        let v73 = self.hoisted[13] + v72;
-        let v74 = acc_theta2 * v73;
-        let v75 = v67 - v68;
-        let v76 = v75 - v70;
-        let v77 = v76 - v74;
-        let lambda_guide = v24 * v77;
-        let v79 = lambda_guide * v17;
-        let v80 = v47 * self.parameters.m3;
-        let lambda_slider = v69 + v80;
-        let v82 = lambda_slider * v19;
-        let v83 = v56 - v57;
-        let v84 = v83 + v61;
-        let v85 = v84 - v66;
-        let v86 = v85 - v79;
-        let v87 = v86 - v82;
-        let v88 = v55 - v87;
-        let lambda_crank_speed = -v88;
-        let lambda_rod_x = -v60;
-        let lambda_rod_y = -v65;
-        let v92 = v24 * self.hoisted[12];
-        let abs_v92 = v92.abs();
+        let v59 = v58 * v34;
+        let v60 = v45 * self.parameters.m3;
+        let v61 = v60 * v26;
+        let v62 = sin_theta2 * sin_theta2;
+        let v63 = v62 * self.hoisted[14];
+        let v64 = self.hoisted[13] + v63;
+        let v65 = acc_theta2 * v64;
+        let v66 = v59 - v57;
+        let v67 = v66 + v61;
+        let v68 = v67 - v65;
+        let lambda_guide = v24 * v68;
+        let v70 = lambda_guide * v17;
+        let v71 = v40 * self.parameters.m2;
+        let v72 = v56 + v71;
+        let v73 = v72 * v17;
+        let v74 = v48 * v5;
+        let v75 = v46 * self.parameters.m3;
+        let lambda_slider = v75 - v60;
+        let v77 = lambda_slider * v19;
+        let v78 = v35 * self.parameters.m2;
+        let lambda_rod_x = v78 - v58;
+        let v80 = lambda_rod_x * v19;
+        let v81 = v54 + v70;
+        let v82 = v81 + v73;
+        let v83 = v82 - v74;
+        let v84 = v83 + v77;
+        let v85 = v84 + v80;
+        let v86 = v53 + v85;
+        let lambda_crank_speed = -v86;
+        let lambda_rod_y = -v72;
+        let v89 = v24 * self.hoisted[12];
+        let abs_v89 = v89.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankCoordinates {
                 x1: acc_x1,
@@ -2000,7 +1972,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: abs_v92,
+            growth: abs_v89,
         }
     }
     fn position_correction(
@@ -2030,12 +2002,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v20 = cos_theta2 * v15;
         let v21 = v20 * self.hoisted[1];
         let v22 = v19 + v21;
-        let v23 = v8 - feedback.slider;
+        let v23 = feedback.slider - v8;
         let v24 = self.parameters.l2 * v16;
-        let v25 = v23 + v24;
-        let v26 = -v25;
-        let v27 = v12 * self.hoisted[12];
-        let abs_v27 = v27.abs();
+        let v25 = v23 - v24;
+        let v26 = v12 * self.hoisted[12];
+        let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
                 x1: v3,
@@ -2044,9 +2015,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 x2: v18,
                 y2: v22,
                 theta2: v15,
-                x3: v26,
+                x3: v25,
             },
-            growth: abs_v27,
+            growth: abs_v26,
         }
     }
     fn velocity_correction(
@@ -2076,12 +2047,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v20 = cos_theta2 * v15;
         let v21 = v20 * self.hoisted[1];
         let v22 = v19 + v21;
-        let v23 = v8 - feedback.slider;
+        let v23 = feedback.slider - v8;
         let v24 = self.parameters.l2 * v16;
-        let v25 = v23 + v24;
-        let v26 = -v25;
-        let v27 = v12 * self.hoisted[12];
-        let abs_v27 = v27.abs();
+        let v25 = v23 - v24;
+        let v26 = v12 * self.hoisted[12];
+        let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
                 x1: v3,
@@ -2090,9 +2060,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 x2: v18,
                 y2: v22,
                 theta2: v15,
-                x3: v26,
+                x3: v25,
             },
-            growth: abs_v27,
+            growth: abs_v26,
         }
     }
     fn worst_pivot(

@@ -18,20 +18,20 @@ Elimination order: constraints first, then what motion they leave free (null spa
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
-| `new` | 26 | 4 | 1 | 0 | 2 | 0 |
-| `phi` | 8 | 10 | 0 | 2 | 0 | 0 |
+| `new` | 26 | 5 | 1 | 0 | 2 | 0 |
+| `phi` | 8 | 9 | 0 | 2 | 0 | 0 |
 | `phi_dot` | 12 | 9 | 0 | 2 | 0 | 0 |
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
 | `phi_t` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
-| `baumgarte_rhs` | 44 | 39 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 44 | 34 | 0 | 2 | 0 | 0 |
 | `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 85 | 76 | 2 | 2 | 0 | 2 |
-| `constrained` | 65 | 42 | 2 | 2 | 0 | 2 |
-| `reactions` | 77 | 56 | 2 | 2 | 0 | 2 |
+| `stabilized` | 84 | 63 | 2 | 2 | 0 | 2 |
+| `constrained` | 64 | 39 | 2 | 2 | 0 | 2 |
+| `reactions` | 76 | 51 | 2 | 2 | 0 | 2 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
@@ -53,15 +53,15 @@ pub struct SliderCrankFree<T = ::core::primitive::f64> {
 3: l2^2*inertia_factor*m2
 4: 981/100*m1
 5: 981/100*m2
-6: 1/2*m1
-7: 1/2*l1^2*m1*inertia_factor
+6: 1/2*l1^2*m1*inertia_factor
+7: 1/2*m1
 8: 1/2*m2
 9: 1/2*l2^2*inertia_factor*m2
 10: 1/2*m3
 11: l2^2*inertia_factor*m2 + 1/4*l2^2*m2
 12: l2^2*m3
 13: 1/2*l1*l2*m2
-14: l1*l2*m3
+14: 1/2*l1*l2*m2 + l1*l2*m3
 15: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
 16: l1^2*m3
 17: abs(l1)^2 + abs(l2)^2
@@ -117,7 +117,6 @@ pub struct SliderCrankFreeParameters<T = ::core::primitive::f64> {
     pub omega: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeParameters<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             l1: T::from_f64(0.06),
@@ -198,7 +197,6 @@ pub struct SliderCrankFreeInputs<T = ::core::primitive::f64> {
     pub crank_torque: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeInputs<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_torque: T::from_f64(0.0),
@@ -259,7 +257,6 @@ pub struct SliderCrankFreeCoordinates<T = ::core::primitive::f64> {
     pub x3: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeCoordinates<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x1: T::from_f64(0.0),
@@ -361,7 +358,6 @@ pub struct SliderCrankFreeConstraints<T = ::core::primitive::f64> {
     pub slider: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeConstraints<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_x: T::from_f64(0.0),
@@ -443,7 +439,6 @@ pub struct SliderCrankFreeOutputs<T = ::core::primitive::f64> {
     pub motor_power: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeOutputs<T> {
-    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_speed: T::from_f64(0.0),
@@ -581,8 +576,8 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v7 = parameters.m2 * v6;
         let v8 = parameters.m1 * T::from_f64(9.81);
         let v9 = parameters.m2 * T::from_f64(9.81);
-        let v10 = parameters.m1 * T::from_f64(0.5);
-        let v11 = T::from_f64(0.5) * v4;
+        let v10 = T::from_f64(0.5) * v4;
+        let v11 = parameters.m1 * T::from_f64(0.5);
         let v12 = parameters.m2 * T::from_f64(0.5);
         let v13 = v12 * v6;
         let v14 = parameters.m3 * T::from_f64(0.5);
@@ -593,17 +588,18 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v19 = parameters.l1 * parameters.l2;
         let v20 = v12 * v19;
         let v21 = parameters.m3 * v19;
-        let v22 = T::from_f64(0.25) * v3;
-        let v23 = parameters.m2 * v2;
-        let v24 = v4 + v22;
-        let v25 = v24 + v23;
-        let v26 = parameters.m3 * v2;
+        let v22 = v20 + v21;
+        let v23 = T::from_f64(0.25) * v3;
+        let v24 = parameters.m2 * v2;
+        let v25 = v23 + v4;
+        let v26 = v25 + v24;
+        let v27 = parameters.m3 * v2;
         let abs_l1 = parameters.l1.abs();
-        let v28 = abs_l1 * abs_l1;
+        let v29 = abs_l1 * abs_l1;
         let abs_l2 = parameters.l2.abs();
-        let v30 = abs_l2 * abs_l2;
-        let v31 = v28 + v30;
-        let v32 = T::from_f64(1.0) / parameters.l2;
+        let v31 = abs_l2 * abs_l2;
+        let v32 = v29 + v31;
+        let v33 = T::from_f64(1.0) / parameters.l2;
         Self {
             parameters,
             hoisted: [
@@ -621,11 +617,11 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
                 v17,
                 v18,
                 v20,
-                v21,
-                v25,
+                v22,
                 v26,
-                v31,
+                v27,
                 v32,
+                v33,
                 abs_l2,
             ],
         }
@@ -649,7 +645,7 @@ slider: x3 - l1*cos(theta1) - l2*cos(theta2)
 ```
 
 
-Cost: 8 mul + 10 add + 0 div + 2 sincos.*/
+Cost: 8 mul + 9 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn phi(
         &self,
@@ -673,9 +669,8 @@ Cost: 8 mul + 10 add + 0 div + 2 sincos.*/
         let v16 = sin_theta2 * self.parameters.l2;
         let phi_guide = v11 + v16;
         let v18 = cos_theta2 * self.parameters.l2;
-        let v19 = v6 - q.x3;
-        let v20 = v19 + v18;
-        let phi_slider = -v20;
+        let v19 = q.x3 - v6;
+        let phi_slider = v19 - v18;
         SliderCrankFreeConstraints {
             crank_x: phi_crank_x,
             crank_y: phi_crank_y,
@@ -907,7 +902,7 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
     }
     /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
 
-Cost: 44 mul + 39 add + 0 div + 2 sincos.*/
+Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -916,101 +911,96 @@ Cost: 44 mul + 39 add + 0 div + 2 sincos.*/
         beta: T,
     ) -> SliderCrankFreeConstraints<T> {
         let gains = ::mbs_runtime::Gains {
-            two_alpha: alpha + alpha,
-            beta_squared: beta * beta,
+            minus_two_alpha: -(alpha + alpha),
+            minus_beta_squared: -(beta * beta),
         };
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let v1 = cos_theta1 * at.v.theta1;
         let v2 = at.v.theta1 * self.hoisted[0];
         let v3 = v1 * v2;
-        let v5 = at.v.theta1 * sin_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let phi_dot_crank_x = at.v.x1 + v6;
-        let v8 = phi_dot_crank_x * gains.two_alpha;
-        let v9 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v9;
-        let v11 = phi_crank_x * gains.beta_squared;
-        let v12 = v3 + v8;
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v4;
+        let v6 = phi_crank_x * gains.minus_beta_squared;
+        let v8 = at.v.theta1 * sin_theta1;
+        let v9 = self.hoisted[0] * v8;
+        let phi_dot_crank_x = at.v.x1 + v9;
+        let v11 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v12 = v6 - v3;
         let v13 = v12 + v11;
-        let v14 = -v13;
-        let v15 = v5 * v2;
-        let v16 = self.hoisted[0] * v1;
-        let phi_dot_crank_y = at.v.y1 - v16;
-        let v18 = gains.two_alpha * phi_dot_crank_y;
-        let v19 = sin_theta1 * self.hoisted[0];
-        let phi_crank_y = at.q.y1 - v19;
-        let v21 = gains.beta_squared * phi_crank_y;
-        let v22 = v15 + v18;
-        let v23 = v22 + v21;
-        let v24 = -v23;
-        let v25 = at.v.theta1 * self.parameters.l1;
-        let v26 = v1 * v25;
+        let v14 = v8 * v2;
+        let v15 = self.hoisted[0] * v1;
+        let phi_dot_crank_y = at.v.y1 - v15;
+        let v17 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v18 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v18;
+        let v20 = gains.minus_beta_squared * phi_crank_y;
+        let v21 = v17 - v14;
+        let v22 = v21 + v20;
+        let v23 = at.v.theta1 * self.parameters.l1;
+        let v24 = v1 * v23;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v28 = cos_theta2 * at.v.theta2;
-        let v29 = at.v.theta2 * self.hoisted[1];
-        let v30 = v28 * v29;
-        let v31 = self.parameters.l1 * v5;
-        let v33 = at.v.theta2 * sin_theta2;
-        let v34 = self.hoisted[1] * v33;
-        let v35 = at.v.x2 + v31;
-        let phi_dot_rod_x = v35 + v34;
-        let v37 = gains.two_alpha * phi_dot_rod_x;
-        let v38 = cos_theta1 * self.parameters.l1;
-        let v39 = cos_theta2 * self.hoisted[1];
-        let v40 = at.q.x2 - v38;
-        let phi_rod_x = v40 - v39;
-        let v42 = gains.beta_squared * phi_rod_x;
-        let v43 = v26 + v30;
-        let v44 = v43 + v37;
-        let v45 = v44 + v42;
-        let v46 = -v45;
-        let v47 = v5 * v25;
-        let v48 = v33 * v29;
-        let v49 = self.parameters.l1 * v1;
-        let v50 = self.hoisted[1] * v28;
-        let v51 = at.v.y2 - v49;
-        let phi_dot_rod_y = v51 - v50;
-        let v53 = gains.two_alpha * phi_dot_rod_y;
-        let v54 = sin_theta1 * self.parameters.l1;
-        let v55 = sin_theta2 * self.hoisted[1];
-        let v56 = at.q.y2 - v54;
-        let phi_rod_y = v56 - v55;
-        let v58 = gains.beta_squared * phi_rod_y;
-        let v59 = v47 + v48;
-        let v60 = v59 + v53;
-        let v61 = v60 + v58;
-        let v62 = -v61;
-        let v63 = at.v.theta2 * self.parameters.l2;
-        let v64 = v33 * v63;
-        let v65 = self.parameters.l2 * v28;
-        let phi_dot_guide = v49 + v65;
-        let v67 = gains.two_alpha * phi_dot_guide;
-        let v68 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v54 + v68;
-        let v70 = gains.beta_squared * phi_guide;
-        let v71 = v47 + v64;
-        let v72 = v71 - v67;
-        let v73 = v72 - v70;
-        let v74 = v28 * v63;
-        let v75 = self.parameters.l2 * v33;
-        let v76 = v31 + at.v.x3;
-        let phi_dot_slider = v76 + v75;
-        let v78 = gains.two_alpha * phi_dot_slider;
-        let v79 = cos_theta2 * self.parameters.l2;
-        let v80 = v38 - at.q.x3;
-        let v81 = v80 + v79;
-        let v82 = gains.beta_squared * v81;
-        let v83 = v26 + v74;
-        let v84 = v83 + v78;
-        let v85 = v84 - v82;
-        let v86 = -v85;
+        let v26 = cos_theta2 * at.v.theta2;
+        let v27 = at.v.theta2 * self.hoisted[1];
+        let v28 = v26 * v27;
+        let v29 = self.parameters.l1 * v8;
+        let v31 = at.v.theta2 * sin_theta2;
+        let v32 = self.hoisted[1] * v31;
+        let v33 = at.v.x2 + v29;
+        let phi_dot_rod_x = v33 + v32;
+        let v35 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v36 = cos_theta1 * self.parameters.l1;
+        let v37 = cos_theta2 * self.hoisted[1];
+        let v38 = at.q.x2 - v36;
+        let phi_rod_x = v38 - v37;
+        let v40 = gains.minus_beta_squared * phi_rod_x;
+        let v41 = v35 - v24;
+        let v42 = v41 - v28;
+        let v43 = v42 + v40;
+        let v44 = v8 * v23;
+        let v45 = v31 * v27;
+        let v46 = self.parameters.l1 * v1;
+        let v47 = self.hoisted[1] * v26;
+        let v48 = at.v.y2 - v46;
+        let phi_dot_rod_y = v48 - v47;
+        let v50 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v51 = sin_theta1 * self.parameters.l1;
+        let v52 = sin_theta2 * self.hoisted[1];
+        let v53 = at.q.y2 - v51;
+        let phi_rod_y = v53 - v52;
+        let v55 = gains.minus_beta_squared * phi_rod_y;
+        let v56 = v50 - v44;
+        let v57 = v56 - v45;
+        let v58 = v57 + v55;
+        let v59 = at.v.theta2 * self.parameters.l2;
+        let v60 = v31 * v59;
+        let v61 = self.parameters.l2 * v26;
+        let phi_dot_guide = v46 + v61;
+        let v63 = gains.minus_two_alpha * phi_dot_guide;
+        let v64 = sin_theta2 * self.parameters.l2;
+        let phi_guide = v51 + v64;
+        let v66 = gains.minus_beta_squared * phi_guide;
+        let v67 = v44 + v60;
+        let v68 = v67 + v63;
+        let v69 = v68 + v66;
+        let v70 = v26 * v59;
+        let v71 = self.parameters.l2 * v31;
+        let v72 = v29 + at.v.x3;
+        let phi_dot_slider = v72 + v71;
+        let v74 = gains.minus_two_alpha * phi_dot_slider;
+        let v75 = cos_theta2 * self.parameters.l2;
+        let v76 = at.q.x3 - v36;
+        let phi_slider = v76 - v75;
+        let v78 = gains.minus_beta_squared * phi_slider;
+        let v79 = v74 - v24;
+        let v80 = v79 - v70;
+        let v81 = v80 + v78;
         SliderCrankFreeConstraints {
-            crank_x: v14,
-            crank_y: v24,
-            rod_x: v46,
-            rod_y: v62,
-            guide: v73,
-            slider: v86,
+            crank_x: v13,
+            crank_y: v22,
+            rod_x: v43,
+            rod_y: v58,
+            guide: v69,
+            slider: v81,
         }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
@@ -1136,7 +1126,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 77 mul + 56 add + 2 div + 2 sincos.*/
+Cost: 76 mul + 51 add + 2 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1157,11 +1147,11 @@ Cost: 77 mul + 56 add + 2 div + 2 sincos.*/
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> T {
-        let v0 = at.v.x1 * at.v.x1;
+        let v0 = at.v.theta1 * at.v.theta1;
         let v1 = v0 * self.hoisted[6];
-        let v2 = at.v.y1 * at.v.y1;
-        let v3 = v2 * self.hoisted[6];
-        let v4 = at.v.theta1 * at.v.theta1;
+        let v2 = at.v.x1 * at.v.x1;
+        let v3 = v2 * self.hoisted[7];
+        let v4 = at.v.y1 * at.v.y1;
         let v5 = v4 * self.hoisted[7];
         let v6 = at.v.x2 * at.v.x2;
         let v7 = v6 * self.hoisted[8];
@@ -1500,7 +1490,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 name: "new",
                 operations: ::mbs_runtime::Operations {
                     mul: 26u32,
-                    add: 4u32,
+                    add: 5u32,
                     div: 1u32,
                     sin_cos: 0u32,
                     other: 2u32,
@@ -1511,7 +1501,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 name: "phi",
                 operations: ::mbs_runtime::Operations {
                     mul: 8u32,
-                    add: 10u32,
+                    add: 9u32,
                     div: 0u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1566,7 +1556,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 name: "baumgarte_rhs",
                 operations: ::mbs_runtime::Operations {
                     mul: 44u32,
-                    add: 39u32,
+                    add: 34u32,
                     div: 0u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1620,8 +1610,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
-                    mul: 85u32,
-                    add: 76u32,
+                    mul: 84u32,
+                    add: 63u32,
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1631,8 +1621,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "constrained",
                 operations: ::mbs_runtime::Operations {
-                    mul: 65u32,
-                    add: 42u32,
+                    mul: 64u32,
+                    add: 39u32,
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1642,8 +1632,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
-                    mul: 77u32,
-                    add: 56u32,
+                    mul: 76u32,
+                    add: 51u32,
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -1746,17 +1736,17 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         SliderCrankFreeConstraints<T>,
     > {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = sin_theta1 * self.hoisted[0];
-        let v2 = at.v.theta1 * v1;
-        let phi_dot_crank_x = at.v.x1 + v2;
-        let v4 = phi_dot_crank_x * gains.two_alpha;
-        let v6 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v6;
-        let v8 = phi_crank_x * gains.beta_squared;
-        let v9 = v4 + v8;
+        let v1 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v1;
+        let v3 = phi_crank_x * gains.minus_beta_squared;
+        let v5 = sin_theta1 * self.hoisted[0];
+        let v6 = at.v.theta1 * v5;
+        let phi_dot_crank_x = at.v.x1 + v6;
+        let v8 = phi_dot_crank_x * gains.minus_two_alpha;
+        let feedback_crank_x = v3 + v8;
         let v10 = at.v.theta1 * at.v.theta1;
-        let v11 = v6 * v10;
-        let v12 = v9 + v11;
+        let v11 = v1 * v10;
+        let v12 = feedback_crank_x - v11;
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
         let v14 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
@@ -1767,151 +1757,137 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v20 = at.v.theta1 * phi_q_guide_theta1;
         let v21 = phi_q_guide_theta2 * at.v.theta2;
         let phi_dot_guide = v20 + v21;
-        let v23 = gains.two_alpha * phi_dot_guide;
+        let v23 = gains.minus_two_alpha * phi_dot_guide;
         let v24 = sin_theta1 * self.parameters.l1;
         let v26 = self.parameters.l2 * sin_theta2;
         let phi_guide = v24 + v26;
-        let v28 = gains.beta_squared * phi_guide;
-        let v29 = v23 + v28;
+        let v28 = gains.minus_beta_squared * phi_guide;
+        let feedback_guide = v23 + v28;
         let v30 = v24 * v10;
         let v31 = at.v.theta2 * at.v.theta2;
         let v32 = v26 * v31;
-        let v33 = v29 - v30;
-        let v34 = v33 - v32;
+        let v33 = feedback_guide + v30;
+        let v34 = v33 + v32;
         let v35 = v19 * v34;
         let v36 = phi_q_guide_theta1 * v35;
         let v37 = sin_theta2 * sin_theta2;
         let v38 = v37 * self.hoisted[12];
         let v39 = self.hoisted[11] + v38;
         let v40 = phi_q_guide_theta1 * v39;
-        let v41 = sin_theta1 * sin_theta2;
-        let v42 = self.hoisted[13] * v41;
-        let v43 = cos_theta1 * cos_theta2;
-        let v44 = v43 * self.hoisted[13];
-        let v45 = self.hoisted[14] * v41;
-        let v46 = v42 + v44;
-        let v47 = v46 + v45;
-        let v48 = phi_q_guide_theta2 * v47;
-        let v49 = v40 - v48;
-        let v50 = phi_q_guide_theta1 * v49;
-        let v51 = phi_q_guide_theta1 * v47;
-        let v52 = sin_theta1 * sin_theta1;
-        let v53 = v52 * self.hoisted[16];
-        let v54 = self.hoisted[15] + v53;
+        let v41 = cos_theta1 * cos_theta2;
+        let v42 = v41 * self.hoisted[13];
+        let v43 = sin_theta1 * sin_theta2;
+        let v44 = v43 * self.hoisted[14];
+        let v45 = v42 + v44;
+        let v46 = phi_q_guide_theta2 * v45;
+        let v47 = v40 - v46;
+        let v48 = phi_q_guide_theta1 * v47;
+        let v49 = phi_q_guide_theta1 * v45;
+        let v50 = sin_theta1 * sin_theta1;
+        let v51 = v50 * self.hoisted[16];
+        let v52 = self.hoisted[15] + v51;
+        let v53 = phi_q_guide_theta2 * v52;
+        let v54 = v49 - v53;
         let v55 = phi_q_guide_theta2 * v54;
-        let v56 = v51 - v55;
-        let v57 = phi_q_guide_theta2 * v56;
-        let v58 = v50 - v57;
-        let v59 = at.v.theta1 * v24;
-        let v60 = sin_theta2 * self.hoisted[1];
-        let v61 = at.v.theta2 * v60;
-        let v62 = at.v.x2 + v59;
-        let phi_dot_rod_x = v62 + v61;
-        let v64 = gains.two_alpha * phi_dot_rod_x;
-        let v65 = cos_theta2 * self.hoisted[1];
-        let v66 = phi_q_guide_theta1 - at.q.x2;
-        let v67 = v66 + v65;
-        let v68 = gains.beta_squared * v67;
-        let v69 = v64 - v68;
-        let v70 = phi_q_guide_theta1 * v10;
-        let v71 = v65 * v31;
-        let v72 = v69 + v70;
-        let v73 = v72 + v71;
-        let v74 = v73 * self.parameters.m2;
-        let v75 = v74 * v60;
-        let v76 = at.v.theta2 * v65;
-        let v77 = v20 - at.v.y2;
-        let v78 = v77 + v76;
-        let v79 = gains.two_alpha * v78;
-        let v80 = v24 - at.q.y2;
-        let v81 = v80 + v60;
-        let v82 = gains.beta_squared * v81;
-        let feedback_rod_y = v79 + v82;
-        let v84 = v60 * v31;
-        let v85 = v30 - feedback_rod_y;
-        let v86 = v85 + v84;
-        let v87 = self.parameters.m2 * v86;
-        let v88 = self.hoisted[5] - v87;
-        let v89 = v65 * v88;
-        let v90 = at.v.theta2 * v26;
-        let v91 = v59 + at.v.x3;
-        let phi_dot_slider = v91 + v90;
-        let v93 = gains.two_alpha * phi_dot_slider;
-        let v94 = phi_q_guide_theta1 + phi_q_guide_theta2;
-        let v95 = v94 - at.q.x3;
-        let v96 = gains.beta_squared * v95;
-        let v97 = v93 - v96;
-        let v98 = phi_q_guide_theta2 * v31;
-        let v99 = v70 + v97;
-        let v100 = v99 + v98;
-        let v101 = v100 * self.parameters.m3;
-        let v102 = v26 * v101;
-        let v103 = v75 + v89;
-        let v104 = v103 + v102;
-        let v105 = phi_q_guide_theta1 * v104;
-        let v106 = v12 * self.parameters.m1;
-        let v107 = v106 * v1;
-        let v108 = at.v.theta1 * v6;
-        let phi_dot_crank_y = at.v.y1 - v108;
-        let v110 = gains.two_alpha * phi_dot_crank_y;
-        let phi_crank_y = at.q.y1 - v1;
-        let v112 = gains.beta_squared * phi_crank_y;
-        let v113 = v110 + v112;
-        let v114 = v1 * v10;
-        let v115 = v113 + v114;
-        let v116 = self.parameters.m1 * v115;
-        let v117 = self.hoisted[4] - v116;
-        let v118 = v6 * v117;
-        let v119 = v24 * v74;
-        let v120 = phi_q_guide_theta1 * v88;
-        let v121 = v24 * v101;
-        let v122 = inputs.crank_torque - v107;
-        let v123 = v122 - v118;
-        let v124 = v123 - v119;
-        let v125 = v124 - v120;
-        let v126 = v125 - v121;
-        let v127 = phi_q_guide_theta2 * v126;
-        let v128 = v105 + v127;
-        let v129 = phi_q_guide_theta1 * v56;
-        let v130 = phi_q_guide_theta2 * v49;
-        let v131 = v129 + v130;
-        let v132 = v35 * v131;
-        let v133 = v128 - v132;
-        let v134 = v133 / v58;
-        let v135 = phi_q_guide_theta2 * v134;
-        let v136 = v36 - v135;
-        let v137 = v1 * v136;
-        let v138 = v12 - v137;
-        let acc_x1 = -v138;
-        let v140 = v6 * v136;
-        let v141 = v115 + v140;
-        let acc_y1 = -v141;
-        let acc_theta1 = -v136;
-        let v144 = v24 * v136;
-        let v145 = phi_q_guide_theta1 * v134;
-        let v146 = phi_q_guide_theta2 * v35;
-        let v147 = v145 + v146;
-        let v148 = v60 * v147;
-        let v149 = v144 + v148;
-        let v150 = v73 - v149;
-        let acc_x2 = -v150;
-        let v152 = phi_q_guide_theta1 * v136;
-        let v153 = v65 * v147;
-        let v154 = v152 + v153;
-        let v155 = v86 + v154;
-        let acc_y2 = -v155;
-        let acc_theta2 = -v147;
-        let v158 = v26 * v147;
-        let v159 = v144 + v158;
-        let v160 = v100 - v159;
-        let acc_x3 = -v160;
-        let v162 = -v9;
-        let v163 = -v113;
-        let v164 = -v69;
-        let v165 = -v29;
-        let v166 = -v97;
-        let v167 = v19 * self.hoisted[17];
-        let abs_v167 = v167.abs();
+        let v56 = v48 - v55;
+        let v57 = cos_theta2 * self.hoisted[1];
+        let v58 = at.v.theta2 * v57;
+        let v59 = at.v.y2 - v20;
+        let phi_dot_rod_y = v59 - v58;
+        let v61 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v62 = sin_theta2 * self.hoisted[1];
+        let v63 = at.q.y2 - v24;
+        let phi_rod_y = v63 - v62;
+        let v65 = gains.minus_beta_squared * phi_rod_y;
+        let feedback_rod_y = v61 + v65;
+        let v67 = v62 * v31;
+        let v68 = feedback_rod_y - v30;
+        let v69 = v68 - v67;
+        let v70 = self.parameters.m2 * v69;
+        let v71 = self.hoisted[5] + v70;
+        let v72 = v57 * v71;
+        let v73 = at.v.theta1 * v24;
+        let v74 = at.v.theta2 * v62;
+        let v75 = at.v.x2 + v73;
+        let phi_dot_rod_x = v75 + v74;
+        let v77 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v78 = at.q.x2 - phi_q_guide_theta1;
+        let phi_rod_x = v78 - v57;
+        let v80 = gains.minus_beta_squared * phi_rod_x;
+        let feedback_rod_x = v77 + v80;
+        let v82 = phi_q_guide_theta1 * v10;
+        let v83 = v57 * v31;
+        let v84 = feedback_rod_x - v82;
+        let v85 = v84 - v83;
+        let v86 = v85 * self.parameters.m2;
+        let v87 = v86 * v62;
+        let v88 = at.v.theta2 * v26;
+        let v89 = v73 + at.v.x3;
+        let phi_dot_slider = v89 + v88;
+        let v91 = gains.minus_two_alpha * phi_dot_slider;
+        let v92 = at.q.x3 - phi_q_guide_theta1;
+        let phi_slider = v92 - phi_q_guide_theta2;
+        let v94 = gains.minus_beta_squared * phi_slider;
+        let feedback_slider = v91 + v94;
+        let v96 = phi_q_guide_theta2 * v31;
+        let v97 = feedback_slider - v82;
+        let v98 = v97 - v96;
+        let v99 = v98 * self.parameters.m3;
+        let v100 = v26 * v99;
+        let v101 = v87 - v72;
+        let v102 = v101 + v100;
+        let v103 = phi_q_guide_theta1 * v102;
+        let v104 = at.v.theta1 * v1;
+        let phi_dot_crank_y = at.v.y1 - v104;
+        let v106 = gains.minus_two_alpha * phi_dot_crank_y;
+        let phi_crank_y = at.q.y1 - v5;
+        let v108 = gains.minus_beta_squared * phi_crank_y;
+        let feedback_crank_y = v106 + v108;
+        let v110 = v5 * v10;
+        let v111 = feedback_crank_y - v110;
+        let v112 = self.parameters.m1 * v111;
+        let v113 = self.hoisted[4] + v112;
+        let v114 = v1 * v113;
+        let v115 = phi_q_guide_theta1 * v71;
+        let v116 = v12 * self.parameters.m1;
+        let v117 = v116 * v5;
+        let v118 = v24 * v86;
+        let v119 = v24 * v99;
+        let v120 = inputs.crank_torque - v114;
+        let v121 = v120 - v115;
+        let v122 = v121 + v117;
+        let v123 = v122 + v118;
+        let v124 = v123 + v119;
+        let v125 = phi_q_guide_theta2 * v124;
+        let v126 = v103 - v125;
+        let v127 = phi_q_guide_theta1 * v54;
+        let v128 = phi_q_guide_theta2 * v47;
+        let v129 = v127 + v128;
+        let v130 = v35 * v129;
+        let v131 = v126 - v130;
+        let v132 = v131 / v56;
+        let v133 = phi_q_guide_theta2 * v132;
+        let acc_theta1 = v36 - v133;
+        let v135 = v5 * acc_theta1;
+        let acc_x1 = v12 - v135;
+        let v137 = v1 * acc_theta1;
+        let acc_y1 = v111 + v137;
+        let v139 = v24 * acc_theta1;
+        let v140 = phi_q_guide_theta1 * v132;
+        let v141 = phi_q_guide_theta2 * v35;
+        let acc_theta2 = v140 + v141;
+        let v143 = v62 * acc_theta2;
+        let v144 = v139 + v143;
+        let acc_x2 = v85 - v144;
+        let v146 = phi_q_guide_theta1 * acc_theta1;
+        let v147 = v57 * acc_theta2;
+        let v148 = v146 + v147;
+        let acc_y2 = v69 + v148;
+        let v150 = v26 * acc_theta2;
+        let v151 = v139 + v150;
+        let acc_x3 = v98 - v151;
+        let v153 = v19 * self.hoisted[17];
+        let abs_v153 = v153.abs();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -1923,14 +1899,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 x3: acc_x3,
             },
             feedback: SliderCrankFreeConstraints {
-                crank_x: v162,
-                crank_y: v163,
-                rod_x: v164,
+                crank_x: feedback_crank_x,
+                crank_y: feedback_crank_y,
+                rod_x: feedback_rod_x,
                 rod_y: feedback_rod_y,
-                guide: v165,
-                slider: v166,
+                guide: feedback_guide,
+                slider: feedback_slider,
             },
-            growth: abs_v167,
+            growth: abs_v153,
         }
     }
     #[inline]
@@ -1965,94 +1941,90 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v24 = v23 * self.hoisted[12];
         let v25 = self.hoisted[11] + v24;
         let v26 = phi_q_guide_theta1 * v25;
-        let v27 = sin_theta1 * sin_theta2;
-        let v28 = self.hoisted[13] * v27;
-        let v29 = cos_theta1 * cos_theta2;
-        let v30 = v29 * self.hoisted[13];
-        let v31 = self.hoisted[14] * v27;
-        let v32 = v28 + v30;
-        let v33 = v32 + v31;
-        let v34 = phi_q_guide_theta2 * v33;
-        let v35 = v26 - v34;
-        let v36 = phi_q_guide_theta1 * v35;
-        let v37 = phi_q_guide_theta1 * v33;
-        let v38 = sin_theta1 * sin_theta1;
-        let v39 = v38 * self.hoisted[16];
-        let v40 = self.hoisted[15] + v39;
+        let v27 = cos_theta1 * cos_theta2;
+        let v28 = v27 * self.hoisted[13];
+        let v29 = sin_theta1 * sin_theta2;
+        let v30 = v29 * self.hoisted[14];
+        let v31 = v28 + v30;
+        let v32 = phi_q_guide_theta2 * v31;
+        let v33 = v26 - v32;
+        let v34 = phi_q_guide_theta1 * v33;
+        let v35 = phi_q_guide_theta1 * v31;
+        let v36 = sin_theta1 * sin_theta1;
+        let v37 = v36 * self.hoisted[16];
+        let v38 = self.hoisted[15] + v37;
+        let v39 = phi_q_guide_theta2 * v38;
+        let v40 = v35 - v39;
         let v41 = phi_q_guide_theta2 * v40;
-        let v42 = v37 - v41;
-        let v43 = phi_q_guide_theta2 * v42;
-        let v44 = v36 - v43;
-        let v45 = phi_q_guide_theta1 * v0;
-        let v46 = cos_theta2 * self.hoisted[1];
-        let v47 = v15 * v46;
-        let v48 = feedback.rod_x - v45;
-        let v49 = v48 - v47;
-        let v50 = v49 * self.parameters.m2;
-        let v51 = sin_theta2 * self.hoisted[1];
-        let v52 = v50 * v51;
-        let v53 = v15 * v51;
-        let v54 = v14 - feedback.rod_y;
-        let v55 = v54 + v53;
-        let v56 = self.parameters.m2 * v55;
-        let v57 = self.hoisted[5] - v56;
-        let v58 = v57 * v46;
-        let v59 = phi_q_guide_theta2 * v15;
-        let v60 = v45 - feedback.slider;
-        let v61 = v60 + v59;
-        let v62 = v61 * self.parameters.m3;
-        let v63 = v62 * v17;
-        let v64 = v52 - v58;
-        let v65 = v64 - v63;
-        let v66 = phi_q_guide_theta1 * v65;
-        let v67 = v4 * self.parameters.m1;
-        let v68 = self.hoisted[0] * sin_theta1;
-        let v69 = v67 * v68;
-        let v70 = v0 * v68;
-        let v71 = feedback.crank_y - v70;
-        let v72 = self.parameters.m1 * v71;
-        let v73 = self.hoisted[4] + v72;
-        let v74 = v73 * v2;
-        let v75 = v50 * v13;
-        let v76 = phi_q_guide_theta1 * v57;
-        let v77 = v62 * v13;
-        let v78 = inputs.crank_torque + v69;
-        let v79 = v78 - v74;
+        let v42 = v34 - v41;
+        let v43 = sin_theta2 * self.hoisted[1];
+        let v44 = v15 * v43;
+        let v45 = feedback.rod_y - v14;
+        let v46 = v45 - v44;
+        let v47 = self.parameters.m2 * v46;
+        let v48 = self.hoisted[5] + v47;
+        let v49 = cos_theta2 * self.hoisted[1];
+        let v50 = v48 * v49;
+        let v51 = phi_q_guide_theta1 * v0;
+        let v52 = v15 * v49;
+        let v53 = feedback.rod_x - v51;
+        let v54 = v53 - v52;
+        let v55 = v54 * self.parameters.m2;
+        let v56 = v55 * v43;
+        let v57 = phi_q_guide_theta2 * v15;
+        let v58 = feedback.slider - v51;
+        let v59 = v58 - v57;
+        let v60 = v59 * self.parameters.m3;
+        let v61 = v60 * v17;
+        let v62 = v56 - v50;
+        let v63 = v62 + v61;
+        let v64 = phi_q_guide_theta1 * v63;
+        let v65 = self.hoisted[0] * sin_theta1;
+        let v66 = v0 * v65;
+        let v67 = feedback.crank_y - v66;
+        let v68 = self.parameters.m1 * v67;
+        let v69 = self.hoisted[4] + v68;
+        let v70 = v69 * v2;
+        let v71 = phi_q_guide_theta1 * v48;
+        let v72 = v4 * self.parameters.m1;
+        let v73 = v72 * v65;
+        let v74 = v55 * v13;
+        let v75 = v60 * v13;
+        let v76 = inputs.crank_torque - v70;
+        let v77 = v76 - v71;
+        let v78 = v77 + v73;
+        let v79 = v78 + v74;
         let v80 = v79 + v75;
-        let v81 = v80 - v76;
-        let v82 = v81 - v77;
-        let v83 = phi_q_guide_theta2 * v82;
-        let v84 = v66 - v83;
-        let v85 = phi_q_guide_theta1 * v42;
-        let v86 = phi_q_guide_theta2 * v35;
-        let v87 = v85 + v86;
-        let v88 = v21 * v87;
-        let v89 = v84 - v88;
-        let v90 = v89 / v44;
-        let v91 = phi_q_guide_theta2 * v90;
-        let acc_theta1 = v22 - v91;
-        let v93 = acc_theta1 * v68;
-        let acc_x1 = v4 - v93;
-        let v95 = acc_theta1 * v2;
-        let acc_y1 = v71 + v95;
-        let v97 = acc_theta1 * v13;
-        let v98 = phi_q_guide_theta1 * v90;
-        let v99 = phi_q_guide_theta2 * v21;
-        let acc_theta2 = v98 + v99;
-        let v101 = acc_theta2 * v51;
-        let v102 = v97 + v101;
-        let acc_x2 = v49 - v102;
-        let v104 = phi_q_guide_theta1 * acc_theta1;
-        let v105 = acc_theta2 * v46;
-        let v106 = v104 + v105;
-        let v107 = v55 - v106;
-        let acc_y2 = -v107;
-        let v109 = acc_theta2 * v17;
-        let v110 = v97 + v109;
-        let v111 = v61 + v110;
-        let acc_x3 = -v111;
-        let v113 = v11 * self.hoisted[17];
-        let abs_v113 = v113.abs();
+        let v81 = phi_q_guide_theta2 * v80;
+        let v82 = v64 - v81;
+        let v83 = phi_q_guide_theta1 * v40;
+        let v84 = phi_q_guide_theta2 * v33;
+        let v85 = v83 + v84;
+        let v86 = v21 * v85;
+        let v87 = v82 - v86;
+        let v88 = v87 / v42;
+        let v89 = phi_q_guide_theta2 * v88;
+        let acc_theta1 = v22 - v89;
+        let v91 = acc_theta1 * v65;
+        let acc_x1 = v4 - v91;
+        let v93 = acc_theta1 * v2;
+        let acc_y1 = v67 + v93;
+        let v95 = acc_theta1 * v13;
+        let v96 = phi_q_guide_theta1 * v88;
+        let v97 = phi_q_guide_theta2 * v21;
+        let acc_theta2 = v96 + v97;
+        let v99 = acc_theta2 * v43;
+        let v100 = v95 + v99;
+        let acc_x2 = v54 - v100;
+        let v102 = phi_q_guide_theta1 * acc_theta1;
+        let v103 = acc_theta2 * v49;
+        let v104 = v102 + v103;
+        let acc_y2 = v46 + v104;
+        let v106 = acc_theta2 * v17;
+        let v107 = v95 + v106;
+        let acc_x3 = v59 - v107;
+        let v109 = v11 * self.hoisted[17];
+        let abs_v109 = v109.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2063,7 +2035,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
-            growth: abs_v113,
+            growth: abs_v109,
         }
     }
     #[inline]
@@ -2101,120 +2073,114 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v24 = v23 * self.hoisted[12];
         let v25 = self.hoisted[11] + v24;
         let v26 = phi_q_guide_theta1 * v25;
-        let v27 = sin_theta1 * sin_theta2;
-        let v28 = self.hoisted[13] * v27;
-        let v29 = cos_theta1 * cos_theta2;
-        let v30 = v29 * self.hoisted[13];
-        let v31 = self.hoisted[14] * v27;
-        let v32 = v28 + v30;
-        let v33 = v32 + v31;
-        let v34 = phi_q_guide_theta2 * v33;
-        let v35 = v26 - v34;
-        let v36 = phi_q_guide_theta1 * v35;
-        let v37 = phi_q_guide_theta1 * v33;
-        let v38 = sin_theta1 * sin_theta1;
-        let v39 = v38 * self.hoisted[16];
-        let v40 = self.hoisted[15] + v39;
+        let v27 = cos_theta1 * cos_theta2;
+        let v28 = v27 * self.hoisted[13];
+        let v29 = sin_theta1 * sin_theta2;
+        let v30 = v29 * self.hoisted[14];
+        let v31 = v28 + v30;
+        let v32 = phi_q_guide_theta2 * v31;
+        let v33 = v26 - v32;
+        let v34 = phi_q_guide_theta1 * v33;
+        let v35 = phi_q_guide_theta1 * v31;
+        let v36 = sin_theta1 * sin_theta1;
+        let v37 = v36 * self.hoisted[16];
+        let v38 = self.hoisted[15] + v37;
+        let v39 = phi_q_guide_theta2 * v38;
+        let v40 = v35 - v39;
         let v41 = phi_q_guide_theta2 * v40;
-        let v42 = v37 - v41;
-        let v43 = phi_q_guide_theta2 * v42;
-        let v44 = v36 - v43;
-        let v45 = phi_q_guide_theta1 * v0;
-        let v46 = cos_theta2 * self.hoisted[1];
-        let v47 = v15 * v46;
-        let v48 = feedback.rod_x - v45;
-        let v49 = v48 - v47;
-        let v50 = v49 * self.parameters.m2;
-        let v51 = sin_theta2 * self.hoisted[1];
-        let v52 = v50 * v51;
-        let v53 = v15 * v51;
-        let v54 = v14 - feedback.rod_y;
-        let v55 = v54 + v53;
-        let v56 = self.parameters.m2 * v55;
-        let v57 = self.hoisted[5] - v56;
-        let v58 = v57 * v46;
-        let v59 = phi_q_guide_theta2 * v15;
-        let v60 = v45 - feedback.slider;
-        let v61 = v60 + v59;
-        let v62 = v61 * self.parameters.m3;
-        let v63 = v62 * v17;
-        let v64 = v52 - v58;
-        let v65 = v64 - v63;
-        let v66 = phi_q_guide_theta1 * v65;
-        let v67 = v4 * self.parameters.m1;
-        let v68 = self.hoisted[0] * sin_theta1;
-        let v69 = v67 * v68;
-        let v70 = v0 * v68;
-        let v71 = feedback.crank_y - v70;
-        let v72 = self.parameters.m1 * v71;
-        let v73 = self.hoisted[4] + v72;
-        let v74 = v73 * v2;
-        let v75 = v50 * v13;
-        let v76 = phi_q_guide_theta1 * v57;
-        let v77 = v62 * v13;
-        let v78 = inputs.crank_torque + v69;
-        let v79 = v78 - v74;
+        let v42 = v34 - v41;
+        let v43 = sin_theta2 * self.hoisted[1];
+        let v44 = v15 * v43;
+        let v45 = feedback.rod_y - v14;
+        let v46 = v45 - v44;
+        let v47 = self.parameters.m2 * v46;
+        let v48 = self.hoisted[5] + v47;
+        let v49 = cos_theta2 * self.hoisted[1];
+        let v50 = v48 * v49;
+        let v51 = phi_q_guide_theta1 * v0;
+        let v52 = v15 * v49;
+        let v53 = feedback.rod_x - v51;
+        let v54 = v53 - v52;
+        let v55 = v54 * self.parameters.m2;
+        let v56 = v55 * v43;
+        let v57 = phi_q_guide_theta2 * v15;
+        let v58 = feedback.slider - v51;
+        let v59 = v58 - v57;
+        let v60 = v59 * self.parameters.m3;
+        let v61 = v60 * v17;
+        let v62 = v56 - v50;
+        let v63 = v62 + v61;
+        let v64 = phi_q_guide_theta1 * v63;
+        let v65 = self.hoisted[0] * sin_theta1;
+        let v66 = v0 * v65;
+        let v67 = feedback.crank_y - v66;
+        let v68 = self.parameters.m1 * v67;
+        let v69 = self.hoisted[4] + v68;
+        let v70 = v69 * v2;
+        let v71 = phi_q_guide_theta1 * v48;
+        let v72 = v4 * self.parameters.m1;
+        let v73 = v72 * v65;
+        let v74 = v55 * v13;
+        let v75 = v60 * v13;
+        let v76 = inputs.crank_torque - v70;
+        let v77 = v76 - v71;
+        let v78 = v77 + v73;
+        let v79 = v78 + v74;
         let v80 = v79 + v75;
-        let v81 = v80 - v76;
-        let v82 = v81 - v77;
-        let v83 = phi_q_guide_theta2 * v82;
-        let v84 = v66 - v83;
-        let v85 = phi_q_guide_theta1 * v42;
-        let v86 = phi_q_guide_theta2 * v35;
-        let v87 = v85 + v86;
-        let v88 = v21 * v87;
-        let v89 = v84 - v88;
-        let v90 = v89 / v44;
-        let v91 = phi_q_guide_theta2 * v90;
-        let acc_theta1 = v22 - v91;
-        let v93 = acc_theta1 * v68;
-        let acc_x1 = v4 - v93;
-        let v95 = acc_theta1 * v2;
-        let acc_y1 = v71 + v95;
-        let v97 = acc_theta1 * v13;
-        let v98 = phi_q_guide_theta1 * v90;
-        let v99 = phi_q_guide_theta2 * v21;
-        let acc_theta2 = v98 + v99;
-        let v101 = acc_theta2 * v51;
-        let v102 = v97 + v101;
-        let acc_x2 = v49 - v102;
-        let v104 = phi_q_guide_theta1 * acc_theta1;
-        let v105 = acc_theta2 * v46;
-        let v106 = v104 + v105;
-        let v107 = v55 - v106;
-        let acc_y2 = -v107;
-        let v109 = acc_theta2 * v17;
-        let v110 = v97 + v109;
-        let v111 = v61 + v110;
-        let acc_x3 = -v111;
-        let v113 = self.parameters.m1 * v93;
-        let v114 = v67 - v113;
-        let lambda_crank_x = -v114;
-        let v116 = self.parameters.m1 * v95;
-        let v117 = v73 + v116;
-        let lambda_crank_y = -v117;
-        let v119 = self.parameters.m2 * v102;
-        let v120 = v50 - v119;
-        let lambda_rod_x = -v120;
-        let v122 = self.parameters.m2 * v106;
-        let v123 = v57 + v122;
-        let lambda_rod_y = -v123;
-        let v125 = v40 * acc_theta1;
-        let v126 = v33 * acc_theta2;
-        let v127 = v125 + v126;
-        let v128 = v82 - v127;
-        let v129 = phi_q_guide_theta1 * v128;
-        let v130 = v33 * acc_theta1;
-        let v131 = v25 * acc_theta2;
-        let v132 = v130 + v131;
-        let v133 = v65 - v132;
-        let v134 = phi_q_guide_theta2 * v133;
-        let v135 = v129 + v134;
-        let lambda_guide = v11 * v135;
-        let v137 = self.parameters.m3 * v110;
-        let lambda_slider = v62 + v137;
-        let v139 = v11 * self.hoisted[17];
-        let abs_v139 = v139.abs();
+        let v81 = phi_q_guide_theta2 * v80;
+        let v82 = v64 - v81;
+        let v83 = phi_q_guide_theta1 * v40;
+        let v84 = phi_q_guide_theta2 * v33;
+        let v85 = v83 + v84;
+        let v86 = v21 * v85;
+        let v87 = v82 - v86;
+        let v88 = v87 / v42;
+        let v89 = phi_q_guide_theta2 * v88;
+        let acc_theta1 = v22 - v89;
+        let v91 = acc_theta1 * v65;
+        let acc_x1 = v4 - v91;
+        let v93 = acc_theta1 * v2;
+        let acc_y1 = v67 + v93;
+        let v95 = acc_theta1 * v13;
+        let v96 = phi_q_guide_theta1 * v88;
+        let v97 = phi_q_guide_theta2 * v21;
+        let acc_theta2 = v96 + v97;
+        let v99 = acc_theta2 * v43;
+        let v100 = v95 + v99;
+        let acc_x2 = v54 - v100;
+        let v102 = phi_q_guide_theta1 * acc_theta1;
+        let v103 = acc_theta2 * v49;
+        let v104 = v102 + v103;
+        let acc_y2 = v46 + v104;
+        let v106 = acc_theta2 * v17;
+        let v107 = v95 + v106;
+        let acc_x3 = v59 - v107;
+        let v109 = self.parameters.m1 * v91;
+        let lambda_crank_x = v109 - v72;
+        let v111 = self.parameters.m1 * v93;
+        let v112 = v69 + v111;
+        let lambda_crank_y = -v112;
+        let v114 = self.parameters.m2 * v100;
+        let lambda_rod_x = v114 - v55;
+        let v116 = self.parameters.m2 * v104;
+        let v117 = v48 + v116;
+        let lambda_rod_y = -v117;
+        let v119 = v38 * acc_theta1;
+        let v120 = v31 * acc_theta2;
+        let v121 = v119 + v120;
+        let v122 = v80 - v121;
+        let v123 = phi_q_guide_theta1 * v122;
+        let v124 = v31 * acc_theta1;
+        let v125 = v25 * acc_theta2;
+        let v126 = v124 + v125;
+        let v127 = v63 - v126;
+        let v128 = phi_q_guide_theta2 * v127;
+        let v129 = v123 + v128;
+        let lambda_guide = v11 * v129;
+        let v131 = self.parameters.m3 * v107;
+        let lambda_slider = v131 - v60;
+        let v133 = v11 * self.hoisted[17];
+        let abs_v133 = v133.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2233,7 +2199,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: abs_v139,
+            growth: abs_v133,
         }
     }
     fn position_correction(

@@ -217,7 +217,8 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
             #[doc = #rhs_doc]
             #[inline]
             pub fn baumgarte_rhs(&self, at: &#state, alpha: T, beta: T) -> #rows {
-                let gains = #runtime::Gains { two_alpha: alpha + alpha, beta_squared: beta * beta };
+                let gains =
+                    #runtime::Gains { minus_two_alpha: -(alpha + alpha), minus_beta_squared: -(beta * beta) };
                 #baumgarte_rhs
             }
 

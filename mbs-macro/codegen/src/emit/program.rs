@@ -154,8 +154,8 @@ impl Writer<'_> {
                 let name = row(at);
                 quote!(feedback.#name)
             }
-            Meaning::TwoAlpha => quote!(gains.two_alpha),
-            Meaning::BetaSquared => quote!(gains.beta_squared),
+            Meaning::MinusTwoAlpha => quote!(gains.minus_two_alpha),
+            Meaning::MinusBetaSquared => quote!(gains.minus_beta_squared),
         }
     }
 

@@ -60,15 +60,15 @@ pub enum Meaning {
     Multiplier(usize),
     /// An amount added to γ, or a residual, per constraint.
     Feedback(usize),
-    TwoAlpha,
-    BetaSquared,
+    MinusTwoAlpha,
+    MinusBetaSquared,
 }
 
 /// The symbols, by meaning.
 pub struct Symbols {
     pub time: Symbol,
-    pub two_alpha: Symbol,
-    pub beta_squared: Symbol,
+    pub minus_two_alpha: Symbol,
+    pub minus_beta_squared: Symbol,
     /// Per constraint.
     pub feedback: Vec<Symbol>,
 }

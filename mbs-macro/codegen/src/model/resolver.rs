@@ -175,8 +175,8 @@ impl<'a> Resolver<'a> {
             .collect();
         Symbols {
             time: self.scope.time,
-            two_alpha: self.scope.symbol("2*alpha", Stage::Variable, Meaning::TwoAlpha),
-            beta_squared: self.scope.symbol("beta^2", Stage::Variable, Meaning::BetaSquared),
+            minus_two_alpha: self.scope.symbol("(-2*alpha)", Stage::Variable, Meaning::MinusTwoAlpha),
+            minus_beta_squared: self.scope.symbol("(-beta^2)", Stage::Variable, Meaning::MinusBetaSquared),
             feedback,
         }
     }

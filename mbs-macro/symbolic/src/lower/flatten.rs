@@ -1,12 +1,18 @@
 //! Expressions as rows of factors and rows of signed summands.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::Hoisted;
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
 use crate::operators::Function;
 use crate::program::Operand;
+
+/// Factors with their exponents.
+type Factors = Vec<(Expr, i32)>;
+
+/// Terms with their coefficients.
+type Terms = Vec<(Expr, Number)>;
 
 /// A value: a position in [`Flat::definitions`].
 pub(super) type Value = usize;
@@ -230,17 +236,52 @@ impl Flattening<'_> {
             let early = self.arena.add(early, constant);
             values.push(self.value(early));
         }
-        for (term, coefficient) in late {
+        for (term, coefficient) in self.collect_late(&late) {
             values.push(self.product(coefficient, term));
         }
         values.sort_unstable();
-        // One sign for a sum and its negative: the first summand is positive.
-        let flip = values.first().is_some_and(|first| first.negative);
+        let flip = self.is_better_negated(&values);
         let values: Vec<_> = values.into_iter().map(|value| value.flipped_if(flip)).collect();
         match values[..] {
             [] => self.constant(Number::ZERO),
             [value] => value.flipped_if(flip),
             _ => Signed::plus(self.flat.define(Definition::Sum(values))).flipped_if(flip),
         }
+    }
+
+    /// Like terms up to factors that depend on parameters alone: p·x + q·x is
+    /// (p + q)·x, whose first factor is hoisted.
+    fn collect_late(&mut self, terms: &[(Expr, Number)]) -> Terms {
+        let mut groups: BTreeMap<Factors, Terms> = BTreeMap::new();
+        for &(term, coefficient) in terms {
+            let factors = match self.arena.node(term) {
+                Node::Product(factors) => factors.clone(),
+                _ => vec![(term, 1)],
+            };
+            let (early, late): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|(factor, _)| self.is_hoisted(*factor));
+            let early = self.arena.product(&early);
+            groups.entry(late).or_default().push((early, coefficient));
+        }
+        let mut collected = Vec::new();
+        for (mut late, early) in groups {
+            if let [(early, coefficient)] = early[..] {
+                late.push((early, 1));
+                collected.push((self.arena.product(&late), coefficient));
+            } else {
+                let sum = self.arena.sum(&early);
+                let sum = self.arena.share(sum);
+                late.push((sum, 1));
+                collected.push((self.arena.product(&late), Number::ONE));
+            }
+        }
+        collected
+    }
+
+    /// A sum is computed as it stands, unless all of it is negative or its
+    /// negative is there already.
+    fn is_better_negated(&self, values: &[Signed]) -> bool {
+        let negated: Vec<_> = values.iter().map(|value| value.flipped_if(true)).collect();
+        values.iter().all(|value| value.negative) || self.flat.index.contains_key(&Definition::Sum(negated))
     }
 }
