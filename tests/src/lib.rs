@@ -5,3 +5,8 @@ pub mod by_hand;
 pub mod jet;
 pub mod operators;
 pub mod random;
+
+/// The README's example compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
