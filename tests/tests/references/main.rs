@@ -42,7 +42,6 @@
 //! | spatial_heavy_top | rotations in space, a spherical joint |
 //! | spatial_slider_crank_iftomm | spherical and universal joints |
 //! | spatial_universal_joint | a universal joint |
-#![allow(clippy::excessive_precision, reason = "references are copied with all their digits")]
 
 mod adams_joint_tests;
 mod andrews_squeezer;
