@@ -49,7 +49,11 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
     };
     // One test per step; written so that a NaN fails it.
     let healthy = here.growth + there_growth < growth_limit() && next.q.is_finite() && next.v.is_finite();
-    if healthy { Ok(next) } else { Err(diagnose(mechanism, [at, &predicted], [here.acceleration, there])) }
+    if healthy {
+        Ok(next)
+    } else {
+        Err(diagnose(mechanism, [at, &predicted], [(here.acceleration, here.growth), (there, there_growth)]))
+    }
 }
 
 /// Names what went wrong in a step that failed its test: a pivot in one of its
@@ -58,23 +62,30 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
 fn diagnose<M: Mechanism>(
     mechanism: &M,
     stages: [&State<M::Coordinates>; 2],
-    accelerations: [M::Coordinates; 2],
+    solved: [(M::Coordinates, M::Real); 2],
 ) -> Error {
-    for (stage, acceleration) in stages.into_iter().zip(accelerations) {
+    // If only the sum of two growths is over the limit, the larger is over half.
+    let half_limit = M::Real::from_f64(0.5) * growth_limit();
+    for (stage, (acceleration, growth)) in stages.into_iter().zip(solved) {
         if let Err(error) = check_finite(stage) {
             return error;
         }
-        let worst = mechanism.worst_pivot(stage.t, &stage.q);
-        if let Some(singular) = singular(stage.t, worst, M::INFO.pivots) {
-            return singular;
-        }
-        if let Some(error) = non_finite(stage.t, acceleration) {
-            return error;
+        if is_over(growth, half_limit) || !acceleration.is_finite() {
+            let worst = mechanism.worst_pivot(stage.t, &stage.q);
+            let pivots = M::INFO.pivots;
+            let solution = Solution { t: stage.t, q: &stage.q, value: &acceleration, growth, pivots };
+            return solution.cause(half_limit, worst);
         }
     }
     // Both stages are healthy, so the sum that leaves them is not.
     let [_, last] = stages;
     Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
+}
+
+/// Whether a growth reaches a limit; one that is no number does.
+fn is_over<T: Real>(growth: T, limit: T) -> bool {
+    let is_below = growth < limit;
+    !is_below
 }
 
 /// What [`check_solution`] looks at.
@@ -93,28 +104,31 @@ pub(crate) fn check_solution<C: Components>(
     solution: &Solution<'_, C>,
     worst: impl FnOnce() -> Option<(usize, C::Real)>,
 ) -> Result<(), Error> {
-    let Solution { t, q, value, growth, pivots } = *solution;
-    if value.is_finite() && growth < growth_limit() {
+    if solution.value.is_finite() && solution.growth < growth_limit() {
         return Ok(());
     }
-    let cause = non_finite(t, *q).or_else(|| singular(t, worst(), pivots)).or_else(|| non_finite(t, *value));
-    // Several pivots, each still good, can add up to the limit.
-    Err(cause.unwrap_or(Error::Singular {
-        t: t.to_f64(),
-        constraint: "",
-        coordinate: "",
-        growth: growth.to_f64(),
-    }))
+    Err(solution.cause(growth_limit(), worst()))
 }
 
-/// The singular-position error, if the worst pivot is over the limit.
-fn singular<T: Real>(t: T, worst: Option<(usize, T)>, pivots: &[Pivot]) -> Option<Error> {
-    let (at, growth) = worst?;
-    if growth < growth_limit() {
-        return None;
+impl<C: Components> Solution<'_, C> {
+    /// Why the solution is no good: a position that is not finite, a pivot, or,
+    /// with all pivots healthy, the component that is not finite.
+    fn cause(&self, limit: C::Real, worst: Option<(usize, C::Real)>) -> Error {
+        if let Some(error) = non_finite(self.t, *self.q) {
+            return error;
+        }
+        let worst_growth = worst.map_or(self.growth, |(_, growth)| growth);
+        if !is_over(self.growth, limit)
+            && !is_over(worst_growth, limit)
+            && let Some(error) = non_finite(self.t, *self.value)
+        {
+            return error;
+        }
+        let pivot = worst.and_then(|(at, _)| self.pivots.get(at));
+        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+        let growth = if is_over(self.growth, limit) { self.growth } else { worst_growth };
+        Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth: growth.to_f64() }
     }
-    let Pivot { constraint, coordinate } = *pivots.get(at)?;
-    Some(Error::Singular { t: t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
 }
 
 /// `Ok` if positions and velocities are finite.

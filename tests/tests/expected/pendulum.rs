@@ -79,6 +79,7 @@ pub struct PendulumParameters<T = ::core::primitive::f64> {
     pub mass: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumParameters<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             length: T::from_f64(1.0),
@@ -133,6 +134,7 @@ pub struct PendulumCoordinates<T = ::core::primitive::f64> {
     pub y: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumCoordinates<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x: T::from_f64(0.0),
@@ -184,6 +186,7 @@ pub struct PendulumConstraints<T = ::core::primitive::f64> {
     pub rod: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumConstraints<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self { rod: T::from_f64(0.0) }
     }
@@ -236,6 +239,7 @@ pub struct PendulumOutputs<T = ::core::primitive::f64> {
     pub angle: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumOutputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             tension: T::from_f64(0.0),

@@ -113,6 +113,7 @@ out with 1/3.
     pub omega: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankParameters<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             l1: T::from_f64(0.06),
@@ -203,6 +204,7 @@ pub struct SliderCrankCoordinates<T = ::core::primitive::f64> {
     pub x3: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankCoordinates<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x1: T::from_f64(0.0),
@@ -307,6 +309,7 @@ pub struct SliderCrankConstraints<T = ::core::primitive::f64> {
     pub slider: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankConstraints<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_x: T::from_f64(0.0),
@@ -395,6 +398,7 @@ pub struct SliderCrankOutputs<T = ::core::primitive::f64> {
     pub drive_torque: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankOutputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             drive_torque: T::from_f64(0.0),

@@ -29,9 +29,9 @@ Elimination order: constraints first, then what motion they leave free (null spa
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 84 | 63 | 2 | 2 | 0 | 2 |
-| `constrained` | 64 | 39 | 2 | 2 | 0 | 2 |
-| `reactions` | 76 | 51 | 2 | 2 | 0 | 2 |
+| `stabilized` | 84 | 63 | 2 | 2 | 0 | 3 |
+| `constrained` | 64 | 39 | 2 | 2 | 0 | 3 |
+| `reactions` | 76 | 51 | 2 | 2 | 0 | 3 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
@@ -117,6 +117,7 @@ pub struct SliderCrankFreeParameters<T = ::core::primitive::f64> {
     pub omega: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeParameters<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             l1: T::from_f64(0.06),
@@ -197,6 +198,7 @@ pub struct SliderCrankFreeInputs<T = ::core::primitive::f64> {
     pub crank_torque: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeInputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_torque: T::from_f64(0.0),
@@ -257,6 +259,7 @@ pub struct SliderCrankFreeCoordinates<T = ::core::primitive::f64> {
     pub x3: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeCoordinates<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             x1: T::from_f64(0.0),
@@ -358,6 +361,7 @@ pub struct SliderCrankFreeConstraints<T = ::core::primitive::f64> {
     pub slider: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeConstraints<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_x: T::from_f64(0.0),
@@ -439,6 +443,7 @@ pub struct SliderCrankFreeOutputs<T = ::core::primitive::f64> {
     pub motor_power: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for SliderCrankFreeOutputs<T> {
+    #[allow(clippy::approx_constant)]
     fn default() -> Self {
         Self {
             crank_speed: T::from_f64(0.0),
@@ -1615,7 +1620,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 3u32,
                 },
             },
             ::mbs_runtime::Function {
@@ -1626,7 +1631,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 3u32,
                 },
             },
             ::mbs_runtime::Function {
@@ -1637,7 +1642,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
-                    watch: 2u32,
+                    watch: 3u32,
                 },
             },
             ::mbs_runtime::Function {
@@ -1888,6 +1893,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let acc_x3 = v98 - v151;
         let v153 = v19 * self.hoisted[17];
         let abs_v153 = v153.abs();
+        let sqrt_abs_v153 = abs_v153.sqrt();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -1906,7 +1912,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: feedback_guide,
                 slider: feedback_slider,
             },
-            growth: abs_v153,
+            growth: sqrt_abs_v153,
         }
     }
     #[inline]
@@ -2025,6 +2031,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let acc_x3 = v59 - v107;
         let v109 = v11 * self.hoisted[17];
         let abs_v109 = v109.abs();
+        let sqrt_abs_v109 = abs_v109.sqrt();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2035,7 +2042,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 theta2: acc_theta2,
                 x3: acc_x3,
             },
-            growth: abs_v109,
+            growth: sqrt_abs_v109,
         }
     }
     #[inline]
@@ -2181,6 +2188,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let lambda_slider = v131 - v60;
         let v133 = v11 * self.hoisted[17];
         let abs_v133 = v133.abs();
+        let sqrt_abs_v133 = abs_v133.sqrt();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2199,7 +2207,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: abs_v133,
+            growth: sqrt_abs_v133,
         }
     }
     fn position_correction(
@@ -2280,7 +2288,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v6 = v2 + v5;
         let v7 = self.hoisted[17] / v6;
         let abs_v7 = v7.abs();
-        ::mbs_runtime::__private::worst(&[abs_v7])
+        let sqrt_abs_v7 = abs_v7.sqrt();
+        ::mbs_runtime::__private::worst(&[sqrt_abs_v7])
     }
     fn worst_start_pivot(
         &self,

@@ -18,7 +18,11 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     let assembly = Assembly::new(model, plan);
     let mut q = assembly.start.clone();
     let mut phi = assembly.phi(&q);
+    let mut best = phi.clone();
     for _ in 0..ITERATIONS {
+        if norm(&phi) < norm(&best) {
+            best.clone_from(&phi);
+        }
         let delta = assembly.correction(&q, &phi);
         let size = largest(&delta).1;
         if !size.is_finite() {
@@ -39,7 +43,8 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
             length *= 0.5;
         }
     }
-    let (row, violation) = largest(&phi);
+    // The iteration wanders where there is nothing to find: its best is said.
+    let (row, violation) = largest(&best);
     if violation.is_finite() && violation <= 1e-10 * (1.0 + largest(&q).1) {
         return Ok(());
     }
@@ -47,7 +52,7 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     Err(Diagnostic::new(
         constraint.span,
         format!(
-            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.3e}{}",
+            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.1e}{}",
             constraint.name,
             unit(constraint.dimension)
         ),

@@ -214,7 +214,8 @@ impl<'a> Work<'a> {
         }
         let bound = self.arena.bound(pivot);
         let size = bound.unwrap_or_else(|| self.arena.share(pivot));
-        self.watch(Some(row), Some(coordinate), size, inverse, bound.is_some());
+        let growth = self.ratio(size, inverse);
+        self.watch(Some(row), Some(coordinate), growth, bound.is_some());
     }
 
     /// The size that diagonal entries have in a healthy position: of a mass,
@@ -250,27 +251,47 @@ impl<'a> Work<'a> {
         if self.arena.as_number(pivot).is_some() {
             return;
         }
-        let is_row = matches!(unknown, Unknown::Row(_));
         let is_reduced = self.reduced.contains(&unknown);
         let scale = self.scales.as_ref().and_then(|scales| scales.get(&unknown)).copied();
         let gross = self.gross.get(&unknown).copied().filter(|_| is_reduced);
-        let size = scale.or(gross);
-        let can_cancel = is_reduced || (is_row && scale.is_some());
-        let size = self.arena.share(size.unwrap_or(pivot));
-        let (row, coordinate) = if is_row { (Some(unknown), None) } else { (None, Some(unknown)) };
-        self.watch(row, coordinate, size, inverse, can_cancel);
+        let (row, coordinate, growth) = match unknown {
+            Unknown::Coordinate(_) => {
+                let size = scale.filter(|_| is_reduced).or(gross);
+                (None, Some(unknown), size.map(|size| self.ratio(size, inverse)))
+            }
+            Unknown::Row(_) => {
+                let vanished = scale.map(|scale| self.root_ratio(scale, inverse));
+                let cancelled = gross.map(|gross| self.ratio(gross, inverse));
+                let both = vanished.zip(cancelled).map(|(v, c)| self.arena.add(v, c));
+                (Some(unknown), None, both.or(vanished).or(cancelled))
+            }
+        };
+        let can_cancel = growth.is_some();
+        let growth = growth.unwrap_or_else(|| self.ratio(pivot, inverse));
+        self.watch(row, coordinate, growth, can_cancel);
+    }
+
+    /// |size/pivot|, kept from simplifying where both are the same.
+    pub(super) fn ratio(&mut self, size: Expr, inverse: Expr) -> Expr {
+        let size = self.arena.share(size);
+        let ratio = self.arena.mul(size, inverse);
+        self.arena.call(Function::Abs, ratio)
+    }
+
+    /// The same for a pivot made of squares, which may be small without having
+    /// lost digits: √ of the ratio is that of what was squared.
+    pub(super) fn root_ratio(&mut self, size: Expr, inverse: Expr) -> Expr {
+        let ratio = self.ratio(size, inverse);
+        self.arena.call(Function::Sqrt, ratio)
     }
 
     pub(super) fn watch(
         &mut self,
         row: Option<Unknown>,
         coordinate: Option<Unknown>,
-        size: Expr,
-        inverse: Expr,
+        growth: Expr,
         can_cancel: bool,
     ) {
-        let ratio = self.arena.mul(size, inverse);
-        let growth = self.arena.call(Function::Abs, ratio);
         let index = |unknown| match unknown {
             Unknown::Row(index) | Unknown::Coordinate(index) => index,
         };
