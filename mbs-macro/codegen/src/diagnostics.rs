@@ -111,8 +111,8 @@ impl From<Diagnostic> for Diagnostics {
 }
 
 /// The candidate closest to `name`, if it is close enough to be a misspelling:
-/// other letters in one of three places, other cases anywhere, or a longer or
-/// shorter form of the same word.
+/// other letters in one of three places, other cases anywhere, a lost letter, or
+/// a longer or shorter form of the same word.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = name.to_lowercase();
     // Of two letters, one is no misspelling of the other: `x1` and `y1`.
@@ -120,13 +120,16 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         0..=2 => 0,
         length => length.div_ceil(3),
     };
+    let is_word = name.len() >= 2 && name.chars().all(char::is_alphabetic);
     let extends = |a: &str, b: &str| b.len() >= 3 && a.starts_with(b);
     candidates
         .into_iter()
         .map(|candidate| {
             let other = candidate.to_lowercase();
-            let is_form = extends(&name, &other) || extends(&other, &name);
-            (distance(&name, &other), is_form, candidate)
+            let distance = distance(&name, &other);
+            let lost_a_letter = is_word && distance == 1 && other.len() == name.len() + 1;
+            let is_form = lost_a_letter || extends(&name, &other) || extends(&other, &name);
+            (distance, is_form, candidate)
         })
         .filter(|(distance, is_form, _)| *distance <= tolerance || *is_form)
         .min_by_key(|(distance, ..)| *distance)

@@ -304,8 +304,16 @@ fn product(l: Typed, r: Typed) -> Option<Dimension> {
 }
 
 fn unit_help(formula: &Formula, dimension: Dimension) -> String {
-    match formula.kind {
-        FormulaKind::Number { unit: None, .. } => format!("give the number its unit: {dimension}"),
+    match (&formula.kind, unit_help_for_products(formula)) {
+        (FormulaKind::Number { unit: None, .. }, _) => format!("give the number its unit: {dimension}"),
+        (_, Some(help)) => help,
         _ => "check the units and factors of this formula".to_owned(),
     }
+}
+
+/// `0.052/3 [kg]` divides by 3 kg: a unit belongs to the number before it.
+pub(super) fn unit_help_for_products(formula: &Formula) -> Option<String> {
+    let FormulaKind::Binary { op: '*' | '/', right, .. } = &formula.kind else { return None };
+    let FormulaKind::Number { unit: Some(unit), .. } = &right.kind else { return None };
+    Some(format!("the unit belongs to the number before it alone; write `( … ) [{}]`", unit.text))
 }

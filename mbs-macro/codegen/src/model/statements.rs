@@ -5,6 +5,7 @@ use mbs_symbolic::{Expr, Number};
 use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
+use super::formula::unit_help_for_products;
 use super::names::{Place, Typed, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Start};
@@ -134,7 +135,9 @@ impl<'a> Resolver<'a> {
             match value.filter(|value| value.is_finite()) {
                 Some(_) if found != declared => self.errors.push(
                     Diagnostic::new(formula.span, format!("the declared value of `{text}` is {}, but no unit stands behind it", described(found)))
-                        .help("write a number with its unit, as in `param l = 60 [mm];`, or use `const` or `let` for computed values"),
+                        .help(unit_help_for_products(formula).unwrap_or_else(|| {
+                            "write a number with its unit, as in `param l = 60 [mm];`, or use `const` or `let` for computed values".to_owned()
+                        })),
                 ),
                 Some(value) => self.parameters[at].value = value,
                 None => self.errors.push(
