@@ -516,33 +516,32 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /// Computes what depends on parameters alone.
     #[allow(unused_variables, clippy::all)]
     fn prepare(parameters: SliderCrankParameters<T>) -> Self {
-        let v0 = parameters.l1 * T::from_f64(0.5);
-        let v1 = parameters.l2 * T::from_f64(0.5);
-        let v2 = parameters.l1 * parameters.l1;
-        let v3 = parameters.m1 * parameters.inertia_factor;
-        let v4 = v2 * v3;
-        let v5 = parameters.l2 * parameters.l2;
-        let v6 = parameters.m2 * v5;
-        let v7 = parameters.inertia_factor * v6;
-        let v8 = parameters.m1 * T::from_f64(9.81);
-        let v9 = parameters.m2 * T::from_f64(9.81);
-        let v10 = parameters.m1 * T::from_f64(0.5);
-        let v11 = T::from_f64(0.5) * v4;
-        let v12 = parameters.m2 * T::from_f64(0.5);
-        let v13 = T::from_f64(0.5) * v7;
-        let v14 = parameters.m3 * T::from_f64(0.5);
-        let v15 = T::from_f64(1.0) / parameters.l2;
         let abs_l2 = parameters.l2.abs();
-        let v17 = T::from_f64(0.25) * v6;
-        let v18 = v7 + v17;
-        let v19 = parameters.m3 * v5;
+        let v1 = parameters.l1 * T::from_f64(0.5);
+        let v2 = parameters.l2 * T::from_f64(0.5);
+        let v3 = parameters.l1 * parameters.l1;
+        let v4 = parameters.m1 * parameters.inertia_factor;
+        let v5 = v3 * v4;
+        let v6 = parameters.l2 * parameters.l2;
+        let v7 = parameters.m2 * v6;
+        let v8 = parameters.inertia_factor * v7;
+        let v9 = parameters.m1 * T::from_f64(9.81);
+        let v10 = parameters.m2 * T::from_f64(9.81);
+        let v11 = parameters.m1 * T::from_f64(0.5);
+        let v12 = T::from_f64(0.5) * v5;
+        let v13 = parameters.m2 * T::from_f64(0.5);
+        let v14 = T::from_f64(0.5) * v8;
+        let v15 = parameters.m3 * T::from_f64(0.5);
+        let v16 = T::from_f64(1.0) / parameters.l2;
+        let v17 = T::from_f64(0.25) * v7;
+        let v18 = v8 + v17;
+        let v19 = parameters.m3 * v6;
         Self {
             parameters,
             hoisted: [
-                v0,
                 v1,
-                v4,
-                v7,
+                v2,
+                v5,
                 v8,
                 v9,
                 v10,
@@ -551,6 +550,7 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
                 v13,
                 v14,
                 v15,
+                v16,
                 abs_l2,
                 v18,
                 v19,
@@ -581,25 +581,25 @@ Cost: 9 mul + 10 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let v1 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = q.x1 - v1;
-        let v4 = self.hoisted[0] * sin_theta1;
-        let phi_crank_y = q.y1 - v4;
-        let v6 = t * self.parameters.omega;
-        let phi_crank_speed = q.theta1 - v6;
-        let v8 = cos_theta1 * self.parameters.l1;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v10 = cos_theta2 * self.hoisted[1];
-        let v11 = q.x2 - v8;
-        let phi_rod_x = v11 - v10;
-        let v13 = sin_theta1 * self.parameters.l1;
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = q.x1 - v4;
+        let v6 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = q.y1 - v6;
+        let v8 = t * self.parameters.omega;
+        let phi_crank_speed = q.theta1 - v8;
+        let v10 = cos_theta1 * self.parameters.l1;
+        let v11 = cos_theta2 * self.hoisted[1];
+        let v12 = q.x2 - v10;
+        let phi_rod_x = v12 - v11;
+        let v14 = sin_theta1 * self.parameters.l1;
         let v15 = self.hoisted[1] * sin_theta2;
-        let v16 = q.y2 - v13;
+        let v16 = q.y2 - v14;
         let phi_rod_y = v16 - v15;
         let v18 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v13 + v18;
+        let phi_guide = v14 + v18;
         let v20 = cos_theta2 * self.parameters.l2;
-        let v21 = q.x3 - v8;
+        let v21 = q.x3 - v10;
         let phi_slider = v21 - v20;
         SliderCrankConstraints {
             crank_x: phi_crank_x,
@@ -641,11 +641,11 @@ Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
         q: &SliderCrankCoordinates<T>,
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
-        let v3 = cos_theta1 * self.hoisted[0];
-        let phi_q_crank_y_theta1 = -v3;
-        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
+        let v5 = cos_theta1 * self.hoisted[0];
+        let phi_q_crank_y_theta1 = -v5;
+        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
         let phi_q_rod_x_theta2 = sin_theta2 * self.hoisted[1];
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
         let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
@@ -759,28 +759,28 @@ Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = sin_theta1 * at.v.theta1;
-        let v2 = self.hoisted[0] * v1;
-        let phi_dot_crank_x = at.v.x1 + v2;
-        let v5 = at.v.theta1 * cos_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let phi_dot_crank_y = at.v.y1 - v6;
-        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v9 = self.parameters.l1 * v1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v11 = sin_theta2 * at.v.theta2;
-        let v12 = self.hoisted[1] * v11;
-        let v13 = at.v.x2 + v9;
-        let phi_dot_rod_x = v13 + v12;
-        let v15 = self.parameters.l1 * v5;
+        let v4 = sin_theta1 * at.v.theta1;
+        let v5 = self.hoisted[0] * v4;
+        let phi_dot_crank_x = at.v.x1 + v5;
+        let v7 = at.v.theta1 * cos_theta1;
+        let v8 = self.hoisted[0] * v7;
+        let phi_dot_crank_y = at.v.y1 - v8;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v11 = self.parameters.l1 * v4;
+        let v12 = sin_theta2 * at.v.theta2;
+        let v13 = self.hoisted[1] * v12;
+        let v14 = at.v.x2 + v11;
+        let phi_dot_rod_x = v14 + v13;
+        let v16 = self.parameters.l1 * v7;
         let v17 = at.v.theta2 * cos_theta2;
         let v18 = self.hoisted[1] * v17;
-        let v19 = at.v.y2 - v15;
+        let v19 = at.v.y2 - v16;
         let phi_dot_rod_y = v19 - v18;
         let v21 = self.parameters.l2 * v17;
-        let phi_dot_guide = v15 + v21;
-        let v23 = self.parameters.l2 * v11;
-        let v24 = v9 + at.v.x3;
+        let phi_dot_guide = v16 + v21;
+        let v23 = self.parameters.l2 * v12;
+        let v24 = v11 + at.v.x3;
         let phi_dot_slider = v24 + v23;
         SliderCrankConstraints {
             crank_x: phi_dot_crank_x,
@@ -812,29 +812,29 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = at.v.theta1 * at.v.theta1;
-        let v2 = cos_theta1 * v1;
-        let v3 = self.hoisted[0] * v2;
-        let gamma_crank_x = -v3;
-        let v6 = sin_theta1 * v1;
-        let v7 = self.hoisted[0] * v6;
-        let gamma_crank_y = -v7;
-        let v9 = self.parameters.l1 * v2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v11 = at.v.theta2 * at.v.theta2;
-        let v12 = cos_theta2 * v11;
-        let v13 = self.hoisted[1] * v12;
-        let v14 = v9 + v13;
-        let gamma_rod_x = -v14;
-        let v16 = self.parameters.l1 * v6;
-        let v18 = sin_theta2 * v11;
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * v4;
+        let v6 = self.hoisted[0] * v5;
+        let gamma_crank_x = -v6;
+        let v8 = sin_theta1 * v4;
+        let v9 = self.hoisted[0] * v8;
+        let gamma_crank_y = -v9;
+        let v11 = self.parameters.l1 * v5;
+        let v12 = at.v.theta2 * at.v.theta2;
+        let v13 = cos_theta2 * v12;
+        let v14 = self.hoisted[1] * v13;
+        let v15 = v11 + v14;
+        let gamma_rod_x = -v15;
+        let v17 = self.parameters.l1 * v8;
+        let v18 = sin_theta2 * v12;
         let v19 = self.hoisted[1] * v18;
-        let v20 = v16 + v19;
+        let v20 = v17 + v19;
         let gamma_rod_y = -v20;
         let v22 = self.parameters.l2 * v18;
-        let gamma_guide = v16 + v22;
-        let v24 = self.parameters.l2 * v12;
-        let v25 = v9 + v24;
+        let gamma_guide = v17 + v22;
+        let v24 = self.parameters.l2 * v13;
+        let v25 = v11 + v24;
         let gamma_slider = -v25;
         SliderCrankConstraints {
             crank_x: gamma_crank_x,
@@ -861,43 +861,43 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
             minus_beta_squared: -(beta * beta),
         };
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = cos_theta1 * at.v.theta1;
-        let v2 = at.v.theta1 * self.hoisted[0];
-        let v3 = v1 * v2;
-        let v4 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v4;
-        let v6 = phi_crank_x * gains.minus_beta_squared;
-        let v8 = at.v.theta1 * sin_theta1;
-        let v9 = self.hoisted[0] * v8;
-        let phi_dot_crank_x = at.v.x1 + v9;
-        let v11 = phi_dot_crank_x * gains.minus_two_alpha;
-        let v12 = v6 - v3;
-        let v13 = v12 + v11;
-        let v14 = v8 * v2;
-        let v15 = self.hoisted[0] * v1;
-        let phi_dot_crank_y = at.v.y1 - v15;
-        let v17 = gains.minus_two_alpha * phi_dot_crank_y;
-        let v18 = sin_theta1 * self.hoisted[0];
-        let phi_crank_y = at.q.y1 - v18;
-        let v20 = gains.minus_beta_squared * phi_crank_y;
-        let v21 = v17 - v14;
-        let v22 = v21 + v20;
-        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v24 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v25 = self.parameters.omega * at.t;
-        let phi_crank_speed = at.q.theta1 - v25;
-        let v27 = gains.minus_beta_squared * phi_crank_speed;
-        let feedback_crank_speed = v24 + v27;
-        let v29 = at.v.theta1 * self.parameters.l1;
-        let v30 = v1 * v29;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v32 = cos_theta2 * at.v.theta2;
-        let v33 = at.v.theta2 * self.hoisted[1];
-        let v34 = v32 * v33;
-        let v35 = self.parameters.l1 * v8;
+        let v4 = cos_theta1 * at.v.theta1;
+        let v5 = at.v.theta1 * self.hoisted[0];
+        let v6 = v4 * v5;
+        let v7 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v7;
+        let v9 = phi_crank_x * gains.minus_beta_squared;
+        let v10 = at.v.theta1 * sin_theta1;
+        let v11 = self.hoisted[0] * v10;
+        let phi_dot_crank_x = at.v.x1 + v11;
+        let v13 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v14 = v9 - v6;
+        let v15 = v14 + v13;
+        let v16 = v10 * v5;
+        let v17 = self.hoisted[0] * v4;
+        let phi_dot_crank_y = at.v.y1 - v17;
+        let v19 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v20 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v20;
+        let v22 = gains.minus_beta_squared * phi_crank_y;
+        let v23 = v19 - v16;
+        let v24 = v23 + v22;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v26 = gains.minus_two_alpha * phi_dot_crank_speed;
+        let v27 = self.parameters.omega * at.t;
+        let phi_crank_speed = at.q.theta1 - v27;
+        let v29 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v26 + v29;
+        let v31 = at.v.theta1 * self.parameters.l1;
+        let v32 = v4 * v31;
+        let v33 = cos_theta2 * at.v.theta2;
+        let v34 = at.v.theta2 * self.hoisted[1];
+        let v35 = v33 * v34;
+        let v36 = self.parameters.l1 * v10;
         let v37 = at.v.theta2 * sin_theta2;
         let v38 = self.hoisted[1] * v37;
-        let v39 = at.v.x2 + v35;
+        let v39 = at.v.x2 + v36;
         let phi_dot_rod_x = v39 + v38;
         let v41 = gains.minus_two_alpha * phi_dot_rod_x;
         let v42 = cos_theta1 * self.parameters.l1;
@@ -905,13 +905,13 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         let v44 = at.q.x2 - v42;
         let phi_rod_x = v44 - v43;
         let v46 = gains.minus_beta_squared * phi_rod_x;
-        let v47 = v41 - v30;
-        let v48 = v47 - v34;
+        let v47 = v41 - v32;
+        let v48 = v47 - v35;
         let v49 = v48 + v46;
-        let v50 = v8 * v29;
-        let v51 = v37 * v33;
-        let v52 = self.parameters.l1 * v1;
-        let v53 = self.hoisted[1] * v32;
+        let v50 = v10 * v31;
+        let v51 = v37 * v34;
+        let v52 = self.parameters.l1 * v4;
+        let v53 = self.hoisted[1] * v33;
         let v54 = at.v.y2 - v52;
         let phi_dot_rod_y = v54 - v53;
         let v56 = gains.minus_two_alpha * phi_dot_rod_y;
@@ -925,7 +925,7 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         let v64 = v63 + v61;
         let v65 = at.v.theta2 * self.parameters.l2;
         let v66 = v37 * v65;
-        let v67 = self.parameters.l2 * v32;
+        let v67 = self.parameters.l2 * v33;
         let phi_dot_guide = v52 + v67;
         let v69 = gains.minus_two_alpha * phi_dot_guide;
         let v70 = sin_theta2 * self.parameters.l2;
@@ -934,21 +934,21 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         let v73 = v50 + v66;
         let v74 = v73 + v69;
         let v75 = v74 + v72;
-        let v76 = v32 * v65;
+        let v76 = v33 * v65;
         let v77 = self.parameters.l2 * v37;
-        let v78 = v35 + at.v.x3;
+        let v78 = v36 + at.v.x3;
         let phi_dot_slider = v78 + v77;
         let v80 = gains.minus_two_alpha * phi_dot_slider;
         let v81 = cos_theta2 * self.parameters.l2;
         let v82 = at.q.x3 - v42;
         let phi_slider = v82 - v81;
         let v84 = gains.minus_beta_squared * phi_slider;
-        let v85 = v80 - v30;
+        let v85 = v80 - v32;
         let v86 = v85 - v76;
         let v87 = v86 + v84;
         SliderCrankConstraints {
-            crank_x: v13,
-            crank_y: v22,
+            crank_x: v15,
+            crank_y: v24,
             crank_speed: feedback_crank_speed,
             rod_x: v49,
             rod_y: v64,
@@ -1668,62 +1668,62 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         SliderCrankConstraints<T>,
     > {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v1;
-        let v3 = phi_crank_x * gains.minus_beta_squared;
-        let v5 = at.v.theta1 * sin_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let phi_dot_crank_x = at.v.x1 + v6;
-        let v8 = phi_dot_crank_x * gains.minus_two_alpha;
-        let feedback_crank_x = v3 + v8;
-        let v10 = cos_theta1 * at.v.theta1;
-        let v11 = at.v.theta1 * self.hoisted[0];
-        let v12 = v10 * v11;
-        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v14 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v15 = self.parameters.omega * at.t;
-        let phi_crank_speed = at.q.theta1 - v15;
-        let v17 = gains.minus_beta_squared * phi_crank_speed;
-        let feedback_crank_speed = v14 + v17;
-        let v19 = sin_theta1 * self.hoisted[0];
-        let v20 = feedback_crank_speed * v19;
-        let v21 = feedback_crank_x - v12;
-        let acc_x1 = v21 - v20;
-        let v23 = self.hoisted[0] * v10;
-        let phi_dot_crank_y = at.v.y1 - v23;
-        let v25 = gains.minus_two_alpha * phi_dot_crank_y;
-        let phi_crank_y = at.q.y1 - v19;
-        let v27 = gains.minus_beta_squared * phi_crank_y;
-        let feedback_crank_y = v25 + v27;
-        let v29 = v1 * feedback_crank_speed;
-        let v30 = v5 * v11;
-        let v31 = feedback_crank_y + v29;
-        let acc_y1 = v31 - v30;
-        let v33 = self.parameters.l1 * v5;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v35 = at.v.theta2 * sin_theta2;
-        let v36 = self.hoisted[1] * v35;
-        let v37 = at.v.x2 + v33;
-        let phi_dot_rod_x = v37 + v36;
-        let v39 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v40 = cos_theta1 * self.parameters.l1;
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v4;
+        let v6 = phi_crank_x * gains.minus_beta_squared;
+        let v7 = at.v.theta1 * sin_theta1;
+        let v8 = self.hoisted[0] * v7;
+        let phi_dot_crank_x = at.v.x1 + v8;
+        let v10 = phi_dot_crank_x * gains.minus_two_alpha;
+        let feedback_crank_x = v6 + v10;
+        let v12 = cos_theta1 * at.v.theta1;
+        let v13 = at.v.theta1 * self.hoisted[0];
+        let v14 = v12 * v13;
+        let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
+        let v16 = gains.minus_two_alpha * phi_dot_crank_speed;
+        let v17 = self.parameters.omega * at.t;
+        let phi_crank_speed = at.q.theta1 - v17;
+        let v19 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v16 + v19;
+        let v21 = sin_theta1 * self.hoisted[0];
+        let v22 = feedback_crank_speed * v21;
+        let v23 = feedback_crank_x - v14;
+        let acc_x1 = v23 - v22;
+        let v25 = self.hoisted[0] * v12;
+        let phi_dot_crank_y = at.v.y1 - v25;
+        let v27 = gains.minus_two_alpha * phi_dot_crank_y;
+        let phi_crank_y = at.q.y1 - v21;
+        let v29 = gains.minus_beta_squared * phi_crank_y;
+        let feedback_crank_y = v27 + v29;
+        let v31 = v4 * feedback_crank_speed;
+        let v32 = v7 * v13;
+        let v33 = feedback_crank_y + v31;
+        let acc_y1 = v33 - v32;
+        let v35 = self.parameters.l1 * v7;
+        let v36 = at.v.theta2 * sin_theta2;
+        let v37 = self.hoisted[1] * v36;
+        let v38 = at.v.x2 + v35;
+        let phi_dot_rod_x = v38 + v37;
+        let v40 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v41 = cos_theta1 * self.parameters.l1;
         let v42 = cos_theta2 * self.hoisted[1];
-        let v43 = at.q.x2 - v40;
+        let v43 = at.q.x2 - v41;
         let phi_rod_x = v43 - v42;
         let v45 = gains.minus_beta_squared * phi_rod_x;
-        let feedback_rod_x = v39 + v45;
+        let feedback_rod_x = v40 + v45;
         let v47 = cos_theta2 * at.v.theta2;
         let v48 = at.v.theta2 * self.hoisted[1];
         let v49 = v47 * v48;
         let v50 = at.v.theta1 * self.parameters.l1;
-        let v51 = v10 * v50;
+        let v51 = v12 * v50;
         let v52 = sin_theta1 * self.parameters.l1;
         let v53 = feedback_crank_speed * v52;
         let v54 = v51 + v53;
         let v55 = feedback_rod_x - v49;
         let v56 = v55 - v54;
         let v57 = self.hoisted[11] / cos_theta2;
-        let v58 = self.parameters.l1 * v10;
+        let v58 = self.parameters.l1 * v12;
         let v59 = self.parameters.l2 * v47;
         let phi_dot_guide = v58 + v59;
         let v61 = gains.minus_two_alpha * phi_dot_guide;
@@ -1732,9 +1732,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v64 = gains.minus_beta_squared * phi_guide;
         let feedback_guide = v61 + v64;
         let v66 = at.v.theta2 * self.parameters.l2;
-        let v67 = v35 * v66;
-        let v68 = feedback_crank_speed * v40;
-        let v69 = v5 * v50;
+        let v67 = v36 * v66;
+        let v68 = feedback_crank_speed * v41;
+        let v69 = v7 * v50;
         let v70 = v68 - v69;
         let v71 = feedback_guide + v67;
         let v72 = v71 - v70;
@@ -1750,17 +1750,17 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let phi_rod_y = v81 - v74;
         let v83 = gains.minus_beta_squared * phi_rod_y;
         let feedback_rod_y = v80 + v83;
-        let v85 = v35 * v48;
+        let v85 = v36 * v48;
         let v86 = feedback_rod_y - v85;
         let v87 = v86 + v70;
         let v88 = v42 * acc_theta2;
         let acc_y2 = v87 + v88;
-        let v90 = self.parameters.l2 * v35;
-        let v91 = v33 + at.v.x3;
+        let v90 = self.parameters.l2 * v36;
+        let v91 = v35 + at.v.x3;
         let phi_dot_slider = v91 + v90;
         let v93 = gains.minus_two_alpha * phi_dot_slider;
         let v94 = cos_theta2 * self.parameters.l2;
-        let v95 = at.q.x3 - v40;
+        let v95 = at.q.x3 - v41;
         let phi_slider = v95 - v94;
         let v97 = gains.minus_beta_squared * phi_slider;
         let feedback_slider = v93 + v97;
@@ -1801,52 +1801,52 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = at.v.theta1 * at.v.theta1;
-        let v2 = cos_theta1 * v1;
-        let v3 = self.hoisted[0] * v2;
-        let v5 = sin_theta1 * feedback.crank_speed;
-        let v6 = self.hoisted[0] * v5;
-        let v7 = feedback.crank_x - v3;
-        let acc_x1 = v7 - v6;
-        let v9 = cos_theta1 * feedback.crank_speed;
-        let v10 = self.hoisted[0] * v9;
-        let v11 = sin_theta1 * v1;
-        let v12 = self.hoisted[0] * v11;
-        let v13 = feedback.crank_y + v10;
-        let acc_y1 = v13 - v12;
-        let v15 = at.v.theta2 * at.v.theta2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v17 = cos_theta2 * self.hoisted[1];
-        let v18 = v15 * v17;
-        let v19 = self.parameters.l1 * v2;
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * v4;
+        let v6 = self.hoisted[0] * v5;
+        let v7 = sin_theta1 * feedback.crank_speed;
+        let v8 = self.hoisted[0] * v7;
+        let v9 = feedback.crank_x - v6;
+        let acc_x1 = v9 - v8;
+        let v11 = cos_theta1 * feedback.crank_speed;
+        let v12 = self.hoisted[0] * v11;
+        let v13 = sin_theta1 * v4;
+        let v14 = self.hoisted[0] * v13;
+        let v15 = feedback.crank_y + v12;
+        let acc_y1 = v15 - v14;
+        let v17 = at.v.theta2 * at.v.theta2;
+        let v18 = cos_theta2 * self.hoisted[1];
+        let v19 = v17 * v18;
         let v20 = self.parameters.l1 * v5;
-        let v21 = v19 + v20;
-        let v22 = feedback.rod_x - v18;
-        let v23 = v22 - v21;
-        let v24 = self.hoisted[11] / cos_theta2;
+        let v21 = self.parameters.l1 * v7;
+        let v22 = v20 + v21;
+        let v23 = feedback.rod_x - v19;
+        let v24 = v23 - v22;
+        let v25 = self.hoisted[11] / cos_theta2;
         let v26 = sin_theta2 * self.parameters.l2;
-        let v27 = v15 * v26;
-        let v28 = self.parameters.l1 * v9;
-        let v29 = self.parameters.l1 * v11;
+        let v27 = v17 * v26;
+        let v28 = self.parameters.l1 * v11;
+        let v29 = self.parameters.l1 * v13;
         let v30 = v28 - v29;
         let v31 = feedback.guide + v27;
         let v32 = v31 - v30;
-        let acc_theta2 = v24 * v32;
+        let acc_theta2 = v25 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
         let v35 = acc_theta2 * v34;
-        let acc_x2 = v23 - v35;
-        let v37 = v15 * v34;
+        let acc_x2 = v24 - v35;
+        let v37 = v17 * v34;
         let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
-        let v40 = acc_theta2 * v17;
+        let v40 = acc_theta2 * v18;
         let acc_y2 = v39 + v40;
         let v42 = cos_theta2 * self.parameters.l2;
-        let v43 = v42 * v15;
+        let v43 = v42 * v17;
         let v44 = feedback.slider - v43;
-        let v45 = v44 - v21;
+        let v45 = v44 - v22;
         let v46 = acc_theta2 * v26;
         let acc_x3 = v45 - v46;
-        let v48 = v24 * self.hoisted[12];
+        let v48 = v25 * self.hoisted[12];
         let abs_v48 = v48.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
@@ -1868,50 +1868,50 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         inputs: &::mbs_runtime::NoComponents<T>,
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>> {
-        let v0 = at.v.theta1 * at.v.theta1;
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v2 = cos_theta1 * self.hoisted[0];
-        let v3 = v0 * v2;
-        let v5 = sin_theta1 * self.hoisted[0];
-        let v6 = feedback.crank_speed * v5;
-        let v7 = feedback.crank_x - v3;
-        let acc_x1 = v7 - v6;
-        let v9 = feedback.crank_speed * v2;
-        let v10 = v0 * v5;
-        let v11 = feedback.crank_y + v9;
-        let acc_y1 = v11 - v10;
-        let v13 = at.v.theta2 * at.v.theta2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v15 = cos_theta2 * self.hoisted[1];
-        let v16 = v13 * v15;
-        let v17 = cos_theta1 * self.parameters.l1;
-        let v18 = v17 * v0;
-        let v19 = sin_theta1 * self.parameters.l1;
-        let v20 = feedback.crank_speed * v19;
-        let v21 = v18 + v20;
-        let v22 = feedback.rod_x - v16;
-        let v23 = v22 - v21;
-        let v24 = self.hoisted[11] / cos_theta2;
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * self.hoisted[0];
+        let v6 = v4 * v5;
+        let v7 = sin_theta1 * self.hoisted[0];
+        let v8 = feedback.crank_speed * v7;
+        let v9 = feedback.crank_x - v6;
+        let acc_x1 = v9 - v8;
+        let v11 = feedback.crank_speed * v5;
+        let v12 = v4 * v7;
+        let v13 = feedback.crank_y + v11;
+        let acc_y1 = v13 - v12;
+        let v15 = at.v.theta2 * at.v.theta2;
+        let v16 = cos_theta2 * self.hoisted[1];
+        let v17 = v15 * v16;
+        let v18 = cos_theta1 * self.parameters.l1;
+        let v19 = v18 * v4;
+        let v20 = sin_theta1 * self.parameters.l1;
+        let v21 = feedback.crank_speed * v20;
+        let v22 = v19 + v21;
+        let v23 = feedback.rod_x - v17;
+        let v24 = v23 - v22;
+        let v25 = self.hoisted[11] / cos_theta2;
         let v26 = sin_theta2 * self.parameters.l2;
-        let v27 = v13 * v26;
-        let v28 = feedback.crank_speed * v17;
-        let v29 = v0 * v19;
+        let v27 = v15 * v26;
+        let v28 = feedback.crank_speed * v18;
+        let v29 = v4 * v20;
         let v30 = v28 - v29;
         let v31 = feedback.guide + v27;
         let v32 = v31 - v30;
-        let acc_theta2 = v24 * v32;
+        let acc_theta2 = v25 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
         let v35 = acc_theta2 * v34;
-        let acc_x2 = v23 - v35;
-        let v37 = v13 * v34;
+        let acc_x2 = v24 - v35;
+        let v37 = v15 * v34;
         let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
-        let v40 = acc_theta2 * v15;
+        let v40 = acc_theta2 * v16;
         let acc_y2 = v39 + v40;
         let v42 = cos_theta2 * self.parameters.l2;
-        let v43 = v42 * v13;
+        let v43 = v42 * v15;
         let v44 = feedback.slider - v43;
-        let v45 = v44 - v21;
+        let v45 = v44 - v22;
         let v46 = acc_theta2 * v26;
         let acc_x3 = v45 - v46;
         let v48 = acc_x1 * self.parameters.m1;
@@ -1920,11 +1920,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v51 = self.hoisted[4] + v50;
         let lambda_crank_y = -v51;
         let v53 = feedback.crank_speed * self.hoisted[2];
-        let v54 = v51 * v2;
+        let v54 = v51 * v5;
         let v55 = v39 * self.parameters.m2;
         let v56 = self.hoisted[5] + v55;
-        let v57 = v56 * v15;
-        let v58 = v23 * self.parameters.m2;
+        let v57 = v56 * v16;
+        let v58 = v24 * self.parameters.m2;
         let v59 = v58 * v34;
         let v60 = v45 * self.parameters.m3;
         let v61 = v60 * v26;
@@ -1935,18 +1935,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v66 = v59 - v57;
         let v67 = v66 + v61;
         let v68 = v67 - v65;
-        let lambda_guide = v24 * v68;
-        let v70 = lambda_guide * v17;
+        let lambda_guide = v25 * v68;
+        let v70 = lambda_guide * v18;
         let v71 = v40 * self.parameters.m2;
         let v72 = v56 + v71;
-        let v73 = v72 * v17;
-        let v74 = v48 * v5;
+        let v73 = v72 * v18;
+        let v74 = v48 * v7;
         let v75 = v46 * self.parameters.m3;
         let lambda_slider = v75 - v60;
-        let v77 = lambda_slider * v19;
+        let v77 = lambda_slider * v20;
         let v78 = v35 * self.parameters.m2;
         let lambda_rod_x = v78 - v58;
-        let v80 = lambda_rod_x * v19;
+        let v80 = lambda_rod_x * v20;
         let v81 = v54 + v70;
         let v82 = v81 + v73;
         let v83 = v82 - v74;
@@ -1955,7 +1955,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v86 = v53 + v85;
         let lambda_crank_speed = -v86;
         let lambda_rod_y = -v72;
-        let v89 = v24 * self.hoisted[12];
+        let v89 = v25 * self.hoisted[12];
         let abs_v89 = v89.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankCoordinates {
@@ -1986,35 +1986,35 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let v1 = sin_theta1 * feedback.crank_speed;
-        let v2 = self.hoisted[0] * v1;
-        let v3 = feedback.crank_x - v2;
-        let v5 = feedback.crank_speed * cos_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let v7 = feedback.crank_y + v6;
-        let v8 = self.parameters.l1 * v1;
-        let v9 = feedback.rod_x - v8;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v4 = sin_theta1 * feedback.crank_speed;
+        let v5 = self.hoisted[0] * v4;
+        let v6 = feedback.crank_x - v5;
+        let v7 = feedback.crank_speed * cos_theta1;
+        let v8 = self.hoisted[0] * v7;
+        let v9 = feedback.crank_y + v8;
+        let v10 = self.parameters.l1 * v4;
+        let v11 = feedback.rod_x - v10;
         let v12 = self.hoisted[11] / cos_theta2;
-        let v13 = self.parameters.l1 * v5;
+        let v13 = self.parameters.l1 * v7;
         let v14 = feedback.guide - v13;
         let v15 = v12 * v14;
         let v16 = sin_theta2 * v15;
         let v17 = self.hoisted[1] * v16;
-        let v18 = v9 - v17;
+        let v18 = v11 - v17;
         let v19 = v13 + feedback.rod_y;
         let v20 = cos_theta2 * v15;
         let v21 = v20 * self.hoisted[1];
         let v22 = v19 + v21;
-        let v23 = feedback.slider - v8;
+        let v23 = feedback.slider - v10;
         let v24 = self.parameters.l2 * v16;
         let v25 = v23 - v24;
         let v26 = v12 * self.hoisted[12];
         let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
-                x1: v3,
-                y1: v7,
+                x1: v6,
+                y1: v9,
                 theta1: feedback.crank_speed,
                 x2: v18,
                 y2: v22,
@@ -2031,35 +2031,35 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let v1 = sin_theta1 * feedback.crank_speed;
-        let v2 = self.hoisted[0] * v1;
-        let v3 = feedback.crank_x - v2;
-        let v5 = feedback.crank_speed * cos_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let v7 = feedback.crank_y + v6;
-        let v8 = self.parameters.l1 * v1;
-        let v9 = feedback.rod_x - v8;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v4 = sin_theta1 * feedback.crank_speed;
+        let v5 = self.hoisted[0] * v4;
+        let v6 = feedback.crank_x - v5;
+        let v7 = feedback.crank_speed * cos_theta1;
+        let v8 = self.hoisted[0] * v7;
+        let v9 = feedback.crank_y + v8;
+        let v10 = self.parameters.l1 * v4;
+        let v11 = feedback.rod_x - v10;
         let v12 = self.hoisted[11] / cos_theta2;
-        let v13 = self.parameters.l1 * v5;
+        let v13 = self.parameters.l1 * v7;
         let v14 = feedback.guide - v13;
         let v15 = v12 * v14;
         let v16 = sin_theta2 * v15;
         let v17 = self.hoisted[1] * v16;
-        let v18 = v9 - v17;
+        let v18 = v11 - v17;
         let v19 = v13 + feedback.rod_y;
         let v20 = cos_theta2 * v15;
         let v21 = v20 * self.hoisted[1];
         let v22 = v19 + v21;
-        let v23 = feedback.slider - v8;
+        let v23 = feedback.slider - v10;
         let v24 = self.parameters.l2 * v16;
         let v25 = v23 - v24;
         let v26 = v12 * self.hoisted[12];
         let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
-                x1: v3,
-                y1: v7,
+                x1: v6,
+                y1: v9,
                 theta1: feedback.crank_speed,
                 x2: v18,
                 y2: v22,

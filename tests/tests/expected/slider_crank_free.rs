@@ -571,60 +571,60 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
     /// Computes what depends on parameters alone.
     #[allow(unused_variables, clippy::all)]
     fn prepare(parameters: SliderCrankFreeParameters<T>) -> Self {
-        let v0 = parameters.l1 * T::from_f64(0.5);
-        let v1 = parameters.l2 * T::from_f64(0.5);
-        let v2 = parameters.l1 * parameters.l1;
-        let v3 = parameters.m1 * v2;
-        let v4 = parameters.inertia_factor * v3;
-        let v5 = parameters.l2 * parameters.l2;
-        let v6 = parameters.inertia_factor * v5;
-        let v7 = parameters.m2 * v6;
-        let v8 = parameters.m1 * T::from_f64(9.81);
-        let v9 = parameters.m2 * T::from_f64(9.81);
-        let v10 = T::from_f64(0.5) * v4;
-        let v11 = parameters.m1 * T::from_f64(0.5);
-        let v12 = parameters.m2 * T::from_f64(0.5);
-        let v13 = v12 * v6;
-        let v14 = parameters.m3 * T::from_f64(0.5);
-        let v15 = parameters.m2 * T::from_f64(0.25);
-        let v16 = v15 * v5;
-        let v17 = v7 + v16;
-        let v18 = parameters.m3 * v5;
-        let v19 = parameters.l1 * parameters.l2;
-        let v20 = v12 * v19;
-        let v21 = parameters.m3 * v19;
-        let v22 = v20 + v21;
-        let v23 = T::from_f64(0.25) * v3;
-        let v24 = parameters.m2 * v2;
-        let v25 = v23 + v4;
-        let v26 = v25 + v24;
-        let v27 = parameters.m3 * v2;
         let abs_l1 = parameters.l1.abs();
-        let v29 = abs_l1 * abs_l1;
         let abs_l2 = parameters.l2.abs();
+        let v2 = parameters.l1 * T::from_f64(0.5);
+        let v3 = parameters.l2 * T::from_f64(0.5);
+        let v4 = parameters.l1 * parameters.l1;
+        let v5 = parameters.m1 * v4;
+        let v6 = parameters.inertia_factor * v5;
+        let v7 = parameters.l2 * parameters.l2;
+        let v8 = parameters.inertia_factor * v7;
+        let v9 = parameters.m2 * v8;
+        let v10 = parameters.m1 * T::from_f64(9.81);
+        let v11 = parameters.m2 * T::from_f64(9.81);
+        let v12 = T::from_f64(0.5) * v6;
+        let v13 = parameters.m1 * T::from_f64(0.5);
+        let v14 = parameters.m2 * T::from_f64(0.5);
+        let v15 = v14 * v8;
+        let v16 = parameters.m3 * T::from_f64(0.5);
+        let v17 = parameters.m2 * T::from_f64(0.25);
+        let v18 = v17 * v7;
+        let v19 = v9 + v18;
+        let v20 = parameters.m3 * v7;
+        let v21 = parameters.l1 * parameters.l2;
+        let v22 = v14 * v21;
+        let v23 = parameters.m3 * v21;
+        let v24 = v22 + v23;
+        let v25 = T::from_f64(0.25) * v5;
+        let v26 = parameters.m2 * v4;
+        let v27 = v25 + v6;
+        let v28 = v27 + v26;
+        let v29 = parameters.m3 * v4;
+        let v30 = abs_l1 * abs_l1;
         let v31 = abs_l2 * abs_l2;
-        let v32 = v29 + v31;
+        let v32 = v30 + v31;
         let v33 = T::from_f64(1.0) / parameters.l2;
         Self {
             parameters,
             hoisted: [
-                v0,
-                v1,
-                v4,
-                v7,
-                v8,
+                v2,
+                v3,
+                v6,
                 v9,
                 v10,
                 v11,
                 v12,
                 v13,
                 v14,
-                v17,
-                v18,
+                v15,
+                v16,
+                v19,
                 v20,
                 v22,
-                v26,
-                v27,
+                v24,
+                v28,
+                v29,
                 v32,
                 v33,
                 abs_l2,
@@ -658,23 +658,23 @@ Cost: 8 mul + 9 add + 0 div + 2 sincos.*/
         q: &SliderCrankFreeCoordinates<T>,
     ) -> SliderCrankFreeConstraints<T> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let v1 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = q.x1 - v1;
-        let v4 = self.hoisted[0] * sin_theta1;
-        let phi_crank_y = q.y1 - v4;
-        let v6 = cos_theta1 * self.parameters.l1;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v8 = cos_theta2 * self.hoisted[1];
-        let v9 = q.x2 - v6;
-        let phi_rod_x = v9 - v8;
-        let v11 = sin_theta1 * self.parameters.l1;
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = q.x1 - v4;
+        let v6 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = q.y1 - v6;
+        let v8 = cos_theta1 * self.parameters.l1;
+        let v9 = cos_theta2 * self.hoisted[1];
+        let v10 = q.x2 - v8;
+        let phi_rod_x = v10 - v9;
+        let v12 = sin_theta1 * self.parameters.l1;
         let v13 = self.hoisted[1] * sin_theta2;
-        let v14 = q.y2 - v11;
+        let v14 = q.y2 - v12;
         let phi_rod_y = v14 - v13;
         let v16 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v11 + v16;
+        let phi_guide = v12 + v16;
         let v18 = cos_theta2 * self.parameters.l2;
-        let v19 = q.x3 - v6;
+        let v19 = q.x3 - v8;
         let phi_slider = v19 - v18;
         SliderCrankFreeConstraints {
             crank_x: phi_crank_x,
@@ -714,11 +714,11 @@ Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
         q: &SliderCrankFreeCoordinates<T>,
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 6usize, 7usize> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
-        let v3 = cos_theta1 * self.hoisted[0];
-        let phi_q_crank_y_theta1 = -v3;
-        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
+        let v5 = cos_theta1 * self.hoisted[0];
+        let phi_q_crank_y_theta1 = -v5;
+        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
         let phi_q_rod_x_theta2 = sin_theta2 * self.hoisted[1];
         let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
         let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
@@ -822,27 +822,27 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> SliderCrankFreeConstraints<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = sin_theta1 * at.v.theta1;
-        let v2 = self.hoisted[0] * v1;
-        let phi_dot_crank_x = at.v.x1 + v2;
-        let v5 = at.v.theta1 * cos_theta1;
-        let v6 = self.hoisted[0] * v5;
-        let phi_dot_crank_y = at.v.y1 - v6;
-        let v8 = self.parameters.l1 * v1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v10 = sin_theta2 * at.v.theta2;
-        let v11 = self.hoisted[1] * v10;
-        let v12 = at.v.x2 + v8;
-        let phi_dot_rod_x = v12 + v11;
-        let v14 = self.parameters.l1 * v5;
+        let v4 = sin_theta1 * at.v.theta1;
+        let v5 = self.hoisted[0] * v4;
+        let phi_dot_crank_x = at.v.x1 + v5;
+        let v7 = at.v.theta1 * cos_theta1;
+        let v8 = self.hoisted[0] * v7;
+        let phi_dot_crank_y = at.v.y1 - v8;
+        let v10 = self.parameters.l1 * v4;
+        let v11 = sin_theta2 * at.v.theta2;
+        let v12 = self.hoisted[1] * v11;
+        let v13 = at.v.x2 + v10;
+        let phi_dot_rod_x = v13 + v12;
+        let v15 = self.parameters.l1 * v7;
         let v16 = at.v.theta2 * cos_theta2;
         let v17 = self.hoisted[1] * v16;
-        let v18 = at.v.y2 - v14;
+        let v18 = at.v.y2 - v15;
         let phi_dot_rod_y = v18 - v17;
         let v20 = self.parameters.l2 * v16;
-        let phi_dot_guide = v14 + v20;
-        let v22 = self.parameters.l2 * v10;
-        let v23 = v8 + at.v.x3;
+        let phi_dot_guide = v15 + v20;
+        let v22 = self.parameters.l2 * v11;
+        let v23 = v10 + at.v.x3;
         let phi_dot_slider = v23 + v22;
         SliderCrankFreeConstraints {
             crank_x: phi_dot_crank_x,
@@ -872,29 +872,29 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> SliderCrankFreeConstraints<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = at.v.theta1 * at.v.theta1;
-        let v2 = cos_theta1 * v1;
-        let v3 = self.hoisted[0] * v2;
-        let gamma_crank_x = -v3;
-        let v6 = sin_theta1 * v1;
-        let v7 = self.hoisted[0] * v6;
-        let gamma_crank_y = -v7;
-        let v9 = self.parameters.l1 * v2;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v11 = at.v.theta2 * at.v.theta2;
-        let v12 = cos_theta2 * v11;
-        let v13 = self.hoisted[1] * v12;
-        let v14 = v9 + v13;
-        let gamma_rod_x = -v14;
-        let v16 = self.parameters.l1 * v6;
-        let v18 = sin_theta2 * v11;
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * v4;
+        let v6 = self.hoisted[0] * v5;
+        let gamma_crank_x = -v6;
+        let v8 = sin_theta1 * v4;
+        let v9 = self.hoisted[0] * v8;
+        let gamma_crank_y = -v9;
+        let v11 = self.parameters.l1 * v5;
+        let v12 = at.v.theta2 * at.v.theta2;
+        let v13 = cos_theta2 * v12;
+        let v14 = self.hoisted[1] * v13;
+        let v15 = v11 + v14;
+        let gamma_rod_x = -v15;
+        let v17 = self.parameters.l1 * v8;
+        let v18 = sin_theta2 * v12;
         let v19 = self.hoisted[1] * v18;
-        let v20 = v16 + v19;
+        let v20 = v17 + v19;
         let gamma_rod_y = -v20;
         let v22 = self.parameters.l2 * v18;
-        let gamma_guide = v16 + v22;
-        let v24 = self.parameters.l2 * v12;
-        let v25 = v9 + v24;
+        let gamma_guide = v17 + v22;
+        let v24 = self.parameters.l2 * v13;
+        let v25 = v11 + v24;
         let gamma_slider = -v25;
         SliderCrankFreeConstraints {
             crank_x: gamma_crank_x,
@@ -920,37 +920,37 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
             minus_beta_squared: -(beta * beta),
         };
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = cos_theta1 * at.v.theta1;
-        let v2 = at.v.theta1 * self.hoisted[0];
-        let v3 = v1 * v2;
-        let v4 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v4;
-        let v6 = phi_crank_x * gains.minus_beta_squared;
-        let v8 = at.v.theta1 * sin_theta1;
-        let v9 = self.hoisted[0] * v8;
-        let phi_dot_crank_x = at.v.x1 + v9;
-        let v11 = phi_dot_crank_x * gains.minus_two_alpha;
-        let v12 = v6 - v3;
-        let v13 = v12 + v11;
-        let v14 = v8 * v2;
-        let v15 = self.hoisted[0] * v1;
-        let phi_dot_crank_y = at.v.y1 - v15;
-        let v17 = gains.minus_two_alpha * phi_dot_crank_y;
-        let v18 = sin_theta1 * self.hoisted[0];
-        let phi_crank_y = at.q.y1 - v18;
-        let v20 = gains.minus_beta_squared * phi_crank_y;
-        let v21 = v17 - v14;
-        let v22 = v21 + v20;
-        let v23 = at.v.theta1 * self.parameters.l1;
-        let v24 = v1 * v23;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v26 = cos_theta2 * at.v.theta2;
-        let v27 = at.v.theta2 * self.hoisted[1];
-        let v28 = v26 * v27;
-        let v29 = self.parameters.l1 * v8;
+        let v4 = cos_theta1 * at.v.theta1;
+        let v5 = at.v.theta1 * self.hoisted[0];
+        let v6 = v4 * v5;
+        let v7 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v7;
+        let v9 = phi_crank_x * gains.minus_beta_squared;
+        let v10 = at.v.theta1 * sin_theta1;
+        let v11 = self.hoisted[0] * v10;
+        let phi_dot_crank_x = at.v.x1 + v11;
+        let v13 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v14 = v9 - v6;
+        let v15 = v14 + v13;
+        let v16 = v10 * v5;
+        let v17 = self.hoisted[0] * v4;
+        let phi_dot_crank_y = at.v.y1 - v17;
+        let v19 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v20 = sin_theta1 * self.hoisted[0];
+        let phi_crank_y = at.q.y1 - v20;
+        let v22 = gains.minus_beta_squared * phi_crank_y;
+        let v23 = v19 - v16;
+        let v24 = v23 + v22;
+        let v25 = at.v.theta1 * self.parameters.l1;
+        let v26 = v4 * v25;
+        let v27 = cos_theta2 * at.v.theta2;
+        let v28 = at.v.theta2 * self.hoisted[1];
+        let v29 = v27 * v28;
+        let v30 = self.parameters.l1 * v10;
         let v31 = at.v.theta2 * sin_theta2;
         let v32 = self.hoisted[1] * v31;
-        let v33 = at.v.x2 + v29;
+        let v33 = at.v.x2 + v30;
         let phi_dot_rod_x = v33 + v32;
         let v35 = gains.minus_two_alpha * phi_dot_rod_x;
         let v36 = cos_theta1 * self.parameters.l1;
@@ -958,13 +958,13 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
         let v38 = at.q.x2 - v36;
         let phi_rod_x = v38 - v37;
         let v40 = gains.minus_beta_squared * phi_rod_x;
-        let v41 = v35 - v24;
-        let v42 = v41 - v28;
+        let v41 = v35 - v26;
+        let v42 = v41 - v29;
         let v43 = v42 + v40;
-        let v44 = v8 * v23;
-        let v45 = v31 * v27;
-        let v46 = self.parameters.l1 * v1;
-        let v47 = self.hoisted[1] * v26;
+        let v44 = v10 * v25;
+        let v45 = v31 * v28;
+        let v46 = self.parameters.l1 * v4;
+        let v47 = self.hoisted[1] * v27;
         let v48 = at.v.y2 - v46;
         let phi_dot_rod_y = v48 - v47;
         let v50 = gains.minus_two_alpha * phi_dot_rod_y;
@@ -978,7 +978,7 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
         let v58 = v57 + v55;
         let v59 = at.v.theta2 * self.parameters.l2;
         let v60 = v31 * v59;
-        let v61 = self.parameters.l2 * v26;
+        let v61 = self.parameters.l2 * v27;
         let phi_dot_guide = v46 + v61;
         let v63 = gains.minus_two_alpha * phi_dot_guide;
         let v64 = sin_theta2 * self.parameters.l2;
@@ -987,21 +987,21 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
         let v67 = v44 + v60;
         let v68 = v67 + v63;
         let v69 = v68 + v66;
-        let v70 = v26 * v59;
+        let v70 = v27 * v59;
         let v71 = self.parameters.l2 * v31;
-        let v72 = v29 + at.v.x3;
+        let v72 = v30 + at.v.x3;
         let phi_dot_slider = v72 + v71;
         let v74 = gains.minus_two_alpha * phi_dot_slider;
         let v75 = cos_theta2 * self.parameters.l2;
         let v76 = at.q.x3 - v36;
         let phi_slider = v76 - v75;
         let v78 = gains.minus_beta_squared * phi_slider;
-        let v79 = v74 - v24;
+        let v79 = v74 - v26;
         let v80 = v79 - v70;
         let v81 = v80 + v78;
         SliderCrankFreeConstraints {
-            crank_x: v13,
-            crank_y: v22,
+            crank_x: v15,
+            crank_y: v24,
             rod_x: v43,
             rod_y: v58,
             guide: v69,
@@ -1741,39 +1741,39 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         SliderCrankFreeConstraints<T>,
     > {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v1 = cos_theta1 * self.hoisted[0];
-        let phi_crank_x = at.q.x1 - v1;
-        let v3 = phi_crank_x * gains.minus_beta_squared;
-        let v5 = sin_theta1 * self.hoisted[0];
-        let v6 = at.v.theta1 * v5;
-        let phi_dot_crank_x = at.v.x1 + v6;
-        let v8 = phi_dot_crank_x * gains.minus_two_alpha;
-        let feedback_crank_x = v3 + v8;
-        let v10 = at.v.theta1 * at.v.theta1;
-        let v11 = v1 * v10;
-        let v12 = feedback_crank_x - v11;
-        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v14 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v4 = cos_theta1 * self.hoisted[0];
+        let phi_crank_x = at.q.x1 - v4;
+        let v6 = phi_crank_x * gains.minus_beta_squared;
+        let v7 = sin_theta1 * self.hoisted[0];
+        let v8 = at.v.theta1 * v7;
+        let phi_dot_crank_x = at.v.x1 + v8;
+        let v10 = phi_dot_crank_x * gains.minus_two_alpha;
+        let feedback_crank_x = v6 + v10;
+        let v12 = at.v.theta1 * at.v.theta1;
+        let v13 = v4 * v12;
+        let v14 = feedback_crank_x - v13;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v16 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
-        let v17 = phi_q_guide_theta2 * phi_q_guide_theta2;
-        let v18 = v14 + v17;
-        let v19 = T::from_f64(1.0) / v18;
-        let v20 = at.v.theta1 * phi_q_guide_theta1;
-        let v21 = phi_q_guide_theta2 * at.v.theta2;
-        let phi_dot_guide = v20 + v21;
-        let v23 = gains.minus_two_alpha * phi_dot_guide;
-        let v24 = sin_theta1 * self.parameters.l1;
+        let v18 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v19 = v16 + v18;
+        let v20 = T::from_f64(1.0) / v19;
+        let v21 = at.v.theta1 * phi_q_guide_theta1;
+        let v22 = phi_q_guide_theta2 * at.v.theta2;
+        let phi_dot_guide = v21 + v22;
+        let v24 = gains.minus_two_alpha * phi_dot_guide;
+        let v25 = sin_theta1 * self.parameters.l1;
         let v26 = self.parameters.l2 * sin_theta2;
-        let phi_guide = v24 + v26;
+        let phi_guide = v25 + v26;
         let v28 = gains.minus_beta_squared * phi_guide;
-        let feedback_guide = v23 + v28;
-        let v30 = v24 * v10;
+        let feedback_guide = v24 + v28;
+        let v30 = v25 * v12;
         let v31 = at.v.theta2 * at.v.theta2;
         let v32 = v26 * v31;
         let v33 = feedback_guide + v30;
         let v34 = v33 + v32;
-        let v35 = v19 * v34;
+        let v35 = v20 * v34;
         let v36 = phi_q_guide_theta1 * v35;
         let v37 = sin_theta2 * sin_theta2;
         let v38 = v37 * self.hoisted[12];
@@ -1797,11 +1797,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v56 = v48 - v55;
         let v57 = cos_theta2 * self.hoisted[1];
         let v58 = at.v.theta2 * v57;
-        let v59 = at.v.y2 - v20;
+        let v59 = at.v.y2 - v21;
         let phi_dot_rod_y = v59 - v58;
         let v61 = gains.minus_two_alpha * phi_dot_rod_y;
         let v62 = sin_theta2 * self.hoisted[1];
-        let v63 = at.q.y2 - v24;
+        let v63 = at.q.y2 - v25;
         let phi_rod_y = v63 - v62;
         let v65 = gains.minus_beta_squared * phi_rod_y;
         let feedback_rod_y = v61 + v65;
@@ -1811,7 +1811,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v70 = self.parameters.m2 * v69;
         let v71 = self.hoisted[5] + v70;
         let v72 = v57 * v71;
-        let v73 = at.v.theta1 * v24;
+        let v73 = at.v.theta1 * v25;
         let v74 = at.v.theta2 * v62;
         let v75 = at.v.x2 + v73;
         let phi_dot_rod_x = v75 + v74;
@@ -1820,7 +1820,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let phi_rod_x = v78 - v57;
         let v80 = gains.minus_beta_squared * phi_rod_x;
         let feedback_rod_x = v77 + v80;
-        let v82 = phi_q_guide_theta1 * v10;
+        let v82 = phi_q_guide_theta1 * v12;
         let v83 = v57 * v31;
         let v84 = feedback_rod_x - v82;
         let v85 = v84 - v83;
@@ -1842,22 +1842,22 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v101 = v87 - v72;
         let v102 = v101 + v100;
         let v103 = phi_q_guide_theta1 * v102;
-        let v104 = at.v.theta1 * v1;
+        let v104 = at.v.theta1 * v4;
         let phi_dot_crank_y = at.v.y1 - v104;
         let v106 = gains.minus_two_alpha * phi_dot_crank_y;
-        let phi_crank_y = at.q.y1 - v5;
+        let phi_crank_y = at.q.y1 - v7;
         let v108 = gains.minus_beta_squared * phi_crank_y;
         let feedback_crank_y = v106 + v108;
-        let v110 = v5 * v10;
+        let v110 = v7 * v12;
         let v111 = feedback_crank_y - v110;
         let v112 = self.parameters.m1 * v111;
         let v113 = self.hoisted[4] + v112;
-        let v114 = v1 * v113;
+        let v114 = v4 * v113;
         let v115 = phi_q_guide_theta1 * v71;
-        let v116 = v12 * self.parameters.m1;
-        let v117 = v116 * v5;
-        let v118 = v24 * v86;
-        let v119 = v24 * v99;
+        let v116 = v14 * self.parameters.m1;
+        let v117 = v116 * v7;
+        let v118 = v25 * v86;
+        let v119 = v25 * v99;
         let v120 = inputs.crank_torque - v114;
         let v121 = v120 - v115;
         let v122 = v121 + v117;
@@ -1873,11 +1873,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v132 = v131 / v56;
         let v133 = phi_q_guide_theta2 * v132;
         let acc_theta1 = v36 - v133;
-        let v135 = v5 * acc_theta1;
-        let acc_x1 = v12 - v135;
-        let v137 = v1 * acc_theta1;
+        let v135 = v7 * acc_theta1;
+        let acc_x1 = v14 - v135;
+        let v137 = v4 * acc_theta1;
         let acc_y1 = v111 + v137;
-        let v139 = v24 * acc_theta1;
+        let v139 = v25 * acc_theta1;
         let v140 = phi_q_guide_theta1 * v132;
         let v141 = phi_q_guide_theta2 * v35;
         let acc_theta2 = v140 + v141;
@@ -1891,7 +1891,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v150 = v26 * acc_theta2;
         let v151 = v139 + v150;
         let acc_x3 = v98 - v151;
-        let v153 = v19 * self.hoisted[17];
+        let v153 = v20 * self.hoisted[17];
         let abs_v153 = v153.abs();
         let sqrt_abs_v153 = abs_v153.sqrt();
         ::mbs_runtime::Stabilized {
@@ -1922,26 +1922,26 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         inputs: &SliderCrankFreeInputs<T>,
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {
-        let v0 = at.v.theta1 * at.v.theta1;
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v2 = cos_theta1 * self.hoisted[0];
-        let v3 = v0 * v2;
-        let v4 = feedback.crank_x - v3;
-        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v6 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * self.hoisted[0];
+        let v6 = v4 * v5;
+        let v7 = feedback.crank_x - v6;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v9 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
-        let v9 = phi_q_guide_theta2 * phi_q_guide_theta2;
-        let v10 = v6 + v9;
-        let v11 = T::from_f64(1.0) / v10;
-        let v13 = sin_theta1 * self.parameters.l1;
-        let v14 = v0 * v13;
-        let v15 = at.v.theta2 * at.v.theta2;
+        let v11 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v12 = v9 + v11;
+        let v13 = T::from_f64(1.0) / v12;
+        let v14 = sin_theta1 * self.parameters.l1;
+        let v15 = v4 * v14;
+        let v16 = at.v.theta2 * at.v.theta2;
         let v17 = self.parameters.l2 * sin_theta2;
-        let v18 = v15 * v17;
-        let v19 = feedback.guide + v14;
+        let v18 = v16 * v17;
+        let v19 = feedback.guide + v15;
         let v20 = v19 + v18;
-        let v21 = v11 * v20;
+        let v21 = v13 * v20;
         let v22 = phi_q_guide_theta1 * v21;
         let v23 = sin_theta2 * sin_theta2;
         let v24 = v23 * self.hoisted[12];
@@ -1964,20 +1964,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v41 = phi_q_guide_theta2 * v40;
         let v42 = v34 - v41;
         let v43 = sin_theta2 * self.hoisted[1];
-        let v44 = v15 * v43;
-        let v45 = feedback.rod_y - v14;
+        let v44 = v16 * v43;
+        let v45 = feedback.rod_y - v15;
         let v46 = v45 - v44;
         let v47 = self.parameters.m2 * v46;
         let v48 = self.hoisted[5] + v47;
         let v49 = cos_theta2 * self.hoisted[1];
         let v50 = v48 * v49;
-        let v51 = phi_q_guide_theta1 * v0;
-        let v52 = v15 * v49;
+        let v51 = phi_q_guide_theta1 * v4;
+        let v52 = v16 * v49;
         let v53 = feedback.rod_x - v51;
         let v54 = v53 - v52;
         let v55 = v54 * self.parameters.m2;
         let v56 = v55 * v43;
-        let v57 = phi_q_guide_theta2 * v15;
+        let v57 = phi_q_guide_theta2 * v16;
         let v58 = feedback.slider - v51;
         let v59 = v58 - v57;
         let v60 = v59 * self.parameters.m3;
@@ -1986,16 +1986,16 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v63 = v62 + v61;
         let v64 = phi_q_guide_theta1 * v63;
         let v65 = self.hoisted[0] * sin_theta1;
-        let v66 = v0 * v65;
+        let v66 = v4 * v65;
         let v67 = feedback.crank_y - v66;
         let v68 = self.parameters.m1 * v67;
         let v69 = self.hoisted[4] + v68;
-        let v70 = v69 * v2;
+        let v70 = v69 * v5;
         let v71 = phi_q_guide_theta1 * v48;
-        let v72 = v4 * self.parameters.m1;
+        let v72 = v7 * self.parameters.m1;
         let v73 = v72 * v65;
-        let v74 = v55 * v13;
-        let v75 = v60 * v13;
+        let v74 = v55 * v14;
+        let v75 = v60 * v14;
         let v76 = inputs.crank_torque - v70;
         let v77 = v76 - v71;
         let v78 = v77 + v73;
@@ -2012,10 +2012,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v89 = phi_q_guide_theta2 * v88;
         let acc_theta1 = v22 - v89;
         let v91 = acc_theta1 * v65;
-        let acc_x1 = v4 - v91;
-        let v93 = acc_theta1 * v2;
+        let acc_x1 = v7 - v91;
+        let v93 = acc_theta1 * v5;
         let acc_y1 = v67 + v93;
-        let v95 = acc_theta1 * v13;
+        let v95 = acc_theta1 * v14;
         let v96 = phi_q_guide_theta1 * v88;
         let v97 = phi_q_guide_theta2 * v21;
         let acc_theta2 = v96 + v97;
@@ -2029,7 +2029,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v106 = acc_theta2 * v17;
         let v107 = v95 + v106;
         let acc_x3 = v59 - v107;
-        let v109 = v11 * self.hoisted[17];
+        let v109 = v13 * self.hoisted[17];
         let abs_v109 = v109.abs();
         let sqrt_abs_v109 = abs_v109.sqrt();
         ::mbs_runtime::Accelerations {
@@ -2055,26 +2055,26 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         SliderCrankFreeCoordinates<T>,
         SliderCrankFreeConstraints<T>,
     > {
-        let v0 = at.v.theta1 * at.v.theta1;
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
-        let v2 = cos_theta1 * self.hoisted[0];
-        let v3 = v0 * v2;
-        let v4 = feedback.crank_x - v3;
-        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v6 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
+        let v4 = at.v.theta1 * at.v.theta1;
+        let v5 = cos_theta1 * self.hoisted[0];
+        let v6 = v4 * v5;
+        let v7 = feedback.crank_x - v6;
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v9 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
-        let v9 = phi_q_guide_theta2 * phi_q_guide_theta2;
-        let v10 = v6 + v9;
-        let v11 = T::from_f64(1.0) / v10;
-        let v13 = sin_theta1 * self.parameters.l1;
-        let v14 = v0 * v13;
-        let v15 = at.v.theta2 * at.v.theta2;
+        let v11 = phi_q_guide_theta2 * phi_q_guide_theta2;
+        let v12 = v9 + v11;
+        let v13 = T::from_f64(1.0) / v12;
+        let v14 = sin_theta1 * self.parameters.l1;
+        let v15 = v4 * v14;
+        let v16 = at.v.theta2 * at.v.theta2;
         let v17 = self.parameters.l2 * sin_theta2;
-        let v18 = v15 * v17;
-        let v19 = feedback.guide + v14;
+        let v18 = v16 * v17;
+        let v19 = feedback.guide + v15;
         let v20 = v19 + v18;
-        let v21 = v11 * v20;
+        let v21 = v13 * v20;
         let v22 = phi_q_guide_theta1 * v21;
         let v23 = sin_theta2 * sin_theta2;
         let v24 = v23 * self.hoisted[12];
@@ -2097,20 +2097,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v41 = phi_q_guide_theta2 * v40;
         let v42 = v34 - v41;
         let v43 = sin_theta2 * self.hoisted[1];
-        let v44 = v15 * v43;
-        let v45 = feedback.rod_y - v14;
+        let v44 = v16 * v43;
+        let v45 = feedback.rod_y - v15;
         let v46 = v45 - v44;
         let v47 = self.parameters.m2 * v46;
         let v48 = self.hoisted[5] + v47;
         let v49 = cos_theta2 * self.hoisted[1];
         let v50 = v48 * v49;
-        let v51 = phi_q_guide_theta1 * v0;
-        let v52 = v15 * v49;
+        let v51 = phi_q_guide_theta1 * v4;
+        let v52 = v16 * v49;
         let v53 = feedback.rod_x - v51;
         let v54 = v53 - v52;
         let v55 = v54 * self.parameters.m2;
         let v56 = v55 * v43;
-        let v57 = phi_q_guide_theta2 * v15;
+        let v57 = phi_q_guide_theta2 * v16;
         let v58 = feedback.slider - v51;
         let v59 = v58 - v57;
         let v60 = v59 * self.parameters.m3;
@@ -2119,16 +2119,16 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v63 = v62 + v61;
         let v64 = phi_q_guide_theta1 * v63;
         let v65 = self.hoisted[0] * sin_theta1;
-        let v66 = v0 * v65;
+        let v66 = v4 * v65;
         let v67 = feedback.crank_y - v66;
         let v68 = self.parameters.m1 * v67;
         let v69 = self.hoisted[4] + v68;
-        let v70 = v69 * v2;
+        let v70 = v69 * v5;
         let v71 = phi_q_guide_theta1 * v48;
-        let v72 = v4 * self.parameters.m1;
+        let v72 = v7 * self.parameters.m1;
         let v73 = v72 * v65;
-        let v74 = v55 * v13;
-        let v75 = v60 * v13;
+        let v74 = v55 * v14;
+        let v75 = v60 * v14;
         let v76 = inputs.crank_torque - v70;
         let v77 = v76 - v71;
         let v78 = v77 + v73;
@@ -2145,10 +2145,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v89 = phi_q_guide_theta2 * v88;
         let acc_theta1 = v22 - v89;
         let v91 = acc_theta1 * v65;
-        let acc_x1 = v4 - v91;
-        let v93 = acc_theta1 * v2;
+        let acc_x1 = v7 - v91;
+        let v93 = acc_theta1 * v5;
         let acc_y1 = v67 + v93;
-        let v95 = acc_theta1 * v13;
+        let v95 = acc_theta1 * v14;
         let v96 = phi_q_guide_theta1 * v88;
         let v97 = phi_q_guide_theta2 * v21;
         let acc_theta2 = v96 + v97;
@@ -2183,10 +2183,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v127 = v63 - v126;
         let v128 = phi_q_guide_theta2 * v127;
         let v129 = v123 + v128;
-        let lambda_guide = v11 * v129;
+        let lambda_guide = v13 * v129;
         let v131 = self.parameters.m3 * v107;
         let lambda_slider = v131 - v60;
-        let v133 = v11 * self.hoisted[17];
+        let v133 = v13 * self.hoisted[17];
         let abs_v133 = v133.abs();
         let sqrt_abs_v133 = abs_v133.sqrt();
         ::mbs_runtime::Reactions {
@@ -2280,12 +2280,12 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         q: &SliderCrankFreeCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let cos_theta1 = q.theta1.cos();
-        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
-        let v2 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let cos_theta2 = q.theta2.cos();
+        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let v3 = phi_q_guide_theta1 * phi_q_guide_theta1;
         let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
         let v5 = phi_q_guide_theta2 * phi_q_guide_theta2;
-        let v6 = v2 + v5;
+        let v6 = v3 + v5;
         let v7 = self.hoisted[17] / v6;
         let abs_v7 = v7.abs();
         let sqrt_abs_v7 = abs_v7.sqrt();

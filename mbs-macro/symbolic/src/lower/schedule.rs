@@ -107,11 +107,26 @@ impl Schedule<'_> {
     }
 }
 
-/// The values that the outputs need, operands before users.
+/// The values that the outputs need, operands before users; functions of inputs
+/// come first. A call in the middle would make the machine save every value that
+/// is alive across it.
 fn order(flat: &Flat) -> Vec<Value> {
+    let order = depth_first(flat, &flat.outputs);
+    let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
+    let of_inputs = |value: &Value| match flat.definitions[*value] {
+        Definition::Call(_, x) => is_leaf(x),
+        Definition::Call2(_, x, y) => is_leaf(x) && is_leaf(y),
+        _ => false,
+    };
+    let mut roots: Vec<Value> = order.into_iter().filter(of_inputs).collect();
+    roots.extend(&flat.outputs);
+    depth_first(flat, &roots)
+}
+
+fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
     let mut order = Vec::new();
     let mut seen = vec![false; flat.definitions.len()];
-    let mut stack: Vec<(Value, bool)> = flat.outputs.iter().rev().map(|&value| (value, false)).collect();
+    let mut stack: Vec<(Value, bool)> = roots.iter().rev().map(|&value| (value, false)).collect();
     while let Some((value, operands_done)) = stack.pop() {
         if operands_done {
             order.push(value);
