@@ -94,6 +94,7 @@ mod kinematics;
 mod mechanism;
 mod real;
 mod simulation;
+mod sincos;
 pub mod start;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};

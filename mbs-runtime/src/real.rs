@@ -7,7 +7,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// Implemented for `f32` and `f64`. With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
-/// may differ in the last place.
+/// may differ in the last place. The sine and cosine of an `f64` angle up to
+/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place.
 pub trait Real:
     Copy
     + Debug
@@ -72,6 +73,29 @@ pub trait Real:
     fn greater(self, other: Self) -> Self;
 }
 
+/// Inlined within its range, which few mechanisms leave.
+#[inline(always)]
+fn sin_cos_f64(x: f64) -> (f64, f64) {
+    if x.abs() <= crate::sincos::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
+}
+
+/// The library's, for angles of more than 15 000 turns, infinities and NaN.
+#[cold]
+fn far_sin_cos(x: f64) -> (f64, f64) {
+    #[cfg(feature = "std")]
+    return x.sin_cos();
+    #[cfg(not(feature = "std"))]
+    return libm::sincos(x);
+}
+
+#[inline(always)]
+fn sin_cos_f32(x: f32) -> (f32, f32) {
+    #[cfg(feature = "std")]
+    return x.sin_cos();
+    #[cfg(not(feature = "std"))]
+    return libm::sincosf(x);
+}
+
 macro_rules! elementary {
     ($float:ident: $($name:ident = $portable:ident),* $(,)?) => {$(
         #[cfg(feature = "std")]
@@ -106,10 +130,7 @@ macro_rules! real {
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                #[cfg(feature = "std")]
-                return <$float>::sin_cos(self);
-                #[cfg(not(feature = "std"))]
-                return libm::$sincos(self);
+                $sincos(self)
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
@@ -157,9 +178,9 @@ macro_rules! real {
     };
 }
 
-real!(f64, sincos, atan2, pow;
+real!(f64, sin_cos_f64, atan2, pow;
     sin = sin, cos = cos, tan = tan, asin = asin, acos = acos, atan = atan,
     sqrt = sqrt, exp = exp, ln = log, tanh = tanh);
-real!(f32, sincosf, atan2f, powf;
+real!(f32, sin_cos_f32, atan2f, powf;
     sin = sinf, cos = cosf, tan = tanf, asin = asinf, acos = acosf, atan = atanf,
     sqrt = sqrtf, exp = expf, ln = logf, tanh = tanhf);
