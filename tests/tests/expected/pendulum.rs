@@ -330,14 +330,14 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /// Computes what depends on parameters alone.
     #[allow(unused_variables, clippy::all)]
     fn prepare(parameters: PendulumParameters<T>) -> Self {
-        let v0 = parameters.length * T::from_f64(0.5);
+        let v0 = T::from_f64(0.5) * parameters.length;
         let v1 = T::from_f64(1.0) / parameters.length;
         let v2 = T::from_f64(0.5) * v1;
-        let v3 = parameters.mass * T::from_f64(9.81);
-        let v4 = parameters.mass * T::from_f64(0.5);
+        let v3 = T::from_f64(9.81) * parameters.mass;
+        let v4 = T::from_f64(0.5) * parameters.mass;
         let v5 = T::from_f64(1.0) / parameters.mass;
         let v6 = -v3;
-        let v7 = v5 * v3;
+        let v7 = v3 * v5;
         let v8 = -v7;
         let v9 = parameters.mass * v5;
         let abs_v9 = v9.abs();
@@ -365,8 +365,8 @@ Cost: 3 mul + 2 add + 0 div + 0 sincos.*/
     pub fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
         let v0 = q.x * q.x;
         let v1 = q.y * q.y;
-        let v2 = v0 + v1;
-        let v3 = v2 * self.hoisted[1];
+        let v2 = v1 + v0;
+        let v3 = self.hoisted[1] * v2;
         let phi_rod = v3 - self.hoisted[0];
         PendulumConstraints {
             rod: phi_rod,
@@ -387,8 +387,8 @@ Cost: 2 mul + 0 add + 0 div + 0 sincos.*/
         t: T,
         q: &PendulumCoordinates<T>,
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 1usize, 2usize> {
-        let phi_q_rod_x = q.x * self.hoisted[2];
-        let phi_q_rod_y = q.y * self.hoisted[2];
+        let phi_q_rod_x = self.hoisted[2] * q.x;
+        let phi_q_rod_y = self.hoisted[2] * q.y;
         ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
             ::mbs_runtime::__private::nalgebra::ArrayStorage([
                 [phi_q_rod_x],
@@ -416,12 +416,12 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> PendulumConstraints<T> {
-        let v0 = at.q.x * at.v.x;
-        let v1 = v0 * T::from_f64(2.0);
-        let v2 = at.q.y * at.v.y;
-        let v3 = v2 * T::from_f64(2.0);
-        let v4 = v1 + v3;
-        let phi_dot_rod = v4 * self.hoisted[1];
+        let v0 = T::from_f64(2.0) * at.v.x;
+        let v1 = at.q.x * v0;
+        let v2 = T::from_f64(2.0) * at.v.y;
+        let v3 = at.q.y * v2;
+        let v4 = v3 + v1;
+        let phi_dot_rod = self.hoisted[1] * v4;
         PendulumConstraints {
             rod: phi_dot_rod,
         }
@@ -439,12 +439,12 @@ Cost: 5 mul + 2 add + 0 div + 0 sincos.*/
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> PendulumConstraints<T> {
-        let v0 = at.v.x * at.v.x;
-        let v1 = v0 * T::from_f64(2.0);
-        let v2 = at.v.y * at.v.y;
-        let v3 = v2 * T::from_f64(2.0);
-        let v4 = v1 + v3;
-        let v5 = v4 * self.hoisted[1];
+        let v0 = T::from_f64(2.0) * at.v.x;
+        let v1 = at.v.x * v0;
+        let v2 = T::from_f64(2.0) * at.v.y;
+        let v3 = at.v.y * v2;
+        let v4 = v3 + v1;
+        let v5 = self.hoisted[1] * v4;
         let gamma_rod = -v5;
         PendulumConstraints {
             rod: gamma_rod,
@@ -464,25 +464,25 @@ Cost: 13 mul + 6 add + 0 div + 0 sincos.*/
             minus_two_alpha: -(alpha + alpha),
             minus_beta_squared: -(beta * beta),
         };
-        let v0 = at.v.x * T::from_f64(2.0);
+        let v0 = T::from_f64(2.0) * at.v.x;
         let v1 = at.v.x * v0;
-        let v2 = at.v.y * T::from_f64(2.0);
+        let v2 = T::from_f64(2.0) * at.v.y;
         let v3 = at.v.y * v2;
-        let v4 = v1 + v3;
-        let v5 = v4 * self.hoisted[1];
+        let v4 = v3 + v1;
+        let v5 = self.hoisted[1] * v4;
         let v6 = at.q.x * at.q.x;
         let v7 = at.q.y * at.q.y;
-        let v8 = v6 + v7;
+        let v8 = v7 + v6;
         let v9 = self.hoisted[1] * v8;
         let phi_rod = v9 - self.hoisted[0];
-        let v11 = phi_rod * gains.minus_beta_squared;
+        let v11 = gains.minus_beta_squared * phi_rod;
         let v12 = at.q.x * v0;
         let v13 = at.q.y * v2;
-        let v14 = v12 + v13;
-        let phi_dot_rod = v14 * self.hoisted[1];
-        let v16 = phi_dot_rod * gains.minus_two_alpha;
-        let v17 = v11 - v5;
-        let v18 = v17 + v16;
+        let v14 = v13 + v12;
+        let phi_dot_rod = self.hoisted[1] * v14;
+        let v16 = gains.minus_two_alpha * phi_dot_rod;
+        let v17 = v16 - v5;
+        let v18 = v11 + v17;
         PendulumConstraints { rod: v18 }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
@@ -549,11 +549,11 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> T {
-        let v0 = at.v.x * at.v.x;
-        let v1 = v0 * self.hoisted[4];
-        let v2 = at.v.y * at.v.y;
-        let v3 = v2 * self.hoisted[4];
-        let v4 = v1 + v3;
+        let v0 = self.hoisted[4] * at.v.x;
+        let v1 = at.v.x * v0;
+        let v2 = self.hoisted[4] * at.v.y;
+        let v3 = at.v.y * v2;
+        let v4 = v3 + v1;
         v4
     }
     /// Potential energy of gravity (0 at the origin) and springs in J.
@@ -562,7 +562,7 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> T {
-        let v0 = at.q.y * self.hoisted[3];
+        let v0 = self.hoisted[3] * at.q.y;
         v0
     }
 }
@@ -924,45 +924,45 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     ) -> PendulumConstraints<T> {
         Self::phi_dot(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn stabilized(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
         gains: &::mbs_runtime::Gains<T>,
     ) -> ::mbs_runtime::Stabilized<PendulumCoordinates<T>, PendulumConstraints<T>> {
-        let phi_q_rod_x = at.q.x * self.hoisted[2];
-        let v1 = phi_q_rod_x * self.hoisted[5];
+        let phi_q_rod_x = self.hoisted[2] * at.q.x;
+        let v1 = self.hoisted[5] * phi_q_rod_x;
         let v2 = phi_q_rod_x * v1;
-        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let phi_q_rod_y = at.q.y * self.hoisted[2];
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
-        let v6 = v2 + v5;
+        let v6 = v5 + v2;
         let v7 = at.q.x * at.q.x;
         let v8 = at.q.y * at.q.y;
-        let v9 = v7 + v8;
+        let v9 = v8 + v7;
         let v10 = self.hoisted[1] * v9;
         let phi_rod = v10 - self.hoisted[0];
-        let v12 = phi_rod * gains.minus_beta_squared;
-        let v13 = at.v.x * T::from_f64(2.0);
+        let v12 = gains.minus_beta_squared * phi_rod;
+        let v13 = T::from_f64(2.0) * at.v.x;
         let v14 = at.q.x * v13;
-        let v15 = at.v.y * T::from_f64(2.0);
+        let v15 = T::from_f64(2.0) * at.v.y;
         let v16 = at.q.y * v15;
-        let v17 = v14 + v16;
-        let phi_dot_rod = v17 * self.hoisted[1];
-        let v19 = phi_dot_rod * gains.minus_two_alpha;
-        let feedback_rod = v12 + v19;
+        let v17 = v16 + v14;
+        let phi_dot_rod = self.hoisted[1] * v17;
+        let v19 = gains.minus_two_alpha * phi_dot_rod;
+        let feedback_rod = v19 + v12;
         let v21 = at.v.x * v13;
         let v22 = at.v.y * v15;
-        let v23 = v21 + v22;
-        let v24 = v23 * self.hoisted[1];
-        let v25 = v4 * self.hoisted[6];
-        let v26 = feedback_rod - v24;
-        let v27 = v26 - v25;
+        let v23 = v22 + v21;
+        let v24 = self.hoisted[1] * v23;
+        let v25 = self.hoisted[6] * v4;
+        let v26 = v25 + v24;
+        let v27 = feedback_rod - v26;
         let v28 = v27 / v6;
         let acc_x = v1 * v28;
         let v30 = v4 * v28;
-        let acc_y = v30 + self.hoisted[7];
+        let acc_y = self.hoisted[7] + v30;
         ::mbs_runtime::Stabilized {
             acceleration: PendulumCoordinates {
                 x: acc_x,
@@ -974,33 +974,33 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             growth: T::from_f64(0.0),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn constrained(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
-        let phi_q_rod_x = at.q.x * self.hoisted[2];
-        let v1 = phi_q_rod_x * self.hoisted[5];
+        let phi_q_rod_x = self.hoisted[2] * at.q.x;
+        let v1 = self.hoisted[5] * phi_q_rod_x;
         let v2 = phi_q_rod_x * v1;
-        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let phi_q_rod_y = at.q.y * self.hoisted[2];
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
-        let v6 = v2 + v5;
-        let v7 = at.v.x * at.v.x;
-        let v8 = v7 * T::from_f64(2.0);
-        let v9 = at.v.y * at.v.y;
-        let v10 = v9 * T::from_f64(2.0);
-        let v11 = v8 + v10;
-        let v12 = v11 * self.hoisted[1];
-        let v13 = v4 * self.hoisted[6];
-        let v14 = feedback.rod - v12;
-        let v15 = v14 - v13;
+        let v6 = v5 + v2;
+        let v7 = T::from_f64(2.0) * at.v.x;
+        let v8 = at.v.x * v7;
+        let v9 = T::from_f64(2.0) * at.v.y;
+        let v10 = at.v.y * v9;
+        let v11 = v10 + v8;
+        let v12 = self.hoisted[1] * v11;
+        let v13 = self.hoisted[6] * v4;
+        let v14 = feedback.rod - v13;
+        let v15 = v14 - v12;
         let v16 = v15 / v6;
         let acc_x = v1 * v16;
         let v18 = v4 * v16;
-        let acc_y = v18 + self.hoisted[7];
+        let acc_y = self.hoisted[7] + v18;
         ::mbs_runtime::Accelerations {
             acceleration: PendulumCoordinates {
                 x: acc_x,
@@ -1016,26 +1016,26 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         inputs: &::mbs_runtime::NoComponents<T>,
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>> {
-        let phi_q_rod_x = at.q.x * self.hoisted[2];
-        let v1 = phi_q_rod_x * self.hoisted[5];
+        let phi_q_rod_x = self.hoisted[2] * at.q.x;
+        let v1 = self.hoisted[5] * phi_q_rod_x;
         let v2 = phi_q_rod_x * v1;
-        let phi_q_rod_y = self.hoisted[2] * at.q.y;
+        let phi_q_rod_y = at.q.y * self.hoisted[2];
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
-        let v6 = v2 + v5;
-        let v7 = at.v.x * at.v.x;
-        let v8 = v7 * T::from_f64(2.0);
-        let v9 = at.v.y * at.v.y;
-        let v10 = v9 * T::from_f64(2.0);
-        let v11 = v8 + v10;
-        let v12 = v11 * self.hoisted[1];
-        let v13 = v4 * self.hoisted[6];
-        let v14 = feedback.rod - v12;
-        let v15 = v14 - v13;
+        let v6 = v5 + v2;
+        let v7 = T::from_f64(2.0) * at.v.x;
+        let v8 = at.v.x * v7;
+        let v9 = T::from_f64(2.0) * at.v.y;
+        let v10 = at.v.y * v9;
+        let v11 = v10 + v8;
+        let v12 = self.hoisted[1] * v11;
+        let v13 = self.hoisted[6] * v4;
+        let v14 = feedback.rod - v13;
+        let v15 = v14 - v12;
         let v16 = v15 / v6;
         let acc_x = v1 * v16;
         let v18 = v4 * v16;
-        let acc_y = v18 + self.hoisted[7];
+        let acc_y = self.hoisted[7] + v18;
         let lambda_rod = -v16;
         ::mbs_runtime::Reactions {
             acceleration: PendulumCoordinates {
@@ -1055,7 +1055,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
         let v0 = self.parameters.length / q.x;
-        let v1 = v0 * feedback.rod;
+        let v1 = feedback.rod * v0;
         ::mbs_runtime::Accelerations {
             acceleration: PendulumCoordinates {
                 x: v1,
@@ -1070,13 +1070,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         q: &PendulumCoordinates<T>,
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
-        let phi_q_rod_x = q.x * self.hoisted[2];
-        let v1 = phi_q_rod_x * self.hoisted[5];
+        let phi_q_rod_x = self.hoisted[2] * q.x;
+        let v1 = self.hoisted[5] * phi_q_rod_x;
         let v2 = phi_q_rod_x * v1;
-        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let phi_q_rod_y = q.y * self.hoisted[2];
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
-        let v6 = v2 + v5;
+        let v6 = v5 + v2;
         let v7 = feedback.rod / v6;
         let v8 = v1 * v7;
         let v9 = v4 * v7;
@@ -1093,13 +1093,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         t: T,
         q: &PendulumCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
-        let phi_q_rod_x = q.x * self.hoisted[2];
-        let v1 = phi_q_rod_x * self.hoisted[5];
+        let phi_q_rod_x = self.hoisted[2] * q.x;
+        let v1 = self.hoisted[5] * phi_q_rod_x;
         let v2 = phi_q_rod_x * v1;
-        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let phi_q_rod_y = q.y * self.hoisted[2];
         let v4 = self.hoisted[5] * phi_q_rod_y;
         let v5 = phi_q_rod_y * v4;
-        let v6 = v2 + v5;
+        let v6 = v5 + v2;
         let v7 = v6 / v6;
         let abs_v7 = v7.abs();
         ::mbs_runtime::__private::worst(&[self.hoisted[8], self.hoisted[8], abs_v7])
@@ -1109,16 +1109,16 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         t: T,
         q: &PendulumCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
-        let phi_q_rod_x = q.x * self.hoisted[2];
+        let phi_q_rod_x = self.hoisted[2] * q.x;
         let v1 = self.parameters.length / q.x;
         let v2 = phi_q_rod_x * v1;
         let abs_v2 = v2.abs();
-        let v4 = phi_q_rod_x * self.hoisted[5];
+        let v4 = self.hoisted[5] * phi_q_rod_x;
         let v5 = phi_q_rod_x * v4;
-        let phi_q_rod_y = self.hoisted[2] * q.y;
+        let phi_q_rod_y = q.y * self.hoisted[2];
         let v7 = self.hoisted[5] * phi_q_rod_y;
         let v8 = phi_q_rod_y * v7;
-        let v9 = v5 + v8;
+        let v9 = v8 + v5;
         let v10 = v9 / v9;
         let abs_v10 = v10.abs();
         ::mbs_runtime::__private::worst(
@@ -1145,10 +1145,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     ) -> PendulumOutputs<T> {
         let v0 = at.q.x * at.q.x;
         let v1 = at.q.y * at.q.y;
-        let v2 = v0 + v1;
+        let v2 = v1 + v0;
         let sqrt_v2 = v2.sqrt();
-        let v4 = reactions.multipliers.rod * sqrt_v2;
-        let v5 = v4 * self.hoisted[2];
+        let v4 = self.hoisted[2] * reactions.multipliers.rod;
+        let v5 = v4 * sqrt_v2;
         let v6 = -at.q.y;
         let v7 = at.q.x.atan2(v6);
         PendulumOutputs {

@@ -455,12 +455,12 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         ::mbs_runtime::__private::check_finite(&parameters)?;
         #[allow(unused_variables)] #[allow(clippy::all)]
         {
-            let v0 = parameters.l1 * parameters.l1;
-            let v1 = v0 * parameters.m1;
-            let v2 = v1 * parameters.inertia_factor;
-            let v3 = parameters.l2 * parameters.l2;
-            let v4 = v3 * parameters.inertia_factor;
-            let v5 = v4 * parameters.m2;
+            let v0 = parameters.inertia_factor * parameters.m1;
+            let v1 = parameters.l1 * parameters.l1;
+            let v2 = v1 * v0;
+            let v3 = parameters.m2 * parameters.inertia_factor;
+            let v4 = parameters.l2 * parameters.l2;
+            let v5 = v4 * v3;
             if !(parameters.l1 > T::from_f64(0.0)) {
                 return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
                     name: "l1",
@@ -517,24 +517,24 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     #[allow(unused_variables, clippy::all)]
     fn prepare(parameters: SliderCrankParameters<T>) -> Self {
         let abs_l2 = parameters.l2.abs();
-        let v1 = parameters.l1 * T::from_f64(0.5);
-        let v2 = parameters.l2 * T::from_f64(0.5);
+        let v1 = T::from_f64(0.5) * parameters.l1;
+        let v2 = T::from_f64(0.5) * parameters.l2;
         let v3 = parameters.l1 * parameters.l1;
-        let v4 = parameters.m1 * parameters.inertia_factor;
-        let v5 = v3 * v4;
+        let v4 = parameters.inertia_factor * parameters.m1;
+        let v5 = v4 * v3;
         let v6 = parameters.l2 * parameters.l2;
         let v7 = parameters.m2 * v6;
         let v8 = parameters.inertia_factor * v7;
-        let v9 = parameters.m1 * T::from_f64(9.81);
-        let v10 = parameters.m2 * T::from_f64(9.81);
-        let v11 = parameters.m1 * T::from_f64(0.5);
+        let v9 = T::from_f64(9.81) * parameters.m1;
+        let v10 = T::from_f64(9.81) * parameters.m2;
+        let v11 = T::from_f64(0.5) * parameters.m1;
         let v12 = T::from_f64(0.5) * v5;
-        let v13 = parameters.m2 * T::from_f64(0.5);
+        let v13 = T::from_f64(0.5) * parameters.m2;
         let v14 = T::from_f64(0.5) * v8;
-        let v15 = parameters.m3 * T::from_f64(0.5);
+        let v15 = T::from_f64(0.5) * parameters.m3;
         let v16 = T::from_f64(1.0) / parameters.l2;
         let v17 = T::from_f64(0.25) * v7;
-        let v18 = v8 + v17;
+        let v18 = v17 + v8;
         let v19 = parameters.m3 * v6;
         Self {
             parameters,
@@ -582,25 +582,25 @@ Cost: 9 mul + 10 add + 0 div + 2 sincos.*/
     pub fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v4 = cos_theta1 * self.hoisted[0];
+        let v4 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = q.x1 - v4;
         let v6 = self.hoisted[0] * sin_theta1;
         let phi_crank_y = q.y1 - v6;
-        let v8 = t * self.parameters.omega;
+        let v8 = self.parameters.omega * t;
         let phi_crank_speed = q.theta1 - v8;
-        let v10 = cos_theta1 * self.parameters.l1;
-        let v11 = cos_theta2 * self.hoisted[1];
-        let v12 = q.x2 - v10;
-        let phi_rod_x = v12 - v11;
-        let v14 = sin_theta1 * self.parameters.l1;
+        let v10 = self.parameters.l1 * cos_theta1;
+        let v11 = self.hoisted[1] * cos_theta2;
+        let v12 = q.x2 - v11;
+        let phi_rod_x = v12 - v10;
+        let v14 = self.parameters.l1 * sin_theta1;
         let v15 = self.hoisted[1] * sin_theta2;
-        let v16 = q.y2 - v14;
-        let phi_rod_y = v16 - v15;
-        let v18 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v14 + v18;
-        let v20 = cos_theta2 * self.parameters.l2;
-        let v21 = q.x3 - v10;
-        let phi_slider = v21 - v20;
+        let v16 = q.y2 - v15;
+        let phi_rod_y = v16 - v14;
+        let v18 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v18 + v14;
+        let v20 = self.parameters.l2 * cos_theta2;
+        let v21 = q.x3 - v20;
+        let phi_slider = v21 - v10;
         SliderCrankConstraints {
             crank_x: phi_crank_x,
             crank_y: phi_crank_y,
@@ -642,17 +642,17 @@ Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let phi_q_crank_x_theta1 = sin_theta1 * self.hoisted[0];
-        let v5 = cos_theta1 * self.hoisted[0];
+        let phi_q_crank_x_theta1 = self.hoisted[0] * sin_theta1;
+        let v5 = self.hoisted[0] * cos_theta1;
         let phi_q_crank_y_theta1 = -v5;
-        let phi_q_rod_x_theta1 = sin_theta1 * self.parameters.l1;
-        let phi_q_rod_x_theta2 = sin_theta2 * self.hoisted[1];
-        let phi_q_guide_theta1 = cos_theta1 * self.parameters.l1;
+        let phi_q_rod_x_theta1 = self.parameters.l1 * sin_theta1;
+        let phi_q_rod_x_theta2 = self.hoisted[1] * sin_theta2;
+        let phi_q_guide_theta1 = self.parameters.l1 * cos_theta1;
         let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
-        let v11 = cos_theta2 * self.hoisted[1];
+        let v11 = self.hoisted[1] * cos_theta2;
         let phi_q_rod_y_theta2 = -v11;
-        let phi_q_guide_theta2 = cos_theta2 * self.parameters.l2;
-        let phi_q_slider_theta2 = sin_theta2 * self.parameters.l2;
+        let phi_q_guide_theta2 = self.parameters.l2 * cos_theta2;
+        let phi_q_slider_theta2 = self.parameters.l2 * sin_theta2;
         ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
             ::mbs_runtime::__private::nalgebra::ArrayStorage([
                 [
@@ -760,7 +760,7 @@ Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
     ) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v4 = sin_theta1 * at.v.theta1;
+        let v4 = at.v.theta1 * sin_theta1;
         let v5 = self.hoisted[0] * v4;
         let phi_dot_crank_x = at.v.x1 + v5;
         let v7 = at.v.theta1 * cos_theta1;
@@ -768,20 +768,20 @@ Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
         let phi_dot_crank_y = at.v.y1 - v8;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
         let v11 = self.parameters.l1 * v4;
-        let v12 = sin_theta2 * at.v.theta2;
+        let v12 = at.v.theta2 * sin_theta2;
         let v13 = self.hoisted[1] * v12;
-        let v14 = at.v.x2 + v11;
-        let phi_dot_rod_x = v14 + v13;
+        let v14 = at.v.x2 + v13;
+        let phi_dot_rod_x = v11 + v14;
         let v16 = self.parameters.l1 * v7;
         let v17 = at.v.theta2 * cos_theta2;
         let v18 = self.hoisted[1] * v17;
-        let v19 = at.v.y2 - v16;
-        let phi_dot_rod_y = v19 - v18;
+        let v19 = at.v.y2 - v18;
+        let phi_dot_rod_y = v19 - v16;
         let v21 = self.parameters.l2 * v17;
-        let phi_dot_guide = v16 + v21;
+        let phi_dot_guide = v21 + v16;
         let v23 = self.parameters.l2 * v12;
-        let v24 = v11 + at.v.x3;
-        let phi_dot_slider = v24 + v23;
+        let v24 = at.v.x3 + v23;
+        let phi_dot_slider = v11 + v24;
         SliderCrankConstraints {
             crank_x: phi_dot_crank_x,
             crank_y: phi_dot_crank_y,
@@ -814,27 +814,27 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v4 = at.v.theta1 * at.v.theta1;
-        let v5 = cos_theta1 * v4;
+        let v5 = v4 * cos_theta1;
         let v6 = self.hoisted[0] * v5;
         let gamma_crank_x = -v6;
-        let v8 = sin_theta1 * v4;
+        let v8 = v4 * sin_theta1;
         let v9 = self.hoisted[0] * v8;
         let gamma_crank_y = -v9;
         let v11 = self.parameters.l1 * v5;
         let v12 = at.v.theta2 * at.v.theta2;
-        let v13 = cos_theta2 * v12;
+        let v13 = v12 * cos_theta2;
         let v14 = self.hoisted[1] * v13;
-        let v15 = v11 + v14;
+        let v15 = v14 + v11;
         let gamma_rod_x = -v15;
         let v17 = self.parameters.l1 * v8;
-        let v18 = sin_theta2 * v12;
+        let v18 = v12 * sin_theta2;
         let v19 = self.hoisted[1] * v18;
-        let v20 = v17 + v19;
+        let v20 = v19 + v17;
         let gamma_rod_y = -v20;
         let v22 = self.parameters.l2 * v18;
-        let gamma_guide = v17 + v22;
+        let gamma_guide = v22 + v17;
         let v24 = self.parameters.l2 * v13;
-        let v25 = v11 + v24;
+        let v25 = v24 + v11;
         let gamma_slider = -v25;
         SliderCrankConstraints {
             crank_x: gamma_crank_x,
@@ -862,90 +862,90 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         };
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v4 = cos_theta1 * at.v.theta1;
-        let v5 = at.v.theta1 * self.hoisted[0];
-        let v6 = v4 * v5;
-        let v7 = cos_theta1 * self.hoisted[0];
+        let v4 = at.v.theta1 * cos_theta1;
+        let v5 = self.hoisted[0] * at.v.theta1;
+        let v6 = v5 * v4;
+        let v7 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = at.q.x1 - v7;
-        let v9 = phi_crank_x * gains.minus_beta_squared;
+        let v9 = gains.minus_beta_squared * phi_crank_x;
         let v10 = at.v.theta1 * sin_theta1;
         let v11 = self.hoisted[0] * v10;
         let phi_dot_crank_x = at.v.x1 + v11;
-        let v13 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v13 = gains.minus_two_alpha * phi_dot_crank_x;
         let v14 = v9 - v6;
         let v15 = v14 + v13;
-        let v16 = v10 * v5;
+        let v16 = v5 * v10;
         let v17 = self.hoisted[0] * v4;
         let phi_dot_crank_y = at.v.y1 - v17;
         let v19 = gains.minus_two_alpha * phi_dot_crank_y;
-        let v20 = sin_theta1 * self.hoisted[0];
+        let v20 = self.hoisted[0] * sin_theta1;
         let phi_crank_y = at.q.y1 - v20;
         let v22 = gains.minus_beta_squared * phi_crank_y;
-        let v23 = v19 - v16;
-        let v24 = v23 + v22;
+        let v23 = v22 - v16;
+        let v24 = v23 + v19;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
         let v26 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v27 = self.parameters.omega * at.t;
+        let v27 = at.t * self.parameters.omega;
         let phi_crank_speed = at.q.theta1 - v27;
         let v29 = gains.minus_beta_squared * phi_crank_speed;
         let feedback_crank_speed = v26 + v29;
-        let v31 = at.v.theta1 * self.parameters.l1;
-        let v32 = v4 * v31;
-        let v33 = cos_theta2 * at.v.theta2;
-        let v34 = at.v.theta2 * self.hoisted[1];
-        let v35 = v33 * v34;
+        let v31 = self.parameters.l1 * at.v.theta1;
+        let v32 = v31 * v4;
+        let v33 = at.v.theta2 * cos_theta2;
+        let v34 = self.hoisted[1] * at.v.theta2;
+        let v35 = v34 * v33;
         let v36 = self.parameters.l1 * v10;
         let v37 = at.v.theta2 * sin_theta2;
         let v38 = self.hoisted[1] * v37;
-        let v39 = at.v.x2 + v36;
-        let phi_dot_rod_x = v39 + v38;
+        let v39 = at.v.x2 + v38;
+        let phi_dot_rod_x = v36 + v39;
         let v41 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v42 = cos_theta1 * self.parameters.l1;
-        let v43 = cos_theta2 * self.hoisted[1];
-        let v44 = at.q.x2 - v42;
-        let phi_rod_x = v44 - v43;
+        let v42 = self.parameters.l1 * cos_theta1;
+        let v43 = self.hoisted[1] * cos_theta2;
+        let v44 = at.q.x2 - v43;
+        let phi_rod_x = v44 - v42;
         let v46 = gains.minus_beta_squared * phi_rod_x;
-        let v47 = v41 - v32;
-        let v48 = v47 - v35;
-        let v49 = v48 + v46;
-        let v50 = v10 * v31;
-        let v51 = v37 * v34;
+        let v47 = v35 + v32;
+        let v48 = v46 - v47;
+        let v49 = v48 + v41;
+        let v50 = v31 * v10;
+        let v51 = v34 * v37;
         let v52 = self.parameters.l1 * v4;
         let v53 = self.hoisted[1] * v33;
-        let v54 = at.v.y2 - v52;
-        let phi_dot_rod_y = v54 - v53;
+        let v54 = at.v.y2 - v53;
+        let phi_dot_rod_y = v54 - v52;
         let v56 = gains.minus_two_alpha * phi_dot_rod_y;
-        let v57 = sin_theta1 * self.parameters.l1;
-        let v58 = sin_theta2 * self.hoisted[1];
-        let v59 = at.q.y2 - v57;
-        let phi_rod_y = v59 - v58;
+        let v57 = self.parameters.l1 * sin_theta1;
+        let v58 = self.hoisted[1] * sin_theta2;
+        let v59 = at.q.y2 - v58;
+        let phi_rod_y = v59 - v57;
         let v61 = gains.minus_beta_squared * phi_rod_y;
-        let v62 = v56 - v50;
-        let v63 = v62 - v51;
-        let v64 = v63 + v61;
-        let v65 = at.v.theta2 * self.parameters.l2;
-        let v66 = v37 * v65;
+        let v62 = v51 + v50;
+        let v63 = v61 - v62;
+        let v64 = v63 + v56;
+        let v65 = self.parameters.l2 * at.v.theta2;
+        let v66 = v65 * v37;
         let v67 = self.parameters.l2 * v33;
-        let phi_dot_guide = v52 + v67;
+        let phi_dot_guide = v67 + v52;
         let v69 = gains.minus_two_alpha * phi_dot_guide;
-        let v70 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v57 + v70;
+        let v70 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v70 + v57;
         let v72 = gains.minus_beta_squared * phi_guide;
-        let v73 = v50 + v66;
-        let v74 = v73 + v69;
-        let v75 = v74 + v72;
-        let v76 = v33 * v65;
+        let v73 = v66 + v50;
+        let v74 = v73 + v72;
+        let v75 = v74 + v69;
+        let v76 = v65 * v33;
         let v77 = self.parameters.l2 * v37;
-        let v78 = v36 + at.v.x3;
-        let phi_dot_slider = v78 + v77;
+        let v78 = at.v.x3 + v77;
+        let phi_dot_slider = v36 + v78;
         let v80 = gains.minus_two_alpha * phi_dot_slider;
-        let v81 = cos_theta2 * self.parameters.l2;
-        let v82 = at.q.x3 - v42;
-        let phi_slider = v82 - v81;
+        let v81 = self.parameters.l2 * cos_theta2;
+        let v82 = at.q.x3 - v81;
+        let phi_slider = v82 - v42;
         let v84 = gains.minus_beta_squared * phi_slider;
-        let v85 = v80 - v32;
-        let v86 = v85 - v76;
-        let v87 = v86 + v84;
+        let v85 = v76 + v32;
+        let v86 = v84 - v85;
+        let v87 = v86 + v80;
         SliderCrankConstraints {
             crank_x: v15,
             crank_y: v24,
@@ -1097,26 +1097,26 @@ Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> T {
-        let v0 = at.v.x1 * at.v.x1;
-        let v1 = v0 * self.hoisted[6];
-        let v2 = at.v.y1 * at.v.y1;
-        let v3 = v2 * self.hoisted[6];
-        let v4 = at.v.theta1 * at.v.theta1;
-        let v5 = v4 * self.hoisted[7];
-        let v6 = at.v.x2 * at.v.x2;
-        let v7 = v6 * self.hoisted[8];
-        let v8 = at.v.y2 * at.v.y2;
-        let v9 = v8 * self.hoisted[8];
-        let v10 = at.v.theta2 * at.v.theta2;
-        let v11 = v10 * self.hoisted[9];
-        let v12 = at.v.x3 * at.v.x3;
-        let v13 = v12 * self.hoisted[10];
-        let v14 = v1 + v3;
-        let v15 = v14 + v5;
-        let v16 = v15 + v7;
-        let v17 = v16 + v9;
-        let v18 = v17 + v11;
-        let v19 = v18 + v13;
+        let v0 = self.hoisted[6] * at.v.x1;
+        let v1 = at.v.x1 * v0;
+        let v2 = self.hoisted[6] * at.v.y1;
+        let v3 = at.v.y1 * v2;
+        let v4 = self.hoisted[7] * at.v.theta1;
+        let v5 = at.v.theta1 * v4;
+        let v6 = self.hoisted[8] * at.v.x2;
+        let v7 = at.v.x2 * v6;
+        let v8 = self.hoisted[8] * at.v.y2;
+        let v9 = at.v.y2 * v8;
+        let v10 = self.hoisted[9] * at.v.theta2;
+        let v11 = at.v.theta2 * v10;
+        let v12 = self.hoisted[10] * at.v.x3;
+        let v13 = at.v.x3 * v12;
+        let v14 = v13 + v11;
+        let v15 = v9 + v7;
+        let v16 = v5 + v3;
+        let v17 = v1 + v16;
+        let v18 = v15 + v14;
+        let v19 = v18 + v17;
         v19
     }
     /// Potential energy of gravity (0 at the origin) and springs in J.
@@ -1125,9 +1125,9 @@ Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> T {
-        let v0 = at.q.y1 * self.hoisted[4];
-        let v1 = at.q.y2 * self.hoisted[5];
-        let v2 = v0 + v1;
+        let v0 = self.hoisted[4] * at.q.y1;
+        let v1 = self.hoisted[5] * at.q.y2;
+        let v2 = v1 + v0;
         v2
     }
 }
@@ -1620,10 +1620,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         &self.parameters
     }
     fn declared_start(&self) -> ::mbs_runtime::State<SliderCrankCoordinates<T>> {
-        let v0 = self.parameters.l1 * T::from_f64(0.5);
-        let v1 = self.parameters.l2 * T::from_f64(0.5);
+        let v0 = T::from_f64(0.5) * self.parameters.l1;
+        let v1 = T::from_f64(0.5) * self.parameters.l2;
         let v2 = self.parameters.l1 + v1;
-        let v3 = self.parameters.l1 + self.parameters.l2;
+        let v3 = self.parameters.l2 + self.parameters.l1;
         ::mbs_runtime::State {
             t: T::from_f64(0.0),
             q: SliderCrankCoordinates {
@@ -1657,7 +1657,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     ) -> SliderCrankConstraints<T> {
         Self::phi_dot(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn stabilized(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -1669,107 +1669,107 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     > {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
-        let v4 = cos_theta1 * self.hoisted[0];
+        let v4 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = at.q.x1 - v4;
-        let v6 = phi_crank_x * gains.minus_beta_squared;
+        let v6 = gains.minus_beta_squared * phi_crank_x;
         let v7 = at.v.theta1 * sin_theta1;
         let v8 = self.hoisted[0] * v7;
         let phi_dot_crank_x = at.v.x1 + v8;
-        let v10 = phi_dot_crank_x * gains.minus_two_alpha;
+        let v10 = gains.minus_two_alpha * phi_dot_crank_x;
         let feedback_crank_x = v6 + v10;
-        let v12 = cos_theta1 * at.v.theta1;
-        let v13 = at.v.theta1 * self.hoisted[0];
-        let v14 = v12 * v13;
+        let v12 = at.v.theta1 * cos_theta1;
+        let v13 = self.hoisted[0] * at.v.theta1;
+        let v14 = v13 * v12;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
         let v16 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v17 = self.parameters.omega * at.t;
+        let v17 = at.t * self.parameters.omega;
         let phi_crank_speed = at.q.theta1 - v17;
         let v19 = gains.minus_beta_squared * phi_crank_speed;
         let feedback_crank_speed = v16 + v19;
-        let v21 = sin_theta1 * self.hoisted[0];
+        let v21 = self.hoisted[0] * sin_theta1;
         let v22 = feedback_crank_speed * v21;
-        let v23 = feedback_crank_x - v14;
-        let acc_x1 = v23 - v22;
+        let v23 = v22 + v14;
+        let acc_x1 = feedback_crank_x - v23;
         let v25 = self.hoisted[0] * v12;
         let phi_dot_crank_y = at.v.y1 - v25;
         let v27 = gains.minus_two_alpha * phi_dot_crank_y;
         let phi_crank_y = at.q.y1 - v21;
         let v29 = gains.minus_beta_squared * phi_crank_y;
-        let feedback_crank_y = v27 + v29;
-        let v31 = v4 * feedback_crank_speed;
-        let v32 = v7 * v13;
-        let v33 = feedback_crank_y + v31;
-        let acc_y1 = v33 - v32;
+        let feedback_crank_y = v29 + v27;
+        let v31 = feedback_crank_speed * v4;
+        let v32 = v13 * v7;
+        let v33 = v31 - v32;
+        let acc_y1 = v33 + feedback_crank_y;
         let v35 = self.parameters.l1 * v7;
         let v36 = at.v.theta2 * sin_theta2;
         let v37 = self.hoisted[1] * v36;
-        let v38 = at.v.x2 + v35;
-        let phi_dot_rod_x = v38 + v37;
+        let v38 = at.v.x2 + v37;
+        let phi_dot_rod_x = v35 + v38;
         let v40 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v41 = cos_theta1 * self.parameters.l1;
-        let v42 = cos_theta2 * self.hoisted[1];
-        let v43 = at.q.x2 - v41;
-        let phi_rod_x = v43 - v42;
+        let v41 = self.parameters.l1 * cos_theta1;
+        let v42 = self.hoisted[1] * cos_theta2;
+        let v43 = at.q.x2 - v42;
+        let phi_rod_x = v43 - v41;
         let v45 = gains.minus_beta_squared * phi_rod_x;
-        let feedback_rod_x = v40 + v45;
-        let v47 = cos_theta2 * at.v.theta2;
-        let v48 = at.v.theta2 * self.hoisted[1];
-        let v49 = v47 * v48;
-        let v50 = at.v.theta1 * self.parameters.l1;
-        let v51 = v12 * v50;
-        let v52 = sin_theta1 * self.parameters.l1;
+        let feedback_rod_x = v45 + v40;
+        let v47 = at.v.theta2 * cos_theta2;
+        let v48 = self.hoisted[1] * at.v.theta2;
+        let v49 = v48 * v47;
+        let v50 = self.parameters.l1 * at.v.theta1;
+        let v51 = v50 * v12;
+        let v52 = self.parameters.l1 * sin_theta1;
         let v53 = feedback_crank_speed * v52;
-        let v54 = v51 + v53;
-        let v55 = feedback_rod_x - v49;
-        let v56 = v55 - v54;
+        let v54 = v53 + v51;
+        let v55 = v49 + v54;
+        let v56 = feedback_rod_x - v55;
         let v57 = self.hoisted[11] / cos_theta2;
         let v58 = self.parameters.l1 * v12;
         let v59 = self.parameters.l2 * v47;
-        let phi_dot_guide = v58 + v59;
+        let phi_dot_guide = v59 + v58;
         let v61 = gains.minus_two_alpha * phi_dot_guide;
-        let v62 = sin_theta2 * self.parameters.l2;
-        let phi_guide = v52 + v62;
+        let v62 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v62 + v52;
         let v64 = gains.minus_beta_squared * phi_guide;
-        let feedback_guide = v61 + v64;
-        let v66 = at.v.theta2 * self.parameters.l2;
-        let v67 = v36 * v66;
+        let feedback_guide = v64 + v61;
+        let v66 = self.parameters.l2 * at.v.theta2;
+        let v67 = v66 * v36;
         let v68 = feedback_crank_speed * v41;
-        let v69 = v7 * v50;
+        let v69 = v50 * v7;
         let v70 = v68 - v69;
-        let v71 = feedback_guide + v67;
-        let v72 = v71 - v70;
+        let v71 = v67 - v70;
+        let v72 = v71 + feedback_guide;
         let acc_theta2 = v57 * v72;
-        let v74 = sin_theta2 * self.hoisted[1];
-        let v75 = acc_theta2 * v74;
+        let v74 = self.hoisted[1] * sin_theta2;
+        let v75 = v74 * acc_theta2;
         let acc_x2 = v56 - v75;
         let v77 = self.hoisted[1] * v47;
-        let v78 = at.v.y2 - v58;
-        let phi_dot_rod_y = v78 - v77;
+        let v78 = at.v.y2 - v77;
+        let phi_dot_rod_y = v78 - v58;
         let v80 = gains.minus_two_alpha * phi_dot_rod_y;
-        let v81 = at.q.y2 - v52;
-        let phi_rod_y = v81 - v74;
+        let v81 = at.q.y2 - v74;
+        let phi_rod_y = v81 - v52;
         let v83 = gains.minus_beta_squared * phi_rod_y;
-        let feedback_rod_y = v80 + v83;
-        let v85 = v36 * v48;
-        let v86 = feedback_rod_y - v85;
-        let v87 = v86 + v70;
+        let feedback_rod_y = v83 + v80;
+        let v85 = v48 * v36;
+        let v86 = v70 - v85;
+        let v87 = v86 + feedback_rod_y;
         let v88 = v42 * acc_theta2;
         let acc_y2 = v87 + v88;
         let v90 = self.parameters.l2 * v36;
-        let v91 = v35 + at.v.x3;
-        let phi_dot_slider = v91 + v90;
+        let v91 = at.v.x3 + v90;
+        let phi_dot_slider = v35 + v91;
         let v93 = gains.minus_two_alpha * phi_dot_slider;
-        let v94 = cos_theta2 * self.parameters.l2;
-        let v95 = at.q.x3 - v41;
-        let phi_slider = v95 - v94;
+        let v94 = self.parameters.l2 * cos_theta2;
+        let v95 = at.q.x3 - v94;
+        let phi_slider = v95 - v41;
         let v97 = gains.minus_beta_squared * phi_slider;
-        let feedback_slider = v93 + v97;
-        let v99 = v47 * v66;
-        let v100 = feedback_slider - v99;
-        let v101 = v100 - v54;
+        let feedback_slider = v97 + v93;
+        let v99 = v66 * v47;
+        let v100 = v99 + v54;
+        let v101 = feedback_slider - v100;
         let v102 = v62 * acc_theta2;
         let acc_x3 = v101 - v102;
-        let v104 = v57 * self.hoisted[12];
+        let v104 = self.hoisted[12] * v57;
         let abs_v104 = v104.abs();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankCoordinates {
@@ -1793,7 +1793,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             growth: abs_v104,
         }
     }
-    #[inline]
+    #[inline(always)]
     fn constrained(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -1803,28 +1803,28 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v4 = at.v.theta1 * at.v.theta1;
-        let v5 = cos_theta1 * v4;
+        let v5 = v4 * cos_theta1;
         let v6 = self.hoisted[0] * v5;
-        let v7 = sin_theta1 * feedback.crank_speed;
+        let v7 = feedback.crank_speed * sin_theta1;
         let v8 = self.hoisted[0] * v7;
-        let v9 = feedback.crank_x - v6;
-        let acc_x1 = v9 - v8;
-        let v11 = cos_theta1 * feedback.crank_speed;
+        let v9 = feedback.crank_x - v8;
+        let acc_x1 = v9 - v6;
+        let v11 = feedback.crank_speed * cos_theta1;
         let v12 = self.hoisted[0] * v11;
-        let v13 = sin_theta1 * v4;
+        let v13 = v4 * sin_theta1;
         let v14 = self.hoisted[0] * v13;
-        let v15 = feedback.crank_y + v12;
-        let acc_y1 = v15 - v14;
+        let v15 = feedback.crank_y - v14;
+        let acc_y1 = v12 + v15;
         let v17 = at.v.theta2 * at.v.theta2;
-        let v18 = cos_theta2 * self.hoisted[1];
+        let v18 = self.hoisted[1] * cos_theta2;
         let v19 = v17 * v18;
         let v20 = self.parameters.l1 * v5;
         let v21 = self.parameters.l1 * v7;
-        let v22 = v20 + v21;
+        let v22 = v21 + v20;
         let v23 = feedback.rod_x - v19;
         let v24 = v23 - v22;
         let v25 = self.hoisted[11] / cos_theta2;
-        let v26 = sin_theta2 * self.parameters.l2;
+        let v26 = self.parameters.l2 * sin_theta2;
         let v27 = v17 * v26;
         let v28 = self.parameters.l1 * v11;
         let v29 = self.parameters.l1 * v13;
@@ -1833,20 +1833,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v32 = v31 - v30;
         let acc_theta2 = v25 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
-        let v35 = acc_theta2 * v34;
+        let v35 = v34 * acc_theta2;
         let acc_x2 = v24 - v35;
         let v37 = v17 * v34;
         let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
-        let v40 = acc_theta2 * v18;
+        let v40 = v18 * acc_theta2;
         let acc_y2 = v39 + v40;
-        let v42 = cos_theta2 * self.parameters.l2;
-        let v43 = v42 * v17;
+        let v42 = self.parameters.l2 * v17;
+        let v43 = v42 * cos_theta2;
         let v44 = feedback.slider - v43;
         let v45 = v44 - v22;
-        let v46 = acc_theta2 * v26;
+        let v46 = v26 * acc_theta2;
         let acc_x3 = v45 - v46;
-        let v48 = v25 * self.hoisted[12];
+        let v48 = self.hoisted[12] * v25;
         let abs_v48 = v48.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
@@ -1871,28 +1871,28 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v4 = at.v.theta1 * at.v.theta1;
-        let v5 = cos_theta1 * self.hoisted[0];
+        let v5 = self.hoisted[0] * cos_theta1;
         let v6 = v4 * v5;
-        let v7 = sin_theta1 * self.hoisted[0];
+        let v7 = self.hoisted[0] * sin_theta1;
         let v8 = feedback.crank_speed * v7;
-        let v9 = feedback.crank_x - v6;
-        let acc_x1 = v9 - v8;
+        let v9 = feedback.crank_x - v8;
+        let acc_x1 = v9 - v6;
         let v11 = feedback.crank_speed * v5;
         let v12 = v4 * v7;
-        let v13 = feedback.crank_y + v11;
-        let acc_y1 = v13 - v12;
+        let v13 = feedback.crank_y - v12;
+        let acc_y1 = v11 + v13;
         let v15 = at.v.theta2 * at.v.theta2;
-        let v16 = cos_theta2 * self.hoisted[1];
+        let v16 = self.hoisted[1] * cos_theta2;
         let v17 = v15 * v16;
-        let v18 = cos_theta1 * self.parameters.l1;
-        let v19 = v18 * v4;
-        let v20 = sin_theta1 * self.parameters.l1;
+        let v18 = self.parameters.l1 * cos_theta1;
+        let v19 = v4 * v18;
+        let v20 = self.parameters.l1 * sin_theta1;
         let v21 = feedback.crank_speed * v20;
-        let v22 = v19 + v21;
+        let v22 = v21 + v19;
         let v23 = feedback.rod_x - v17;
         let v24 = v23 - v22;
         let v25 = self.hoisted[11] / cos_theta2;
-        let v26 = sin_theta2 * self.parameters.l2;
+        let v26 = self.parameters.l2 * sin_theta2;
         let v27 = v15 * v26;
         let v28 = feedback.crank_speed * v18;
         let v29 = v4 * v20;
@@ -1901,61 +1901,61 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v32 = v31 - v30;
         let acc_theta2 = v25 * v32;
         let v34 = self.hoisted[1] * sin_theta2;
-        let v35 = acc_theta2 * v34;
+        let v35 = v34 * acc_theta2;
         let acc_x2 = v24 - v35;
         let v37 = v15 * v34;
         let v38 = feedback.rod_y - v37;
         let v39 = v38 + v30;
-        let v40 = acc_theta2 * v16;
+        let v40 = v16 * acc_theta2;
         let acc_y2 = v39 + v40;
-        let v42 = cos_theta2 * self.parameters.l2;
-        let v43 = v42 * v15;
+        let v42 = self.parameters.l2 * v15;
+        let v43 = v42 * cos_theta2;
         let v44 = feedback.slider - v43;
         let v45 = v44 - v22;
-        let v46 = acc_theta2 * v26;
+        let v46 = v26 * acc_theta2;
         let acc_x3 = v45 - v46;
-        let v48 = acc_x1 * self.parameters.m1;
+        let v48 = self.parameters.m1 * acc_x1;
         let lambda_crank_x = -v48;
-        let v50 = acc_y1 * self.parameters.m1;
+        let v50 = self.parameters.m1 * acc_y1;
         let v51 = self.hoisted[4] + v50;
         let lambda_crank_y = -v51;
-        let v53 = feedback.crank_speed * self.hoisted[2];
-        let v54 = v51 * v5;
-        let v55 = v39 * self.parameters.m2;
+        let v53 = self.hoisted[2] * feedback.crank_speed;
+        let v54 = v5 * v51;
+        let v55 = self.parameters.m2 * v39;
         let v56 = self.hoisted[5] + v55;
-        let v57 = v56 * v16;
-        let v58 = v24 * self.parameters.m2;
-        let v59 = v58 * v34;
-        let v60 = v45 * self.parameters.m3;
-        let v61 = v60 * v26;
-        let v62 = sin_theta2 * sin_theta2;
-        let v63 = v62 * self.hoisted[14];
+        let v57 = v16 * v56;
+        let v58 = self.parameters.m2 * v24;
+        let v59 = v34 * v58;
+        let v60 = self.parameters.m3 * v45;
+        let v61 = v26 * v60;
+        let v62 = self.hoisted[14] * sin_theta2;
+        let v63 = sin_theta2 * v62;
         let v64 = self.hoisted[13] + v63;
-        let v65 = acc_theta2 * v64;
-        let v66 = v59 - v57;
-        let v67 = v66 + v61;
-        let v68 = v67 - v65;
+        let v65 = v64 * acc_theta2;
+        let v66 = v61 - v65;
+        let v67 = v59 + v66;
+        let v68 = v67 - v57;
         let lambda_guide = v25 * v68;
-        let v70 = lambda_guide * v18;
-        let v71 = v40 * self.parameters.m2;
+        let v70 = v18 * lambda_guide;
+        let v71 = self.parameters.m2 * v40;
         let v72 = v56 + v71;
-        let v73 = v72 * v18;
-        let v74 = v48 * v7;
-        let v75 = v46 * self.parameters.m3;
+        let v73 = v18 * v72;
+        let v74 = v7 * v48;
+        let v75 = self.parameters.m3 * v46;
         let lambda_slider = v75 - v60;
-        let v77 = lambda_slider * v20;
-        let v78 = v35 * self.parameters.m2;
+        let v77 = v20 * lambda_slider;
+        let v78 = self.parameters.m2 * v35;
         let lambda_rod_x = v78 - v58;
-        let v80 = lambda_rod_x * v20;
-        let v81 = v54 + v70;
-        let v82 = v81 + v73;
-        let v83 = v82 - v74;
-        let v84 = v83 + v77;
-        let v85 = v84 + v80;
+        let v80 = v20 * lambda_rod_x;
+        let v81 = v54 - v74;
+        let v82 = v81 + v80;
+        let v83 = v77 + v73;
+        let v84 = v83 + v82;
+        let v85 = v84 + v70;
         let v86 = v53 + v85;
         let lambda_crank_speed = -v86;
         let lambda_rod_y = -v72;
-        let v89 = v25 * self.hoisted[12];
+        let v89 = self.hoisted[12] * v25;
         let abs_v89 = v89.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankCoordinates {
@@ -1987,7 +1987,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v4 = sin_theta1 * feedback.crank_speed;
+        let v4 = feedback.crank_speed * sin_theta1;
         let v5 = self.hoisted[0] * v4;
         let v6 = feedback.crank_x - v5;
         let v7 = feedback.crank_speed * cos_theta1;
@@ -1998,18 +1998,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v12 = self.hoisted[11] / cos_theta2;
         let v13 = self.parameters.l1 * v7;
         let v14 = feedback.guide - v13;
-        let v15 = v12 * v14;
+        let v15 = v14 * v12;
         let v16 = sin_theta2 * v15;
         let v17 = self.hoisted[1] * v16;
         let v18 = v11 - v17;
-        let v19 = v13 + feedback.rod_y;
-        let v20 = cos_theta2 * v15;
-        let v21 = v20 * self.hoisted[1];
+        let v19 = feedback.rod_y + v13;
+        let v20 = self.hoisted[1] * cos_theta2;
+        let v21 = v20 * v15;
         let v22 = v19 + v21;
         let v23 = feedback.slider - v10;
         let v24 = self.parameters.l2 * v16;
         let v25 = v23 - v24;
-        let v26 = v12 * self.hoisted[12];
+        let v26 = self.hoisted[12] * v12;
         let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
@@ -2032,7 +2032,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let v4 = sin_theta1 * feedback.crank_speed;
+        let v4 = feedback.crank_speed * sin_theta1;
         let v5 = self.hoisted[0] * v4;
         let v6 = feedback.crank_x - v5;
         let v7 = feedback.crank_speed * cos_theta1;
@@ -2043,18 +2043,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v12 = self.hoisted[11] / cos_theta2;
         let v13 = self.parameters.l1 * v7;
         let v14 = feedback.guide - v13;
-        let v15 = v12 * v14;
+        let v15 = v14 * v12;
         let v16 = sin_theta2 * v15;
         let v17 = self.hoisted[1] * v16;
         let v18 = v11 - v17;
-        let v19 = v13 + feedback.rod_y;
-        let v20 = cos_theta2 * v15;
-        let v21 = v20 * self.hoisted[1];
+        let v19 = feedback.rod_y + v13;
+        let v20 = self.hoisted[1] * cos_theta2;
+        let v21 = v20 * v15;
         let v22 = v19 + v21;
         let v23 = feedback.slider - v10;
         let v24 = self.parameters.l2 * v16;
         let v25 = v23 - v24;
-        let v26 = v12 * self.hoisted[12];
+        let v26 = self.hoisted[12] * v12;
         let abs_v26 = v26.abs();
         ::mbs_runtime::Accelerations {
             acceleration: SliderCrankCoordinates {
@@ -2076,7 +2076,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let cos_theta2 = q.theta2.cos();
         let v1 = self.hoisted[11] / cos_theta2;
-        let v2 = v1 * self.hoisted[12];
+        let v2 = self.hoisted[12] * v1;
         let abs_v2 = v2.abs();
         ::mbs_runtime::__private::worst(&[abs_v2])
     }
@@ -2087,7 +2087,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let cos_theta2 = q.theta2.cos();
         let v1 = self.hoisted[11] / cos_theta2;
-        let v2 = v1 * self.hoisted[12];
+        let v2 = self.hoisted[12] * v1;
         let abs_v2 = v2.abs();
         ::mbs_runtime::__private::worst(&[abs_v2])
     }

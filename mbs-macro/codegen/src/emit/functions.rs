@@ -13,6 +13,9 @@ use crate::model::{Direction, Model};
 use crate::plan::Plan;
 use crate::syntax::Comparison;
 
+/// Systems with more unknowns are not forced into the step.
+const LARGEST_INLINED: usize = 64;
+
 /// `new`, `declared`, `prepare` and access to the parameters.
 pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, parameters, runtime, .. } = names;
@@ -336,11 +339,14 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
         let multipliers = vector(rows, &fields.rows, &outputs[n..n + m]);
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
+    // Inlined into the step, what the step does not use of them disappears, and
+    // both stages are scheduled together; large systems are left to the compiler.
+    let inline = if n + m <= LARGEST_INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) };
     // Corrections call what they solve for a residual; programs know it as feedback.
     quote! {
-        #[inline]
+        #inline
         fn stabilized(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>) -> #runtime::Stabilized<#q, #rows> { #stabilized }
-        #[inline]
+        #inline
         fn constrained(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #runtime::Accelerations<#q> { #constrained }
         #[inline]
         fn reactions(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #reactions { #reactions_body }

@@ -13,6 +13,7 @@ pub(super) fn schedule(flat: &Flat) -> Program {
         program: Program::default(),
         operands: HashMap::new(),
         uses: count_uses(flat, &order),
+        latencies: Vec::new(),
     };
     for &value in &order {
         schedule.emit(value);
@@ -26,6 +27,8 @@ struct Schedule<'a> {
     program: Program,
     operands: HashMap<Value, Operand>,
     uses: HashMap<Value, usize>,
+    /// Per instruction, how long its result takes from the inputs.
+    latencies: Vec<u32>,
 }
 
 impl Schedule<'_> {
@@ -60,6 +63,7 @@ impl Schedule<'_> {
     }
 
     fn push(&mut self, operation: Operation, a: Operand, b: Operand) -> Operand {
+        self.latencies.push(self.latency(a).max(self.latency(b)) + operation_latency(operation));
         self.program.instructions.push(Instruction { operation, a, b, name: None });
         Operand::Value(self.program.instructions.len() - 1)
     }
@@ -72,17 +76,12 @@ impl Schedule<'_> {
 
     fn product(&mut self, factors: &[Value]) -> Operand {
         let (below, above): (Vec<_>, Vec<_>) = factors.iter().partition(|&&factor| self.is_folded(factor));
-        let mut product = None;
-        for factor in above {
-            let factor = self.operands[&factor];
-            product = Some(match product {
-                None => factor,
-                Some(product) => self.push(Operation::Mul, product, factor),
-            });
-        }
+        let above: Vec<_> = above.into_iter().map(|factor| self.operands[factor]).collect();
+        let multiply = |schedule: &mut Self, a, b| schedule.push(Operation::Mul, a, b);
+        let product = self.reduce(above, multiply, |&factor| factor);
         let mut product = product.unwrap_or(Operand::Number(Number::ONE));
         for factor in below {
-            if let Definition::Reciprocal(x) = &self.flat.definitions[factor] {
+            if let Definition::Reciprocal(x) = &self.flat.definitions[*factor] {
                 let divisor = self.operands[x];
                 product = self.push(Operation::Div, product, divisor);
             }
@@ -91,19 +90,53 @@ impl Schedule<'_> {
     }
 
     fn sum(&mut self, summands: &[Signed]) -> Operand {
-        let positive = summands.iter().position(|summand| !summand.negative);
-        let first = positive.unwrap_or(0);
-        let mut sum = self.operands[&summands[first].value];
-        if positive.is_none() {
-            sum = self.push(Operation::Neg, sum, sum);
+        let operands =
+            summands.iter().map(|summand| (self.operands[&summand.value], summand.negative)).collect();
+        let add = |schedule: &mut Self, (a, minus_a), (b, minus_b)| match (minus_a, minus_b) {
+            (false, true) => (schedule.push(Operation::Sub, a, b), false),
+            (true, false) => (schedule.push(Operation::Sub, b, a), false),
+            (_, both) => (schedule.push(Operation::Add, a, b), both),
+        };
+        match self.reduce(operands, add, |&(operand, _)| operand) {
+            Some((sum, true)) => self.push(Operation::Neg, sum, sum),
+            Some((sum, false)) => sum,
+            None => Operand::Number(Number::ZERO),
         }
-        for (at, summand) in summands.iter().enumerate() {
-            if at != first {
-                let operation = if summand.negative { Operation::Sub } else { Operation::Add };
-                sum = self.push(operation, sum, self.operands[&summand.value]);
-            }
+    }
+
+    /// Combines two operands at a time, those first that are there first, so
+    /// that the result waits for as few operations as possible. `None` of none.
+    fn reduce<T: Copy>(
+        &mut self,
+        mut operands: Vec<T>,
+        combine: impl Fn(&mut Self, T, T) -> T,
+        operand: impl Fn(&T) -> Operand,
+    ) -> Option<T> {
+        loop {
+            // Stable, latest first: ties keep the order of the row.
+            operands.sort_by_key(|item| std::cmp::Reverse(self.latency(operand(item))));
+            let first = operands.pop()?;
+            let Some(second) = operands.pop() else { return Some(first) };
+            let combined = combine(self, first, second);
+            operands.push(combined);
         }
-        sum
+    }
+
+    fn latency(&self, operand: Operand) -> u32 {
+        match operand {
+            Operand::Value(at) => self.latencies[at],
+            _ => 0,
+        }
+    }
+}
+
+/// Rough latencies in cycles of today's processors.
+fn operation_latency(operation: Operation) -> u32 {
+    match operation {
+        Operation::Add | Operation::Sub | Operation::Mul => 4,
+        Operation::Neg => 1,
+        Operation::Div => 14,
+        Operation::Call(_) | Operation::Call2(_) => 50,
     }
 }
 
