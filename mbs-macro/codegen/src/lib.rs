@@ -6,6 +6,7 @@
 //! | stage | gives | after it |
 //! |---|---|---|
 //! | `syntax` | `Declaration`, a span on every node | shapes are right, names unresolved |
+//! | `compose` | `Declaration` | sub-assemblies are gone, only plain statements are left |
 //! | `model` | `Model` | names are symbols, dimensions agree |
 //! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
 //! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
@@ -16,6 +17,7 @@
 //! the last.
 #![forbid(unsafe_code)]
 
+mod compose;
 mod derive;
 mod diagnostics;
 mod emit;
@@ -39,6 +41,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
 /// All errors of the first stage that has any.
 pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let declaration = syntax::parse(declaration)?;
+    let declaration = compose::compose(declaration)?;
     let mut model = model::resolve(&declaration)?;
     let equations = derive::derive(&mut model);
     let samples = verify::Samples::new(&model);

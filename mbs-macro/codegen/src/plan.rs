@@ -23,7 +23,7 @@ pub struct Plan {
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
     pub prepare: Program,
-    /// left − right of every requirement, then masses and inertias.
+    /// left − right and value of every requirement, then masses and inertias.
     pub requirements: Program,
     /// Declared positions and velocities.
     pub start: Program,
@@ -307,7 +307,7 @@ fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: 
 }
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
-    let declared = model.parameters.iter().filter_map(|p| p.requirement.as_ref().map(|r| r.difference));
+    let declared = model.requirements.iter().flat_map(|r| [r.difference, r.value]);
     declared.chain(equations.mass.iter().copied()).collect()
 }
 

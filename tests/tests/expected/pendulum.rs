@@ -306,14 +306,14 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             if !(parameters.length > T::from_f64(0.0)) {
                 return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
                     name: "length",
-                    value: parameters.length.to_f64(),
+                    value: (parameters.length).to_f64(),
                     requirement: "`length > 0` has to hold",
                 });
             }
             if !(parameters.mass > T::from_f64(0.0)) {
                 return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
                     name: "mass",
-                    value: parameters.mass.to_f64(),
+                    value: (parameters.mass).to_f64(),
                     requirement: "`mass > 0` has to hold",
                 });
             }
@@ -460,7 +460,7 @@ Cost: 13 mul + 6 add + 0 div + 0 sincos.*/
         alpha: T,
         beta: T,
     ) -> PendulumConstraints<T> {
-        let gains = ::mbs_runtime::Gains {
+        let gains = &::mbs_runtime::Gains {
             minus_two_alpha: -(alpha + alpha),
             minus_beta_squared: -(beta * beta),
         };

@@ -464,14 +464,14 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
             if !(parameters.l1 > T::from_f64(0.0)) {
                 return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
                     name: "l1",
-                    value: parameters.l1.to_f64(),
+                    value: (parameters.l1).to_f64(),
                     requirement: "`l1 > 0` has to hold",
                 });
             }
             if !(parameters.l2 > T::from_f64(0.0)) {
                 return ::core::result::Result::Err(::mbs_runtime::Error::Parameter {
                     name: "l2",
-                    value: parameters.l2.to_f64(),
+                    value: (parameters.l2).to_f64(),
                     requirement: "`l2 > 0` has to hold",
                 });
             }
@@ -856,7 +856,7 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         alpha: T,
         beta: T,
     ) -> SliderCrankConstraints<T> {
-        let gains = ::mbs_runtime::Gains {
+        let gains = &::mbs_runtime::Gains {
             minus_two_alpha: -(alpha + alpha),
             minus_beta_squared: -(beta * beta),
         };

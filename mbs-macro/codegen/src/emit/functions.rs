@@ -1,13 +1,14 @@
 //! The generated functions.
 
-use mbs_symbolic::Program;
-use proc_macro2::{Ident, TokenStream};
+use mbs_symbolic::{Operand, Program};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::access::Access;
 use super::docs;
 use super::info;
 use super::names::{Names, field};
-use super::program::{Access, Body, body};
+use super::program::{Body, body};
 use crate::derive::Equations;
 use crate::model::{Direction, Model};
 use crate::plan::Plan;
@@ -20,7 +21,7 @@ const LARGEST_INLINED: usize = 64;
 pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, parameters, runtime, .. } = names;
     let checks = parameter_checks(model, plan, names);
-    let Body { statements, outputs } = body(model, &plan.prepare, &Access::of_parameters());
+    let Body { statements, outputs } = body(model, names, &plan.prepare, &Access::of_parameters());
     quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The mechanism with its declared parameters, in `f64`.
@@ -60,25 +61,23 @@ pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
 
 fn parameter_checks(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
-    let Body { statements, outputs } = body(model, &plan.requirements, &Access::of_parameters());
+    let Body { statements, outputs } = body(model, names, &plan.requirements, &Access::of_parameters());
     let mut outputs = outputs.into_iter();
     let mut checks = TokenStream::new();
-    for parameter in &model.parameters {
-        let Some(requirement) = &parameter.requirement else { continue };
-        let difference = outputs.next();
+    for requirement in &model.requirements {
+        let (difference, value) = (outputs.next(), outputs.next());
         let comparison = match requirement.comparison {
             Comparison::Less => quote!(<),
             Comparison::LessOrEqual => quote!(<=),
             Comparison::Greater => quote!(>),
             Comparison::GreaterOrEqual => quote!(>=),
         };
-        let name = &parameter.quantity.name;
-        let (value, text) = (field(name), &requirement.text);
+        let (name, text) = (&requirement.name, &requirement.text);
         checks.extend(quote! {
             if !(#difference #comparison T::from_f64(0.0)) {
                 return ::core::result::Result::Err(#runtime::Error::Parameter {
                     name: #name,
-                    value: parameters.#value.to_f64(),
+                    value: (#value).to_f64(),
                     requirement: #text,
                 });
             }
@@ -128,6 +127,34 @@ fn turbofish(of_t: &TokenStream) -> TokenStream {
     quote!(#name)
 }
 
+/// A matrix: written out, or if it is large and so mostly zeros, by its entries.
+fn matrix(
+    nalgebra: &TokenStream,
+    (rows, columns): (usize, usize),
+    entry: impl Fn(usize, usize) -> Option<TokenStream>,
+) -> TokenStream {
+    const LARGEST_WRITTEN_OUT: usize = 400;
+    if rows * columns <= LARGEST_WRITTEN_OUT {
+        let columns = (0..columns).map(|column| {
+            let entries = (0..rows).map(|row| entry(row, column).unwrap_or_else(|| quote!(T::from_f64(0.0))));
+            quote!([#(#entries),*])
+        });
+        return quote!(#nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([#(#columns),*])));
+    }
+    let mut entries = TokenStream::new();
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        if let Some(value) = entry(row, column) {
+            let (row, column) = (Literal::usize_unsuffixed(row), Literal::usize_unsuffixed(column));
+            entries.extend(quote!(matrix.data.0[#column][#row] = #value;));
+        }
+    }
+    quote! {
+        let mut matrix = #nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([[T::from_f64(0.0); #rows]; #columns]));
+        #entries
+        matrix
+    }
+}
+
 /// The fields of the two vectors that most functions return.
 struct Fields {
     coordinates: Vec<Ident>,
@@ -153,7 +180,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     let at_state = Access::of_state();
 
     let rows_of = |program: &Program, access: &Access| {
-        let Body { statements, outputs } = body(model, program, access);
+        let Body { statements, outputs } = body(model, names, program, access);
         let value = vector(rows, &fields.rows, &outputs);
         quote!(#statements #value)
     };
@@ -163,30 +190,27 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     let gamma = rows_of(&plan.gamma, &at_state);
     let baumgarte_rhs = rows_of(&plan.baumgarte_rhs, &at_state);
     let forces = {
-        let Body { statements, outputs } = body(model, &plan.forces, &at_state);
+        let Body { statements, outputs } = body(model, names, &plan.forces, &at_state);
         let value = vector(q, &fields.coordinates, &outputs);
         quote!(#statements #value)
     };
     let phi_q = {
-        let Body { statements, outputs } = body(model, &plan.phi_q, &position);
-        let columns = (0..n).map(|column| (0..m).map(move |row| row * n + column));
-        let columns = columns.map(|column| {
-            let entries = column.map(|at| &outputs[at]);
-            quote!([#(#entries),*])
+        let Body { statements, outputs } = body(model, names, &plan.phi_q, &position);
+        let is_zero =
+            |at: usize| matches!(plan.phi_q.outputs[at], Operand::Number(number) if number.is_zero());
+        let matrix = matrix(nalgebra, (m, n), |row, column| {
+            let at = row * n + column;
+            (!is_zero(at)).then(|| outputs[at].clone())
         });
-        quote!(#statements #nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([#(#columns),*])))
+        quote!(#statements #matrix)
     };
     let mass = {
-        let Body { statements, outputs } = body(model, &plan.mass, &position);
-        let columns = (0..n).map(|column| {
-            let entries =
-                (0..n).map(|row| if row == column { outputs[row].clone() } else { quote!(T::from_f64(0.0)) });
-            quote!([#(#entries),*])
-        });
-        quote!(#statements #nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([#(#columns),*])))
+        let Body { statements, outputs } = body(model, names, &plan.mass, &position);
+        let matrix = matrix(nalgebra, (n, n), |row, column| (row == column).then(|| outputs[row].clone()));
+        quote!(#statements #matrix)
     };
     let scalar = |program: &Program| {
-        let Body { statements, outputs } = body(model, program, &at_state);
+        let Body { statements, outputs } = body(model, names, program, &at_state);
         quote!(#statements #(#outputs)*)
     };
     let (kinetic, potential) = (scalar(&plan.kinetic_energy), scalar(&plan.potential_energy));
@@ -221,7 +245,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
             #[inline]
             pub fn baumgarte_rhs(&self, at: &#state, alpha: T, beta: T) -> #rows {
                 let gains =
-                    #runtime::Gains { minus_two_alpha: -(alpha + alpha), minus_beta_squared: -(beta * beta) };
+                    &#runtime::Gains { minus_two_alpha: -(alpha + alpha), minus_beta_squared: -(beta * beta) };
                 #baumgarte_rhs
             }
 
@@ -260,10 +284,10 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let info = info::emit(model, plan, names);
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
-    let worst_start_pivot = worst_pivot(model, &plan.start_pivots, runtime);
-    let worst_pivot = worst_pivot(model, &plan.pivots, runtime);
+    let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
+    let worst_pivot = worst_pivot(model, names, &plan.pivots);
     let output_values = {
-        let Body { statements, outputs: values } = body(model, &plan.outputs, &Access::of_state());
+        let Body { statements, outputs: values } = body(model, names, &plan.outputs, &Access::of_state());
         let output_fields: Vec<_> = model.outputs.iter().map(|output| field(&output.quantity.name)).collect();
         let value = vector(outputs, &output_fields, &values);
         quote!(#statements #value)
@@ -317,7 +341,7 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
     let split = |program: &Program, access: Access| {
-        let Body { statements, outputs } = body(model, program, &access);
+        let Body { statements, outputs } = body(model, names, program, &access);
         let acceleration = vector(q, &fields.coordinates, &outputs[..n]);
         let growth = outputs.last().cloned();
         (statements, outputs, acceleration, growth)
@@ -358,18 +382,18 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
 fn declared_start(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenStream {
     let runtime = &names.runtime;
     let q = &names.coordinates.of_t;
-    let access = Access { parameters: quote!(self.parameters), ..Access::of_position() };
-    let Body { statements, outputs } = body(model, &plan.start, &access);
+    let Body { statements, outputs } = body(model, names, &plan.start, &Access::of_position());
     let (positions, velocities) = outputs.split_at(fields.coordinates.len());
     let (positions, velocities) =
         (vector(q, &fields.coordinates, positions), vector(q, &fields.coordinates, velocities));
     quote!(#statements #runtime::State { t: T::from_f64(0.0), q: #positions, v: #velocities })
 }
 
-fn worst_pivot(model: &Model, pivots: &Program, runtime: &TokenStream) -> TokenStream {
+fn worst_pivot(model: &Model, names: &Names, pivots: &Program) -> TokenStream {
+    let runtime = &names.runtime;
     if pivots.outputs.is_empty() {
         return quote!(::core::option::Option::None);
     }
-    let Body { statements, outputs } = body(model, pivots, &Access::of_position());
+    let Body { statements, outputs } = body(model, names, pivots, &Access::of_position());
     quote!(#statements #runtime::__private::worst(&[#(#outputs),*]))
 }

@@ -1,9 +1,11 @@
 //! Programs to Rust. Cannot fail: whatever could go wrong has been refused.
 
+mod access;
 mod docs;
 mod functions;
 mod info;
 mod names;
+mod parts;
 mod program;
 mod types;
 

@@ -6,44 +6,10 @@ use mbs_symbolic::{Function, Number, Operand, Operation, Program, Symbol};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::names::field;
+use super::access::Access;
+use super::names::{Names, field};
+use super::parts;
 use crate::model::{Meaning, Model};
-
-/// How generated code reads the symbols of a program.
-pub struct Access {
-    /// The parameters, `self.parameters` or a variable.
-    pub parameters: TokenStream,
-    pub time: TokenStream,
-    pub positions: TokenStream,
-    pub velocities: TokenStream,
-}
-
-impl Access {
-    /// In a method that takes `at: &State`.
-    pub fn of_state() -> Self {
-        Self {
-            parameters: quote!(self.parameters),
-            time: quote!(at.t),
-            positions: quote!(at.q),
-            velocities: quote!(at.v),
-        }
-    }
-
-    /// In a method that takes `t` and `q`.
-    pub fn of_position() -> Self {
-        Self {
-            parameters: quote!(self.parameters),
-            time: quote!(t),
-            positions: quote!(q),
-            velocities: quote!(v),
-        }
-    }
-
-    /// In a function that takes `parameters` alone.
-    pub fn of_parameters() -> Self {
-        Self { parameters: quote!(parameters), ..Self::of_position() }
-    }
-}
 
 /// Statements that run a program, and its outputs as expressions.
 pub struct Body {
@@ -51,16 +17,13 @@ pub struct Body {
     pub outputs: Vec<TokenStream>,
 }
 
-pub fn body(model: &Model, program: &Program, access: &Access) -> Body {
-    let mut writer = Writer {
-        model,
-        program,
-        access,
-        names: Vec::new(),
-        taken: BTreeSet::new(),
-        statements: TokenStream::new(),
-        pairs: sine_cosine_pairs(program),
-    };
+/// A program as one list of statements, or as calls of functions of bounded
+/// size if it is long.
+pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) -> Body {
+    if program.instructions.len() > parts::LONGEST {
+        return parts::body(model, names, program, access);
+    }
+    let mut writer = Writer::new(model, program, access);
     for at in 0..program.instructions.len() {
         writer.instruction(at);
     }
@@ -68,22 +31,37 @@ pub fn body(model: &Model, program: &Program, access: &Access) -> Body {
     Body { statements: writer.statements, outputs }
 }
 
-struct Writer<'a> {
+pub(super) struct Writer<'a> {
     model: &'a Model,
     program: &'a Program,
     access: &'a Access,
-    /// Per instruction; a partner of a sine–cosine pair is named early.
+    /// How a result is referred to; a partner of a sine–cosine pair is named early.
+    pub references: Vec<Option<TokenStream>>,
     names: Vec<Option<Ident>>,
     taken: BTreeSet<String>,
-    statements: TokenStream,
+    pub statements: TokenStream,
     /// Sine instruction ↔ cosine instruction of the same angle.
     pairs: HashMap<usize, usize>,
 }
 
-impl Writer<'_> {
-    fn instruction(&mut self, at: usize) {
-        self.names.resize(self.program.instructions.len(), None);
-        if self.names[at].is_some() {
+impl<'a> Writer<'a> {
+    pub fn new(model: &'a Model, program: &'a Program, access: &'a Access) -> Self {
+        let length = program.instructions.len();
+        Self {
+            model,
+            program,
+            access,
+            references: vec![None; length],
+            names: vec![None; length],
+            taken: BTreeSet::new(),
+            statements: TokenStream::new(),
+            pairs: sine_cosine_pairs(program),
+        }
+    }
+
+    /// The statement of an instruction, unless a partner has brought it.
+    pub fn instruction(&mut self, at: usize) {
+        if self.references[at].is_some() {
             return;
         }
         let instruction = &self.program.instructions[at];
@@ -104,24 +82,29 @@ impl Writer<'_> {
         self.statements.extend(statement);
     }
 
-    fn operand(&self, operand: Operand) -> TokenStream {
+    pub fn operand(&self, operand: Operand) -> TokenStream {
         match operand {
             Operand::Number(number) => number_tokens(number),
             Operand::Symbol(symbol) => self.symbol(symbol),
             Operand::Hoisted(at) => {
-                let at = Literal::usize_unsuffixed(at);
-                quote!(self.hoisted[#at])
+                let (this, at) = (&self.access.this, Literal::usize_unsuffixed(at));
+                quote!(#this.hoisted[#at])
             }
-            Operand::Value(at) => match self.names.get(at) {
-                Some(Some(name)) => quote!(#name),
-                // Instructions refer to earlier ones only.
-                _ => TokenStream::new(),
-            },
+            // Instructions refer to earlier ones only.
+            Operand::Value(at) => self.references.get(at).cloned().flatten().unwrap_or_default(),
         }
     }
 
+    /// The instructions whose results stand in the statements so far, and the
+    /// names that they have there.
+    pub fn take_names(&mut self) -> Vec<(usize, Ident)> {
+        self.taken.clear();
+        let names = self.names.iter_mut().enumerate();
+        names.filter_map(|(at, name)| name.take().map(|name| (at, name))).collect()
+    }
+
     fn symbol(&self, symbol: Symbol) -> TokenStream {
-        let Access { parameters, time, positions, velocities } = self.access;
+        let Access { parameters, time, positions, velocities, .. } = self.access;
         let coordinate = |at: usize| field(&self.model.coordinates[at].quantity.name);
         let row = |at: usize| field(&self.model.constraints[at].name);
         match self.model.meanings[symbol.index()] {
@@ -181,6 +164,7 @@ impl Writer<'_> {
             }
             _ => format_ident!("v{at}"),
         };
+        self.references[at] = Some(quote!(#name));
         self.names[at] = Some(name.clone());
         name
     }

@@ -16,7 +16,9 @@ impl<'a> Resolver<'a> {
         match &item.kind {
             ItemKind::Parameter { name, value, .. } => self.declare_parameter(name, value, &item.doc),
             ItemKind::Constant { name, value } => self.declare_definition(name, value, true),
-            ItemKind::Let { name, value } => self.declare_definition(name, value, false),
+            ItemKind::Let { name, value } | ItemKind::Binding { name, value, .. } => {
+                self.declare_definition(name, value, false);
+            }
             ItemKind::Input { name, unit } => {
                 let meaning = Meaning::Input(self.inputs.len());
                 let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
@@ -51,7 +53,7 @@ impl<'a> Resolver<'a> {
         self.scope.declare(name, value, &mut self.errors);
         let (text, unit) = unit.map_or((String::new(), Unit::ONE), |unit| (unit.text, unit.unit));
         let quantity = quantity(name, doc, &text, unit);
-        self.parameters.push(Parameter { quantity, value: f64::NAN, requirement: None });
+        self.parameters.push(Parameter { quantity, value: f64::NAN });
     }
 
     fn declare_definition(&mut self, name: &Ident, formula: &'a Formula, is_constant: bool) {
@@ -185,8 +187,8 @@ fn direction(coordinate: &syntax::Coordinate, at: usize, count: usize) -> Result
                 .help("a coordinate is along `x`, along `y` or an `angle`")),
         };
     }
-    let name = coordinate.name.to_string();
-    let suggested = suggested_direction(&name);
+    let name = &coordinate.written;
+    let suggested = suggested_direction(name);
     let by_place = [Direction::X, Direction::Y, Direction::Angle].get(at).copied().filter(|_| count == 3);
     match (by_place, suggested) {
         (Some(place), Some(name_says)) if place != name_says => Err(Diagnostic::new(

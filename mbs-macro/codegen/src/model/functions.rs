@@ -146,7 +146,16 @@ impl Scope<'_> {
     /// `lambda(row)` is the multiplier, `effort(drive)` = −λ what a drive
     /// exerts along its left-hand side.
     fn multiplier(&mut self, name: &Ident, arguments: &[Formula], place: Place) -> Result<Typed, Diagnostic> {
-        let [Formula { kind: FormulaKind::Name(row), .. }] = arguments else {
+        // `lambda(pin.x)` is `lambda(pin_x)`
+        let row = match arguments {
+            [Formula { kind: FormulaKind::Name(row), .. }] => Some(row.clone()),
+            [Formula { kind: FormulaKind::Member(path), .. }] => match &path[..] {
+                [joint, row] => Some(Ident::new(&format!("{joint}_{row}"), joint.span())),
+                _ => None,
+            },
+            _ => None,
+        };
+        let Some(row) = row else {
             return Err(Diagnostic::new(name.span(), format!("`{name}` takes the name of a constraint"))
                 .help(format!("the constraints are {}", listing(self.rows.keys()))));
         };

@@ -36,6 +36,7 @@ pub struct Model {
     pub runtime: TokenStream,
     pub dof: (i64, Span),
     pub parameters: Vec<Parameter>,
+    pub requirements: Vec<Requirement>,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
@@ -87,11 +88,14 @@ pub struct Parameter {
     pub quantity: Quantity,
     /// Declared value in SI units.
     pub value: f64,
-    pub requirement: Option<Requirement>,
 }
 
 /// A condition on parameters, checked when a mechanism is built.
 pub struct Requirement {
+    /// The parameter whose condition it is, or the left side as it was written.
+    pub name: String,
+    /// What that is.
+    pub value: Expr,
     /// left − right
     pub difference: Expr,
     pub comparison: Comparison,

@@ -112,8 +112,8 @@ impl Scope<'_> {
     /// `crank.x`, `crank.angle`, `crank.tip.y`.
     pub fn member(&mut self, path: &[Ident], place: Place, errors: &mut Diagnostics) -> Option<Typed> {
         let (attachment, member) = match path {
-            [body, member] => (Attachment { body: body.clone(), point: None }, member),
-            [body, point, member] => (Attachment { body: body.clone(), point: Some(point.clone()) }, member),
+            [body, member] => (Attachment::of_path(body.clone(), Vec::new()), member),
+            [body, point, member] => (Attachment::of_path(body.clone(), vec![point.clone()]), member),
             _ => {
                 let span = path.last().map_or(Span::call_site(), Ident::span);
                 errors.push(

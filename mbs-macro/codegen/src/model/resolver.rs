@@ -8,10 +8,11 @@ use quote::quote;
 
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Start, Symbols,
+    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement, Start,
+    Symbols,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::syntax::Declaration;
+use crate::syntax::{Declaration, Item};
 
 /// Resolves names and checks dimensions.
 ///
@@ -20,21 +21,11 @@ use crate::syntax::Declaration;
 pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     let mut resolver = Resolver::new(declaration);
     // Names first, so that statements may stand in any order.
-    for item in &declaration.items {
-        resolver.declare(item);
-    }
-    for item in &declaration.items {
-        resolver.declare_rows(item);
-    }
-    for item in &declaration.items {
-        resolver.resolve_places(item);
-    }
-    for item in &declaration.items {
-        resolver.resolve_constraint(item);
-    }
-    for item in &declaration.items {
-        resolver.resolve_item(item);
-    }
+    resolver.each(declaration, Resolver::declare);
+    resolver.each(declaration, Resolver::declare_rows);
+    resolver.each(declaration, Resolver::resolve_places);
+    resolver.each(declaration, Resolver::resolve_constraint);
+    resolver.each(declaration, Resolver::resolve_item);
     resolver.resolve_rest();
     resolver.finish(declaration)
 }
@@ -49,6 +40,7 @@ pub(super) struct Resolver<'a> {
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
+    pub requirements: Vec<Requirement>,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
@@ -60,7 +52,6 @@ pub(super) struct Resolver<'a> {
     pub loads: Vec<Load>,
     pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
-    pub start: Option<Span>,
     pub starts: Vec<Start>,
     pub outputs: Vec<Output>,
     pub output_spans: Vec<(String, Span)>,
@@ -76,6 +67,7 @@ impl<'a> Resolver<'a> {
             dof: None,
             parameters: Vec::new(),
             resolved_parameters: 0,
+            requirements: Vec::new(),
             inputs: Vec::new(),
             coordinates: Vec::new(),
             bodies: Vec::new(),
@@ -87,10 +79,22 @@ impl<'a> Resolver<'a> {
             loads: Vec::new(),
             potentials: Vec::new(),
             load_names: Vec::new(),
-            start: None,
             starts: Vec::new(),
             outputs: Vec::new(),
             output_spans: Vec::new(),
+        }
+    }
+
+    /// Reads all statements. The copies that a loop or an assembly makes of one
+    /// statement report its errors once.
+    fn each(&mut self, declaration: &'a Declaration, read: fn(&mut Self, &'a Item)) {
+        let mut reported = BTreeSet::new();
+        for item in &declaration.items {
+            let before = self.errors.len();
+            read(self, item);
+            if self.errors.len() > before && !reported.insert(item.position) {
+                self.errors.truncate(before);
+            }
         }
     }
 
@@ -149,6 +153,7 @@ impl<'a> Resolver<'a> {
             runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
             parameters: self.parameters,
+            requirements: self.requirements,
             inputs: self.inputs,
             coordinates: self.coordinates,
             bodies: self.bodies,

@@ -96,15 +96,9 @@ impl<'a> Resolver<'a> {
                 self.resolve_load(name, *is_torque, target, value)
             }
             ItemKind::Spring(spring) => self.resolve_spring(spring),
-            ItemKind::Start { keyword, entries } => match self.start {
-                Some(earlier) => self.repeated("`start`", *keyword, earlier),
-                None => {
-                    self.start = Some(*keyword);
-                    for entry in entries {
-                        self.resolve_start(entry);
-                    }
-                }
-            },
+            ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
+            ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
+            ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
             ItemKind::Output { name, unit, value } => {
                 self.resolve_output(name, unit.as_ref(), value, &item.doc)
             }
@@ -147,14 +141,15 @@ impl<'a> Resolver<'a> {
             }
         }
         if let Some(condition) = condition {
-            self.parameters[at].requirement = self.requirement(condition);
+            self.require(condition, Some(name));
         }
     }
 
-    fn requirement(&mut self, condition: &syntax::Condition) -> Option<Requirement> {
+    /// Adds a condition, of a parameter or else of its left side.
+    fn require(&mut self, condition: &syntax::Condition, parameter: Option<&Ident>) {
         let left = self.scope.formula(&condition.left, Place::Property, &mut self.errors);
         let right = self.scope.formula(&condition.right, Place::Property, &mut self.errors);
-        let (left, right) = (left?, right?);
+        let (Some(left), Some(right)) = (left, right) else { return };
         if let (Some(a), Some(b)) = (left.dimension, right.dimension)
             && a != b
         {
@@ -165,16 +160,29 @@ impl<'a> Resolver<'a> {
                 )
                 .help("give the number its unit, or compare with 0"),
             );
-            return None;
+            return;
         }
-        let difference = self.scope.arena.sub(left.expr, right.expr);
-        let text = format!("`{}` has to hold", condition.text);
-        Some(Requirement {
-            difference,
+        let mut value_of = |name| self.scope.formula(&Formula::name(name), Place::Property, &mut self.errors);
+        let (name, value) = match parameter.map(|name| (name, value_of(name))) {
+            Some((name, Some(value))) => (name.to_string(), value.expr),
+            _ => (condition.left_text.clone(), left.expr),
+        };
+        self.requirements.push(Requirement {
+            name,
+            value,
+            difference: self.scope.arena.sub(left.expr, right.expr),
             comparison: condition.comparison,
-            text,
+            text: format!("`{}` has to hold", condition.text),
             span: condition.comparison_span,
-        })
+        });
+    }
+
+    /// What binds a parameter of an assembly has the parameter's dimension.
+    fn check_binding(&mut self, name: &Ident, value: &Formula, default: &Formula) {
+        let default = self.scope.formula(default, Place::Constant, &mut self.errors);
+        let Some(dimension) = default.and_then(|default| default.dimension) else { return };
+        let what = format!("the parameter `{name}`");
+        self.scope.formula_of(value, Place::Anywhere, (&what, dimension), &mut self.errors);
     }
 
     fn resolve_body(&mut self, name: &Ident, properties: &[syntax::Property]) {

@@ -80,15 +80,26 @@ fn with_unit(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
             let unit = Some(input.parse()?);
             Ok(Formula { span, kind: FormulaKind::Number { value, unit } })
         }
-        FormulaKind::Name(name) => Err(input.error(format!(
-            "`{name}` has a unit of its own; units in brackets follow numbers, as in `60 [mm]`"
-        ))),
+        FormulaKind::Name(name) => Err(bracket_after_name(input, &name)),
         kind => {
             let inner = Box::new(Formula { span, kind });
             let unit = input.parse()?;
             Ok(Formula { span, kind: FormulaKind::WithUnit { inner, unit } })
         }
     }
+}
+
+/// A bracket behind a name is an index that has been resolved before, a unit by
+/// mistake, or an index that is not known.
+pub(super) fn bracket_after_name(input: ParseStream<'_>, name: &Ident) -> Error {
+    let is_unit = input.fork().parse::<UnitText>().is_ok();
+    input.error(if is_unit {
+        format!("`{name}` has a unit of its own; units in brackets follow numbers, as in `60 [mm]`")
+    } else {
+        format!(
+            "the index of `{name}` is not known here\n\nhelp: an index is 0 or more, made of whole numbers, loop variables and whole constants, as in `{name}[i-1]`"
+        )
+    })
 }
 
 fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
@@ -185,18 +196,23 @@ impl Parse for UnitText {
                 "an empty unit; leave the brackets out of a bare number",
             ));
         }
-        let mut unit = unit_factor(&content)?;
-        while !content.is_empty() {
-            let (op, span) = operator(&content).map_err(|error| Error::new(error.span(), JOINED))?;
-            let factor = unit_factor(&content)?;
-            unit = match op {
-                '*' => unit.times(factor),
-                '/' => factor.power(-1).map_or(unit, |inverse| unit.times(inverse)),
-                _ => return Err(Error::new(span, JOINED)),
-            };
-        }
-        Ok(Self { text, unit })
+        Ok(Self { text, unit: unit(&content)? })
     }
+}
+
+/// A unit, inside its brackets.
+pub(super) fn unit(content: ParseStream<'_>) -> Result<Unit> {
+    let mut unit = unit_factor(content)?;
+    while !content.is_empty() {
+        let (op, span) = operator(content).map_err(|error| Error::new(error.span(), JOINED))?;
+        let factor = unit_factor(content)?;
+        unit = match op {
+            '*' => unit.times(factor),
+            '/' => factor.power(-1).map_or(unit, |inverse| unit.times(inverse)),
+            _ => return Err(Error::new(span, JOINED)),
+        };
+    }
+    Ok(unit)
 }
 
 fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {

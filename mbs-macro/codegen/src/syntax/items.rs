@@ -4,16 +4,15 @@ use mbs_symbolic::units;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
-use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
 
-use super::formula::{end, is_vector};
-use super::{
-    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
-};
+use super::formula::{bracket_after_name, end, is_vector};
+use super::indices::Indices;
+use super::statements::Reader;
+use super::{Comparison, Condition, Coordinate, Declaration, Formula, ItemKind, Load, Property, StartEntry};
 use super::{joints, springs};
 use crate::diagnostics::{Diagnostics, nearest};
 
@@ -35,10 +34,14 @@ const KEYWORDS: &[&str] = &[
     "point",
     "spring",
     "torsion_spring",
+    "require",
+    "for",
+    "if",
+    "assembly",
+    "instance",
 ];
 
-/// Reads a declaration. After an error it goes on behind the next `;` or
-/// `{ … }`, so that all errors of a declaration are shown at once.
+/// Reads a declaration.
 ///
 /// # Errors
 /// All errors of shape.
@@ -63,23 +66,8 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     block(input, "SliderCrank { dof = 0; … }")?;
     let content;
     braced!(content in input);
-    let mut items = Vec::new();
-    while !content.is_empty() {
-        let behind = content.fork();
-        skip_statement(&behind)?;
-        // A fork, so that what a wrong statement leaves unread is no second error.
-        let statement = content.fork();
-        match item(&statement) {
-            Ok(item) => {
-                items.push(item);
-                content.advance_to(&statement);
-            }
-            Err(error) => {
-                errors.push(error);
-                content.advance_to(&behind);
-            }
-        }
-    }
+    let indices = Indices::of(&content.fork().parse()?);
+    let items = Reader::new(errors).statements(&content, &indices);
     if !input.is_empty() {
         errors.push(input.error("one mechanism per `mechanism!`"));
         input.parse::<TokenStream>()?;
@@ -87,23 +75,8 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     Ok(Declaration { doc, visibility, name, items })
 }
 
-/// Moves behind the next `;`, or behind a `{ … }` that ends a statement.
-fn skip_statement(input: ParseStream<'_>) -> Result<()> {
-    while !input.is_empty() {
-        let token: TokenTree = input.parse()?;
-        match token {
-            TokenTree::Punct(punct) if punct.as_char() == ';' => break,
-            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => {
-                input.parse::<Option<Token![;]>>()?;
-                break;
-            }
-            _ => {}
-        }
-    }
-    Ok(())
-}
-
-fn item(input: ParseStream<'_>) -> Result<Item> {
+/// A statement with its doc comment.
+pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     let doc = doc(input)?;
     let keyword = Ident::parse_any(input).map_err(|error| {
         Error::new(error.span(), format!("a statement is expected here: {}", KEYWORDS.join(", ")))
@@ -121,16 +94,18 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
         "drive" => constraint(input, true),
         "force" => force(input, false),
         "torque" => force(input, true),
-        "start" => start(input, keyword.span()),
+        "start" => start(input),
         "output" => output(input),
         "point" => joints::point(input),
+        "require" => require(input),
+        "instance" => instance(input),
         "spring" | "torsion_spring" => springs::spring(input, &keyword),
         word => match joints::JOINTS.iter().find(|(known, _)| *known == word) {
             Some((_, kind)) => joints::joint(input, *kind, &keyword),
             None => Err(unknown_statement(&keyword, word)),
         },
     }?;
-    Ok(Item { doc, kind })
+    Ok((doc, kind))
 }
 
 fn unknown_statement(keyword: &Ident, word: &str) -> Error {
@@ -144,7 +119,7 @@ fn unknown_statement(keyword: &Ident, word: &str) -> Error {
 }
 
 /// The text of doc comments; other attributes are refused.
-fn doc(input: ParseStream<'_>) -> Result<String> {
+pub(super) fn doc(input: ParseStream<'_>) -> Result<String> {
     let mut lines = Vec::new();
     for attribute in input.call(Attribute::parse_outer)? {
         let line = match &attribute.meta {
@@ -161,6 +136,15 @@ fn doc(input: ParseStream<'_>) -> Result<String> {
 }
 
 pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
+    let name = name_before_unit(input)?;
+    if input.peek(token::Bracket) {
+        return Err(bracket_after_name(input, &name));
+    }
+    Ok(name)
+}
+
+/// A name behind which a bracket may stand.
+fn name_before_unit(input: ParseStream<'_>) -> Result<Ident> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
     // `gen` is one since the edition of 2024, which syn does not ask for
@@ -169,6 +153,15 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
         return Err(Error::new(name.span(), format!("`{name}` is a word of Rust and cannot be a name here")));
     }
     Ok(name)
+}
+
+/// `crank`, or `leg.crank.tip`.
+pub(super) fn path(input: ParseStream<'_>) -> Result<Vec<Ident>> {
+    let mut path = vec![name(input)?];
+    while input.parse::<Option<Token![.]>>()?.is_some() {
+        path.push(name(input)?);
+    }
+    Ok(path)
 }
 
 pub(super) fn equals(input: ParseStream<'_>) -> Result<Span> {
@@ -253,11 +246,43 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
         return Err(input.error("one of `<`, `<=`, `>`, `>=` is expected here, as in `where l1 > 0`"));
     };
     let right = input.parse()?;
-    let mut text = TokenStream::new();
+    let (mut text, mut left_text) = (TokenStream::new(), None);
     while !ahead.is_empty() && !ahead.peek(Token![;]) {
+        if left_text.is_none() && (ahead.peek(Token![<]) || ahead.peek(Token![>])) {
+            left_text = Some(text.to_string());
+        }
         text.extend([ahead.parse::<TokenTree>()?]);
     }
-    Ok(Condition { left, comparison, comparison_span, right, text: text.to_string() })
+    let (text, left_text) = (text.to_string(), left_text.unwrap_or_default());
+    Ok(Condition { left, comparison, comparison_span, right, text, left_text })
+}
+
+/// `require crank < rod;`
+fn require(input: ParseStream<'_>) -> Result<ItemKind> {
+    let condition = condition(input)?;
+    semicolon(input)?;
+    Ok(ItemKind::Require { of: None, condition })
+}
+
+/// `instance left: Leg { phase = 120 [deg]; }`
+fn instance(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name(input)?;
+    let example = format!("instance {name}: Leg {{ length = 0.5 [m]; }}");
+    input.parse::<Token![:]>().map_err(|error| {
+        Error::new(error.span(), format!("`:` and an assembly are expected here, as in `{example}`"))
+    })?;
+    let assembly = self::name(input)?;
+    let mut bindings = Vec::new();
+    if input.parse::<Option<Token![;]>>()?.is_none() {
+        block(input, &example)?;
+        let content;
+        braced!(content in input);
+        while !content.is_empty() {
+            let (name, value) = definition(&content)?;
+            bindings.push(Property { name, value });
+        }
+    }
+    Ok(ItemKind::Instance { name, assembly, bindings })
 }
 
 fn constant(input: ParseStream<'_>) -> Result<ItemKind> {
@@ -279,7 +304,7 @@ pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
 }
 
 fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
-    let name = name(input)?;
+    let name = name_before_unit(input)?;
     if !input.peek(token::Bracket) {
         return Err(input
             .error(format!("an input needs its unit: `input {name} [N*m];`, or `[1]` for a bare number")));
@@ -321,14 +346,15 @@ fn body(input: ParseStream<'_>) -> Result<ItemKind> {
 
 fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
     let first = name(input)?;
-    let coordinate = match input.parse::<Option<Token![=]>>()? {
-        Some(_) => Coordinate { direction: Some(first), name: name(input)? },
-        None => Coordinate { direction: None, name: first },
+    let (direction, name) = match input.parse::<Option<Token![=]>>()? {
+        Some(_) => (Some(first), name(input)?),
+        None => (None, first),
     };
+    let written = name.to_string();
     if !input.is_empty() && !input.peek(Token![,]) {
         return Err(input.error("`,` is expected between coordinates"));
     }
-    Ok(coordinate)
+    Ok(Coordinate { direction, name, written })
 }
 
 fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
@@ -362,7 +388,7 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
     Ok(ItemKind::Force { name: what, is_torque, target, value })
 }
 
-fn start(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+fn start(input: ParseStream<'_>) -> Result<ItemKind> {
     block(input, "start { theta = 0; }")?;
     let content;
     braced!(content in input);
@@ -370,30 +396,36 @@ fn start(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     while !content.is_empty() {
         entries.push(start_entry(&content)?);
     }
-    Ok(ItemKind::Start { keyword, entries })
+    Ok(ItemKind::Start { entries })
 }
 
 fn start_entry(input: ParseStream<'_>) -> Result<StartEntry> {
-    let mut first = name(input)?;
-    let is_guess = first == "guess" && input.peek(syn::Ident);
+    let ahead = input.fork();
+    let is_guess = ahead.call(Ident::parse_any).is_ok_and(|word| word == "guess") && ahead.peek(syn::Ident);
     if is_guess {
-        first = name(input)?;
+        name(input)?;
     }
-    let is_rate = first == "der" && input.peek(token::Paren);
-    if is_rate {
+    let ahead = input.fork();
+    let is_rate = ahead.call(Ident::parse_any).is_ok_and(|word| word == "der") && ahead.peek(token::Paren);
+    let mut path = if is_rate {
+        name(input)?;
         let content;
         parenthesized!(content in input);
-        first = name(&content)?;
+        let path = path(&content)?;
         end(&content)?;
-    }
+        path
+    } else {
+        path(input)?
+    };
+    let coordinate = path.pop().ok_or_else(|| input.error("a coordinate is expected here"))?;
     equals(input)?;
     let value = input.parse()?;
     semicolon(input)?;
-    Ok(StartEntry { is_guess, is_rate, coordinate: first, value })
+    Ok(StartEntry { is_guess, is_rate, prefix: path, coordinate, value })
 }
 
 fn output(input: ParseStream<'_>) -> Result<ItemKind> {
-    let name = name(input)?;
+    let name = name_before_unit(input)?;
     let unit = if input.peek(token::Bracket) { Some(input.parse()?) } else { None };
     equals(input)?;
     let value = input.parse()?;

@@ -98,11 +98,11 @@ fn example(kind: JointKind, word: &Ident, name: &Ident) -> String {
 impl Parse for Attachment {
     /// `crank.tip`, or `crank` for its centre.
     fn parse(input: ParseStream<'_>) -> Result<Self> {
-        let body = name(input)?;
-        let point = match input.parse::<Option<Token![.]>>()? {
-            Some(_) => Some(name(input)?),
-            None => None,
-        };
-        Ok(Self { body, point })
+        let first = name(input)?;
+        let mut rest = Vec::new();
+        while input.parse::<Option<Token![.]>>()?.is_some() {
+            rest.push(name(input)?);
+        }
+        Ok(Self::of_path(first, rest))
     }
 }

@@ -1,9 +1,11 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
 mod formula;
+mod indices;
 mod items;
 mod joints;
 mod springs;
+mod statements;
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
@@ -20,11 +22,15 @@ pub struct Declaration {
 }
 
 /// One statement.
+#[derive(Clone)]
 pub struct Item {
     pub doc: String,
+    /// Which statement of the source it is; copies that a loop makes share it.
+    pub position: usize,
     pub kind: ItemKind,
 }
 
+#[derive(Clone)]
 pub enum ItemKind {
     /// `dof = 0;`
     Dof { keyword: Span, value: i64 },
@@ -36,6 +42,15 @@ pub enum ItemKind {
     Constant { name: Ident, value: Formula },
     /// `input torque [N*m];`
     Input { name: Ident, unit: UnitText },
+    /// `require l1 < l2;`, or the condition of a parameter that is bound.
+    Require { of: Option<Ident>, condition: Condition },
+    /// `assembly Leg { … }`; gone after composition.
+    Assembly { name: Ident, items: Vec<Item> },
+    /// `instance left: Leg { phase = 120 [deg]; }`; gone after composition.
+    Instance { name: Ident, assembly: Ident, bindings: Vec<Property> },
+    /// A parameter of an assembly that its instance gives a value; made by
+    /// composition.
+    Binding { name: Ident, value: Formula, default: Formula },
     /// `let x = …;`
     Let { name: Ident, value: Formula },
     /// `gravity = (gx, gy);`
@@ -53,12 +68,13 @@ pub enum ItemKind {
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Spring(Spring),
     /// `start { … }`
-    Start { keyword: Span, entries: Vec<StartEntry> },
+    Start { entries: Vec<StartEntry> },
     /// `output name [unit] = …;`
     Output { name: Ident, unit: Option<UnitText>, value: Formula },
 }
 
 /// `where left < right`
+#[derive(Clone)]
 pub struct Condition {
     pub left: Formula,
     pub comparison: Comparison,
@@ -66,6 +82,7 @@ pub struct Condition {
     pub right: Formula,
     /// As it was written.
     pub text: String,
+    pub left_text: String,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -90,18 +107,23 @@ impl Comparison {
 
 /// A coordinate of a body, with its direction where that was written:
 /// `x = s`.
+#[derive(Clone)]
 pub struct Coordinate {
     pub direction: Option<Ident>,
     pub name: Ident,
+    /// As it was written: by its beginning the direction may be told.
+    pub written: String,
 }
 
 /// `mass = …;` in a body.
+#[derive(Clone)]
 pub struct Property {
     pub name: Ident,
     pub value: Formula,
 }
 
 /// A joint between two places.
+#[derive(Clone)]
 pub struct Joint {
     pub kind: JointKind,
     pub name: Ident,
@@ -125,6 +147,7 @@ pub enum JointKind {
 }
 
 /// A spring with a damper between two places, or two angles.
+#[derive(Clone)]
 pub struct Spring {
     pub name: Ident,
     pub is_torsion: bool,
@@ -134,18 +157,37 @@ pub struct Spring {
 }
 
 /// A place on a body: `crank.tip`, or `crank` for its centre.
+#[derive(Clone)]
 pub struct Attachment {
+    /// The instances of assemblies that lead to the body; empty after composition.
+    pub prefix: Vec<Ident>,
     pub body: Ident,
     pub point: Option<Ident>,
 }
 
+impl Attachment {
+    /// The place at `first.rest`: of two names and more, the last is a point.
+    pub fn of_path(first: Ident, mut rest: Vec<Ident>) -> Self {
+        let point = rest.pop();
+        match rest.pop() {
+            None => Self { prefix: Vec::new(), body: first, point },
+            Some(body) => {
+                rest.insert(0, first);
+                Self { prefix: rest, body, point }
+            }
+        }
+    }
+}
+
 /// `(x, y)`, or a scalar.
+#[derive(Clone)]
 pub enum Load {
     Scalar(Formula),
     Vector(Vector),
 }
 
 /// `(x, y)` with an optional unit for both.
+#[derive(Clone)]
 pub struct Vector {
     pub span: Span,
     pub x: Formula,
@@ -153,9 +195,12 @@ pub struct Vector {
 }
 
 /// `theta = 0;`, `der(theta) = omega;` or either with `guess` before it.
+#[derive(Clone)]
 pub struct StartEntry {
     pub is_guess: bool,
     pub is_rate: bool,
+    /// The instances of assemblies that lead to it; empty after composition.
+    pub prefix: Vec<Ident>,
     pub coordinate: Ident,
     pub value: Formula,
 }
@@ -168,11 +213,20 @@ pub struct UnitText {
 }
 
 /// A mathematical expression.
+#[derive(Clone)]
 pub struct Formula {
     pub span: Span,
     pub kind: FormulaKind,
 }
 
+impl Formula {
+    /// The formula that is a name.
+    pub fn name(name: &Ident) -> Self {
+        Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
+    }
+}
+
+#[derive(Clone)]
 pub enum FormulaKind {
     /// A number, with a unit or bare.
     Number {

@@ -29,14 +29,13 @@ pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) 
 /// Declared parameters satisfy their own conditions; no mass is negative.
 fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     let values = model.values(|_| f64::NAN);
-    for parameter in &model.parameters {
-        let Some(requirement) = &parameter.requirement else { continue };
+    for requirement in &model.requirements {
         let difference = model.arena.evaluate(&[requirement.difference], &values);
         if !requirement.comparison.holds(difference[0]) {
             errors.push(
                 Diagnostic::new(
                     requirement.span,
-                    format!("the declared value of `{}` violates its own condition", parameter.quantity.name),
+                    format!("the declared value of `{}` violates its own condition", requirement.name),
                 )
                 .help("change the value or the condition"),
             );

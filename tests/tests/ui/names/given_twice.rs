@@ -10,7 +10,7 @@ mechanism! {
         gravity = (0, 9.81) [m/s^2];
         body bob (x, y) { mass = 1 [kg]; }
         start { x = 1 [m]; }
-        start { y = 1 [m]; }
+        start { x = 2 [m]; }
     }
 }
 

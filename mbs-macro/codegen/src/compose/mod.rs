@@ -1,0 +1,250 @@
+//! Sub-assemblies: every `instance left: Leg { … }` becomes the statements of
+//! `assembly Leg { … }` under names of its own, `left_crank`; behind this stage
+//! there are plain statements only.
+//!
+//! Inside an assembly, names mean what it declares, or else what the mechanism
+//! around it declares. From outside, `left.crank.tip` is a place and
+//! `left.theta` a quantity of the instance.
+
+mod names;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::Ident;
+
+use self::names::Mention;
+use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::syntax::{Declaration, FormulaKind, Item, ItemKind, Property};
+
+/// Assemblies within assemblies may nest this deep.
+const DEEPEST: usize = 16;
+
+/// Replaces all instances.
+///
+/// # Errors
+/// Unknown assemblies, parameters and instances.
+pub fn compose(mut declaration: Declaration) -> Result<Declaration, Diagnostics> {
+    let mut errors = Diagnostics::default();
+    declaration.items = flatten(declaration.items, &BTreeMap::new(), 0, &mut errors).0;
+    for item in &mut declaration.items {
+        names::visit(item, &mut |mention| check(&mention, &mut errors));
+    }
+    errors.finish(declaration)
+}
+
+type Assemblies = BTreeMap<String, (Ident, Vec<Item>)>;
+
+/// The statements of a level with its instances replaced, and the names of
+/// those, instances within instances included.
+fn flatten(
+    items: Vec<Item>,
+    outer: &Assemblies,
+    depth: usize,
+    errors: &mut Diagnostics,
+) -> (Vec<Item>, BTreeSet<String>) {
+    let mut assemblies = outer.clone();
+    let mut instances: BTreeSet<String> = BTreeSet::new();
+    let mut flat = Vec::new();
+    let mut to_place = Vec::new();
+    for item in items {
+        match item.kind {
+            ItemKind::Assembly { name, items } => match assemblies.get(&name.to_string()) {
+                Some((earlier, _)) => errors.push(declared_twice(&name, earlier)),
+                None => drop(assemblies.insert(name.to_string(), (name, items))),
+            },
+            ItemKind::Instance { name, assembly, bindings } => {
+                instances.insert(name.to_string());
+                to_place.push((flat.len(), name, assembly, bindings));
+            }
+            kind => flat.push(Item { kind, ..item }),
+        }
+    }
+    let mut placed = Vec::new();
+    for (at, name, assembly, bindings) in to_place {
+        let Some((_, items)) = errors.take(find(&assembly, &assemblies)) else { continue };
+        if depth >= DEEPEST {
+            errors.push(
+                Diagnostic::new(assembly.span(), format!("assembly `{assembly}` contains itself"))
+                    .help("an assembly can only use other assemblies"),
+            );
+            continue;
+        }
+        let (inner, nested) = flatten(items.clone(), &assemblies, depth + 1, errors);
+        instances.extend(nested.iter().map(|nested| format!("{name}_{nested}")));
+        let inner = instantiate(inner, &name, &assembly, bindings, errors);
+        placed.push((at, inner));
+    }
+    // from the last one on, so that positions before it stay what they are
+    for (at, inner) in placed.into_iter().rev() {
+        flat.splice(at..at, inner);
+    }
+    for item in &mut flat {
+        names::visit(item, &mut |mention| shorten(mention, &instances));
+    }
+    (flat, instances)
+}
+
+fn find<'a>(name: &Ident, assemblies: &'a Assemblies) -> Result<&'a (Ident, Vec<Item>), Diagnostic> {
+    let text = name.to_string();
+    assemblies.get(&text).ok_or_else(|| {
+        let error = Diagnostic::new(name.span(), format!("there is no assembly `{text}`"));
+        match nearest(&text, assemblies.keys().map(String::as_str)) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None if assemblies.is_empty() => {
+                error.help(format!("declare it: `assembly {text} {{ body … }}`"))
+            }
+            None => error.help(format!("the assemblies are {}", listing(assemblies.keys()))),
+        }
+    })
+}
+
+fn declared_twice(name: &Ident, earlier: &Ident) -> Diagnostic {
+    Diagnostic::new(name.span(), format!("assembly `{name}` is declared twice"))
+        .note(earlier.span(), format!("`{name}` is first declared here"))
+        .help("rename one of them")
+}
+
+/// The statements of an assembly under the names of an instance, with bound
+/// parameters replaced by definitions.
+fn instantiate(
+    mut items: Vec<Item>,
+    instance: &Ident,
+    assembly: &Ident,
+    bindings: Vec<Property>,
+    errors: &mut Diagnostics,
+) -> Vec<Item> {
+    let declared: BTreeSet<String> = items.iter().flat_map(names::declared).collect();
+    for item in &mut items {
+        if let ItemKind::Dof { keyword, .. }
+        | ItemKind::Crate { keyword, .. }
+        | ItemKind::Gravity { keyword, .. } = &item.kind
+        {
+            errors.push(
+                Diagnostic::new(*keyword, "this belongs to the mechanism, not to an assembly")
+                    .help("move it out of the assembly"),
+            );
+        }
+        names::visit(item, &mut |mention| prefix(mention, instance, &declared));
+    }
+    for Property { name, value } in bindings {
+        let wanted = prefixed(instance, &name);
+        let bound = items
+            .iter()
+            .position(|item| matches!(&item.kind, ItemKind::Parameter { name, .. } if *name == wanted));
+        let Some(at) = bound else {
+            errors.push(unknown_parameter(&name, instance, assembly, &items));
+            continue;
+        };
+        let Item { doc, position, kind } = items.remove(at);
+        if let ItemKind::Parameter { name: declared, value: default, condition } = kind {
+            // the condition still has to hold
+            let of = Some(declared.clone());
+            let condition = condition.map(|condition| ItemKind::Require { of, condition });
+            let bound = ItemKind::Binding { name: declared, value, default };
+            items.extend([Some(bound), condition].into_iter().flatten().map(|kind| Item {
+                doc: doc.clone(),
+                position,
+                kind,
+            }));
+        }
+    }
+    items.retain(|item| {
+        !matches!(item.kind, ItemKind::Dof { .. } | ItemKind::Crate { .. } | ItemKind::Gravity { .. })
+    });
+    items
+}
+
+fn unknown_parameter(name: &Ident, instance: &Ident, assembly: &Ident, items: &[Item]) -> Diagnostic {
+    let start = format!("{instance}_");
+    let known: Vec<String> = items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Parameter { name, .. } => name.to_string().strip_prefix(&start).map(str::to_owned),
+            _ => None,
+        })
+        .collect();
+    let error = Diagnostic::new(name.span(), format!("assembly `{assembly}` has no parameter `{name}`"));
+    match nearest(&name.to_string(), known.iter().map(String::as_str)) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None if known.is_empty() => error.help("it has no parameters that are not bound yet"),
+        None => error.help(format!("its parameters are {}", listing(known))),
+    }
+}
+
+/// Names that the assembly declares get the instance's name before them.
+fn prefix(mention: Mention<'_>, instance: &Ident, declared: &BTreeSet<String>) {
+    let rename = |name: &mut Ident| {
+        if declared.contains(&name.to_string()) {
+            *name = prefixed(instance, name);
+        }
+    };
+    match mention {
+        Mention::Name(name) | Mention::Formula(FormulaKind::Name(name)) => rename(name),
+        Mention::Place(place) => rename(place.prefix.first_mut().unwrap_or(&mut place.body)),
+        Mention::Coordinate(path, name) => rename(path.first_mut().unwrap_or(name)),
+        Mention::Formula(FormulaKind::Member(path)) => path.iter_mut().take(1).for_each(rename),
+        Mention::Formula(_) => {}
+    }
+}
+
+/// `left.crank` becomes `left_crank` if `left` is an instance.
+fn shorten(mention: Mention<'_>, instances: &BTreeSet<String>) {
+    let leads = |name: &Ident| instances.contains(&name.to_string());
+    match mention {
+        Mention::Place(place) => {
+            while let [first, ..] = &place.prefix[..]
+                && leads(first)
+            {
+                let first = place.prefix.remove(0);
+                let next = place.prefix.first_mut().unwrap_or(&mut place.body);
+                *next = prefixed(&first, next);
+            }
+            // of `left.crank`, the second is no point
+            if let Some(point) = &place.point
+                && place.prefix.is_empty()
+                && leads(&place.body)
+            {
+                place.body = prefixed(&place.body, point);
+                place.point = None;
+            }
+        }
+        Mention::Coordinate(path, name) => {
+            while path.first().is_some_and(leads) {
+                let first = path.remove(0);
+                let next = path.first_mut().unwrap_or(name);
+                *next = prefixed(&first, next);
+            }
+        }
+        Mention::Formula(kind) => {
+            if let FormulaKind::Member(path) = kind {
+                while path.len() > 1 && leads(&path[0]) {
+                    let first = path.remove(0);
+                    path[0] = prefixed(&first, &path[0]);
+                }
+                if let [name] = &path[..] {
+                    *kind = FormulaKind::Name(name.clone());
+                }
+            }
+        }
+        Mention::Name(_) => {}
+    }
+}
+
+/// What still has a way that leads nowhere.
+fn check(mention: &Mention<'_>, errors: &mut Diagnostics) {
+    let first = match mention {
+        Mention::Place(place) => place.prefix.first(),
+        Mention::Coordinate(path, _) => path.first(),
+        _ => None,
+    };
+    if let Some(name) = first {
+        errors.push(
+            Diagnostic::new(name.span(), format!("there is no instance `{name}`"))
+                .help("a longer path leads through the instances of assemblies: `instance left: Leg;`"),
+        );
+    }
+}
+
+fn prefixed(instance: &Ident, name: &Ident) -> Ident {
+    Ident::new(&format!("{instance}_{name}"), name.span())
+}

@@ -1,0 +1,154 @@
+//! Where names stand in statements: what a statement declares, and every name
+//! that it uses. The one place that knows, so that copies of an assembly can be
+//! told apart.
+
+use proc_macro2::Ident;
+
+use crate::syntax::{Attachment, Condition, Formula, FormulaKind, Item, ItemKind, Load, Vector};
+
+/// Rows of joints are called after them: `pin_x`.
+const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
+
+/// A name, or a path such as `leg.crank.tip`, in a statement.
+pub enum Mention<'a> {
+    Name(&'a mut Ident),
+    /// The path of a place; its body, and what leads to it.
+    Place(&'a mut Attachment),
+    /// A path in a formula, which may turn out to be a plain name.
+    Formula(&'a mut FormulaKind),
+    /// A coordinate in `start`, and what leads to it.
+    Coordinate(&'a mut Vec<Ident>, &'a mut Ident),
+}
+
+/// The names that a statement declares for formulas, places and multipliers.
+pub fn declared(item: &Item) -> Vec<String> {
+    let plain = |name: &Ident| vec![name.to_string()];
+    match &item.kind {
+        ItemKind::Parameter { name, .. }
+        | ItemKind::Constant { name, .. }
+        | ItemKind::Input { name, .. }
+        | ItemKind::Let { name, .. }
+        | ItemKind::Binding { name, .. }
+        | ItemKind::Constraint { name, .. }
+        | ItemKind::Force { name, .. }
+        | ItemKind::Output { name, .. } => plain(name),
+        ItemKind::Spring(spring) => plain(&spring.name),
+        ItemKind::Body { name, coordinates, .. } => {
+            let coordinates = coordinates.iter().map(|coordinate| coordinate.name.to_string());
+            coordinates.chain([name.to_string()]).collect()
+        }
+        ItemKind::Joint(joint) => {
+            let rows = ROW_SUFFIXES.iter().map(|suffix| format!("{}{suffix}", joint.name));
+            rows.chain([joint.name.to_string()]).collect()
+        }
+        ItemKind::Dof { .. }
+        | ItemKind::Crate { .. }
+        | ItemKind::Gravity { .. }
+        | ItemKind::Point { .. }
+        | ItemKind::Start { .. }
+        | ItemKind::Require { .. }
+        | ItemKind::Assembly { .. }
+        | ItemKind::Instance { .. } => Vec::new(),
+    }
+}
+
+/// Calls `visit` for every name of a statement, declared or used. Words of the
+/// language (functions, properties, names of points) are none.
+pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
+    match &mut item.kind {
+        ItemKind::Parameter { name, value, condition } => {
+            visit(Mention::Name(name));
+            in_formula(value, visit);
+            if let Some(condition) = condition {
+                in_condition(condition, visit);
+            }
+        }
+        ItemKind::Constant { name, value }
+        | ItemKind::Let { name, value }
+        | ItemKind::Output { name, value, .. } => {
+            visit(Mention::Name(name));
+            in_formula(value, visit);
+        }
+        ItemKind::Binding { name, value, default } => {
+            visit(Mention::Name(name));
+            in_formula(value, visit);
+            in_formula(default, visit);
+        }
+        ItemKind::Input { name, .. } => visit(Mention::Name(name)),
+        ItemKind::Require { of, condition } => {
+            of.iter_mut().for_each(|name| visit(Mention::Name(name)));
+            in_condition(condition, visit);
+        }
+        ItemKind::Gravity { value, .. } => in_vector(value, visit),
+        ItemKind::Body { name, coordinates, properties } => {
+            visit(Mention::Name(name));
+            coordinates.iter_mut().for_each(|coordinate| visit(Mention::Name(&mut coordinate.name)));
+            properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
+        }
+        ItemKind::Constraint { name, left, right, .. } => {
+            visit(Mention::Name(name));
+            in_formula(left, visit);
+            in_formula(right, visit);
+        }
+        ItemKind::Force { name, target, value, .. } => {
+            visit(Mention::Name(name));
+            visit(Mention::Place(target));
+            match value {
+                Load::Scalar(value) => in_formula(value, visit),
+                Load::Vector(value) => in_vector(value, visit),
+            }
+        }
+        ItemKind::Point { body, value, .. } => {
+            visit(Mention::Name(body));
+            in_vector(value, visit);
+        }
+        ItemKind::Joint(joint) => {
+            visit(Mention::Name(&mut joint.name));
+            visit(Mention::Place(&mut joint.first));
+            visit(Mention::Place(&mut joint.second));
+            joint.along.iter_mut().for_each(|along| in_vector(along, visit));
+            joint.angle.iter_mut().chain(&mut joint.length).for_each(|value| in_formula(value, visit));
+        }
+        ItemKind::Spring(spring) => {
+            visit(Mention::Name(&mut spring.name));
+            visit(Mention::Place(&mut spring.first));
+            visit(Mention::Place(&mut spring.second));
+            spring.properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
+        }
+        ItemKind::Start { entries, .. } => {
+            for entry in entries {
+                visit(Mention::Coordinate(&mut entry.prefix, &mut entry.coordinate));
+                in_formula(&mut entry.value, visit);
+            }
+        }
+        ItemKind::Instance { bindings, .. } => {
+            bindings.iter_mut().for_each(|binding| in_formula(&mut binding.value, visit));
+        }
+        ItemKind::Dof { .. } | ItemKind::Crate { .. } | ItemKind::Assembly { .. } => {}
+    }
+}
+
+fn in_condition(condition: &mut Condition, visit: &mut dyn FnMut(Mention<'_>)) {
+    in_formula(&mut condition.left, visit);
+    in_formula(&mut condition.right, visit);
+}
+
+fn in_vector(vector: &mut Vector, visit: &mut dyn FnMut(Mention<'_>)) {
+    in_formula(&mut vector.x, visit);
+    in_formula(&mut vector.y, visit);
+}
+
+fn in_formula(formula: &mut Formula, visit: &mut dyn FnMut(Mention<'_>)) {
+    match &mut formula.kind {
+        FormulaKind::Number { .. } => {}
+        kind @ (FormulaKind::Name(_) | FormulaKind::Member(_)) => visit(Mention::Formula(kind)),
+        FormulaKind::Negative(inner) | FormulaKind::WithUnit { inner, .. } => in_formula(inner, visit),
+        FormulaKind::Binary { left, right, .. } => {
+            in_formula(left, visit);
+            in_formula(right, visit);
+        }
+        FormulaKind::Call { arguments, .. } => {
+            arguments.iter_mut().for_each(|argument| in_formula(argument, visit));
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! How generated code reads what a program depends on.
+
+use mbs_symbolic::{Operand, Program};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::names::Names;
+use crate::model::{Meaning, Model};
+
+/// How generated code reads the symbols of a program.
+pub struct Access {
+    /// The mechanism, `self` in a method.
+    pub this: TokenStream,
+    /// The parameters, `self.parameters` or a variable.
+    pub parameters: TokenStream,
+    pub time: TokenStream,
+    pub positions: TokenStream,
+    pub velocities: TokenStream,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    State,
+    Position,
+    Parameters,
+}
+
+/// An argument of a function that runs a part of a program.
+pub struct Argument {
+    pub declaration: TokenStream,
+    pub value: TokenStream,
+}
+
+impl Access {
+    /// In a method that takes `at: &State`.
+    pub fn of_state() -> Self {
+        Self {
+            this: quote!(self),
+            parameters: quote!(self.parameters),
+            time: quote!(at.t),
+            positions: quote!(at.q),
+            velocities: quote!(at.v),
+            kind: Kind::State,
+        }
+    }
+
+    /// In a method that takes `t` and `q`.
+    pub fn of_position() -> Self {
+        Self {
+            time: quote!(t),
+            positions: quote!(q),
+            velocities: quote!(v),
+            kind: Kind::Position,
+            ..Self::of_state()
+        }
+    }
+
+    /// In a function that takes `parameters` alone.
+    pub fn of_parameters() -> Self {
+        Self { parameters: quote!(parameters), kind: Kind::Parameters, ..Self::of_position() }
+    }
+
+    /// The same in a function with the [`arguments`](Self::arguments).
+    pub fn in_part(&self) -> Self {
+        let parameters = match self.kind {
+            Kind::Parameters => quote!(parameters),
+            _ => quote!(this.parameters),
+        };
+        let (time, positions, velocities) =
+            (self.time.clone(), self.positions.clone(), self.velocities.clone());
+        Self { this: quote!(this), parameters, time, positions, velocities, kind: self.kind }
+    }
+
+    /// What a function needs that runs some instructions of `program`.
+    pub fn arguments(
+        &self,
+        model: &Model,
+        names: &Names,
+        program: &Program,
+        instructions: &[usize],
+    ) -> Vec<Argument> {
+        let Names { mechanism, parameters, runtime, state, reactions, .. } = names;
+        let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
+        let uses = |wanted: &dyn Fn(Operand) -> bool| {
+            instructions.iter().any(|&at| {
+                let instruction = &program.instructions[at];
+                wanted(instruction.a) || wanted(instruction.b)
+            })
+        };
+        let means = |wanted: fn(Meaning) -> bool| {
+            uses(
+                &|operand| matches!(operand, Operand::Symbol(symbol) if wanted(model.meanings[symbol.index()])),
+            )
+        };
+        let is_parameter = means(|meaning| matches!(meaning, Meaning::Parameter(_)));
+        let is_hoisted = uses(&|operand| matches!(operand, Operand::Hoisted(_)));
+        let is_time = means(|meaning| meaning == Meaning::Time);
+        let is_position = means(|meaning| matches!(meaning, Meaning::Coordinate(_)));
+        let is_velocity = means(|meaning| matches!(meaning, Meaning::Velocity(_)));
+        let of = |kind| self.kind == kind;
+        let argument = |declaration, value| Argument { declaration, value };
+        [
+            (is_hoisted || is_parameter && !of(Kind::Parameters))
+                .then(|| argument(quote!(this: &#mechanism<T>), quote!(self))),
+            (is_parameter && of(Kind::Parameters))
+                .then(|| argument(quote!(parameters: &#parameters<T>), quote!(&parameters))),
+            ((is_time || is_position || is_velocity) && of(Kind::State))
+                .then(|| argument(quote!(at: &#state), quote!(at))),
+            (is_time && of(Kind::Position)).then(|| argument(quote!(t: T), quote!(t))),
+            (is_position && of(Kind::Position)).then(|| argument(quote!(q: &#q), quote!(q))),
+            means(|meaning| matches!(meaning, Meaning::Input(_)))
+                .then(|| argument(quote!(inputs: &#inputs), quote!(inputs))),
+            means(|meaning| matches!(meaning, Meaning::MinusTwoAlpha | Meaning::MinusBetaSquared))
+                .then(|| argument(quote!(gains: &#runtime::Gains<T>), quote!(gains))),
+            means(|meaning| matches!(meaning, Meaning::Feedback(_)))
+                .then(|| argument(quote!(feedback: &#rows), quote!(feedback))),
+            means(|meaning| matches!(meaning, Meaning::Multiplier(_) | Meaning::Acceleration(_)))
+                .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}
