@@ -85,6 +85,7 @@ extern crate std;
 
 mod baumgarte;
 mod components;
+mod derivation;
 mod error;
 mod heun;
 mod info;
@@ -99,6 +100,7 @@ pub mod start;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
 pub use components::{Components, NoComponents};
+pub use derivation::{Derivation, Elimination, Formula};
 pub use error::Error;
 pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};

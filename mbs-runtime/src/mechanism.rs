@@ -1,6 +1,6 @@
 //! What a generated mechanism offers to integrators and tools.
 
-use crate::{Components, Error, Info, Real};
+use crate::{Components, Derivation, Error, Info, Real};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +86,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
 
     /// Names, units, equations and operation counts.
     const INFO: &'static Info;
+
+    /// The equations and their elimination, for people to read.
+    const DERIVATION: &'static Derivation;
 
     /// The mechanism with these parameters.
     ///

@@ -144,3 +144,40 @@ fn a_new_crate_is_complete_and_never_overwrites() {
     assert!(!again.status.success());
     assert!(String::from_utf8(again.stderr).unwrap().contains("cannot create demo"));
 }
+
+#[test]
+fn explain_prints_the_equations() {
+    let output = mbs(Path::new("."), "explain slider-crank");
+    let text = String::from_utf8(output.stdout).unwrap();
+    for expected in [
+        "7 coordinates, 7 constraints, 0 degrees of freedom",
+        "Φ[crank_x]     = x1 - 1/2*l1*cos(theta1)",
+        "∂guide/∂theta2       = l2*cos(theta2)",
+        "γ[guide]   = l1*sin(theta1)*der(theta1)^2 + l2*sin(theta2)*der(theta2)^2",
+        "Q[y1] = -9.81*m1",
+        "lambda(guide), theta2        l2*cos(theta2)  watched",
+        "stabilized           55   44   1    2",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+}
+
+#[test]
+fn explain_writes_latex() {
+    let output = mbs(Path::new("."), "explain slider-crank-free --latex");
+    let text = String::from_utf8(output.stdout).unwrap();
+    for expected in [
+        r"\Phi^{\mathrm{crank\_x}} &= x_{1} - \frac{1}{2} l_{1} \, \cos \theta_{1}",
+        r"\frac{\partial \Phi_{\mathrm{guide}}}{\partial \theta_{2}} &= l_{2} \, \cos \theta_{2}",
+        r"\dot{\theta_{1}}^{2}",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+    // what opens closes
+    assert_eq!(text.matches(r"\begin").count(), text.matches(r"\end").count());
+    assert_eq!(text.matches('{').count(), text.matches('}').count());
+    assert_eq!(text.matches(r"\left(").count(), text.matches(r"\right)").count());
+    assert_eq!(text.matches('$').count() % 2, 0);
+    // and what is no letter of LaTeX does not occur
+    assert!(text.is_ascii(), "{text}");
+}

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown, WatchedPivot, factor,
-    lower, lower_whole,
+    Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown,
+    WatchedPivot, factor, lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -19,6 +19,8 @@ const LARGEST_NULL_SPACE: usize = 64;
 /// The programs of all generated functions.
 pub struct Plan {
     pub strategy: Strategy,
+    /// The steps of the elimination, in order.
+    pub order: Vec<Elimination>,
     /// What depends on parameters alone, as formulas.
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
@@ -97,6 +99,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
     let plan = Plan {
         strategy,
+        order: factorization.order.clone(),
         phi: program(&equations.phi),
         phi_dot: program(&equations.phi_dot),
         phi_q: program(&dense),

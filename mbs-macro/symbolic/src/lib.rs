@@ -39,6 +39,7 @@ mod differentiate;
 mod display;
 mod eliminate;
 mod evaluate;
+mod latex;
 mod lower;
 mod number;
 mod operators;
@@ -46,7 +47,8 @@ mod program;
 pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
-pub use eliminate::{Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor};
+pub use eliminate::{Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor};
+pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;
 pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};

@@ -221,10 +221,19 @@ impl Ord for Number {
     }
 }
 
+/// Fractions with a denominator from here on are written as decimals, if they
+/// are short ones.
+const SHORTEST_DECIMAL: i64 = 20;
+const LONGEST_DECIMAL: i64 = 1_000_000;
+
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Rational(n, 1) => write!(f, "{n}"),
+            // 9.81 reads better than 981/100, and 1/3 than any decimal
+            Self::Rational(n, d) if d >= SHORTEST_DECIMAL && LONGEST_DECIMAL % d == 0 => {
+                write!(f, "{}", n as f64 / d as f64)
+            }
             Self::Rational(n, d) => write!(f, "{n}/{d}"),
             Self::Float(x) if x == std::f64::consts::PI => write!(f, "pi"),
             Self::Float(x) => write!(f, "{x}"),

@@ -6,14 +6,14 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
-use crate::command::{list, new, simulate};
+use crate::command::{explain, list, new, simulate};
 use crate::console::complain;
 use crate::{Error, Model, model};
 
 /// What a command of the embedding program does.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
-/// A command line for mechanisms: `list`, `simulate`, `new`, and whatever the
+/// A command line for mechanisms: `list`, `explain`, `simulate`, `new`, and whatever the
 /// embedding program adds.
 ///
 /// # Example
@@ -134,6 +134,7 @@ impl App {
             .about(about)
             .version(env!("CARGO_PKG_VERSION"))
             .subcommand(list::command())
+            .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(new::command())
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
@@ -142,6 +143,7 @@ impl App {
     fn dispatch(&self, matches: &ArgMatches) -> Result<(), Error> {
         match matches.subcommand() {
             Some(("list", _)) => list::run(&self.models),
+            Some(("explain", matches)) => explain::run(&self.models, matches),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("new", matches)) => new::run(matches),
             Some((name, matches)) => self.added(name, matches),

@@ -3,7 +3,8 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Dimension, Feedback, Held, Info, Mechanism, PerStage, Quantity, Simulation,
+    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Quantity,
+    Simulation,
 };
 
 use crate::recording::{Column, Recording, Summary};
@@ -18,6 +19,9 @@ const MAX_ROWS: u64 = 5_000_000;
 pub trait Model: Send + Sync {
     /// Names, units, equations and operation counts.
     fn info(&self) -> &'static Info;
+
+    /// The equations and their elimination.
+    fn derivation(&self) -> &'static Derivation;
 
     /// Runs a simulation. `progress` is called now and then with the steps
     /// taken and the steps in all.
@@ -40,6 +44,10 @@ struct Typed<M>(PhantomData<M>);
 impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     fn info(&self) -> &'static Info {
         M::INFO
+    }
+
+    fn derivation(&self) -> &'static Derivation {
+        M::DERIVATION
     }
 
     fn simulate(&self, settings: &Settings, progress: &mut dyn FnMut(u64, u64)) -> Result<Recording, Error> {

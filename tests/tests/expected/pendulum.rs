@@ -45,11 +45,11 @@ pub struct Pendulum<T = ::core::primitive::f64> {
 0: 1/2*length
 1: 1/2*1/length
 2: 1/length
-3: 981/100*mass
+3: 9.81*mass
 4: 1/2*mass
 5: 1/mass
-6: -981/100*mass
-7: (1/mass)*(-981/100*mass)
+6: -9.81*mass
+7: (1/mass)*(-9.81*mass)
 8: abs(mass*(1/mass))
 ```
 */
@@ -510,7 +510,7 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
 
 ```text
 x: 0
-y: -981/100*mass
+y: -9.81*mass
 ```
 
 
@@ -892,6 +892,122 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
         ],
     );
+    const DERIVATION: &'static ::mbs_runtime::Derivation = &::mbs_runtime::Derivation {
+        phi: &[
+            ::mbs_runtime::Formula {
+                of: "rod",
+                of_latex: "\\mathrm{rod}",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "1/2*(x^2 + y^2)/length - 1/2*length",
+                latex: "\\frac{1}{2} \\frac{x^{2} + y^{2}}{\\mathrm{length}} - \\frac{1}{2} \\mathrm{length}",
+            },
+        ],
+        phi_q: &[
+            ::mbs_runtime::Formula {
+                of: "rod",
+                of_latex: "\\mathrm{rod}",
+                by: "x",
+                by_latex: "x",
+                text: "x/length",
+                latex: "\\frac{x}{\\mathrm{length}}",
+            },
+            ::mbs_runtime::Formula {
+                of: "rod",
+                of_latex: "\\mathrm{rod}",
+                by: "y",
+                by_latex: "y",
+                text: "y/length",
+                latex: "\\frac{y}{\\mathrm{length}}",
+            },
+        ],
+        phi_t: &[],
+        phi_dot: &[
+            ::mbs_runtime::Formula {
+                of: "rod",
+                of_latex: "\\mathrm{rod}",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "1/2*(2*x*der(x) + 2*y*der(y))/length",
+                latex: "\\frac{1}{2} \\frac{2 x \\, \\dot{x} + 2 y \\, \\dot{y}}{\\mathrm{length}}",
+            },
+        ],
+        gamma: &[
+            ::mbs_runtime::Formula {
+                of: "rod",
+                of_latex: "\\mathrm{rod}",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "-1/2*(2*der(x)^2 + 2*der(y)^2)/length",
+                latex: "-\\frac{1}{2} \\frac{2 \\dot{x}^{2} + 2 \\dot{y}^{2}}{\\mathrm{length}}",
+            },
+        ],
+        mass: &[
+            ::mbs_runtime::Formula {
+                of: "x",
+                of_latex: "x",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "mass",
+                latex: "\\mathrm{mass}",
+            },
+            ::mbs_runtime::Formula {
+                of: "y",
+                of_latex: "y",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "mass",
+                latex: "\\mathrm{mass}",
+            },
+        ],
+        forces: &[
+            ::mbs_runtime::Formula {
+                of: "y",
+                of_latex: "y",
+                by: "",
+                by_latex: "\\mathrm{}",
+                text: "-9.81*mass",
+                latex: "-9.81 \\mathrm{mass}",
+            },
+        ],
+        kinetic_energy: ::mbs_runtime::Formula {
+            of: "T",
+            of_latex: "T",
+            by: "",
+            by_latex: "\\mathrm{}",
+            text: "1/2*mass*der(x)^2 + 1/2*mass*der(y)^2",
+            latex: "\\frac{1}{2} \\mathrm{mass} \\, \\dot{x}^{2} + \\frac{1}{2} \\mathrm{mass} \\, \\dot{y}^{2}",
+        },
+        potential_energy: ::mbs_runtime::Formula {
+            of: "V",
+            of_latex: "V",
+            by: "",
+            by_latex: "\\mathrm{}",
+            text: "9.81*y*mass",
+            latex: "9.81 y \\, \\mathrm{mass}",
+        },
+        strategy: "constraints first, then what motion they leave free (null space)",
+        order: &[
+            ::mbs_runtime::Elimination {
+                unknowns: &["x"],
+                pivot: "mass",
+                latex: "\\mathrm{mass}",
+                is_watched: true,
+            },
+            ::mbs_runtime::Elimination {
+                unknowns: &["y"],
+                pivot: "mass",
+                latex: "\\mathrm{mass}",
+                is_watched: true,
+            },
+            ::mbs_runtime::Elimination {
+                unknowns: &["lambda(rod)"],
+                pivot: "-(x/length)*((1/mass)*(x/length)) - (y/length)*((1/mass)*(y/length))",
+                latex: "-\\frac{x}{\\mathrm{length}} \\, \\frac{1}{\\mathrm{mass}} \\, \\frac{x}{\\mathrm{length}} - \\frac{y}{\\mathrm{length}} \\, \\frac{1}{\\mathrm{mass}} \\, \\frac{y}{\\mathrm{length}}",
+                is_watched: true,
+            },
+        ],
+    };
     fn new(
         parameters: PendulumParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {

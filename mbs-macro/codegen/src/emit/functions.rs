@@ -5,6 +5,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
+use super::derivation;
 use super::docs;
 use super::info;
 use super::names::{Names, field};
@@ -276,12 +277,13 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
 }
 
 /// The implementation of the runtime's trait.
-pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, parameters, state, reactions, .. } = names;
     let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
     let fields = Fields::new(model);
     let info = info::emit(model, plan, names);
+    let derivation = derivation::emit(model, equations, plan);
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
@@ -302,6 +304,7 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             type Constraints = #rows;
             type Outputs = #outputs;
             const INFO: &'static #runtime::Info = &#info;
+            const DERIVATION: &'static #runtime::Derivation = &#derivation;
 
             fn new(parameters: #parameters<T>) -> ::core::result::Result<Self, #runtime::Error> {
                 Self::new(parameters)

@@ -1,6 +1,7 @@
 //! Programs to Rust. Cannot fail: whatever could go wrong has been refused.
 
 mod access;
+mod derivation;
 mod docs;
 mod functions;
 mod info;
@@ -23,7 +24,7 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let types = types::emit(model, plan, equations, &names);
     let construction = functions::construction(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
-    let mechanism = functions::mechanism(model, plan, &names);
+    let mechanism = functions::mechanism(model, equations, plan, &names);
     quote! {
         #types
         #construction

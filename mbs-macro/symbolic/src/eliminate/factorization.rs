@@ -27,9 +27,20 @@ pub struct WatchedPivot {
     pub can_cancel: bool,
 }
 
+/// One step of the elimination, for people to read.
+#[derive(Clone, Debug)]
+pub struct Elimination {
+    /// What is eliminated: one unknown, a row with its coordinate, or a row with two.
+    pub unknowns: Vec<Unknown>,
+    /// What the step divides by.
+    pub pivot: Expr,
+}
+
 /// An eliminated matrix.
 pub struct Factorization {
     steps: Vec<Step>,
+    /// The steps, in order.
+    pub order: Vec<Elimination>,
     /// The pivots that may vanish, in the order of elimination.
     pub pivots: Vec<WatchedPivot>,
 }
@@ -46,6 +57,7 @@ pub(super) struct Work<'a> {
     scales: Option<BTreeMap<Unknown, Expr>>,
     is_open: bool,
     pub(super) steps: Vec<Step>,
+    order: Vec<Elimination>,
     pivots: Vec<WatchedPivot>,
 }
 
@@ -62,15 +74,23 @@ impl<'a> Work<'a> {
             scales: None,
             is_open,
             steps: Vec::new(),
+            order: Vec::new(),
             pivots: Vec::new(),
         }
     }
 
     pub fn finish(self) -> Factorization {
-        Factorization { steps: self.steps, pivots: self.pivots }
+        Factorization { steps: self.steps, order: self.order, pivots: self.pivots }
     }
 
     pub fn eliminate(&mut self, pivot: Pivot) {
+        let (unknowns, at) = match pivot {
+            Pivot::Pair { row, coordinate } => (vec![row, coordinate], (row, coordinate)),
+            Pivot::Diagonal(unknown) => (vec![unknown], (unknown, unknown)),
+            Pivot::Loop { row, coordinates: [a, b] } => (vec![row, a, b], (row, a)),
+        };
+        let pivot_entry = self.matrix.get(at.0, at.1).unwrap_or(self.arena.zero());
+        self.order.push(Elimination { unknowns, pivot: pivot_entry });
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
             Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),

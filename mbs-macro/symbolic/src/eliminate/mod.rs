@@ -23,7 +23,7 @@ mod signs;
 mod single_loop;
 mod steps;
 
-pub use factorization::{Factorization, WatchedPivot};
+pub use factorization::{Elimination, Factorization, WatchedPivot};
 pub use matrix::{Kkt, Unknown};
 pub use order::{Strategy, Undetermined};
 

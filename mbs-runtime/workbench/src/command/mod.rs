@@ -1,5 +1,6 @@
 //! The commands that every [`App`](crate::App) has, one a file.
 
+pub(crate) mod explain;
 pub(crate) mod list;
 pub(crate) mod new;
 pub(crate) mod simulate;

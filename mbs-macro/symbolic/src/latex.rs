@@ -1,0 +1,192 @@
+//! Expressions as LaTeX.
+
+use crate::arena::{Arena, Expr, Node};
+use crate::number::Number;
+
+/// Greek letters that names may begin with, longer ones first.
+const GREEK: &[&str] = &[
+    "epsilon", "upsilon", "lambda", "omega", "alpha", "gamma", "delta", "theta", "kappa", "sigma", "beta",
+    "zeta", "iota", "eta", "rho", "tau", "phi", "chi", "psi", "mu", "nu", "xi",
+];
+
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Power,
+}
+
+impl Arena {
+    /// The expression as LaTeX, `\frac{1}{2} l_{1} \cos \theta_{1}`, for math mode.
+    pub fn latex(&self, expr: Expr) -> String {
+        self.typeset(expr, Binding::Sum)
+    }
+
+    fn typeset(&self, expr: Expr, context: Binding) -> String {
+        let (text, binding) = match self.node(expr) {
+            Node::Number(value) => (number(value.abs()), Binding::Power),
+            Node::Symbol(symbol) => (symbol_name(self.name(*symbol)), Binding::Power),
+            Node::Sum(constant, terms) => self.typeset_sum(*constant, terms),
+            Node::Product(factors) => self.typeset_product(factors),
+            Node::Call(function, x) => return self.typeset_call(function.row().name, &[*x]),
+            Node::Call2(function, x, y) => return self.typeset_call(function.row().name, &[*x, *y]),
+            Node::Shared(inner) => return self.typeset(*inner, context),
+        };
+        let (text, binding) = match self.as_number(expr) {
+            Some(value) if value.is_negative() => (format!("-{text}"), Binding::Sum),
+            _ => (text, binding),
+        };
+        if binding < context { format!(r"\left({text}\right)") } else { text }
+    }
+
+    fn typeset_sum(&self, constant: Number, terms: &[(Expr, Number)]) -> (String, Binding) {
+        let (negative, positive): (Vec<_>, Vec<_>) =
+            terms.iter().copied().partition(|(_, coefficient)| coefficient.is_negative());
+        let mut text = String::new();
+        let mut push = |is_negative: bool, term: String| {
+            text.push_str(match (is_negative, text.is_empty()) {
+                (true, true) => "-",
+                (true, false) => " - ",
+                (false, true) => "",
+                (false, false) => " + ",
+            });
+            text.push_str(&term);
+        };
+        for (term, coefficient) in positive.into_iter().chain(negative) {
+            let factor = coefficient.abs();
+            let term = self.typeset(term, Binding::Product);
+            let term = if factor.is_one() { term } else { format!("{} {term}", number(factor)) };
+            push(coefficient.is_negative(), term);
+        }
+        if !constant.is_zero() {
+            push(constant.is_negative(), number(constant.abs()));
+        }
+        let is_one_term = terms.len() == 1 && constant.is_zero() && !text.starts_with('-');
+        (text, if is_one_term { Binding::Product } else { Binding::Sum })
+    }
+
+    fn typeset_product(&self, factors: &[(Expr, i32)]) -> (String, Binding) {
+        let (above, below): (Vec<_>, Vec<_>) = factors.iter().copied().partition(|(_, e)| *e > 0);
+        // inside a fraction the bar groups, except that a factor beside others does not
+        let row = |factors: &[(Expr, i32)], inside_fraction: bool| {
+            let context = if inside_fraction && factors.len() == 1 { Binding::Sum } else { Binding::Product };
+            let factors =
+                factors.iter().map(|&(factor, exponent)| self.typeset_power(factor, exponent.abs(), context));
+            factors.collect::<Vec<_>>().join(r" \, ")
+        };
+        if below.is_empty() {
+            return (row(&above, false), Binding::Product);
+        }
+        let numerator = if above.is_empty() { "1".to_owned() } else { row(&above, true) };
+        (format!(r"\frac{{{numerator}}}{{{}}}", row(&below, true)), Binding::Power)
+    }
+
+    fn typeset_power(&self, base: Expr, exponent: i32, context: Binding) -> String {
+        match exponent {
+            1 => {
+                let is_sum = matches!(self.node(base), Node::Sum(..));
+                self.typeset(
+                    base,
+                    if is_sum && context == Binding::Product { Binding::Power } else { context },
+                )
+            }
+            // sin^2 θ, as it is read
+            _ => match self.node(base) {
+                Node::Call(function, x) if matches!(function.row().name, "sin" | "cos" | "tan") => {
+                    format!(r"\{}^{{{exponent}}} {}", function.row().name, self.argument(*x))
+                }
+                _ => format!("{}^{{{exponent}}}", self.typeset(base, Binding::Power)),
+            },
+        }
+    }
+
+    fn typeset_call(&self, name: &str, arguments: &[Expr]) -> String {
+        match (name, arguments) {
+            ("sqrt", [x]) => format!(r"\sqrt{{{}}}", self.typeset(*x, Binding::Sum)),
+            ("abs", [x]) => format!(r"\left|{}\right|", self.typeset(*x, Binding::Sum)),
+            ("sin" | "cos" | "tan" | "tanh" | "exp" | "ln", [x]) => format!(r"\{name} {}", self.argument(*x)),
+            ("asin" | "acos" | "atan", [x]) => format!(r"\arc{} {}", &name[1..], self.argument(*x)),
+            _ => {
+                let arguments: Vec<_> = arguments.iter().map(|&x| self.typeset(x, Binding::Sum)).collect();
+                let name = if name.is_empty() { "greater" } else { name };
+                format!(r"\operatorname{{{name}}}\left({}\right)", arguments.join(", "))
+            }
+        }
+    }
+
+    /// An argument, in parentheses unless it is a symbol.
+    fn argument(&self, x: Expr) -> String {
+        match self.node(x) {
+            Node::Symbol(_) => self.typeset(x, Binding::Sum),
+            _ => format!(r"\left({}\right)", self.typeset(x, Binding::Sum)),
+        }
+    }
+}
+
+fn number(value: Number) -> String {
+    let text = value.to_string();
+    match text.split_once('/') {
+        Some((n, d)) => format!(r"\frac{{{n}}}{{{d}}}"),
+        None => match text.split_once('e') {
+            Some((digits, exponent)) => format!(r"{digits} \cdot 10^{{{exponent}}}"),
+            None => text,
+        },
+    }
+}
+
+/// `theta1` as θ₁, `der(x)` as ẋ, `left_length` upright.
+pub fn symbol_name(name: &str) -> String {
+    if let Some(inner) = name.strip_prefix("der(").and_then(|rest| rest.strip_suffix(')')) {
+        return match inner.strip_prefix("der(").and_then(|rest| rest.strip_suffix(')')) {
+            Some(inner) => format!(r"\ddot{{{}}}", symbol_name(inner)),
+            None => format!(r"\dot{{{}}}", symbol_name(inner)),
+        };
+    }
+    if let Some(row) = name.strip_prefix("lambda(").and_then(|rest| rest.strip_suffix(')')) {
+        return format!(r"\lambda_{{\mathrm{{{}}}}}", row.replace('_', r"\_"));
+    }
+    let (stem, index) = name.split_at(name.trim_end_matches(|c: char| c.is_ascii_digit()).len());
+    let stem = stem.strip_suffix('_').filter(|stem| !stem.is_empty() && !index.is_empty()).unwrap_or(stem);
+    let stem = match stem {
+        letter if letter.chars().count() == 1 => letter.to_owned(),
+        greek if GREEK.contains(&greek) => format!(r"\{greek}"),
+        word => format!(r"\mathrm{{{}}}", word.replace('_', r"\_")),
+    };
+    if index.is_empty() { stem } else { format!("{stem}_{{{index}}}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arena::Stage;
+    use crate::operators::Function;
+
+    #[test]
+    fn formulas_read_as_they_are_written_by_hand() {
+        let mut arena = Arena::new();
+        let [l, theta, x] = ["l1", "theta1", "x"].map(|name| arena.symbol(name, Stage::Variable));
+        let [l, theta, x] = [l, theta, x].map(|symbol| arena.variable(symbol));
+        let cosine = arena.call(Function::Cos, theta);
+        let half = arena.number(Number::ratio(1, 2));
+        let term = arena.product(&[(half, 1), (l, 1), (cosine, 1)]);
+        let phi = arena.sub(x, term);
+        assert_eq!(arena.latex(phi), r"x - \frac{1}{2} l_{1} \, \cos \theta_{1}");
+        let sum = arena.add(x, l);
+        let square = arena.powi(sum, -2);
+        assert_eq!(arena.latex(square), r"\frac{1}{\left(l_{1} + x\right)^{2}}");
+        let sine = arena.call(Function::Sin, sum);
+        let squared = arena.powi(sine, 2);
+        assert_eq!(arena.latex(squared), r"\sin^{2} \left(l_{1} + x\right)");
+        let product = arena.mul(sum, cosine);
+        assert_eq!(arena.latex(product).matches(r"\left(").count(), 1);
+    }
+
+    #[test]
+    fn names_become_symbols() {
+        assert_eq!(symbol_name("theta1"), r"\theta_{1}");
+        assert_eq!(symbol_name("x_12"), "x_{12}");
+        assert_eq!(symbol_name("der(phi2)"), r"\dot{\phi_{2}}");
+        assert_eq!(symbol_name("left_length"), r"\mathrm{left\_length}");
+        assert_eq!(symbol_name("lambda(pin_x)"), r"\lambda_{\mathrm{pin\_x}}");
+    }
+}

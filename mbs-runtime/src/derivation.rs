@@ -1,0 +1,62 @@
+//! The equations of a mechanism and how they are solved, for people to read.
+
+/// The derived equations, as text in the notation of the language and as LaTeX.
+///
+/// A constant apart from [`Info`](crate::Info), so that a program that does not
+/// show it does not carry it. Entries that are 0 are left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Derivation {
+    /// Φ, by constraint.
+    pub phi: &'static [Formula],
+    /// Φ_q, by constraint and coordinate.
+    pub phi_q: &'static [Formula],
+    /// Φ_t, by constraint.
+    pub phi_t: &'static [Formula],
+    /// Φ̇, by constraint.
+    pub phi_dot: &'static [Formula],
+    /// γ, by constraint.
+    pub gamma: &'static [Formula],
+    /// The diagonal of M, by coordinate.
+    pub mass: &'static [Formula],
+    /// Q, by coordinate.
+    pub forces: &'static [Formula],
+    /// The kinetic energy.
+    pub kinetic_energy: Formula,
+    /// The potential energy.
+    pub potential_energy: Formula,
+    /// In which order pivots are taken, in words.
+    pub strategy: &'static str,
+    /// The steps of the elimination, in order.
+    pub order: &'static [Elimination],
+}
+
+/// A formula and what it is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// The constraint or coordinate.
+    pub of: &'static str,
+    /// The same as LaTeX.
+    pub of_latex: &'static str,
+    /// The coordinate of a derivative; empty otherwise.
+    pub by: &'static str,
+    /// The same as LaTeX.
+    pub by_latex: &'static str,
+    /// The formula in the notation of the language.
+    pub text: &'static str,
+    /// The formula as LaTeX, for math mode.
+    pub latex: &'static str,
+}
+
+/// A step of the elimination.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Elimination {
+    /// The unknowns that it eliminates: coordinates (their accelerations) and
+    /// multipliers, `lambda(row)`.
+    pub unknowns: &'static [&'static str],
+    /// What it divides by.
+    pub pivot: &'static str,
+    /// The same as LaTeX.
+    pub latex: &'static str,
+    /// Whether that may vanish, and is watched.
+    pub is_watched: bool,
+}
