@@ -22,6 +22,28 @@ impl Arena {
         text
     }
 
+    /// Whether the expression has at most `limit` nodes as it would be written.
+    /// What is computed once is written out wherever it is used, so the text of
+    /// an eliminated matrix can be longer than any memory.
+    pub fn is_shorter(&self, expr: Expr, limit: usize) -> bool {
+        let mut open = vec![expr];
+        let mut count = 0;
+        while let Some(expr) = open.pop() {
+            count += 1;
+            if count > limit {
+                return false;
+            }
+            match self.node(expr) {
+                Node::Number(_) | Node::Symbol(_) => {}
+                Node::Sum(_, terms) => open.extend(terms.iter().map(|(term, _)| *term)),
+                Node::Product(factors) => open.extend(factors.iter().map(|(factor, _)| *factor)),
+                Node::Call(_, x) | Node::Shared(x) => open.push(*x),
+                Node::Call2(_, x, y) => open.extend([*x, *y]),
+            }
+        }
+        true
+    }
+
     fn write(&self, out: &mut String, expr: Expr, context: Binding) {
         let parenthesize = self.binding(expr) < context;
         if parenthesize {

@@ -8,8 +8,8 @@ use crate::derive::Equations;
 use crate::model::Model;
 use crate::plan::Plan;
 
-/// Formulas longer than this are cut: nobody reads on.
-const LONGEST_FORMULA: usize = 4000;
+/// Formulas with more parts than this are not written out: nobody reads on.
+const LONGEST_FORMULA: usize = 500;
 
 pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let writer = Writer { model };
@@ -75,12 +75,11 @@ impl Writer<'_> {
     }
 
     fn texts(&self, expr: Expr) -> (String, String) {
-        let text = self.model.arena.display(expr);
-        if text.chars().count() <= LONGEST_FORMULA {
-            return (text, self.model.arena.latex(expr));
+        let arena = &self.model.arena;
+        if arena.is_shorter(expr, LONGEST_FORMULA) {
+            return (arena.display(expr), arena.latex(expr));
         }
-        let cut = text.chars().take(LONGEST_FORMULA).chain(" …".chars()).collect();
-        (cut, format!(r"\text{{({} characters)}}", text.chars().count()))
+        ("…".to_owned(), r"\cdots".to_owned())
     }
 
     /// `theta1`, or `lambda(pin_x)` for the multiplier of a row.
