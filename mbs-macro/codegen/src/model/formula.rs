@@ -89,6 +89,9 @@ impl Scope<'_> {
 
     fn name(&mut self, name: &Ident, place: Place, errors: &mut Diagnostics) -> Option<Typed> {
         let text = name.to_string();
+        if let Some(local) = self.local.filter(|local| local.name == text) {
+            return Some(local.typed);
+        }
         if text == "pi" {
             return Some(Typed { expr: self.arena.number(Number::PI), dimension: Some(Dimension::NONE) });
         }
@@ -129,7 +132,10 @@ impl Scope<'_> {
         definition.state = State::Open;
         let (formula, place) =
             (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
+        // a definition means the same wherever it is used
+        let local = self.local.take();
         let typed = self.formula(formula, place, errors);
+        self.local = local;
         if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
             definition.state = typed.map_or(State::Failed, State::Done);
         }

@@ -3,6 +3,7 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod clauses;
 mod connections;
 mod declare;
 mod formula;

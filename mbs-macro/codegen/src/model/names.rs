@@ -80,6 +80,13 @@ impl Place {
     }
 }
 
+/// A name that is known within one formula only, where it goes before others.
+#[derive(Clone, Copy)]
+pub struct Local {
+    pub name: &'static str,
+    pub typed: Typed,
+}
+
 /// Everything that a formula can refer to.
 pub struct Scope<'a> {
     pub arena: Arena,
@@ -90,6 +97,7 @@ pub struct Scope<'a> {
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
     pub time: Symbol,
+    pub local: Option<Local>,
 }
 
 pub struct Row {
@@ -112,6 +120,7 @@ impl<'a> Scope<'a> {
             bodies: BTreeMap::new(),
             rows: BTreeMap::new(),
             time: Arena::new().symbol("t", Stage::Variable),
+            local: None,
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
         let zero = scope.arena.zero();

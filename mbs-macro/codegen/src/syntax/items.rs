@@ -12,7 +12,7 @@ use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
 
 use super::formula::{end, is_vector};
 use super::{
-    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
+    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, Role, StartEntry,
 };
 use super::{joints, springs};
 use crate::diagnostics::{Diagnostics, nearest};
@@ -28,6 +28,7 @@ const KEYWORDS: &[&str] = &[
     "body",
     "constraint",
     "drive",
+    "coupler",
     "force",
     "torque",
     "start",
@@ -117,16 +118,17 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
         "let" => let_item(input),
         "gravity" => gravity(input, keyword.span()),
         "body" => body(input),
-        "constraint" => constraint(input, false),
-        "drive" => constraint(input, true),
+        "constraint" => constraint(input, Role::Constraint),
+        "drive" => constraint(input, Role::Drive),
+        "coupler" => constraint(input, Role::Coupler),
         "force" => force(input, false),
         "torque" => force(input, true),
         "start" => start(input, keyword.span()),
         "output" => output(input),
         "point" => joints::point(input),
         "spring" | "torsion_spring" => springs::spring(input, &keyword),
-        word => match joints::JOINTS.iter().find(|(known, _)| *known == word) {
-            Some((_, kind)) => joints::joint(input, *kind, &keyword),
+        word => match joints::JOINTS.iter().find(|shape| shape.word == word) {
+            Some(shape) => joints::joint(input, shape),
             None => Err(unknown_statement(&keyword, word)),
         },
     }?;
@@ -134,7 +136,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
 }
 
 fn unknown_statement(keyword: &Ident, word: &str) -> Error {
-    let joints = joints::JOINTS.iter().map(|(joint, _)| *joint);
+    let joints = joints::JOINTS.iter().map(|shape| shape.word);
     let known: Vec<_> = KEYWORDS.iter().copied().chain(joints).collect();
     let hint = match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -331,18 +333,21 @@ fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
     Ok(coordinate)
 }
 
-fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
+fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind> {
     let name = name(input)?;
     input.parse::<Token![:]>().map_err(|error| {
-        let example =
-            if is_drive { "drive motor: theta = omega*t;" } else { "constraint rod: x = l*cos(theta);" };
+        let example = match role {
+            Role::Constraint => "constraint rod: x = l*cos(theta);",
+            Role::Drive => "drive motor: theta = omega*t;",
+            Role::Coupler => "coupler screw: x = lead/(2*pi)*theta;",
+        };
         Error::new(error.span(), format!("a name and `:` stand before an equation, as in `{example}`"))
     })?;
     let left = input.parse()?;
     let equals = equals(input)?;
     let right = input.parse()?;
     semicolon(input)?;
-    Ok(ItemKind::Constraint { name, is_drive, left, equals, right })
+    Ok(ItemKind::Constraint { name, role, left, equals, right })
 }
 
 fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
