@@ -5,6 +5,7 @@ mod functions;
 mod info;
 mod names;
 mod program;
+mod splines;
 mod types;
 
 use proc_macro2::TokenStream;

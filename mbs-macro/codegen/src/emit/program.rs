@@ -7,6 +7,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::names::field;
+use super::splines::spline_name;
 use crate::model::{Meaning, Model};
 
 /// How generated code reads the symbols of a program.
@@ -200,6 +201,10 @@ fn operation_tokens(operation: Operation, a: &TokenStream, b: &TokenStream) -> T
         Operation::Call2(function) => {
             let method = method(function);
             quote!(#a.#method(#b))
+        }
+        Operation::Spline(spline, order) => {
+            let (table, order) = (spline_name(spline.index()), Literal::u8_unsuffixed(order));
+            quote!(Self::#table.derivative(#order, #a))
         }
     }
 }

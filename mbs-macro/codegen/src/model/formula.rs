@@ -5,7 +5,8 @@ use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
-use super::names::{Place, RESERVED, Scope, State, Typed, Value};
+use super::functions;
+use super::names::{Place, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
 
@@ -190,7 +191,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if mbs_symbolic::Function::named(&text).is_some() || RESERVED.contains(&text.as_str()) {
+        if functions::is_known(&text) || self.profiles.contains_key(&text) {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
                 .help(format!("give it its argument: `{text}(…)`"));
         }

@@ -8,6 +8,7 @@ use proc_macro2::{Ident, Span};
 
 use super::Meaning;
 use super::places::{Frame, GROUND};
+use super::profiles::Profile;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
 
@@ -98,6 +99,7 @@ pub struct Scope<'a> {
     pub rows: BTreeMap<String, Row>,
     pub time: Symbol,
     pub local: Option<Local>,
+    pub profiles: BTreeMap<String, Profile>,
 }
 
 pub struct Row {
@@ -121,6 +123,7 @@ impl<'a> Scope<'a> {
             rows: BTreeMap::new(),
             time: Arena::new().symbol("t", Stage::Variable),
             local: None,
+            profiles: BTreeMap::new(),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
         let zero = scope.arena.zero();

@@ -11,7 +11,7 @@ use super::{
     Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Start, Symbols,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::syntax::Declaration;
+use crate::syntax::{Declaration, ItemKind};
 
 /// Resolves names and checks dimensions.
 ///
@@ -25,6 +25,11 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     }
     for item in &declaration.items {
         resolver.declare_rows(item);
+    }
+    for item in &declaration.items {
+        if let ItemKind::Profile(profile) = &item.kind {
+            resolver.resolve_profile(profile);
+        }
     }
     for item in &declaration.items {
         resolver.resolve_places(item);

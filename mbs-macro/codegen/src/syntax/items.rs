@@ -14,7 +14,7 @@ use super::formula::{end, is_vector};
 use super::{
     Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, Role, StartEntry,
 };
-use super::{joints, springs};
+use super::{joints, profiles, springs};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -34,6 +34,7 @@ const KEYWORDS: &[&str] = &[
     "start",
     "output",
     "point",
+    "profile",
     "spring",
     "torsion_spring",
 ];
@@ -126,6 +127,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
         "start" => start(input, keyword.span()),
         "output" => output(input),
         "point" => joints::point(input),
+        "profile" => profiles::profile(input),
         "spring" | "torsion_spring" => springs::spring(input, &keyword),
         word => match joints::JOINTS.iter().find(|shape| shape.word == word) {
             Some(shape) => joints::joint(input, shape),

@@ -125,7 +125,7 @@ fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -
         if !given.iter().any(|(kind, _)| group.contains(kind)) {
             let missing: Vec<_> = group.iter().map(ToString::to_string).collect();
             let missing = missing.join(" or ");
-            let message = format!("{} `{name}` needs {missing}\n\nhelp: as in `{example}`", shape.word);
+            let message = format!("`{} {name}` needs {missing}\n\nhelp: as in `{example}`", shape.word);
             return Err(Error::new(name.span(), message));
         }
     }
@@ -147,7 +147,7 @@ fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(
         if taken.contains(&Equals) {
             return Ok((Equals, span));
         }
-        return Err(Error::new(span, format!("{} takes no {Equals}{}", shape.word, help(&taken, example))));
+        return Err(Error::new(span, format!("`{}` takes no {Equals}{}", shape.word, help(&taken, example))));
     }
     let Ok(word) = input.fork().call(Ident::parse_any) else {
         let message = format!("a clause or `;` is expected here{}", help(&taken, example));
@@ -160,7 +160,7 @@ fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(
             Ok((*kind, span))
         }
         Some((_, kind)) => {
-            Err(Error::new(span, format!("{} takes no {kind}{}", shape.word, help(&taken, example))))
+            Err(Error::new(span, format!("`{}` takes no {kind}{}", shape.word, help(&taken, example))))
         }
         None if units::lookup(&text).is_some() => Err(Error::new(
             span,
@@ -172,7 +172,7 @@ fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(
                 Some(near) => format!("\n\nhelp: did you mean `{near}`?"),
                 None => help(&taken, example),
             };
-            Err(Error::new(span, format!("`{text}` is no clause of {}{hint}", shape.word)))
+            Err(Error::new(span, format!("`{text}` is no clause of `{}`{hint}", shape.word)))
         }
     }
 }
@@ -210,7 +210,7 @@ impl ClauseKind {
 
 impl std::fmt::Display for ClauseKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let word = Self::WORDS.iter().find(|(_, kind)| kind == self).map_or("=", |(word, _)| word);
+        let word = Self::WORDS.iter().find(|(_, kind)| kind == self).map_or("= …", |(word, _)| word);
         write!(f, "`{word}`")
     }
 }

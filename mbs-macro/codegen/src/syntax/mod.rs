@@ -3,6 +3,7 @@
 mod formula;
 mod items;
 mod joints;
+mod profiles;
 mod springs;
 
 use mbs_symbolic::Number;
@@ -50,6 +51,8 @@ pub enum ItemKind {
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
+    /// `profile lift = spline((0, 0), …) period 360 [deg];`
+    Profile(Profile),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Spring(Spring),
     /// `start { … }`
@@ -164,6 +167,13 @@ pub enum ClauseKind {
     Radii,
     Teeth,
     Carrier,
+}
+
+/// A periodic function through points of (argument, value).
+pub struct Profile {
+    pub name: Ident,
+    pub points: Vec<Vector>,
+    pub period: Formula,
 }
 
 /// A spring with a damper between two places, or two angles.
