@@ -27,6 +27,7 @@ pub fn splines<'a>(model: &'a Model, names: &'a Names) -> impl Iterator<Item = T
         let doc = format!("`{}`, cubic from point to point.", spline.name);
         quote! {
             #[doc = #doc]
+            #[allow(dead_code, clippy::all)]
             const #name: &'static #runtime::__private::Spline = &#runtime::__private::Spline {
                 origin: #origin,
                 period: #period,

@@ -6,6 +6,7 @@ use proc_macro2::Ident;
 
 use super::joints::{self, Connection};
 use super::names::{Local, Place, Typed};
+use super::places::GROUND;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Clause, Formula, Joint, JointKind, Vector};
@@ -35,12 +36,13 @@ impl Resolver<'_> {
                 }
                 Clause::Equals(formula) => value = self.distance_of(joint, formula),
                 Clause::Radius(formula) => {
-                    sizes = self.size(joint, formula, "radius", Dimension::LENGTH).map(|radius| [radius; 2]);
+                    sizes =
+                        self.size(joint, formula, "the radius", Dimension::LENGTH).map(|radius| [radius; 2]);
                 }
-                Clause::Radii(vector) => sizes = self.pair(joint, vector, "radius", Dimension::LENGTH),
+                Clause::Radii(vector) => sizes = self.pair(joint, vector, "a radius", Dimension::LENGTH),
                 Clause::Teeth(vector) => {
                     unit = Dimension::NONE;
-                    let teeth = self.pair(joint, vector, "number of teeth", Dimension::NONE);
+                    let teeth = self.pair(joint, vector, "a number of teeth", Dimension::NONE);
                     let ratio = teeth.and_then(|[first, second]| self.scope.arena.div(second, first));
                     sizes = ratio.map(|ratio| [one, ratio]);
                 }
@@ -89,7 +91,7 @@ impl Resolver<'_> {
     fn offset(&mut self, joint: &Joint, formula: &Formula) -> Option<Expr> {
         let what = match joint.kind {
             JointKind::Rack | JointKind::Rolling => {
-                ("the place at which it does not turn", Dimension::LENGTH)
+                ("the place at which the angles are equal", Dimension::LENGTH)
             }
             _ => ("the angle between the bodies", Dimension::NONE),
         };
@@ -111,18 +113,18 @@ impl Resolver<'_> {
 
     /// A radius or a number of teeth: positive, as far as that is known here.
     fn size(&mut self, joint: &Joint, formula: &Formula, word: &str, unit: Dimension) -> Option<Expr> {
-        let what = format!("a {word} of `{}`", joint.name);
+        let what = format!("{word} of `{}`", joint.name);
         let size = self.scope.formula_of(formula, Place::Property, (&what, unit), &mut self.errors)?;
         let Some(number) = self.scope.arena.as_number(size) else { return Some(size) };
-        let help = if number.is_zero() || number.is_negative() {
-            "it has to be positive; the kind of joint says which way the bodies turn"
+        let (fault, help) = if number.is_zero() || number.is_negative() {
+            let fault = if number.is_zero() { "0" } else { "negative" };
+            (fault, "it has to be positive; the kind of joint says which way the bodies turn")
         } else if unit == Dimension::NONE && number.as_integer().is_none() {
-            "teeth are counted; use `radii` for a ratio that is not one of whole numbers"
+            ("not a whole number", "teeth are counted; any other ratio is one of `radii`")
         } else {
             return Some(size);
         };
-        let message = format!("a {word} of `{}` is {number}", joint.name);
-        self.errors.push(Diagnostic::new(formula.span, message).help(help));
+        self.errors.push(Diagnostic::new(formula.span, format!("{what} is {fault}")).help(help));
         None
     }
 
@@ -163,14 +165,26 @@ impl Resolver<'_> {
         for &(body, angle, reference) in turning {
             let relative = self.scope.arena.sub(angle, reference);
             if self.coordinates_in(relative) == 0 {
-                let message = format!("`{body}` does not turn, so `{}` cannot turn it", joint.name);
-                self.errors.push(
-                    Diagnostic::new(body.span(), message)
-                        .help(format!("give it an angle: `body {body} (angle = phi) {{ inertia = …; }}`")),
-                );
+                self.errors.push(still(joint, body, self.coordinates_in(angle) > 0));
                 all = false;
             }
         }
         all
     }
+}
+
+/// The error for a body that does not turn relative to what it should.
+fn still(joint: &Joint, body: &Ident, has_angle: bool) -> Diagnostic {
+    let name = &joint.name;
+    if has_angle {
+        return Diagnostic::new(body.span(), format!("`{body}` cannot turn relative to itself"))
+            .help(format!("`{name}` connects two bodies; a carrier is a third one"));
+    }
+    let is_on_line = matches!(joint.kind, JointKind::Rack | JointKind::Rolling);
+    let help = match body == GROUND {
+        true if is_on_line => "the first place is that of the body that turns".to_owned(),
+        true => "what meshes with the ground needs a carrier that turns: `carrier arm`".to_owned(),
+        false => format!("give it an angle: `body {body} (angle = phi) {{ inertia = …; }}`"),
+    };
+    Diagnostic::new(body.span(), format!("`{body}` does not turn, as `{name}` needs")).help(help)
 }

@@ -10,7 +10,7 @@ use mbs_symbolic::{Arena, Expr, Function, Number};
 use proc_macro2::Ident;
 
 use super::names::{Place, Scope, Typed};
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostic, Diagnostics, described};
 use crate::syntax::Formula;
 
 /// A law as it is written.
@@ -41,19 +41,15 @@ impl Scope<'_> {
         place: Place,
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
-        let progress = ("the progress of a law of motion", Dimension::NONE);
         let expr = match (&law.kind, arguments) {
             (Kind::Plain(value), [s]) => {
-                let s = self.formula_of(s, place, progress, errors)?;
-                let s = clamped(&mut self.arena, s);
+                let s = self.progress(name, s, place, errors)?;
                 value(&mut self.arena, s)
             }
             (Kind::Trapezoidal, [s, share]) => {
-                let s = self.formula_of(s, place, progress, errors);
+                let s = self.progress(name, s, place, errors);
                 let share = self.share(share, errors);
-                let (s, share) = (s?, share?);
-                let s = clamped(&mut self.arena, s);
-                trapezoidal(&mut self.arena, s, share)
+                trapezoidal(&mut self.arena, s?, share?)
             }
             (kind, _) => {
                 let (count, form) = match kind {
@@ -66,6 +62,27 @@ impl Scope<'_> {
             }
         };
         Some(Typed { expr, dimension: Some(Dimension::NONE) })
+    }
+
+    /// The progress, between 0 and 1.
+    fn progress(
+        &mut self,
+        name: &Ident,
+        formula: &Formula,
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Expr> {
+        let s = self.formula(formula, place, errors)?;
+        if let Some(dimension) = s.dimension.filter(|dimension| *dimension != Dimension::NONE) {
+            let message =
+                format!("`{name}` takes a progress from 0 to 1, but this is {}", described(dimension));
+            errors.push(
+                Diagnostic::new(formula.span, message)
+                    .help("divide it by what the whole motion takes, as in `t/(2 [s])`"),
+            );
+            return None;
+        }
+        Some(clamped(&mut self.arena, s.expr))
     }
 
     /// The share of the time in which a trapezoid accelerates.

@@ -8,7 +8,7 @@ use super::functions;
 use super::names::{Place, Scope, Typed, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, Diagnostics, described};
-use crate::syntax::{self, Formula};
+use crate::syntax::{self, Formula, FormulaKind};
 
 /// A profile as formulas know it.
 pub struct Profile {
@@ -110,9 +110,15 @@ fn check(profile: &syntax::Profile, arguments: &[f64], period: f64) -> Result<()
                 .help("this argument has to be larger than the one before it"));
         }
         if pair[1] - first >= period {
+            let is_bare = |formula: &Formula| matches!(formula.kind, FormulaKind::Number { unit: None, .. });
             let message = format!("this point of `{name}` is a period or more behind the first one");
-            return Err(Diagnostic::new(point.x.span, message)
-                .help("leave it out: after a period the first point returns by itself"));
+            return Err(Diagnostic::new(point.x.span, message).help(
+                if is_bare(&point.x) && !is_bare(&profile.period) {
+                    "give it the unit that the period has"
+                } else {
+                    "leave it out: after a period the first point returns by itself"
+                },
+            ));
         }
     }
     Ok(())
