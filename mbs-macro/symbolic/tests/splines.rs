@@ -1,6 +1,7 @@
 //! Periodic splines pass through their points with two continuous derivatives,
 //! come close to smooth functions at the order that the theory promises, and are
 //! differentiated, printed and run like any other function.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_symbolic::{Arena, Spline, Stage, lower_whole};
 
