@@ -228,6 +228,44 @@ fn cylinder_rolls_down() -> Result<(), Error> {
 }
 
 mechanism! {
+    /// A cylinder on a plank that is pulled along a smooth floor.
+    Plank {
+        dof = 2;
+        param r = 0.2 [m];
+        param m = 3 [kg];
+        gravity = (0, -10) [m/s^2];
+        body wheel (x1, y1, phi1) { mass = m; inertia = m*r^2/2; }
+        body plank (x2, y2, phi2) { mass = 2 [kg]; inertia = 1 [kg*m^2]; }
+        point top on plank = (0, 0.05 [m]);
+        prismatic floor (plank, ground) along (1, 0);
+        rolling contact (wheel, plank.top) radius r along (1, 0);
+        force pull on plank = (18 [N], 0);
+        start { x2 = 0; phi1 = 0; }
+    }
+}
+
+/// Rolling backwards, the wheel moves a third as fast as the plank: with its
+/// acceleration a the friction is m a, and M 3a + m a = F.
+#[test]
+fn cylinder_stays_behind_on_a_plank() -> Result<(), Error> {
+    let solved = Simulation::new(Plank::declared(), 1e-3)?.reactions()?;
+    let a = 18.0 / (3.0 * 2.0 + 3.0);
+    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12, "{x} {y}");
+    near(solved.acceleration.x1, a);
+    near(solved.acceleration.x2, 3.0 * a);
+    near(solved.acceleration.phi1, 2.0 * a / 0.2);
+    // on the plank: friction backwards, the weight of the wheel downwards
+    near(solved.multipliers.contact_slip, -3.0 * a);
+    near(solved.multipliers.contact_normal, -30.0);
+    // the floor carries both; the plank is the first body and feels −λ n
+    near(solved.multipliers.floor_normal, -50.0);
+    // about the plank's centre: friction at its top, 50 mm up, and the floor's
+    // torque −λ keep the balance
+    near(solved.multipliers.floor_angle, 0.05 * 3.0 * a);
+    Ok(())
+}
+
+mechanism! {
     /// Two flywheels on a belt.
     Belt {
         dof = 1;
