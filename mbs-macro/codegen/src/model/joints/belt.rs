@@ -1,6 +1,6 @@
 //! Two pulleys with a belt that neither slips nor stretches, on a carrier (the
 //! ground, if none is given): Φ = r₁(φ₁ − φ_c − at) ∓ r₂(φ₂ − φ_c), minus for an
-//! open belt, plus for a crossed one (Norton, Design of Machinery, §9.8).
+//! open belt, plus for a crossed one (Norton, Design of Machinery).
 //!
 //! λ with `radii`: the difference between the tensions of the two spans, positive
 //! where the belt drives the second pulley of an open belt on in its positive

@@ -2,7 +2,7 @@
 //! circles roll on each other: Φ = r₁(φ₁ − φ_c − at) ± r₂(φ₂ − φ_c), plus for
 //! teeth outside on both, minus where one is a ring with teeth inside. This is
 //! Willis' equation of a planetary train, integrated (Norton, Design of
-//! Machinery, ch. 9; Nikravesh 1988, §4.2.4).
+//! Machinery; Nikravesh 1988, ch. 4).
 //!
 //! λ with `radii`: the tooth force on the second gear at the pitch point, along
 //! n, the unit vector from the first centre to the pitch point turned by 90°;
