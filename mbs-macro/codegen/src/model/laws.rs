@@ -1,5 +1,5 @@
 //! Laws of motion: functions that rise from 0 to 1 as the progress s does, and
-//! rest outside (Norton, Cam Design and Manufacturing Handbook, ch. 2–3).
+//! rest outside (Norton, Cam Design and Manufacturing Handbook).
 //!
 //! They are built from operators whose derivatives hold from the right: `max`
 //! and `min` have the slope of their second argument where both are equal. So a

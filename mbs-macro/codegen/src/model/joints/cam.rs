@@ -1,7 +1,7 @@
 //! A point of the second body (a knife edge, or the centre of a roller on its
 //! pitch curve) stays on a curve that is fixed in the first, the cam, in polar
 //! form about p₁: Φ = ρ(ψ) − |d|, with d = p₂ − p₁ and the polar angle
-//! ψ = atan2(d) − φ₁ (Norton, Cam Design and Manufacturing Handbook, ch. 7). The
+//! ψ = atan2(d) − φ₁ (Norton, Cam Design and Manufacturing Handbook). The
 //! arctangent jumps by a turn where d points to −x: ρ has to have that period.
 //!
 //! λ: the component of the contact force on the second body along d, positive

@@ -1,6 +1,6 @@
 //! A pinion, the first body, meshes with a rack on the second one, along the
 //! direction u of the second: Φ = u·(p₁ − p₂) + r(φ₁ − φ₂) − at (Nikravesh 1988,
-//! §4.2.5). The rack is on the right of u: its pitch line touches the pinion in
+//! ch. 4). The rack is on the right of u: its pitch line touches the pinion in
 //! p₁ − r n, n = u turned by 90°.
 //!
 //! λ: the tooth force on the rack is λ u at that point; the pinion feels −λ u
