@@ -2,6 +2,7 @@
 
 pub use nalgebra;
 
+pub use crate::spline::{Segment, Spline};
 use crate::{Components, Error, Real};
 
 /// Refuses parameters that are not finite.

@@ -96,6 +96,7 @@ mod mechanism;
 mod real;
 mod simulation;
 mod sincos;
+mod spline;
 pub mod start;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};

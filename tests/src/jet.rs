@@ -176,3 +176,52 @@ impl Real for Jet {
         Self::from_f64(f64::from(u8::from(self.value > other.value)))
     }
 }
+
+/// Compares all that a mechanism generates with what jets find in a Φ of (t, q):
+/// Φ itself, Φ_q column by column, Φ_t along t, Φ̇ and −γ as the first and second
+/// derivative of Φ(q + s v, t + s) at s = 0.
+#[macro_export]
+macro_rules! check_against_jets {
+    ($mechanism:ident, $coordinates:ident, $phi:expr, $position:expr, $rate:expr, $tolerance:expr) => {{
+        use $crate::jet::Jet;
+        let plain = $mechanism::<f64>::default();
+        let mut random = $crate::random::Random::new(6);
+        let mut worst = 0.0_f64;
+        for _ in 0..1000 {
+            let q: [f64; $coordinates::<f64>::NAMES.len()] = random.around_zero($position);
+            let v: [f64; $coordinates::<f64>::NAMES.len()] = random.around_zero($rate);
+            let t = random.between(0.0, 1.0);
+            let at = mbs_runtime::State { t, q: $coordinates::from_array(q), v: $coordinates::from_array(v) };
+            let along = |direction: &dyn Fn(usize) -> f64, of_time: f64| {
+                $phi(Jet::line(t, of_time), std::array::from_fn(|i| Jet::line(q[i], direction(i))))
+            };
+            let mut compare = |what: &str, ours: f64, jet: f64, scale: f64| {
+                let deviation = (ours - jet).abs() / (1.0 + scale);
+                worst = worst.max(deviation);
+                assert!(deviation <= $tolerance, "{what}: {ours:e} and {jet:e} at {at:?}");
+            };
+
+            let rows = plain.phi(t, &at.q).into_array();
+            for (ours, jet) in rows.iter().zip(along(&|_| 0.0, 0.0)) {
+                compare("Φ", *ours, jet.value, jet.value.abs());
+            }
+            let phi_q = plain.phi_q(t, &at.q);
+            for column in 0..q.len() {
+                let jets = along(&|i| f64::from(u8::from(i == column)), 0.0);
+                for (row, jet) in jets.iter().enumerate() {
+                    compare("Φ_q", phi_q[(row, column)], jet.first, jet.first.abs());
+                }
+            }
+            let rows = plain.phi_t(t, &at.q).into_array();
+            for (ours, jet) in rows.iter().zip(along(&|_| 0.0, 1.0)) {
+                compare("Φ_t", *ours, jet.first, jet.first.abs());
+            }
+            let (phi_dot, gamma) = (plain.phi_dot(&at).into_array(), plain.gamma(&at).into_array());
+            for (row, jet) in along(&|i| v[i], 1.0).iter().enumerate() {
+                compare("Φ̇", phi_dot[row], jet.first, $rate);
+                compare("γ", gamma[row], -jet.second, $rate * $rate);
+            }
+        }
+        println!("{}: {worst:.1e}", stringify!($mechanism));
+    }};
+}

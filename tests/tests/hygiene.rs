@@ -23,6 +23,7 @@ mod without_prelude {
             param length = 1 [m] where length > 0;
             input push [N];
             gravity = (0, -9.81) [m/s^2];
+            profile unused = spline((0, 3.1415926), (1, 2), (2, 1)) period 3;
             body bob (x, y) { mass = 2 [kg]; }
             force pushed on bob = (push, 0);
             constraint rod: x^2 + y^2 = length^2;
@@ -78,7 +79,8 @@ mod shadowed {
             gravity = (0, -9.81) [m/s^2];
             body bob (x, y, angle = Theta) { mass = M; inertia = M*L^2*exp(1); }
             force pushed on bob = (push, 0);
-            torque spring on bob = -3 [N*m]*sin(Theta)*cos(Theta);
+            profile Segment = spline((0, 1), (1, 2), (2, 1)) period 3;
+            torque spring on bob = -3 [N*m]*sin(Theta)*Segment(Theta);
             constraint rod: x^2 + y^2 = L^2;
             start { x = L; guess y = 0; }
             output height = y;

@@ -63,8 +63,10 @@ impl Diagnostic {
 }
 
 impl From<syn::Error> for Diagnostic {
+    /// The errors combined with the first are its notes.
     fn from(error: syn::Error) -> Self {
-        Self::new(error.span(), error.to_string())
+        let notes = error.clone().into_iter().skip(1).map(|note| (note.span(), note.to_string())).collect();
+        Self { notes, ..Self::new(error.span(), error.to_string()) }
     }
 }
 

@@ -1,9 +1,11 @@
 //! Hash-consed expressions: equal expressions are the same node.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use crate::number::Number;
 use crate::operators::Function;
+use crate::spline::{Spline, SplineId};
 
 /// An expression: a handle into an [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,6 +53,8 @@ pub enum Node {
     Call(Function, Expr),
     /// f(x, y)
     Call2(Function, Expr, Expr),
+    /// The derivative of this order of a spline, 0 to 3, at x
+    Spline(SplineId, u8, Expr),
     /// The same value, computed once.
     Shared(Expr),
 }
@@ -67,6 +71,7 @@ pub struct Arena {
     index: HashMap<Node, Expr>,
     symbols: Vec<SymbolEntry>,
     labels: HashMap<Expr, String>,
+    pub(crate) splines: Vec<Rc<Spline>>,
 }
 
 impl Default for Arena {
@@ -84,6 +89,7 @@ impl Arena {
             index: HashMap::new(),
             symbols: Vec::new(),
             labels: HashMap::new(),
+            splines: Vec::new(),
         };
         // `zero` and `one` rely on these two being the first.
         arena.number(Number::ZERO);
@@ -201,7 +207,7 @@ impl Arena {
             Node::Symbol(symbol) => self.symbols[symbol.index()].stage,
             Node::Sum(_, terms) => latest(&mut terms.iter().map(|(term, _)| self.stage(*term))),
             Node::Product(factors) => latest(&mut factors.iter().map(|(factor, _)| self.stage(*factor))),
-            Node::Call(_, x) | Node::Shared(x) => self.stage(*x),
+            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => self.stage(*x),
             Node::Call2(_, x, y) => self.stage(*x).max(self.stage(*y)),
         }
     }
@@ -212,7 +218,7 @@ impl Arena {
             Node::Number(_) | Node::Symbol(_) => Vec::new(),
             Node::Sum(_, terms) => terms.iter().map(|(term, _)| *term).collect(),
             Node::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
-            Node::Call(_, x) | Node::Shared(x) => vec![*x],
+            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => vec![*x],
             Node::Call2(_, x, y) => vec![*x, *y],
         }
     }

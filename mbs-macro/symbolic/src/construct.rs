@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 use crate::operators::{Function, Parity};
+use crate::spline::SplineId;
 
 /// Larger exponents are powers, not repeated products.
 const LARGEST_EXPONENT: i64 = 64;
@@ -249,6 +250,15 @@ impl Arena {
             }
         }
         self.intern(Node::Call2(function, x, y))
+    }
+
+    /// The derivative of this order of a spline at x: 0 beyond the third.
+    pub(crate) fn spline_derivative(&mut self, spline: SplineId, order: u8, x: Expr) -> Expr {
+        if let Some(x) = self.as_number(x) {
+            let value = self.splines[spline.index()].derivative(order, x.to_f64());
+            return self.number(value.into());
+        }
+        self.intern(Node::Spline(spline, order, x))
     }
 
     /// Whether the first term has a negative coefficient: one of x and −x does.

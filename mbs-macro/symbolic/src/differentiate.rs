@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
+use crate::spline::next_order;
 
 impl Arena {
     /// Σ ∂e/∂s · direction(s) over all symbols s: a partial derivative with the
@@ -67,6 +68,16 @@ impl Arena {
                 let [dx, dy] = (function.row().partials)(self, x, y, expr);
                 let (along_x, along_y) = (self.mul(dx, known[&x]), self.mul(dy, known[&y]));
                 self.add(along_x, along_y)
+            }
+            Node::Spline(spline, order, x) => {
+                if self.is_zero(known[&x]) {
+                    return self.zero();
+                }
+                let slope = match next_order(order) {
+                    Some(order) => self.spline_derivative(spline, order, x),
+                    None => self.zero(),
+                };
+                self.mul(slope, known[&x])
             }
             Node::Shared(x) => known[&x],
         }

@@ -37,7 +37,7 @@ impl Arena {
                 Node::Number(_) | Node::Symbol(_) => {}
                 Node::Sum(_, terms) => open.extend(terms.iter().map(|(term, _)| *term)),
                 Node::Product(factors) => open.extend(factors.iter().map(|(factor, _)| *factor)),
-                Node::Call(_, x) | Node::Shared(x) => open.push(*x),
+                Node::Call(_, x) | Node::Shared(x) | Node::Spline(_, _, x) => open.push(*x),
                 Node::Call2(_, x, y) => open.extend([*x, *y]),
             }
         }
@@ -59,6 +59,11 @@ impl Arena {
                 let name = function.row().name;
                 self.write_call(out, if name.is_empty() { "greater" } else { name }, &[*x, *y]);
             }
+            Node::Spline(spline, order, x) => {
+                let primes = "'".repeat((*order).into());
+                let name = &self.splines()[spline.index()].name;
+                self.write_call(out, &format!("{name}{primes}"), &[*x]);
+            }
             Node::Shared(x) => self.write(out, *x, context),
         }
         if parenthesize {
@@ -76,9 +81,8 @@ impl Arena {
             Node::Number(value) if value.is_negative() => Binding::Sum,
             Node::Number(Number::Rational(_, d)) if *d != 1 => Binding::Product,
             // prints itself with the parentheses that its content needs
-            Node::Shared(_) | Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Call2(..) => {
-                Binding::Power
-            }
+            Node::Shared(_) | Node::Number(_) | Node::Symbol(_) => Binding::Power,
+            Node::Call(..) | Node::Call2(..) | Node::Spline(..) => Binding::Power,
         }
     }
 

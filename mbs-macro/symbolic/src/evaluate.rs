@@ -21,6 +21,7 @@ impl Arena {
                 }
                 Node::Call(function, x) => (function.row().value)(value(x), 0.0),
                 Node::Call2(function, x, y) => (function.row().value)(value(x), value(y)),
+                Node::Spline(spline, order, x) => self.splines()[spline.index()].derivative(*order, value(x)),
                 Node::Shared(x) => value(x),
             };
         }

@@ -30,6 +30,12 @@ impl Arena {
             Node::Product(factors) => self.typeset_product(factors),
             Node::Call(function, x) => return self.typeset_call(function.row().name, &[*x]),
             Node::Call2(function, x, y) => return self.typeset_call(function.row().name, &[*x, *y]),
+            Node::Spline(spline, order, x) => {
+                let primes = "'".repeat((*order).into());
+                let name = symbol_name(&self.splines()[spline.index()].name);
+                let argument = self.typeset(*x, Binding::Sum);
+                return format!(r"{name}{primes}\left({argument}\right)");
+            }
             Node::Shared(inner) => return self.typeset(*inner, context),
         };
         let (text, binding) = match self.as_number(expr) {

@@ -44,6 +44,7 @@ mod lower;
 mod number;
 mod operators;
 mod program;
+mod spline;
 pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
@@ -53,3 +54,4 @@ pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;
 pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
+pub use spline::{Segment, Spline, SplineId};

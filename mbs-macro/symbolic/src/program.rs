@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
+use std::rc::Rc;
 
 use crate::arena::Symbol;
 use crate::number::Number;
 use crate::operators::Function;
+use crate::spline::{Spline, SplineId};
 
 /// Where an instruction finds an operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -37,6 +39,8 @@ pub enum Operation {
     Call(Function),
     /// f(a, b)
     Call2(Function),
+    /// the derivative of this order of a spline at a
+    Spline(SplineId, u8),
 }
 
 /// One assignment. `b` equals `a` where the operation has one operand.
@@ -62,6 +66,8 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// The results.
     pub outputs: Vec<Operand>,
+    /// The splines that instructions refer to.
+    pub splines: Vec<Rc<Spline>>,
 }
 
 /// Operation counts; see the fields.
@@ -75,7 +81,7 @@ pub struct Operations {
     pub div: u32,
     /// Sine–cosine pairs (a sine or cosine alone counts as one).
     pub sin_cos: u32,
-    /// Other elementary functions, comparisons and square roots.
+    /// Other elementary functions, comparisons, square roots and splines.
     pub other: u32,
 }
 
@@ -137,7 +143,7 @@ impl Program {
                 Operation::Call(Function::Sin | Function::Cos) => {
                     angles.insert(instruction.a);
                 }
-                Operation::Call(_) | Operation::Call2(_) => count.other += 1,
+                Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => count.other += 1,
             }
         }
         count.sin_cos = angles.len() as u32;
@@ -163,6 +169,7 @@ impl Program {
                 Operation::Neg => -a,
                 Operation::Call(function) => (function.row().value)(a, 0.0),
                 Operation::Call2(function) => (function.row().value)(a, b),
+                Operation::Spline(spline, order) => self.splines[spline.index()].derivative(order, a),
             });
         }
         self.outputs.iter().map(|&output| read(output, &values)).collect()

@@ -33,15 +33,16 @@ mechanism! {
 }
 
 mechanism! {
-    /// A driven mass whose drive uses the elementary functions.
+    /// A driven mass whose drive uses the elementary functions and a profile.
     pub Cam {
         dof = 0;
         param lift = 5 [mm];
         param omega = 10 [rad/s];
+        profile wave = spline((0, 0), (1, 0.4), (2.5, -0.2)) period 4;
         body follower (x) { mass = 1 [kg]; }
         drive cam: x = lift*(exp(sin(omega*t)) + atan2(1, 2 + cos(omega*t)) + (2 + sin(omega*t))^0.7
             + sqrt(2 + cos(omega*t)) + ln(3 + sin(omega*t)) + tanh(omega*t) + tan(0.1*sin(omega*t))
-            + asin(0.5*cos(omega*t)) + acos(0.5*cos(omega*t)) + atan(omega*t));
+            + asin(0.5*cos(omega*t)) + acos(0.5*cos(omega*t)) + atan(omega*t) + wave(omega*t));
         output force [N] = effort(cam);
     }
 }

@@ -183,7 +183,10 @@ fn prefix(mention: Mention<'_>, instance: &Ident, declared: &BTreeSet<String>) {
         Mention::Place(place) => rename(place.prefix.first_mut().unwrap_or(&mut place.body)),
         Mention::Coordinate(path, name) => rename(path.first_mut().unwrap_or(name)),
         Mention::Formula(FormulaKind::Member(path)) => path.iter_mut().take(1).for_each(rename),
-        Mention::Formula(_) => {}
+        Mention::Function(name) if declared.contains(&format!("{name}()")) => {
+            *name = prefixed(instance, name);
+        }
+        Mention::Formula(_) | Mention::Function(_) => {}
     }
 }
 
@@ -226,7 +229,7 @@ fn shorten(mention: Mention<'_>, instances: &BTreeSet<String>) {
                 }
             }
         }
-        Mention::Name(_) => {}
+        Mention::Name(_) | Mention::Function(_) => {}
     }
 }
 

@@ -4,7 +4,7 @@
 
 use proc_macro2::Ident;
 
-use crate::syntax::{Attachment, Condition, Formula, FormulaKind, Item, ItemKind, Load, Vector};
+use crate::syntax::{Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Vector};
 
 /// Rows of joints are called after them: `pin_x`.
 const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
@@ -12,6 +12,8 @@ const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
 /// A name, or a path such as `leg.crank.tip`, in a statement.
 pub enum Mention<'a> {
     Name(&'a mut Ident),
+    /// What is called: a function of the language, or a profile.
+    Function(&'a mut Ident),
     /// The path of a place; its body, and what leads to it.
     Place(&'a mut Attachment),
     /// A path in a formula, which may turn out to be a plain name.
@@ -20,7 +22,8 @@ pub enum Mention<'a> {
     Coordinate(&'a mut Vec<Ident>, &'a mut Ident),
 }
 
-/// The names that a statement declares for formulas, places and multipliers.
+/// The names that a statement declares for formulas, places and multipliers; of
+/// a profile, `lift()`.
 pub fn declared(item: &Item) -> Vec<String> {
     let plain = |name: &Ident| vec![name.to_string()];
     match &item.kind {
@@ -33,6 +36,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Force { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Spring(spring) => plain(&spring.name),
+        ItemKind::Profile(profile) => vec![format!("{}()", profile.name), profile.name.to_string()],
         ItemKind::Body { name, coordinates, .. } => {
             let coordinates = coordinates.iter().map(|coordinate| coordinate.name.to_string());
             coordinates.chain([name.to_string()]).collect()
@@ -106,8 +110,22 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             visit(Mention::Name(&mut joint.name));
             visit(Mention::Place(&mut joint.first));
             visit(Mention::Place(&mut joint.second));
-            joint.along.iter_mut().for_each(|along| in_vector(along, visit));
-            joint.angle.iter_mut().chain(&mut joint.length).for_each(|value| in_formula(value, visit));
+            for clause in &mut joint.clauses {
+                match clause {
+                    Clause::Along(value) | Clause::Radii(value) | Clause::Teeth(value) => {
+                        in_vector(value, visit)
+                    }
+                    Clause::At(value) | Clause::Equals(value) | Clause::Radius(value) => {
+                        in_formula(value, visit)
+                    }
+                    Clause::Carrier(body) => visit(Mention::Name(body)),
+                }
+            }
+        }
+        ItemKind::Profile(profile) => {
+            visit(Mention::Name(&mut profile.name));
+            profile.points.iter_mut().for_each(|point| in_vector(point, visit));
+            in_formula(&mut profile.period, visit);
         }
         ItemKind::Spring(spring) => {
             visit(Mention::Name(&mut spring.name));
@@ -147,7 +165,8 @@ fn in_formula(formula: &mut Formula, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(left, visit);
             in_formula(right, visit);
         }
-        FormulaKind::Call { arguments, .. } => {
+        FormulaKind::Call { function, arguments } => {
+            visit(Mention::Function(function));
             arguments.iter_mut().for_each(|argument| in_formula(argument, visit));
         }
     }

@@ -11,6 +11,8 @@ use crate::model::{Meaning, Model};
 pub struct Access {
     /// The mechanism, `self` in a method.
     pub this: TokenStream,
+    /// Its type, which holds splines.
+    pub mechanism: TokenStream,
     /// The parameters, `self.parameters` or a variable.
     pub parameters: TokenStream,
     pub time: TokenStream,
@@ -37,6 +39,7 @@ impl Access {
     pub fn of_state() -> Self {
         Self {
             this: quote!(self),
+            mechanism: quote!(Self),
             parameters: quote!(self.parameters),
             time: quote!(at.t),
             positions: quote!(at.q),
@@ -62,14 +65,16 @@ impl Access {
     }
 
     /// The same in a function with the [`arguments`](Self::arguments).
-    pub fn in_part(&self) -> Self {
+    pub fn in_part(&self, names: &Names) -> Self {
+        let mechanism = &names.mechanism;
         let parameters = match self.kind {
             Kind::Parameters => quote!(parameters),
             _ => quote!(this.parameters),
         };
         let (time, positions, velocities) =
             (self.time.clone(), self.positions.clone(), self.velocities.clone());
-        Self { this: quote!(this), parameters, time, positions, velocities, kind: self.kind }
+        let mechanism = quote!(#mechanism::<T>);
+        Self { this: quote!(this), mechanism, parameters, time, positions, velocities, kind: self.kind }
     }
 
     /// What a function needs that runs some instructions of `program`.

@@ -10,6 +10,7 @@ use super::docs;
 use super::info;
 use super::names::{Names, field};
 use super::program::{Body, body};
+use super::splines::splines;
 use crate::derive::Equations;
 use crate::model::{Direction, Model};
 use crate::plan::Plan;
@@ -22,6 +23,7 @@ const LARGEST_INLINED: usize = 64;
 pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, parameters, runtime, .. } = names;
     let checks = parameter_checks(model, plan, names);
+    let splines = splines(model, names);
     let Body { statements, outputs } = body(model, names, &plan.prepare, &Access::of_parameters());
     quote! {
         impl #mechanism<::core::primitive::f64> {
@@ -34,6 +36,8 @@ pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
         }
 
         impl<T: #runtime::Real> #mechanism<T> {
+            #(#splines)*
+
             /// The mechanism with these parameters.
             ///
             /// # Errors

@@ -8,6 +8,7 @@ mod info;
 mod names;
 mod parts;
 mod program;
+mod splines;
 mod types;
 
 use proc_macro2::TokenStream;

@@ -21,7 +21,7 @@ const PART: usize = 256;
 
 /// Calls of the parts, their definitions before them, and the outputs.
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) -> Body {
-    let inside = access.in_part();
+    let inside = access.in_part(names);
     let mut writer = Writer::new(model, program, &inside);
     let mut slots = Slots::new(program);
     let mut definitions = TokenStream::new();

@@ -9,6 +9,7 @@ use quote::{format_ident, quote};
 use super::access::Access;
 use super::names::{Names, field};
 use super::parts;
+use super::splines::spline_name;
 use crate::model::{Meaning, Model};
 
 /// Statements that run a program, and its outputs as expressions.
@@ -75,7 +76,7 @@ impl<'a> Writer<'a> {
             (operation, _) => {
                 let b = self.operand(instruction.b);
                 let name = self.name(at);
-                let value = operation_tokens(operation, &a, &b);
+                let value = operation_tokens(operation, &a, &b, &self.access.mechanism);
                 quote!(let #name = #value;)
             }
         };
@@ -170,7 +171,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-fn operation_tokens(operation: Operation, a: &TokenStream, b: &TokenStream) -> TokenStream {
+fn operation_tokens(
+    operation: Operation,
+    a: &TokenStream,
+    b: &TokenStream,
+    mechanism: &TokenStream,
+) -> TokenStream {
     match operation {
         Operation::Add => quote!(#a + #b),
         Operation::Sub => quote!(#a - #b),
@@ -184,6 +190,10 @@ fn operation_tokens(operation: Operation, a: &TokenStream, b: &TokenStream) -> T
         Operation::Call2(function) => {
             let method = method(function);
             quote!(#a.#method(#b))
+        }
+        Operation::Spline(spline, order) => {
+            let (table, order) = (spline_name(spline.index()), Literal::u8_unsuffixed(order));
+            quote!(#mechanism::#table.derivative(#order, #a))
         }
     }
 }

@@ -1,15 +1,13 @@
 //! Joints between places: names of their rows, then the rows themselves.
 
-use mbs_symbolic::Expr;
-use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, Symbol};
 use proc_macro2::Ident;
 
-use super::joints::{self, Connection, JointRow};
-use super::names::Place;
+use super::joints::{self, JointRow};
 use super::resolver::Resolver;
 use super::{Constraint, Meaning};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Joint, JointKind, Vector};
+use crate::syntax::{Joint, JointKind};
 
 impl Resolver<'_> {
     /// The rows that the joint will have. A joint that holds an angle between
@@ -55,69 +53,18 @@ impl Resolver<'_> {
     }
 
     fn joint_rows(&mut self, joint: &Joint) -> Option<Vec<JointRow>> {
-        let first = self.scope.attachment(&joint.first, &mut self.errors);
-        let second = self.scope.attachment(&joint.second, &mut self.errors);
-        let zero = self.scope.arena.zero();
-        let along = match &joint.along {
-            Some(vector) => self.direction_of(joint, vector),
-            None => Some([self.scope.arena.one(), zero]),
-        };
-        let angle = match &joint.angle {
-            Some(formula) => {
-                let what = ("the angle between the bodies", Dimension::NONE);
-                self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
-            }
-            None => Some(zero),
-        };
-        let length = match &joint.length {
-            Some(formula) => {
-                let what = ("the distance", Dimension::LENGTH);
-                let length = self.scope.formula_of(formula, Place::Property, what, &mut self.errors);
-                length.filter(|&length| {
-                    let is_zero = self.scope.arena.is_zero(length);
-                    if is_zero {
-                        self.errors.push(
-                            Diagnostic::new(formula.span, format!("the distance of `{}` is 0", joint.name))
-                                .help("points that coincide are a `revolute` joint"),
-                        );
-                    }
-                    !is_zero
-                })
-            }
-            None => Some(zero),
-        };
-        let connection =
-            Connection { first: first?, second: second?, along: along?, angle: angle?, length: length? };
+        let connection = self.connection(joint)?;
         Some(joints::rows(&mut self.scope.arena, joint.kind, &connection))
     }
 
-    /// A direction: two numbers or lengths, not both 0.
-    fn direction_of(&mut self, joint: &Joint, vector: &Vector) -> Option<[Expr; 2]> {
-        let x = self.scope.formula(&vector.x, Place::Property, &mut self.errors);
-        let y = self.scope.formula(&vector.y, Place::Property, &mut self.errors);
-        let (x, y) = (x?, y?);
-        if let (Some(a), Some(b)) = (x.dimension, y.dimension)
-            && a != b
-        {
-            self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` mixes dimensions", joint.name))
-                    .help("give both components in the same unit, or both as numbers"),
-            );
-            return None;
-        }
-        if self.scope.arena.is_zero(x.expr) && self.scope.arena.is_zero(y.expr) {
-            self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` is zero", joint.name))
-                    .help("write `(1, 0)` for x, `(0, 1)` for y"),
-            );
-            return None;
-        }
-        Some([x.expr, y.expr])
+    pub(super) fn depends_on_coordinates(&self, phi: Expr) -> bool {
+        self.coordinates_in(phi) > 0
     }
 
-    pub(super) fn depends_on_coordinates(&self, phi: Expr) -> bool {
-        let is_coordinate = |symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_));
-        self.scope.arena.symbols_in(phi).into_iter().any(is_coordinate)
+    /// How many coordinates an expression depends on.
+    pub(super) fn coordinates_in(&self, phi: Expr) -> usize {
+        let is_coordinate = |&symbol: &Symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_));
+        self.scope.arena.symbols_in(phi).iter().filter(|symbol| is_coordinate(symbol)).count()
     }
 }
 

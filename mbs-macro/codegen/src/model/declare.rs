@@ -9,7 +9,7 @@ use super::places::{Frame, GROUND};
 use super::resolver::Resolver;
 use super::{Body, Coordinate, Direction, Meaning, Parameter, Quantity};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind};
+use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn declare(&mut self, item: &'a Item) {
@@ -35,8 +35,9 @@ impl<'a> Resolver<'a> {
     /// Rows and points, once all bodies are known.
     pub(super) fn declare_rows(&mut self, item: &Item) {
         match &item.kind {
-            ItemKind::Constraint { name, is_drive, .. } => self.declare_row(name, *is_drive),
+            ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),
+            ItemKind::Profile(profile) => self.declare_profile(&profile.name),
             ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
             _ => {}
         }

@@ -5,7 +5,8 @@ use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
-use super::names::{Place, RESERVED, Scope, State, Typed, Value};
+use super::functions;
+use super::names::{Place, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
 
@@ -89,6 +90,9 @@ impl Scope<'_> {
 
     fn name(&mut self, name: &Ident, place: Place, errors: &mut Diagnostics) -> Option<Typed> {
         let text = name.to_string();
+        if let Some(local) = self.local.filter(|local| local.name == text) {
+            return Some(local.typed);
+        }
         if text == "pi" {
             return Some(Typed { expr: self.arena.number(Number::PI), dimension: Some(Dimension::NONE) });
         }
@@ -129,7 +133,10 @@ impl Scope<'_> {
         definition.state = State::Open;
         let (formula, place) =
             (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
+        // a definition means the same wherever it is used
+        let local = self.local.take();
         let typed = self.formula(formula, place, errors);
+        self.local = local;
         if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
             definition.state = typed.map_or(State::Failed, State::Done);
         }
@@ -184,7 +191,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if mbs_symbolic::Function::named(&text).is_some() || RESERVED.contains(&text.as_str()) {
+        if functions::is_known(&text) || self.profiles.contains_key(&text) {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
                 .help(format!("give it its argument: `{text}(…)`"));
         }

@@ -1,4 +1,4 @@
-//! Function calls: the elementary ones, `der`, `lambda` and `effort`.
+//! Function calls: the elementary ones, `der`, `lambda`, `effort` and `distance`.
 
 use std::collections::HashMap;
 
@@ -7,9 +7,11 @@ use mbs_symbolic::{Function, Number, Symbol};
 use proc_macro2::Ident;
 
 use super::Meaning;
+use super::joints;
+use super::laws::LAWS;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
-use crate::syntax::{Formula, FormulaKind};
+use crate::syntax::{Attachment, Formula, FormulaKind};
 
 impl Scope<'_> {
     pub(super) fn call(
@@ -25,24 +27,56 @@ impl Scope<'_> {
                 let result = self.multiplier(name, arguments, place);
                 errors.take(result)
             }
-            text => match Function::named(text) {
-                Some(function) => self.function(function, name, arguments, place, errors),
-                None => {
-                    let known =
-                        mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).chain(["der", "lambda", "effort"]);
-                    let known: Vec<_> = known.filter(|name| !name.is_empty()).collect();
-                    let error = Diagnostic::new(name.span(), format!("there is no function `{text}`"));
-                    errors.push(match nearest(text, known.iter().copied()) {
-                        _ if self.values.contains_key(text) => {
-                            error.help(format!("write a product with `*`: `{text}*(…)`"))
-                        }
-                        Some(near) => error.help(format!("did you mean `{near}`?")),
-                        None => error.help(format!("the functions are {}", listing(known))),
-                    });
-                    None
+            "distance" => self.distance(name, arguments, place, errors),
+            text => {
+                if let Some(function) = Function::named(text) {
+                    return self.function(function, name, arguments, place, errors);
                 }
-            },
+                if let Some(law) = LAWS.iter().find(|law| law.name == text) {
+                    return self.law(law, name, arguments, place, errors);
+                }
+                if self.profiles.contains_key(text) {
+                    return self.profile(name, arguments, place, errors);
+                }
+                errors.push(self.unknown_function(name));
+                None
+            }
         }
+    }
+
+    fn unknown_function(&self, name: &Ident) -> Diagnostic {
+        let text = name.to_string();
+        let known: Vec<&str> = known().chain(self.profiles.keys().map(String::as_str)).collect();
+        let error = Diagnostic::new(name.span(), format!("there is no function `{text}`"));
+        match nearest(&text, known.iter().copied()) {
+            _ if self.values.contains_key(&text) => {
+                error.help(format!("write a product with `*`: `{text}*(…)`"))
+            }
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None => error.help(format!("the functions are {}", listing(known))),
+        }
+    }
+
+    /// `distance(boom.eye, frame.pin)`: how far two places are apart.
+    fn distance(
+        &mut self,
+        name: &Ident,
+        arguments: &[Formula],
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let [first, second] = arguments else {
+            let message = format!("`{name}` takes 2 places, not {}", arguments.len());
+            errors.push(Diagnostic::new(name.span(), message).help("write `distance(boom.eye, frame.pin)`"));
+            return None;
+        };
+        let mut placed = |formula| match errors.take(attachment(formula)) {
+            Some(attachment) => self.attachment(&attachment, errors),
+            None => None,
+        };
+        let (first, second) = (placed(first), placed(second));
+        let expr = joints::distance_between(&mut self.arena, &first?, &second?);
+        self.allowed(Typed { expr, dimension: Some(Dimension::LENGTH) }, name, place, errors)
     }
 
     fn function(
@@ -193,6 +227,29 @@ impl Scope<'_> {
         // λᵀΦ is an energy
         let energy = Dimension::of(1, 2, -2);
         Ok(Typed { expr, dimension: Some(energy.over(dimension)) })
+    }
+}
+
+/// The functions of the language.
+fn known<'a>() -> impl Iterator<Item = &'a str> {
+    let elementary = mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).filter(|name| !name.is_empty());
+    elementary.chain(LAWS.iter().map(|law| law.name)).chain(["der", "lambda", "effort", "distance"])
+}
+
+/// Whether the language has a function of this name.
+pub fn is_known(name: &str) -> bool {
+    known().any(|known| known == name)
+}
+
+/// A formula that names a place.
+fn attachment(formula: &Formula) -> Result<Attachment, Diagnostic> {
+    match &formula.kind {
+        FormulaKind::Name(body) => Ok(Attachment::of_path(body.clone(), Vec::new())),
+        FormulaKind::Member(path) if path.len() == 2 => {
+            Ok(Attachment::of_path(path[0].clone(), vec![path[1].clone()]))
+        }
+        _ => Err(Diagnostic::new(formula.span, "this is not a place")
+            .help("a place is a body or one of its points, as in `distance(boom.eye, frame)`")),
     }
 }
 

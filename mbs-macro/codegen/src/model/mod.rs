@@ -3,14 +3,17 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod clauses;
 mod connections;
 mod declare;
 mod formula;
 mod functions;
 mod joints;
+mod laws;
 mod loads;
 mod names;
 mod places;
+mod profiles;
 mod resolver;
 mod springs;
 mod statements;

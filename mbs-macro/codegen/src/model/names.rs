@@ -8,6 +8,7 @@ use proc_macro2::{Ident, Span};
 
 use super::Meaning;
 use super::places::{Frame, GROUND};
+use super::profiles::Profile;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
 
@@ -80,6 +81,13 @@ impl Place {
     }
 }
 
+/// A name that is known within one formula only, where it goes before others.
+#[derive(Clone, Copy)]
+pub struct Local {
+    pub name: &'static str,
+    pub typed: Typed,
+}
+
 /// Everything that a formula can refer to.
 pub struct Scope<'a> {
     pub arena: Arena,
@@ -90,6 +98,8 @@ pub struct Scope<'a> {
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
     pub time: Symbol,
+    pub local: Option<Local>,
+    pub profiles: BTreeMap<String, Profile>,
 }
 
 pub struct Row {
@@ -112,6 +122,8 @@ impl<'a> Scope<'a> {
             bodies: BTreeMap::new(),
             rows: BTreeMap::new(),
             time: Arena::new().symbol("t", Stage::Variable),
+            local: None,
+            profiles: BTreeMap::new(),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
         let zero = scope.arena.zero();

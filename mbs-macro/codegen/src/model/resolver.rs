@@ -12,7 +12,7 @@ use super::{
     Symbols,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::syntax::{Declaration, Item};
+use crate::syntax::{Declaration, Item, ItemKind};
 
 /// Resolves names and checks dimensions.
 ///
@@ -23,6 +23,11 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     // Names first, so that statements may stand in any order.
     resolver.each(declaration, Resolver::declare);
     resolver.each(declaration, Resolver::declare_rows);
+    resolver.each(declaration, |resolver, item| {
+        if let ItemKind::Profile(profile) = &item.kind {
+            resolver.resolve_profile(profile);
+        }
+    });
     resolver.each(declaration, Resolver::resolve_places);
     resolver.each(declaration, Resolver::resolve_constraint);
     resolver.each(declaration, Resolver::resolve_item);

@@ -7,10 +7,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Number};
+use mbs_symbolic::{Expr, Number};
 use proc_macro2::{Ident, Span};
 
-use super::joints::Placed;
+use super::joints;
 use super::names::Place;
 use super::resolver::Resolver;
 use super::{Load, Meaning};
@@ -36,7 +36,7 @@ impl Resolver<'_> {
         let stretch = if spring.is_torsion {
             self.scope.arena.sub(first.angle, second.angle)
         } else {
-            self.distance(&first, &second)
+            joints::distance_between(&mut self.scope.arena, &first, &second)
         };
         if !self.depends_on_coordinates(stretch) {
             self.errors.push(
@@ -51,16 +51,6 @@ impl Resolver<'_> {
         }
         let elongation = self.scope.arena.sub(stretch, free);
         self.push_spring(elongation, &properties);
-    }
-
-    /// |p₁ − p₂|
-    fn distance(&mut self, first: &Placed, second: &Placed) -> Expr {
-        let arena = &mut self.scope.arena;
-        let dx = arena.sub(first.position[0], second.position[0]);
-        let dy = arena.sub(first.position[1], second.position[1]);
-        let (xx, yy) = (arena.powi(dx, 2), arena.powi(dy, 2));
-        let square = arena.add(xx, yy);
-        arena.call(Function::Sqrt, square)
     }
 
     fn push_spring(&mut self, elongation: Expr, properties: &BTreeMap<String, Expr>) {

@@ -10,7 +10,7 @@ use super::names::{Place, Typed, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
-use crate::syntax::{self, Formula, Item, ItemKind};
+use crate::syntax::{self, Formula, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn resolve_places(&mut self, item: &Item) {
@@ -23,10 +23,10 @@ impl<'a> Resolver<'a> {
         if let ItemKind::Joint(joint) = &item.kind {
             return self.resolve_joint(joint, &item.doc);
         }
-        let ItemKind::Constraint { name, is_drive, left, equals, right } = &item.kind else { return };
+        let ItemKind::Constraint { name, role, left, equals, right } = &item.kind else { return };
         let l = self.scope.formula(left, Place::Constraint, &mut self.errors);
         let r = self.scope.formula(right, Place::Constraint, &mut self.errors);
-        let result = self.equation(name, l, r, *equals);
+        let result = self.equation((name, *role), l, r, *equals);
         let resolved = result.and_then(|result| self.errors.take(result));
         if let Some(row) = self.scope.rows.get_mut(&name.to_string()) {
             row.is_broken = resolved.is_none();
@@ -34,13 +34,14 @@ impl<'a> Resolver<'a> {
         }
         let Some((phi, dimension)) = resolved else { return };
         let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
-        self.constraints.push(Constraint { name, doc, span, is_drive: *is_drive, phi, dimension });
+        let is_drive = *role == Role::Drive;
+        self.constraints.push(Constraint { name, doc, span, is_drive, phi, dimension });
     }
 
     /// Φ = left − right with its dimension.
     fn equation(
         &mut self,
-        name: &Ident,
+        (name, role): (&Ident, Role),
         left: Option<Typed>,
         right: Option<Typed>,
         equals: Span,
@@ -56,7 +57,15 @@ impl<'a> Resolver<'a> {
             .help("both sides of an equation need the same dimension; check units and factors")));
         }
         let phi = self.scope.arena.sub(left.expr, right.expr);
-        if !self.depends_on_coordinates(phi) {
+        let coordinates = self.coordinates_in(phi);
+        if role == Role::Coupler && coordinates < 2 {
+            return Some(Err(Diagnostic::new(
+                name.span(),
+                format!("`{name}` does not couple anything: it needs two coordinates that move together"),
+            )
+            .help("write `constraint` or `drive` for an equation of a single coordinate")));
+        }
+        if coordinates == 0 {
             return Some(Err(Diagnostic::new(
                 name.span(),
                 format!("`{name}` does not constrain anything: no coordinate is left in it"),

@@ -12,8 +12,10 @@ use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
 use super::formula::{bracket_after_name, end, is_vector};
 use super::indices::Indices;
 use super::statements::Reader;
-use super::{Comparison, Condition, Coordinate, Declaration, Formula, ItemKind, Load, Property, StartEntry};
-use super::{joints, springs};
+use super::{
+    Comparison, Condition, Coordinate, Declaration, Formula, ItemKind, Load, Property, Role, StartEntry,
+};
+use super::{joints, profiles, springs};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -27,11 +29,13 @@ const KEYWORDS: &[&str] = &[
     "body",
     "constraint",
     "drive",
+    "coupler",
     "force",
     "torque",
     "start",
     "output",
     "point",
+    "profile",
     "spring",
     "torsion_spring",
     "require",
@@ -90,8 +94,9 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
         "let" => let_item(input),
         "gravity" => gravity(input, keyword.span()),
         "body" => body(input),
-        "constraint" => constraint(input, false),
-        "drive" => constraint(input, true),
+        "constraint" => constraint(input, Role::Constraint),
+        "drive" => constraint(input, Role::Drive),
+        "coupler" => constraint(input, Role::Coupler),
         "force" => force(input, false),
         "torque" => force(input, true),
         "start" => start(input),
@@ -99,9 +104,10 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
         "point" => joints::point(input),
         "require" => require(input),
         "instance" => instance(input),
+        "profile" => profiles::profile(input),
         "spring" | "torsion_spring" => springs::spring(input, &keyword),
-        word => match joints::JOINTS.iter().find(|(known, _)| *known == word) {
-            Some((_, kind)) => joints::joint(input, *kind, &keyword),
+        word => match joints::JOINTS.iter().find(|shape| shape.word == word) {
+            Some(shape) => joints::joint(input, shape),
             None => Err(unknown_statement(&keyword, word)),
         },
     }?;
@@ -109,7 +115,7 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
 }
 
 fn unknown_statement(keyword: &Ident, word: &str) -> Error {
-    let joints = joints::JOINTS.iter().map(|(joint, _)| *joint);
+    let joints = joints::JOINTS.iter().map(|shape| shape.word);
     let known: Vec<_> = KEYWORDS.iter().copied().chain(joints).collect();
     let hint = match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -357,18 +363,21 @@ fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
     Ok(Coordinate { direction, name, written })
 }
 
-fn constraint(input: ParseStream<'_>, is_drive: bool) -> Result<ItemKind> {
+fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind> {
     let name = name(input)?;
     input.parse::<Token![:]>().map_err(|error| {
-        let example =
-            if is_drive { "drive motor: theta = omega*t;" } else { "constraint rod: x = l*cos(theta);" };
+        let example = match role {
+            Role::Constraint => "constraint rod: x = l*cos(theta);",
+            Role::Drive => "drive motor: theta = omega*t;",
+            Role::Coupler => "coupler screw: x = lead/(2*pi)*theta;",
+        };
         Error::new(error.span(), format!("a name and `:` stand before an equation, as in `{example}`"))
     })?;
     let left = input.parse()?;
     let equals = equals(input)?;
     let right = input.parse()?;
     semicolon(input)?;
-    Ok(ItemKind::Constraint { name, is_drive, left, equals, right })
+    Ok(ItemKind::Constraint { name, role, left, equals, right })
 }
 
 fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {

@@ -1,20 +1,62 @@
 //! Points and joints: `point tip on crank = (l/2, 0);`, `revolute pin (crank.tip, rod.base);`.
+//!
+//! A joint is a name, two places and clauses in any order; [`JOINTS`] says which
+//! clauses a kind takes.
 
+use mbs_symbolic::units;
+use proc_macro2::Span;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
 use super::items::{equals, name, semicolon};
-use super::{Attachment, ItemKind, Joint, JointKind};
+use super::{Attachment, Clause, ClauseKind, ItemKind, Joint, JointKind};
+use crate::diagnostics::nearest;
+
+/// A kind of joint: the word that declares it, and its clauses.
+pub struct Shape {
+    pub word: &'static str,
+    kind: JointKind,
+    /// Of each of these groups, one clause is needed and no other is taken.
+    needs: &'static [&'static [ClauseKind]],
+    takes: &'static [ClauseKind],
+    /// How its clauses are written.
+    example: &'static str,
+}
+
+use ClauseKind::{Along, At, Carrier, Equals, Radii, Radius, Teeth};
+
+/// A row of the table.
+const fn shape(
+    word: &'static str,
+    kind: JointKind,
+    needs: &'static [&'static [ClauseKind]],
+    takes: &'static [ClauseKind],
+    example: &'static str,
+) -> Shape {
+    Shape { word, kind, needs, takes, example }
+}
+
+/// Transmissions between turning bodies are alike.
+const SIZES: &[&[ClauseKind]] = &[&[Radii, Teeth]];
+const LINE_AND_RADIUS: &[&[ClauseKind]] = &[&[Along], &[Radius]];
 
 /// The words that declare joints.
-pub const JOINTS: &[(&str, JointKind)] = &[
-    ("revolute", JointKind::Revolute),
-    ("fixed", JointKind::Fixed),
-    ("prismatic", JointKind::Prismatic),
-    ("point_on_line", JointKind::PointOnLine),
-    ("pin_slot", JointKind::PointOnLine),
-    ("distance", JointKind::Distance),
+#[rustfmt::skip]
+pub const JOINTS: &[Shape] = &[
+    shape("revolute", JointKind::Revolute, &[], &[], "(crank.tip, rod.base)"),
+    shape("fixed", JointKind::Fixed, &[], &[At], "(arm.end, hand.base) at 90 [deg]"),
+    shape("prismatic", JointKind::Prismatic, &[&[Along]], &[At], "(slider, ground.rail) along (1, 0)"),
+    shape("point_on_line", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)"),
+    shape("pin_slot", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)"),
+    shape("distance", JointKind::Distance, &[&[Equals]], &[], "(bob, ground.hook) = 0.5 [m]"),
+    shape("gear", JointKind::Gear, SIZES, &[Carrier, At], "(sun, planet) radii (20 [mm], 40 [mm]) carrier arm"),
+    shape("internal_gear", JointKind::InternalGear, SIZES, &[Carrier, At], "(ring, planet) radii (80 [mm], 20 [mm]) carrier arm"),
+    shape("belt", JointKind::Belt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])"),
+    shape("crossed_belt", JointKind::CrossedBelt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])"),
+    shape("rack", JointKind::Rack, LINE_AND_RADIUS, &[At], "(pinion, bar) along (1, 0) radius 15 [mm]"),
+    shape("rolling", JointKind::Rolling, LINE_AND_RADIUS, &[At], "(wheel, ground.track) along (1, 0) radius 0.3 [m]"),
+    shape("cam", JointKind::Cam, &[&[Equals]], &[], "(disk, follower.tip) = r0*(1 + 0.2*cos(angle))"),
 ];
 
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
@@ -38,9 +80,9 @@ pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Point { name: what, body, value })
 }
 
-pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Result<ItemKind> {
+pub(super) fn joint(input: ParseStream<'_>, shape: &Shape) -> Result<ItemKind> {
     let name = name(input)?;
-    let example = example(kind, word, &name);
+    let example = format!("{} {name} {};", shape.word, shape.example);
     if !input.peek(token::Paren) {
         return Err(
             input.error(format!("the two places that it connects are expected here, as in `{example}`"))
@@ -56,43 +98,121 @@ pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Re
     if !content.is_empty() {
         return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
     }
-    let mut joint = Joint { kind, name, first, second, along: None, angle: None, length: None };
-    match kind {
-        JointKind::Prismatic | JointKind::PointOnLine => {
-            clause(input, "along", &example)?;
-            joint.along = Some(input.parse()?);
+    let clauses = clauses(input, shape, &name, &example)?;
+    Ok(ItemKind::Joint(Box::new(Joint { kind: shape.kind, name, first, second, clauses })))
+}
+
+/// Clauses up to the `;`, each at most once, all that are needed.
+fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -> Result<Vec<Clause>> {
+    let mut clauses = Vec::new();
+    let mut given: Vec<(ClauseKind, Span)> = Vec::new();
+    while !input.peek(Token![;]) {
+        let (kind, span) = clause_word(input, shape, example)?;
+        if let Some((earlier, first)) = given.iter().find(|(earlier, _)| excludes(shape, kind, *earlier)) {
+            let message = if *earlier == kind {
+                format!("{kind} of `{name}` is given twice\n\nhelp: keep one of them")
+            } else {
+                format!("`{name}` has {kind} and {earlier}, which say the same\n\nhelp: keep one of them")
+            };
+            let mut error = Error::new(span, message);
+            error.combine(Error::new(*first, format!("{earlier} of `{name}` is first given here")));
+            return Err(error);
         }
-        JointKind::Distance => {
-            equals(input)?;
-            joint.length = Some(input.parse()?);
-        }
-        JointKind::Revolute | JointKind::Fixed => {}
+        given.push((kind, span));
+        clauses.push(clause(input, kind)?);
     }
-    if matches!(kind, JointKind::Prismatic | JointKind::Fixed) && !input.peek(Token![;]) {
-        clause(input, "at", &example)?;
-        joint.angle = Some(input.parse()?);
+    for group in shape.needs {
+        if !given.iter().any(|(kind, _)| group.contains(kind)) {
+            let missing: Vec<_> = group.iter().map(ToString::to_string).collect();
+            let missing = missing.join(" or ");
+            let message = format!("`{} {name}` needs {missing}\n\nhelp: as in `{example}`", shape.word);
+            return Err(Error::new(name.span(), message));
+        }
     }
     semicolon(input)?;
-    Ok(ItemKind::Joint(Box::new(joint)))
+    Ok(clauses)
 }
 
-fn clause(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
+/// Whether both clauses cannot stand together.
+fn excludes(shape: &Shape, kind: ClauseKind, other: ClauseKind) -> bool {
+    kind == other || shape.needs.iter().any(|group| group.contains(&kind) && group.contains(&other))
+}
+
+/// The word, or `=`, with which a clause begins.
+fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(ClauseKind, Span)> {
     let span = input.span();
-    if Ident::parse_any(input).is_ok_and(|word| word == expected) {
-        return Ok(());
+    let needed = shape.needs.iter().flat_map(|group| group.iter());
+    let taken: Vec<ClauseKind> = needed.chain(shape.takes).copied().collect();
+    if input.parse::<Option<Token![=]>>()?.is_some() {
+        if taken.contains(&Equals) {
+            return Ok((Equals, span));
+        }
+        return Err(Error::new(span, format!("`{}` takes no {Equals}{}", shape.word, help(&taken, example))));
     }
-    Err(Error::new(span, format!("`{expected}` is expected before this, as in `{example}`")))
+    let Ok(word) = input.fork().call(Ident::parse_any) else {
+        let message = format!("a clause or `;` is expected here{}", help(&taken, example));
+        return Err(Error::new(span, message));
+    };
+    let text = word.to_string();
+    match ClauseKind::WORDS.iter().find(|(known, _)| *known == text) {
+        Some((_, kind)) if taken.contains(kind) => {
+            Ident::parse_any(input)?;
+            Ok((*kind, span))
+        }
+        Some((_, kind)) => {
+            Err(Error::new(span, format!("`{}` takes no {kind}{}", shape.word, help(&taken, example))))
+        }
+        None if units::lookup(&text).is_some() => Err(Error::new(
+            span,
+            format!("`{text}` is no clause\n\nhelp: units stand in brackets: `[{text}]`"),
+        )),
+        None => {
+            let words = ClauseKind::WORDS.iter().filter(|(_, kind)| taken.contains(kind));
+            let hint = match nearest(&text, words.map(|(word, _)| *word)) {
+                Some(near) => format!("\n\nhelp: did you mean `{near}`?"),
+                None => help(&taken, example),
+            };
+            Err(Error::new(span, format!("`{text}` is no clause of `{}`{hint}", shape.word)))
+        }
+    }
 }
 
-fn example(kind: JointKind, word: &Ident, name: &Ident) -> String {
-    let rest = match kind {
-        JointKind::Revolute => "(crank.tip, rod.base)",
-        JointKind::Fixed => "(arm.end, hand.base) at 90 [deg]",
-        JointKind::Prismatic => "(slider, ground.rail) along (1, 0)",
-        JointKind::PointOnLine => "(rod.end, ground.rail) along (1, 0)",
-        JointKind::Distance => "(bob, ground.hook) = 0.5 [m]",
-    };
-    format!("{word} {name} {rest};")
+fn help(taken: &[ClauseKind], example: &str) -> String {
+    if taken.is_empty() {
+        return "\n\nhelp: end the statement with `;` here".to_owned();
+    }
+    format!("\n\nhelp: as in `{example}`")
+}
+
+fn clause(input: ParseStream<'_>, kind: ClauseKind) -> Result<Clause> {
+    Ok(match kind {
+        Along => Clause::Along(input.parse()?),
+        At => Clause::At(input.parse()?),
+        Equals => Clause::Equals(input.parse()?),
+        Radius => Clause::Radius(input.parse()?),
+        Radii => Clause::Radii(input.parse()?),
+        Teeth => Clause::Teeth(input.parse()?),
+        Carrier => Clause::Carrier(name(input)?),
+    })
+}
+
+impl ClauseKind {
+    /// The words with which clauses begin.
+    const WORDS: [(&'static str, Self); 6] = [
+        ("along", Along),
+        ("at", At),
+        ("radius", Radius),
+        ("radii", Radii),
+        ("teeth", Teeth),
+        ("carrier", Carrier),
+    ];
+}
+
+impl std::fmt::Display for ClauseKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let word = Self::WORDS.iter().find(|(_, kind)| kind == self).map_or("= …", |(word, _)| word);
+        write!(f, "`{word}`")
+    }
 }
 
 impl Parse for Attachment {

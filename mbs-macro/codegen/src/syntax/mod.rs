@@ -4,6 +4,7 @@ mod formula;
 mod indices;
 mod items;
 mod joints;
+mod profiles;
 mod springs;
 mod statements;
 
@@ -57,20 +58,32 @@ pub enum ItemKind {
     Gravity { keyword: Span, value: Vector },
     /// `body rod (x, y, theta) { mass = …; inertia = …; }`
     Body { name: Ident, coordinates: Vec<Coordinate>, properties: Vec<Property> },
-    /// `constraint name: left = right;` or `drive name: left = right;`
-    Constraint { name: Ident, is_drive: bool, left: Formula, equals: Span, right: Formula },
+    /// `constraint name: left = right;`, or another [`Role`] before it.
+    Constraint { name: Ident, role: Role, left: Formula, equals: Span, right: Formula },
     /// `force name on target = …;` or `torque name on target = …;`
     Force { name: Ident, is_torque: bool, target: Attachment, value: Load },
     /// `point tip on crank = (l/2, 0);`
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
+    /// `profile lift = spline((0, 0), …) period 360 [deg];`
+    Profile(Profile),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Spring(Spring),
     /// `start { … }`
     Start { entries: Vec<StartEntry> },
     /// `output name [unit] = …;`
     Output { name: Ident, unit: Option<UnitText>, value: Formula },
+}
+
+/// What an equation is to the mechanism.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    Constraint,
+    /// Enforced from outside.
+    Drive,
+    /// A transmission between coordinates.
+    Coupler,
 }
 
 /// `where left < right`
@@ -129,12 +142,8 @@ pub struct Joint {
     pub name: Ident,
     pub first: Attachment,
     pub second: Attachment,
-    /// The direction of motion, in the frame of the second body.
-    pub along: Option<Vector>,
-    /// The constant angle of the first body relative to the second.
-    pub angle: Option<Formula>,
-    /// The constant distance.
-    pub length: Option<Formula>,
+    /// Each kind of clause at most once, those that the joint needs and takes.
+    pub clauses: Vec<Clause>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,6 +153,51 @@ pub enum JointKind {
     Prismatic,
     PointOnLine,
     Distance,
+    Gear,
+    InternalGear,
+    Belt,
+    CrossedBelt,
+    Rack,
+    Rolling,
+    Cam,
+}
+
+/// What a joint says behind its two places.
+#[derive(Clone)]
+pub enum Clause {
+    /// `along (1, 0)`: a direction in the frame of the second body.
+    Along(Vector),
+    /// `at 30 [deg]`: a constant offset.
+    At(Formula),
+    /// `= 0.5 [m]`: a distance, or the profile of a cam.
+    Equals(Formula),
+    /// `radius r`
+    Radius(Formula),
+    /// `radii (r1, r2)`
+    Radii(Vector),
+    /// `teeth (20, 40)`
+    Teeth(Vector),
+    /// `carrier arm`: the body relative to which the others turn.
+    Carrier(Ident),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum ClauseKind {
+    Along,
+    At,
+    Equals,
+    Radius,
+    Radii,
+    Teeth,
+    Carrier,
+}
+
+/// A periodic function through points of (argument, value).
+#[derive(Clone)]
+pub struct Profile {
+    pub name: Ident,
+    pub points: Vec<Vector>,
+    pub period: Formula,
 }
 
 /// A spring with a damper between two places, or two angles.

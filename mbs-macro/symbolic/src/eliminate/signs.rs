@@ -81,7 +81,7 @@ impl Arena {
                 factors.iter().all(|(factor, exponent)| exponent % 2 == 0 || self.is_not_negative(*factor))
             }
             Node::Call(function, _) => matches!(function, Function::Sqrt | Function::Abs | Function::Exp),
-            Node::Call2(..) => false,
+            Node::Call2(..) | Node::Spline(..) => false,
             Node::Shared(x) => self.is_not_negative(*x),
         }
     }

@@ -7,6 +7,7 @@ use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
 use crate::operators::Function;
 use crate::program::Operand;
+use crate::spline::SplineId;
 
 /// Factors with their exponents.
 type Factors = Vec<(Expr, i32)>;
@@ -27,6 +28,7 @@ pub(super) enum Definition {
     Sum(Vec<Signed>),
     Call(Function, Value),
     Call2(Function, Value, Value),
+    Spline(SplineId, u8, Value),
     Reciprocal(Value),
     Negative(Value),
 }
@@ -161,6 +163,11 @@ impl Flattening<'_> {
                 let x = self.value(x);
                 let x = self.flat.settle(x);
                 Signed::plus(self.flat.define(Definition::Call(function, x)))
+            }
+            Node::Spline(spline, order, x) => {
+                let x = self.value(x);
+                let x = self.flat.settle(x);
+                Signed::plus(self.flat.define(Definition::Spline(spline, order, x)))
             }
             Node::Call2(function, x, y) => {
                 let (x, y) = (self.value(x), self.value(y));

@@ -52,5 +52,5 @@ pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Program {
 fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Program {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
     factoring::factor(&mut flat);
-    schedule::schedule(&flat)
+    Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat) }
 }

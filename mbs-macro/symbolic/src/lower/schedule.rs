@@ -45,6 +45,10 @@ impl Schedule<'_> {
                 let (x, y) = (self.operands[x], self.operands[y]);
                 self.push(Operation::Call2(*function), x, y)
             }
+            Definition::Spline(spline, order, x) => {
+                let x = self.operands[x];
+                self.push(Operation::Spline(*spline, *order), x, x)
+            }
             // Used in one product alone, it becomes that product's division.
             Definition::Reciprocal(_) if self.is_folded(value) => return,
             Definition::Reciprocal(x) => {
@@ -136,7 +140,7 @@ fn operation_latency(operation: Operation) -> u32 {
         Operation::Add | Operation::Sub | Operation::Mul => 4,
         Operation::Neg => 1,
         Operation::Div => 14,
-        Operation::Call(_) | Operation::Call2(_) => 50,
+        Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => 50,
     }
 }
 
@@ -147,7 +151,7 @@ fn order(flat: &Flat) -> Vec<Value> {
     let order = depth_first(flat, &flat.outputs);
     let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
     let of_inputs = |value: &Value| match flat.definitions[*value] {
-        Definition::Call(_, x) => is_leaf(x),
+        Definition::Call(_, x) | Definition::Spline(.., x) => is_leaf(x),
         Definition::Call2(_, x, y) => is_leaf(x) && is_leaf(y),
         _ => false,
     };
@@ -177,7 +181,10 @@ fn operands(definition: &Definition) -> Vec<Value> {
         Definition::Leaf(_) => Vec::new(),
         Definition::Product(factors) => factors.clone(),
         Definition::Sum(summands) => summands.iter().map(|summand| summand.value).collect(),
-        Definition::Call(_, x) | Definition::Reciprocal(x) | Definition::Negative(x) => vec![*x],
+        Definition::Call(_, x)
+        | Definition::Spline(.., x)
+        | Definition::Reciprocal(x)
+        | Definition::Negative(x) => vec![*x],
         Definition::Call2(_, x, y) => vec![*x, *y],
     }
 }

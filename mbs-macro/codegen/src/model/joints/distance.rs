@@ -12,7 +12,7 @@ pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
     let separation = separation(arena, connection);
     let squared = square(arena, separation);
     let half = arena.number(Number::ratio(1, 2));
-    let scaled = arena.product(&[(squared, 1), (half, 1), (connection.length, -1)]);
-    let half_length = arena.mul(half, connection.length);
+    let scaled = arena.product(&[(squared, 1), (half, 1), (connection.value, -1)]);
+    let half_length = arena.mul(half, connection.value);
     vec![JointRow { phi: arena.sub(scaled, half_length), dimension: Dimension::LENGTH }]
 }

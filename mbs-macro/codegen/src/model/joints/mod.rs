@@ -4,14 +4,19 @@
 //! are −Φ_qᵀ λ, so a row Φ = p₁ − p₂ has in λ the force that acts on the second
 //! body at p₂, while the first feels −λ.
 
+mod belt;
+mod cam;
 mod distance;
 mod fixed;
+mod gear;
 mod point_on_line;
 mod prismatic;
+mod rack;
 mod revolute;
+mod rolling;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Expr, Function};
+use mbs_symbolic::{Arena, Expr, Function, Number};
 
 use crate::syntax::JointKind;
 
@@ -23,16 +28,23 @@ pub struct Placed {
     pub angle: Expr,
 }
 
-/// A joint with its places and quantities resolved.
+/// A joint with its places and clauses resolved; what plays no part in it has
+/// the value that changes nothing.
 pub struct Connection {
     pub first: Placed,
     pub second: Placed,
-    /// A direction in the frame of the second body, (1, 0) where it plays no part.
+    /// A direction in the frame of the second body; (1, 0) without one.
     pub along: [Expr; 2],
-    /// Constant relative angle, 0 where it plays no part.
-    pub angle: Expr,
-    /// Constant distance, 0 where it plays no part.
-    pub length: Expr,
+    /// Constant relative angle or displacement; 0 without one.
+    pub at: Expr,
+    /// Constant distance, or the polar radius of a cam; 0 without one.
+    pub value: Expr,
+    /// Radii, or 1 and the ratio of the second to the first.
+    pub sizes: [Expr; 2],
+    /// A length, or of no dimension where the sizes are a ratio.
+    pub unit: Dimension,
+    /// Angle of the body relative to which the others turn; 0 for the ground.
+    pub carrier: Expr,
 }
 
 /// One constraint row of a joint.
@@ -48,7 +60,8 @@ pub fn row_suffixes(kind: JointKind) -> &'static [&'static str] {
         JointKind::Revolute => &["_x", "_y"],
         JointKind::Fixed => &["_x", "_y", "_angle"],
         JointKind::Prismatic => &["_normal", "_angle"],
-        JointKind::PointOnLine | JointKind::Distance => &[""],
+        JointKind::Rolling => &["_slip", "_normal"],
+        _ => &[""],
     }
 }
 
@@ -60,6 +73,13 @@ pub fn rows(arena: &mut Arena, kind: JointKind, connection: &Connection) -> Vec<
         JointKind::Prismatic => prismatic::rows(arena, connection),
         JointKind::PointOnLine => point_on_line::rows(arena, connection),
         JointKind::Distance => distance::rows(arena, connection),
+        JointKind::Gear => gear::external(arena, connection),
+        JointKind::InternalGear => gear::internal(arena, connection),
+        JointKind::Belt => belt::open(arena, connection),
+        JointKind::CrossedBelt => belt::crossed(arena, connection),
+        JointKind::Rack => rack::rows(arena, connection),
+        JointKind::Rolling => rolling::rows(arena, connection),
+        JointKind::Cam => cam::rows(arena, connection),
     }
 }
 
@@ -67,6 +87,21 @@ pub fn rows(arena: &mut Arena, kind: JointKind, connection: &Connection) -> Vec<
 pub fn place(arena: &mut Arena, origin: [Expr; 2], angle: Expr, local: [Expr; 2]) -> Placed {
     let [x, y] = rotate(arena, angle, local);
     Placed { position: [arena.add(origin[0], x), arena.add(origin[1], y)], angle }
+}
+
+/// The distance between two places.
+pub fn distance_between(arena: &mut Arena, first: &Placed, second: &Placed) -> Expr {
+    let between = difference(arena, first, second);
+    let squared = square(arena, between);
+    arena.call(Function::Sqrt, squared)
+}
+
+/// The direction from the first place to the second, as an angle in the frame
+/// of the first.
+pub fn polar_angle(arena: &mut Arena, first: &Placed, second: &Placed) -> Expr {
+    let [dx, dy] = difference(arena, second, first);
+    let direction = arena.call2(Function::Atan2, dy, dx);
+    arena.sub(direction, first.angle)
 }
 
 /// R(angle)·v
@@ -79,7 +114,11 @@ fn rotate(arena: &mut Arena, angle: Expr, [x, y]: [Expr; 2]) -> [Expr; 2] {
 
 /// p₁ − p₂
 fn separation(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
-    let ([x1, y1], [x2, y2]) = (connection.first.position, connection.second.position);
+    difference(arena, &connection.first, &connection.second)
+}
+
+fn difference(arena: &mut Arena, first: &Placed, second: &Placed) -> [Expr; 2] {
+    let ([x1, y1], [x2, y2]) = (first.position, second.position);
     [arena.sub(x1, x2), arena.sub(y1, y2)]
 }
 
@@ -92,5 +131,27 @@ fn square(arena: &mut Arena, [x, y]: [Expr; 2]) -> Expr {
 /// φ₁ − φ₂ − angle
 fn relative_angle(arena: &mut Arena, connection: &Connection) -> JointRow {
     let relative = arena.sub(connection.first.angle, connection.second.angle);
-    JointRow { phi: arena.sub(relative, connection.angle), dimension: Dimension::NONE }
+    JointRow { phi: arena.sub(relative, connection.at), dimension: Dimension::NONE }
+}
+
+/// The component of p₁ − p₂ along a direction of the second body, which is made
+/// a unit vector.
+fn component(arena: &mut Arena, connection: &Connection, direction: [Expr; 2]) -> Expr {
+    let turned = rotate(arena, connection.second.angle, direction);
+    let [dx, dy] = separation(arena, connection);
+    let (along_x, along_y) = (arena.mul(turned[0], dx), arena.mul(turned[1], dy));
+    let projection = arena.add(along_x, along_y);
+    let squared = square(arena, direction);
+    let length = arena.call(Function::Sqrt, squared);
+    arena.product(&[(projection, 1), (length, -1)])
+}
+
+/// s₁ (φ₁ − φ_c − at) + sign s₂ (φ₂ − φ_c): two bodies turn relative to a third.
+fn transmission(arena: &mut Arena, connection: &Connection, sign: Number) -> JointRow {
+    let Connection { first, second, carrier, at, sizes, unit, .. } = connection;
+    let driving =
+        arena.sum(&[(first.angle, Number::ONE), (*carrier, Number::MINUS_ONE), (*at, Number::MINUS_ONE)]);
+    let driven = arena.sub(second.angle, *carrier);
+    let (driving, driven) = (arena.mul(sizes[0], driving), arena.mul(sizes[1], driven));
+    JointRow { phi: arena.sum(&[(driving, Number::ONE), (driven, sign)]), dimension: *unit }
 }

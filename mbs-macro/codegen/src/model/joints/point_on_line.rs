@@ -4,20 +4,13 @@
 //!
 //! λ: the first body feels the force −λ n at p₁, the second one λ n there.
 
+use mbs_symbolic::Arena;
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Function};
 
-use super::{Connection, JointRow, rotate, separation, square};
+use super::{Connection, JointRow, component};
 
 pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
     let [ux, uy] = connection.along;
     let normal = [arena.neg(uy), ux];
-    let normal = rotate(arena, connection.second.angle, normal);
-    let [dx, dy] = separation(arena, connection);
-    let (along_x, along_y) = (arena.mul(normal[0], dx), arena.mul(normal[1], dy));
-    let offset = arena.add(along_x, along_y);
-    let length = square(arena, connection.along);
-    let length = arena.call(Function::Sqrt, length);
-    let phi = arena.product(&[(offset, 1), (length, -1)]);
-    vec![JointRow { phi, dimension: Dimension::LENGTH }]
+    vec![JointRow { phi: component(arena, connection, normal), dimension: Dimension::LENGTH }]
 }

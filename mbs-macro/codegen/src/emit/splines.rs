@@ -1,0 +1,38 @@
+//! Splines as constants.
+
+use mbs_symbolic::Segment;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::names::Names;
+use crate::model::Model;
+
+/// The associated constant that holds a spline.
+pub fn spline_name(at: usize) -> Ident {
+    format_ident!("SPLINE_{at}")
+}
+
+/// The splines, each an associated constant.
+pub fn splines<'a>(model: &'a Model, names: &'a Names) -> impl Iterator<Item = TokenStream> + 'a {
+    let runtime = &names.runtime;
+    // the model holds finite numbers only
+    let number = Literal::f64_unsuffixed;
+    model.arena.splines().iter().enumerate().map(move |(at, spline)| {
+        let segment = |Segment { from, coefficients }: &Segment| {
+            let (from, coefficients) = (number(*from), coefficients.map(number));
+            quote!(#runtime::__private::Segment { from: #from, coefficients: [#(#coefficients),*] })
+        };
+        let (name, origin, period) = (spline_name(at), number(spline.origin), number(spline.period));
+        let segments = spline.segments.iter().map(segment);
+        let doc = format!("`{}`, cubic from point to point.", spline.name);
+        quote! {
+            #[doc = #doc]
+            #[allow(dead_code, clippy::all)]
+            const #name: &'static #runtime::__private::Spline = &#runtime::__private::Spline {
+                origin: #origin,
+                period: #period,
+                segments: &[#(#segments),*],
+            };
+        }
+    })
+}

@@ -1,0 +1,190 @@
+//! What a joint says behind its places, as expressions.
+
+use mbs_symbolic::Expr;
+use mbs_symbolic::units::Dimension;
+use proc_macro2::Ident;
+
+use super::joints::{self, Connection};
+use super::names::{Local, Place, Typed};
+use super::places::GROUND;
+use super::resolver::Resolver;
+use crate::diagnostics::Diagnostic;
+use crate::syntax::{Clause, Formula, Joint, JointKind, Vector};
+
+/// The name of the polar angle in the profile of a cam.
+pub const POLAR_ANGLE: &str = "angle";
+
+impl Resolver<'_> {
+    /// A joint with its places and clauses; `None` if one has errors, which are
+    /// added. All of them are read, so that all errors are.
+    pub(super) fn connection(&mut self, joint: &Joint) -> Option<Connection> {
+        let first = self.scope.attachment(&joint.first, &mut self.errors);
+        let second = self.scope.attachment(&joint.second, &mut self.errors);
+        let places = first.zip(second);
+        let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
+        let (mut along, mut at, mut value) = (Some([one, zero]), Some(zero), Some(zero));
+        let (mut sizes, mut unit, mut carrier) = (Some([one; 2]), Dimension::LENGTH, Some(zero));
+        for clause in &joint.clauses {
+            match clause {
+                Clause::Along(vector) => along = self.direction_of(joint, vector),
+                Clause::At(formula) => at = self.offset(joint, formula),
+                Clause::Equals(formula) if joint.kind == JointKind::Cam => {
+                    value = places.and_then(|(first, second)| {
+                        let angle = joints::polar_angle(&mut self.scope.arena, &first, &second);
+                        self.polar_profile(joint, formula, angle)
+                    });
+                }
+                Clause::Equals(formula) => value = self.distance_of(joint, formula),
+                Clause::Radius(formula) => {
+                    sizes =
+                        self.size(joint, formula, "the radius", Dimension::LENGTH).map(|radius| [radius; 2]);
+                }
+                Clause::Radii(vector) => sizes = self.pair(joint, vector, "a radius", Dimension::LENGTH),
+                Clause::Teeth(vector) => {
+                    unit = Dimension::NONE;
+                    let teeth = self.pair(joint, vector, "a number of teeth", Dimension::NONE);
+                    let ratio = teeth.and_then(|[first, second]| self.scope.arena.div(second, first));
+                    sizes = ratio.map(|ratio| [one, ratio]);
+                }
+                Clause::Carrier(body) => carrier = self.body_angle(body),
+            }
+        }
+        let (first, second) = places?;
+        let connection = Connection {
+            first,
+            second,
+            along: along?,
+            at: at?,
+            value: value?,
+            sizes: sizes?,
+            unit,
+            carrier: carrier?,
+        };
+        self.turns(joint, &connection).then_some(connection)
+    }
+
+    /// A direction: two numbers or lengths, not both 0.
+    fn direction_of(&mut self, joint: &Joint, vector: &Vector) -> Option<[Expr; 2]> {
+        let x = self.scope.formula(&vector.x, Place::Property, &mut self.errors);
+        let y = self.scope.formula(&vector.y, Place::Property, &mut self.errors);
+        let (x, y) = (x?, y?);
+        if let (Some(a), Some(b)) = (x.dimension, y.dimension)
+            && a != b
+        {
+            self.errors.push(
+                Diagnostic::new(vector.span, format!("the direction of `{}` mixes dimensions", joint.name))
+                    .help("give both components in the same unit, or both as numbers"),
+            );
+            return None;
+        }
+        if self.scope.arena.is_zero(x.expr) && self.scope.arena.is_zero(y.expr) {
+            self.errors.push(
+                Diagnostic::new(vector.span, format!("the direction of `{}` is zero", joint.name))
+                    .help("write `(1, 0)` for x, `(0, 1)` for y"),
+            );
+            return None;
+        }
+        Some([x.expr, y.expr])
+    }
+
+    /// `at`: a length where something moves along a line, else an angle.
+    fn offset(&mut self, joint: &Joint, formula: &Formula) -> Option<Expr> {
+        let what = match joint.kind {
+            JointKind::Rack | JointKind::Rolling => {
+                ("the place at which the angles are equal", Dimension::LENGTH)
+            }
+            _ => ("the angle between the bodies", Dimension::NONE),
+        };
+        self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
+    }
+
+    fn distance_of(&mut self, joint: &Joint, formula: &Formula) -> Option<Expr> {
+        let what = ("the distance", Dimension::LENGTH);
+        let length = self.scope.formula_of(formula, Place::Property, what, &mut self.errors)?;
+        if self.scope.arena.is_zero(length) {
+            self.errors.push(
+                Diagnostic::new(formula.span, format!("the distance of `{}` is 0", joint.name))
+                    .help("points that coincide are a `revolute` joint"),
+            );
+            return None;
+        }
+        Some(length)
+    }
+
+    /// A radius or a number of teeth: positive, as far as that is known here.
+    fn size(&mut self, joint: &Joint, formula: &Formula, word: &str, unit: Dimension) -> Option<Expr> {
+        let what = format!("{word} of `{}`", joint.name);
+        let size = self.scope.formula_of(formula, Place::Property, (&what, unit), &mut self.errors)?;
+        let Some(number) = self.scope.arena.as_number(size) else { return Some(size) };
+        let (fault, help) = if number.is_zero() || number.is_negative() {
+            let fault = if number.is_zero() { "0" } else { "negative" };
+            (fault, "it has to be positive; the kind of joint says which way the bodies turn")
+        } else if unit == Dimension::NONE && number.as_integer().is_none() {
+            ("not a whole number", "teeth are counted; any other ratio is one of `radii`")
+        } else {
+            return Some(size);
+        };
+        self.errors.push(Diagnostic::new(formula.span, format!("{what} is {fault}")).help(help));
+        None
+    }
+
+    fn pair(&mut self, joint: &Joint, vector: &Vector, word: &str, unit: Dimension) -> Option<[Expr; 2]> {
+        let first = self.size(joint, &vector.x, word, unit);
+        let second = self.size(joint, &vector.y, word, unit);
+        Some([first?, second?])
+    }
+
+    fn body_angle(&mut self, body: &Ident) -> Option<Expr> {
+        let frame = self.scope.frame(body).map(|frame| frame.angle);
+        self.errors.take(frame)
+    }
+
+    /// The curve ρ(angle) of a cam, a length.
+    fn polar_profile(&mut self, joint: &Joint, formula: &Formula, angle: Expr) -> Option<Expr> {
+        let typed = Typed { expr: angle, dimension: Some(Dimension::NONE) };
+        self.scope.local = Some(Local { name: POLAR_ANGLE, typed });
+        let what = format!("the profile of `{}`", joint.name);
+        let place = (what.as_str(), Dimension::LENGTH);
+        let profile = self.scope.formula_of(formula, Place::Property, place, &mut self.errors);
+        self.scope.local = None;
+        profile
+    }
+
+    /// What a joint turns has to be able to.
+    fn turns(&mut self, joint: &Joint, connection: &Connection) -> bool {
+        use JointKind::{Belt, CrossedBelt, Gear, InternalGear, Rack, Rolling};
+        let Connection { first, second, carrier, .. } = connection;
+        let turning: &[(&Ident, Expr, Expr)] = match joint.kind {
+            Gear | InternalGear | Belt | CrossedBelt => {
+                &[(&joint.first.body, first.angle, *carrier), (&joint.second.body, second.angle, *carrier)]
+            }
+            Rack | Rolling => &[(&joint.first.body, first.angle, second.angle)],
+            _ => &[],
+        };
+        let mut all = true;
+        for &(body, angle, reference) in turning {
+            let relative = self.scope.arena.sub(angle, reference);
+            if self.coordinates_in(relative) == 0 {
+                self.errors.push(still(joint, body, self.coordinates_in(angle) > 0));
+                all = false;
+            }
+        }
+        all
+    }
+}
+
+/// The error for a body that does not turn relative to what it should.
+fn still(joint: &Joint, body: &Ident, has_angle: bool) -> Diagnostic {
+    let name = &joint.name;
+    if has_angle {
+        return Diagnostic::new(body.span(), format!("`{body}` cannot turn relative to itself"))
+            .help(format!("`{name}` connects two bodies; a carrier is a third one"));
+    }
+    let is_on_line = matches!(joint.kind, JointKind::Rack | JointKind::Rolling);
+    let help = match body == GROUND {
+        true if is_on_line => "the first place is that of the body that turns".to_owned(),
+        true => "what meshes with the ground needs a carrier that turns: `carrier arm`".to_owned(),
+        false => format!("give it an angle: `body {body} (angle = phi) {{ inertia = …; }}`"),
+    };
+    Diagnostic::new(body.span(), format!("`{body}` does not turn, as `{name}` needs")).help(help)
+}
