@@ -7,9 +7,19 @@
 rod: 1/2*(x^2 + y^2)/length - 1/2*length = 0
 ```
 
+# Elimination
+
+Order: constraints first, then what motion they leave free (null space).
+
+```text
+x: divided by mass
+y: divided by mass
+lambda(rod): divided by -(x/length)*((1/mass)*(x/length)) - (y/length)*((1/mass)*(y/length))
+```
+
 # Cost
 
-Elimination order: constraints first, then what motion they leave free (null space). Operations per call:
+Operations per call:
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|

@@ -12,9 +12,22 @@ guide: l1*sin(theta1) + l2*sin(theta2) = 0
 slider: x3 - l1*cos(theta1) - l2*cos(theta2) = 0
 ```
 
+# Elimination
+
+Order: constraints first, then what motion they leave free (null space).
+
+```text
+lambda(crank_x), x1: divided by 1
+lambda(crank_y), y1: divided by 1
+lambda(rod_x), x2: divided by 1
+lambda(rod_y), y2: divided by 1
+lambda(slider), x3: divided by 1
+lambda(guide), theta1, theta2: divided by l1*cos(theta1)
+```
+
 # Cost
 
-Elimination order: constraints first, then what motion they leave free (null space). Operations per call:
+Operations per call:
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|

@@ -1,9 +1,10 @@
 //! The equations and their elimination, for people to read: text and LaTeX.
 
-use mbs_symbolic::{Expr, Strategy, Unknown, latex_name};
+use mbs_symbolic::{Expr, Unknown, latex_name};
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::docs;
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -30,12 +31,9 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let (mass, forces) = (coordinates(&equations.mass), coordinates(&equations.forces));
     let kinetic = writer.formula("T", "", equations.kinetic_energy);
     let potential = writer.formula("V", "", equations.potential_energy);
-    let strategy = match plan.strategy {
-        Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
-        Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
-    };
+    let strategy = docs::strategy(plan.strategy);
     let order = plan.order.iter().map(|step| {
-        let unknowns = step.unknowns.iter().map(|&unknown| writer.unknown(unknown));
+        let unknowns = step.unknowns.iter().map(|&unknown| docs::unknown_name(model, unknown));
         let watched = step.unknowns.iter().any(|&unknown| writer.is_watched(plan, unknown));
         let (text, latex) = writer.texts(step.pivot);
         let runtime = &model.runtime;
@@ -80,14 +78,6 @@ impl Writer<'_> {
             return (arena.display(expr), arena.latex(expr));
         }
         ("…".to_owned(), r"\cdots".to_owned())
-    }
-
-    /// `theta1`, or `lambda(pin_x)` for the multiplier of a row.
-    fn unknown(&self, unknown: Unknown) -> String {
-        match unknown {
-            Unknown::Coordinate(at) => self.model.coordinates[at].quantity.name.clone(),
-            Unknown::Row(at) => format!("lambda({})", self.model.constraints[at].name),
-        }
     }
 
     fn is_watched(&self, plan: &Plan, unknown: Unknown) -> bool {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use mbs_symbolic::{Expr, Strategy};
+use mbs_symbolic::{Elimination, Expr, Strategy, Unknown};
 
 use super::info::function_counts;
 use crate::derive::Equations;
@@ -26,20 +26,47 @@ pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
         .map(|(constraint, &phi)| format!("{}: {} = 0", constraint.name, model.arena.display(phi)))
         .collect();
     text.push_str(&listing(&lines));
+    let _ = write!(text, "\n# Elimination\n\nOrder: {}.\n\n", strategy(plan.strategy));
+    let lines: Vec<_> = plan.order.iter().map(|step| elimination(model, step)).collect();
+    text.push_str(&listing(&lines));
     text.push_str("\n# Cost\n\n");
-    let order = match plan.strategy {
-        Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
-        Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
-    };
     let _ = writeln!(
         text,
-        "Elimination order: {order}. Operations per call:\n\n| function | mul | add | div | sincos | other | pivot watch |\n|---|---|---|---|---|---|---|"
+        "Operations per call:\n\n| function | mul | add | div | sincos | other | pivot watch |\n|---|---|---|---|---|---|---|"
     );
     for (name, operations, watch) in function_counts(plan) {
         let mbs_symbolic::Operations { mul, add, div, sin_cos, other } = operations;
         let _ = writeln!(text, "| `{name}` | {mul} | {add} | {div} | {sin_cos} | {other} | {watch} |");
     }
     text
+}
+
+/// In which order pivots are taken, in words.
+pub fn strategy(strategy: Strategy) -> &'static str {
+    match strategy {
+        Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
+        Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
+    }
+}
+
+/// `lambda(pin_x), x1: divided by 1`
+fn elimination(model: &Model, step: &Elimination) -> String {
+    let unknowns: Vec<_> = step.unknowns.iter().map(|&unknown| unknown_name(model, unknown)).collect();
+    format!("{}: divided by {}", unknowns.join(", "), short(model, step.pivot))
+}
+
+/// `theta1`, or `lambda(pin_x)` for the multiplier of a row.
+pub fn unknown_name(model: &Model, unknown: Unknown) -> String {
+    match unknown {
+        Unknown::Coordinate(at) => model.coordinates[at].quantity.name.clone(),
+        Unknown::Row(at) => format!("lambda({})", model.constraints[at].name),
+    }
+}
+
+/// A formula, unless it is too long for a line.
+fn short(model: &Model, expr: Expr) -> String {
+    const LONGEST: usize = 60;
+    if model.arena.is_shorter(expr, LONGEST) { model.arena.display(expr) } else { "…".to_owned() }
 }
 
 /// What the hoisted values are.
