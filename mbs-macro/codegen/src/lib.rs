@@ -21,6 +21,7 @@ mod diagnostics;
 mod emit;
 mod model;
 mod plan;
+mod reactive;
 mod syntax;
 mod verify;
 

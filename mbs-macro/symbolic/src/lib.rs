@@ -43,6 +43,7 @@ mod lower;
 mod number;
 mod operators;
 mod program;
+mod substitute;
 pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};

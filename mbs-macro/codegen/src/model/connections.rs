@@ -5,6 +5,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
 use super::joints::{self, Connection, JointRow};
+use super::measures::KnownJoint;
 use super::names::Place;
 use super::resolver::Resolver;
 use super::{Constraint, Meaning};
@@ -18,6 +19,15 @@ impl Resolver<'_> {
         for suffix in self.suffixes(joint) {
             self.declare_row(&row_name(joint, suffix), false);
         }
+        let multipliers: Vec<_> = self
+            .suffixes(joint)
+            .into_iter()
+            .filter_map(|suffix| self.scope.rows.get(&row_name(joint, suffix).to_string()))
+            .map(|row| row.multiplier)
+            .collect();
+        let bodies = [&joint.first.body, &joint.second.body].map(Ident::to_string);
+        let known = KnownJoint { kind: joint.kind, bodies, multipliers, connection: None };
+        self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 
     fn suffixes(&self, joint: &Joint) -> Vec<&'static str> {
@@ -45,6 +55,7 @@ impl Resolver<'_> {
             if let Some(known) = self.scope.rows.get_mut(&name.to_string()) {
                 known.is_broken = !is_restricting;
                 known.dimension = row.map(|row| row.dimension);
+                known.phi = row.map(|row| row.phi);
             }
             if let (Some(JointRow { phi, dimension }), true) = (row, is_restricting) {
                 let (name, doc, span) = (name.to_string(), doc.to_owned(), joint.name.span());
@@ -59,7 +70,7 @@ impl Resolver<'_> {
         let second = self.scope.attachment(&joint.second, &mut self.errors);
         let zero = self.scope.arena.zero();
         let along = match &joint.along {
-            Some(vector) => self.direction_of(joint, vector),
+            Some(vector) => self.direction_of(&joint.name, vector),
             None => Some([self.scope.arena.one(), zero]),
         };
         let angle = match &joint.angle {
@@ -88,11 +99,14 @@ impl Resolver<'_> {
         };
         let connection =
             Connection { first: first?, second: second?, along: along?, angle: angle?, length: length? };
+        if let Some(known) = self.scope.joints.get_mut(&joint.name.to_string()) {
+            known.connection = Some(connection);
+        }
         Some(joints::rows(&mut self.scope.arena, joint.kind, &connection))
     }
 
     /// A direction: two numbers or lengths, not both 0.
-    fn direction_of(&mut self, joint: &Joint, vector: &Vector) -> Option<[Expr; 2]> {
+    pub(super) fn direction_of(&mut self, name: &Ident, vector: &Vector) -> Option<[Expr; 2]> {
         let x = self.scope.formula(&vector.x, Place::Property, &mut self.errors);
         let y = self.scope.formula(&vector.y, Place::Property, &mut self.errors);
         let (x, y) = (x?, y?);
@@ -100,14 +114,14 @@ impl Resolver<'_> {
             && a != b
         {
             self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` mixes dimensions", joint.name))
+                Diagnostic::new(vector.span, format!("the direction of `{name}` mixes dimensions"))
                     .help("give both components in the same unit, or both as numbers"),
             );
             return None;
         }
         if self.scope.arena.is_zero(x.expr) && self.scope.arena.is_zero(y.expr) {
             self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` is zero", joint.name))
+                Diagnostic::new(vector.span, format!("the direction of `{name}` is zero"))
                     .help("write `(1, 0)` for x, `(0, 1)` for y"),
             );
             return None;

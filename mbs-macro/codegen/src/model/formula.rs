@@ -5,6 +5,7 @@ use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
+use super::measures::MEASURES;
 use super::names::{Place, RESERVED, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
@@ -41,6 +42,7 @@ impl Scope<'_> {
                 self.finite(typed, &[l.expr, r.expr], *op_span, errors)
             }
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
+            FormulaKind::Component { call, member } => self.component(call, member, place, errors),
             FormulaKind::WithUnit { inner, unit } => {
                 let value = self.formula(inner, place, errors)?;
                 if value.dimension.is_some_and(|dimension| dimension != Dimension::NONE) {
@@ -184,9 +186,15 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if mbs_symbolic::Function::named(&text).is_some() || RESERVED.contains(&text.as_str()) {
+        let is_function = mbs_symbolic::Function::named(&text).is_some()
+            || RESERVED.contains(&text.as_str())
+            || MEASURES.contains(&text.as_str());
+        if is_function {
             return Diagnostic::new(name.span(), format!("`{text}` is a function"))
-                .help(format!("give it its argument: `{text}(…)`"));
+                .help(match text.ends_with("_energy") {
+                    true => format!("write `{text}()`"),
+                    false => format!("give it its argument: `{text}(…)`"),
+                });
         }
         let known = self.values.keys().map(String::as_str).chain(["t", "pi"]);
         match nearest(&text, known) {

@@ -7,6 +7,7 @@ use mbs_symbolic::{Function, Number, Symbol};
 use proc_macro2::Ident;
 
 use super::Meaning;
+use super::measures::MEASURES;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind};
@@ -25,11 +26,12 @@ impl Scope<'_> {
                 let result = self.multiplier(name, arguments, place);
                 errors.take(result)
             }
+            text if MEASURES.contains(&text) => self.measure(name, arguments, place, errors),
             text => match Function::named(text) {
                 Some(function) => self.function(function, name, arguments, place, errors),
                 None => {
-                    let known =
-                        mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).chain(["der", "lambda", "effort"]);
+                    let known = mbs_symbolic::FUNCTIONS.iter().map(|row| row.name);
+                    let known = known.chain(["der", "lambda", "effort"]).chain(MEASURES.iter().copied());
                     let known: Vec<_> = known.filter(|name| !name.is_empty()).collect();
                     let error = Diagnostic::new(name.span(), format!("there is no function `{text}`"));
                     errors.push(match nearest(text, known.iter().copied()) {

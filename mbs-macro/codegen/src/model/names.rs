@@ -7,6 +7,7 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
+use super::measures::{Energies, KnownJoint, Source};
 use super::places::{Frame, GROUND};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
@@ -61,7 +62,9 @@ impl Place {
             Meaning::Time | Meaning::Coordinate(_) => {
                 matches!(self, Self::Constraint | Self::Load | Self::Anywhere)
             }
-            Meaning::Velocity(_) | Meaning::Input(_) => matches!(self, Self::Load | Self::Anywhere),
+            Meaning::Velocity(_) | Meaning::Input(_) | Meaning::Multiplier(_) => {
+                matches!(self, Self::Load | Self::Anywhere)
+            }
             _ => self == Self::Anywhere,
         }
     }
@@ -74,7 +77,7 @@ impl Place {
             Self::Constraint => {
                 "a constraint is written in positions, parameters and time; its derivatives are taken for you"
             }
-            Self::Load => "a force may depend on positions, velocities, time, inputs and parameters",
+            Self::Load => "a force may depend on positions, velocities, reactions, time, inputs and parameters",
             Self::Anywhere => "this cannot stand here",
         }
     }
@@ -89,6 +92,11 @@ pub struct Scope<'a> {
     pub bodies: BTreeMap<String, Frame>,
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
+    pub joints: BTreeMap<String, KnownJoint>,
+    /// Named forces, torques and elements.
+    pub sources: BTreeMap<String, Source>,
+    /// Known once all forces are.
+    pub energies: Option<Energies>,
     pub time: Symbol,
 }
 
@@ -99,6 +107,8 @@ pub struct Row {
     pub multiplier: Symbol,
     /// Dimension of Φ; known once the constraint is resolved.
     pub dimension: Option<Dimension>,
+    /// Known with the dimension.
+    pub phi: Option<Expr>,
     /// Its equation has errors, which are reported there.
     pub is_broken: bool,
 }
@@ -111,6 +121,9 @@ impl<'a> Scope<'a> {
             values: BTreeMap::new(),
             bodies: BTreeMap::new(),
             rows: BTreeMap::new(),
+            joints: BTreeMap::new(),
+            sources: BTreeMap::new(),
+            energies: None,
             time: Arena::new().symbol("t", Stage::Variable),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);

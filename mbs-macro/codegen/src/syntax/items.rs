@@ -14,7 +14,7 @@ use super::formula::{end, is_vector};
 use super::{
     Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
 };
-use super::{joints, springs};
+use super::{elements, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -33,8 +33,6 @@ const KEYWORDS: &[&str] = &[
     "start",
     "output",
     "point",
-    "spring",
-    "torsion_spring",
 ];
 
 /// Reads a declaration. After an error it goes on behind the next `;` or
@@ -106,7 +104,7 @@ fn skip_statement(input: ParseStream<'_>) -> Result<()> {
 fn item(input: ParseStream<'_>) -> Result<Item> {
     let doc = doc(input)?;
     let keyword = Ident::parse_any(input).map_err(|error| {
-        Error::new(error.span(), format!("a statement is expected here: {}", KEYWORDS.join(", ")))
+        Error::new(error.span(), format!("a statement is expected here: {}", statements().join(", ")))
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
@@ -124,18 +122,28 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
         "start" => start(input, keyword.span()),
         "output" => output(input),
         "point" => joints::point(input),
-        "spring" | "torsion_spring" => springs::spring(input, &keyword),
-        word => match joints::JOINTS.iter().find(|(known, _)| *known == word) {
-            Some((_, kind)) => joints::joint(input, *kind, &keyword),
-            None => Err(unknown_statement(&keyword, word)),
-        },
+        word => {
+            let joint = joints::JOINTS.iter().find(|(known, _)| *known == word);
+            let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
+            match (joint, element) {
+                (Some((_, kind)), _) => joints::joint(input, *kind, &keyword),
+                (None, Some(shape)) => elements::element(input, shape),
+                (None, None) => Err(unknown_statement(&keyword, word)),
+            }
+        }
     }?;
     Ok(Item { doc, kind })
 }
 
-fn unknown_statement(keyword: &Ident, word: &str) -> Error {
+/// The words that begin statements.
+fn statements() -> Vec<&'static str> {
+    let elements = elements::ELEMENTS.iter().map(|shape| shape.word);
     let joints = joints::JOINTS.iter().map(|(joint, _)| *joint);
-    let known: Vec<_> = KEYWORDS.iter().copied().chain(joints).collect();
+    KEYWORDS.iter().copied().chain(elements).chain(joints).collect()
+}
+
+fn unknown_statement(keyword: &Ident, word: &str) -> Error {
+    let known = statements();
     let hint = match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("statements begin with {}", known.join(", ")),
@@ -356,10 +364,14 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
         return Err(Error::new(span, message));
     }
     let target = input.parse()?;
+    let frame = match input.parse::<Option<Token![in]>>()? {
+        Some(_) => Some(name(input)?),
+        None => None,
+    };
     equals(input)?;
     let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
     semicolon(input)?;
-    Ok(ItemKind::Force { name: what, is_torque, target, value })
+    Ok(ItemKind::Force { name: what, is_torque, target, frame, value })
 }
 
 fn start(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

@@ -41,21 +41,7 @@ pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
 pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Result<ItemKind> {
     let name = name(input)?;
     let example = example(kind, word, &name);
-    if !input.peek(token::Paren) {
-        return Err(
-            input.error(format!("the two places that it connects are expected here, as in `{example}`"))
-        );
-    }
-    let content;
-    parenthesized!(content in input);
-    let first = content.parse()?;
-    if content.parse::<Option<Token![,]>>()?.is_none() {
-        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
-    }
-    let second = content.parse()?;
-    if !content.is_empty() {
-        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
-    }
+    let (first, second) = two_places(input, "the two places that it connects are", "a joint", &example)?;
     let mut joint = Joint { kind, name, first, second, along: None, angle: None, length: None };
     match kind {
         JointKind::Prismatic | JointKind::PointOnLine => {
@@ -76,7 +62,30 @@ pub(super) fn joint(input: ParseStream<'_>, kind: JointKind, word: &Ident) -> Re
     Ok(ItemKind::Joint(Box::new(joint)))
 }
 
-fn clause(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
+/// `(a.p, b.q)`
+pub(super) fn two_places(
+    input: ParseStream<'_>,
+    places: &str,
+    what: &str,
+    example: &str,
+) -> Result<(Attachment, Attachment)> {
+    if !input.peek(token::Paren) {
+        return Err(input.error(format!("{places} expected here, as in `{example}`")));
+    }
+    let content;
+    parenthesized!(content in input);
+    let first = content.parse()?;
+    if content.parse::<Option<Token![,]>>()?.is_none() {
+        return Err(Error::new(content.span(), format!("{what} connects two places, as in `{example}`")));
+    }
+    let second = content.parse()?;
+    if !content.is_empty() {
+        return Err(Error::new(content.span(), format!("{what} connects two places, as in `{example}`")));
+    }
+    Ok((first, second))
+}
+
+pub(super) fn clause(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
     let span = input.span();
     if Ident::parse_any(input).is_ok_and(|word| word == expected) {
         return Ok(());

@@ -1,9 +1,9 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
+mod elements;
 mod formula;
 mod items;
 mod joints;
-mod springs;
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
@@ -44,14 +44,14 @@ pub enum ItemKind {
     Body { name: Ident, coordinates: Vec<Coordinate>, properties: Vec<Property> },
     /// `constraint name: left = right;` or `drive name: left = right;`
     Constraint { name: Ident, is_drive: bool, left: Formula, equals: Span, right: Formula },
-    /// `force name on target = …;` or `torque name on target = …;`
-    Force { name: Ident, is_torque: bool, target: Attachment, value: Load },
+    /// `force name on target = …;`, in a body's frame `… in body = …;`, or `torque name on target = …;`
+    Force { name: Ident, is_torque: bool, target: Attachment, frame: Option<Ident>, value: Load },
     /// `point tip on crank = (l/2, 0);`
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
-    Spring(Spring),
+    Element(Box<Element>),
     /// `start { … }`
     Start { keyword: Span, entries: Vec<StartEntry> },
     /// `output name [unit] = …;`
@@ -124,16 +124,36 @@ pub enum JointKind {
     Distance,
 }
 
-/// A spring with a damper between two places, or two angles.
-pub struct Spring {
+/// A force element: spring, motor, friction, drag.
+pub struct Element {
     pub name: Ident,
-    pub is_torsion: bool,
+    pub kind: ElementKind,
     pub first: Attachment,
-    pub second: Attachment,
-    pub properties: Vec<Property>,
+    /// The other end, where it has one.
+    pub second: Option<Attachment>,
+    /// The direction in which it acts, in the frame of the second body.
+    pub along: Option<Vector>,
+    pub properties: Vec<ElementProperty>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    Spring,
+    TorsionSpring,
+    Motor,
+    Friction,
+    TorsionFriction,
+    Drag,
+}
+
+/// `stiffness = …;` in an element.
+pub struct ElementProperty {
+    pub name: Ident,
+    pub value: Load,
 }
 
 /// A place on a body: `crank.tip`, or `crank` for its centre.
+#[derive(Clone)]
 pub struct Attachment {
     pub body: Ident,
     pub point: Option<Ident>,
@@ -193,6 +213,11 @@ pub enum FormulaKind {
     Call {
         function: Ident,
         arguments: Vec<Formula>,
+    },
+    /// `reaction(pin, rod).x`
+    Component {
+        call: Box<Formula>,
+        member: Ident,
     },
     /// `( … ) [unit]`
     WithUnit {

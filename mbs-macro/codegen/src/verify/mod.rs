@@ -42,6 +42,18 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             );
         }
     }
+    for check in &model.checks {
+        let value = model.arena.evaluate(&[check.value], &values)[0];
+        // what depends on the motion is not known here, and not a number
+        if value < 0.0 || (check.is_strict && value == 0.0) {
+            let message = format!(
+                "the {} of `{}` is {value} at the declared parameters",
+                check.property, check.element
+            );
+            let help = if check.is_strict { "it has to be positive" } else { "it must not be negative" };
+            errors.push(Diagnostic::new(check.span, message).help(help));
+        }
+    }
     for start in &model.start {
         let value = model.arena.evaluate(&[start.value], &values)[0];
         if !value.is_finite() {
