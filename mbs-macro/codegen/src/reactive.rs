@@ -11,9 +11,9 @@
 //!
 //! solved by a fixed number of Newton's steps from f = 0, so without a branch.
 //! Let L bound how much the right-hand side changes with f (friction coefficient
-//! times geometry). L < 1 makes the solution unique, and the matrices of the
-//! steps diagonally dominant, so that they are eliminated as they stand. The
-//! steps give the solution
+//! times geometry; forces and torques in whatever units make it smallest). L < 1
+//! makes the solution unique, and the matrices of the steps diagonally dominant,
+//! so that they are eliminated as they stand. The steps give the solution
 //!
 //! * exactly, after the first one, while loads follow |λ| and turn no λ around;
 //! * exactly, after the second one, or quadratically for √(λ_x² + λ_y²), for a
@@ -21,8 +21,8 @@
 //! * for several loads that turn reactions around with an error that falls by
 //!   2L/(1 − L) a step at least, if L < 1/3.
 //!
-//! Beyond L = 1 a real guide may jam. A pivot that is no longer positive then
-//! makes the growth infinite, and the integrator stops.
+//! Beyond L = 1 a real guide may jam. If a pivot is not positive, in whatever
+//! step, the growth becomes infinite and the integrator stops.
 //!
 //! The reactions are those without feedback terms. So the loads are functions
 //! of the state, the same in every generated function, and second order stays
@@ -56,10 +56,12 @@ pub fn forces(model: &mut Model, equations: &Equations, factorization: &Factoriz
         (0..model.reactive_loads.len()).map(|at| response(model, factorization, at)).collect();
     let mut system = System { model, without, responses };
     let mut solution = vec![system.model.arena.zero(); system.responses.len()];
-    let mut growth = system.model.arena.zero();
+    let mut least = system.model.arena.one();
     for _ in 0..STEPS {
-        (solution, growth) = system.step(&solution);
+        solution = system.step(&solution, &mut least);
     }
+    let positive = model.arena.call2(Function::Max, least, model.arena.zero());
+    let growth = model.arena.powi(positive, -1);
     for (at, force) in solution.into_iter().enumerate() {
         for (coordinate, slope) in model.reactive_loads[at].along.clone() {
             let value = model.arena.mul(force, slope);
@@ -81,9 +83,9 @@ struct System<'m> {
 }
 
 impl System<'_> {
-    /// One step of Newton's method for r(f) = f − f(λ₀ + G f) = 0, and the sum
-    /// of 1/pivot, infinite where a pivot is not positive.
-    fn step(&mut self, at: &[Expr]) -> (Vec<Expr>, Expr) {
+    /// One step of Newton's method for r(f) = f − f(λ₀ + G f) = 0; `least` is
+    /// the smallest pivot so far.
+    fn step(&mut self, at: &[Expr], least: &mut Expr) -> Vec<Expr> {
         let count = at.len();
         let multipliers = self.multipliers(at);
         let mut rows = Vec::new();
@@ -105,7 +107,7 @@ impl System<'_> {
             entries.push(arena.sum(&right));
             rows.push(entries);
         }
-        self.eliminate(rows)
+        self.eliminate(rows, least)
     }
 
     /// λ₀ + Σ Gⱼ fⱼ
@@ -125,14 +127,12 @@ impl System<'_> {
 
     /// Gauss–Jordan on rows with their right sides, in the order in which they
     /// stand: diagonally dominant rows need no other.
-    fn eliminate(&mut self, mut rows: Vec<Vec<Expr>>) -> (Vec<Expr>, Expr) {
+    fn eliminate(&mut self, mut rows: Vec<Vec<Expr>>, least: &mut Expr) -> Vec<Expr> {
         let count = rows.len();
         let arena = &mut self.model.arena;
-        let mut growths = Vec::new();
         for pivot in 0..count {
             let shared = arena.share(rows[pivot][pivot]);
-            let positive = arena.call2(Function::Max, shared, arena.zero());
-            growths.push((arena.powi(positive, -1), Number::ONE));
+            *least = arena.call2(Function::Min, *least, shared);
             let inverse = arena.powi(shared, -1);
             let inverse = arena.share(inverse);
             for column in pivot..=count {
@@ -148,8 +148,7 @@ impl System<'_> {
                 }
             }
         }
-        let solution = rows.iter().map(|row| row[count]).collect();
-        (solution, arena.sum(&growths))
+        rows.iter().map(|row| row[count]).collect()
     }
 }
 
