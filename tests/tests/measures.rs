@@ -112,8 +112,16 @@ fn powers_balance_the_energy() {
         }
         let o = everything.outputs(&at, &inputs, &solved);
         let of_buffer = o.by_buffer + o.elastic_power;
-        let powers =
-            [o.by_drive, o.by_motor, o.by_coupling, of_buffer, o.by_friction, o.by_air, o.by_loads, o.by_joints];
+        let powers = [
+            o.by_drive,
+            o.by_motor,
+            o.by_coupling,
+            of_buffer,
+            o.by_friction,
+            o.by_air,
+            o.by_loads,
+            o.by_joints,
+        ];
         // what goes through the joints cancels: multipliers of 1e5 N times 5 m/s
         let scale = solved.multipliers.into_array().iter().map(|l| l.abs()).sum::<f64>() * 5.0
             + powers.iter().map(|p| p.abs()).sum::<f64>();
@@ -140,8 +148,8 @@ fn friction_is_that_of_the_reactions_it_causes() {
         // Q holds the friction that was solved for; the rest of Q for the
         // slider's x is the push, the buffer and the thrust.
         let q = everything.forces(&at, &inputs).into_array();
-        let without =
-            Everything::new(EverythingParameters { mu: 0.0, ..Default::default() }).expect("mu = 0 is allowed");
+        let without = Everything::new(EverythingParameters { mu: 0.0, ..Default::default() })
+            .expect("mu = 0 is allowed");
         let rest = without.forces(&at, &inputs).into_array();
         let viscous = 1e-3 * (at.v.theta1 - at.v.theta2);
         let named = |name: &str| {

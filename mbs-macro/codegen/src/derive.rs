@@ -61,7 +61,15 @@ pub fn derive(model: &mut Model) -> Equations {
         mass,
         forces,
         total_forces,
-        phi, phi_q, phi_t, phi_dot, gamma, feedback, kinetic_energy, potential_energy }
+        phi,
+        phi_q,
+        phi_t,
+        phi_dot,
+        gamma,
+        feedback,
+        kinetic_energy,
+        potential_energy,
+    }
 }
 
 /// Coordinates change at their velocities, t at 1, velocities not at all.

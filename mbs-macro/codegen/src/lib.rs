@@ -45,7 +45,7 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let samples = verify::Samples::new(&model);
     verify::check_equations(&model, &equations, &samples)?;
     let plan =
-        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::undetermined(&model, &error))?;
+        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::unsolvable(&model, &error))?;
     verify::check_closure(&model, &plan)?;
     Ok(emit::emit(&model, &equations, &plan))
 }

@@ -4,13 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown, WatchedPivot, factor,
-    lower, lower_whole,
+    Arena, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown, WatchedPivot,
+    factor, lower, lower_whole,
 };
 
 use crate::derive::Equations;
 use crate::model::Model;
-use crate::reactive::{self, Forces};
+use crate::reactive::{self, Circular, Forces};
 use crate::verify::Samples;
 
 /// More unknowns than this, and only the order that keeps matrices sparse is
@@ -61,12 +61,32 @@ pub struct Plan {
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
+/// Why there is no plan.
+pub enum Unsolvable {
+    /// Unknowns that no pivot determines; `verify` has already seen to it that
+    /// there are none where the constraints are independent.
+    Unknowns(Undetermined),
+    /// A load that is undetermined by the reactions on which it depends.
+    Load(Circular),
+}
+
+impl From<Undetermined> for Unsolvable {
+    fn from(unknowns: Undetermined) -> Self {
+        Self::Unknowns(unknowns)
+    }
+}
+
+impl From<Circular> for Unsolvable {
+    fn from(load: Circular) -> Self {
+        Self::Load(load)
+    }
+}
+
 /// Plans all functions.
 ///
 /// # Errors
-/// The unknowns that no pivot determines; `verify` has already seen to it that
-/// there are none where the constraints are independent.
-pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Undetermined> {
+/// What the equations of motion leave open.
+pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Unsolvable> {
     label(model, equations);
     let Solver { strategy, factorization, forces, .. } = cheapest(model, equations, samples)?;
     let (positions, mut start_pivots) = correction(model, equations, strategy, samples, false)?;
@@ -186,11 +206,7 @@ struct Solver {
 }
 
 /// The elimination that costs least in the function that runs most.
-fn cheapest(
-    model: &mut Model,
-    equations: &Equations,
-    samples: &Samples,
-) -> Result<Solver, Undetermined> {
+fn cheapest(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Solver, Unsolvable> {
     let kkt = system(model, equations, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<Solver> = None;
@@ -200,7 +216,7 @@ fn cheapest(
         }
         let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
         let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
-        let forces = reactive::forces(model, equations, &factorization);
+        let forces = reactive::forces(model, equations, &factorization)?;
         let roots = stabilized(model, equations, &forces, &factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
         let cost = program.operations_for(roots.len() - 1).total();
@@ -208,7 +224,7 @@ fn cheapest(
             best = Some(Solver { cost, strategy, factorization, forces });
         }
     }
-    best.ok_or(Undetermined { unknowns: Vec::new() })
+    best.ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
 }
 
 /// q̈, the feedback and the growth, with feedback from the state.

@@ -45,11 +45,23 @@ pub struct Forces {
     pub growth: Expr,
 }
 
+/// A load that changes its own reactions by its size or more, everywhere: by
+/// its position.
+#[derive(Debug)]
+pub struct Circular(pub usize);
+
 /// Solves for the loads that depend on multipliers.
-pub fn forces(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Forces {
+///
+/// # Errors
+/// A load that nothing determines.
+pub fn forces(
+    model: &mut Model,
+    equations: &Equations,
+    factorization: &Factorization,
+) -> Result<Forces, Circular> {
     let mut values = equations.forces.clone();
     if model.reactive_loads.is_empty() {
-        return Forces { values, growth: model.arena.zero() };
+        return Ok(Forces { values, growth: model.arena.zero() });
     }
     let without = reactions_without(model, equations, factorization);
     let responses: Vec<_> =
@@ -58,7 +70,7 @@ pub fn forces(model: &mut Model, equations: &Equations, factorization: &Factoriz
     let mut solution = vec![system.model.arena.zero(); system.responses.len()];
     let mut least = system.model.arena.one();
     for _ in 0..STEPS {
-        solution = system.step(&solution, &mut least);
+        solution = system.step(&solution, &mut least)?;
     }
     let positive = model.arena.call2(Function::Max, least, model.arena.zero());
     let growth = model.arena.powi(positive, -1);
@@ -68,7 +80,7 @@ pub fn forces(model: &mut Model, equations: &Equations, factorization: &Factoriz
             values[coordinate] = model.arena.add(values[coordinate], value);
         }
     }
-    Forces { values, growth }
+    Ok(Forces { values, growth })
 }
 
 /// Every multiplier that a load depends on, with its value.
@@ -85,22 +97,22 @@ struct System<'m> {
 impl System<'_> {
     /// One step of Newton's method for r(f) = f − f(λ₀ + G f) = 0; `least` is
     /// the smallest pivot so far.
-    fn step(&mut self, at: &[Expr], least: &mut Expr) -> Vec<Expr> {
+    fn step(&mut self, at: &[Expr], least: &mut Expr) -> Result<Vec<Expr>, Circular> {
         let count = at.len();
         let multipliers = self.multipliers(at);
         let mut rows = Vec::new();
         for row in 0..count {
             let load = self.model.reactive_loads[row].force;
             let arena = &mut self.model.arena;
-            // f(λ₀ + G f) − f + (1 − f′ G) f: the step solves for the new f.
+            // (1 − f′ G) f⁺ = f(λ) − f′ G f, with λ and f of before the step
             let mut right = vec![(arena.substitute(load, &multipliers), Number::ONE)];
             let mut entries = Vec::new();
-            for column in 0..count {
-                let direction = self.responses[column].iter().map(|(&s, &e)| (s, e)).collect();
+            for (column, (response, &force)) in self.responses.iter().zip(at).enumerate() {
+                let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
                 let slope = arena.derivative(load, &direction);
                 let slope = arena.substitute(slope, &multipliers);
                 let slope = arena.share(slope);
-                right.push((arena.mul(slope, at[column]), Number::MINUS_ONE));
+                right.push((arena.mul(slope, force), Number::MINUS_ONE));
                 let identity = if row == column { arena.one() } else { arena.zero() };
                 entries.push(arena.sub(identity, slope));
             }
@@ -127,28 +139,32 @@ impl System<'_> {
 
     /// Gauss–Jordan on rows with their right sides, in the order in which they
     /// stand: diagonally dominant rows need no other.
-    fn eliminate(&mut self, mut rows: Vec<Vec<Expr>>, least: &mut Expr) -> Vec<Expr> {
+    fn eliminate(&mut self, mut rows: Vec<Vec<Expr>>, least: &mut Expr) -> Result<Vec<Expr>, Circular> {
         let count = rows.len();
         let arena = &mut self.model.arena;
-        for pivot in 0..count {
-            let shared = arena.share(rows[pivot][pivot]);
-            *least = arena.call2(Function::Min, *least, shared);
-            let inverse = arena.powi(shared, -1);
-            let inverse = arena.share(inverse);
-            for column in pivot..=count {
-                let scaled = arena.mul(rows[pivot][column], inverse);
-                rows[pivot][column] = arena.share(scaled);
+        for at in 0..count {
+            let pivot = arena.share(rows[at][at]);
+            if arena.as_number(pivot).is_some_and(|pivot| pivot.is_zero() || pivot.is_negative()) {
+                return Err(Circular(at));
             }
-            for row in (0..count).filter(|row| *row != pivot) {
-                let factor = rows[row][pivot];
-                for column in pivot..=count {
-                    let product = arena.mul(factor, rows[pivot][column]);
-                    let updated = arena.sub(rows[row][column], product);
-                    rows[row][column] = arena.share(updated);
+            *least = arena.call2(Function::Min, *least, pivot);
+            let inverse = arena.powi(pivot, -1);
+            let inverse = arena.share(inverse);
+            for entry in &mut rows[at][at..] {
+                let scaled = arena.mul(*entry, inverse);
+                *entry = arena.share(scaled);
+            }
+            let scaled = rows[at].clone();
+            for row in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row) {
+                let factor = row[at];
+                for (entry, &scaled) in row.iter_mut().zip(&scaled).skip(at) {
+                    let product = arena.mul(factor, scaled);
+                    let updated = arena.sub(*entry, product);
+                    *entry = arena.share(updated);
                 }
             }
         }
-        rows.iter().map(|row| row[count]).collect()
+        Ok(rows.iter().map(|row| row[count]).collect())
     }
 }
 

@@ -5,8 +5,8 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
 use super::joints::{self, Connection, JointRow};
-use super::measures::KnownJoint;
 use super::names::Place;
+use super::reactions::KnownJoint;
 use super::resolver::Resolver;
 use super::{Constraint, Meaning};
 use crate::diagnostics::Diagnostic;
@@ -25,8 +25,9 @@ impl Resolver<'_> {
             .filter_map(|suffix| self.scope.rows.get(&row_name(joint, suffix).to_string()))
             .map(|row| row.multiplier)
             .collect();
-        let bodies = [&joint.first.body, &joint.second.body].map(Ident::to_string);
-        let known = KnownJoint { kind: joint.kind, bodies, multipliers, connection: None };
+        let ends = [joint.first.clone(), joint.second.clone()];
+        let (kind, span) = (joint.kind, joint.name.span());
+        let known = KnownJoint { kind, span, ends, multipliers, connection: None };
         self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 

@@ -190,11 +190,12 @@ impl Scope<'_> {
             || RESERVED.contains(&text.as_str())
             || MEASURES.contains(&text.as_str());
         if is_function {
-            return Diagnostic::new(name.span(), format!("`{text}` is a function"))
-                .help(match text.ends_with("_energy") {
+            return Diagnostic::new(name.span(), format!("`{text}` is a function")).help(
+                match text.ends_with("_energy") {
                     true => format!("write `{text}()`"),
                     false => format!("give it its argument: `{text}(…)`"),
-                });
+                },
+            );
         }
         let known = self.values.keys().map(String::as_str).chain(["t", "pi"]);
         match nearest(&text, known) {

@@ -89,7 +89,7 @@ impl Resolver<'_> {
         if let Some(value) = self.scope.formula_of(formula, Place::Load, (&what, dimension), &mut self.errors)
         {
             let one = self.scope.arena.one();
-            self.push_work(name, Work { force: value, along: vec![(coordinate, one)] });
+            self.push_work(name, Work { force: value, along: vec![(coordinate, one)], span: name.span() });
             self.exerts(name, Exerts { value, dimension });
         }
     }
@@ -176,7 +176,7 @@ impl Resolver<'_> {
             }
         }
         let moves = !along.is_empty();
-        self.push_work(name, Work { force, along });
+        self.push_work(name, Work { force, along, span: name.span() });
         moves
     }
 

@@ -1,18 +1,18 @@
-//! Functions that measure the mechanism: what its elements exert and do, what
-//! its joints carry, how fast its points are.
+//! Functions that measure the mechanism: what its elements exert and do, how
+//! fast its points are, how its bodies stand. Those of joints are in `reactions`.
 
 use std::collections::HashMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Number, Symbol};
+use mbs_symbolic::{Expr, Function, Number};
 use proc_macro2::{Ident, Span};
 
 use super::energies::{self, Inertia};
-use super::joints::{self, Connection, Placed, Wrench};
+use super::joints::Placed;
 use super::names::{Place, Scope, Typed};
-use super::{Meaning, Work};
+use super::{Meaning, Work, reactions};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
-use crate::syntax::{Attachment, Formula, FormulaKind, JointKind};
+use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// The functions of this file.
 pub const MEASURES: &[&str] = &[
@@ -27,8 +27,8 @@ pub const MEASURES: &[&str] = &[
     "speed",
 ];
 
-const FORCE: Dimension = Dimension::of(1, 1, -2);
-const ENERGY: Dimension = Dimension::of(1, 2, -2);
+pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
+pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
 
 /// Below this size the norm of a vector is kept from its kink at 0, so that
 /// its derivative exists there: (1e-12)² in SI units.
@@ -51,15 +51,6 @@ pub struct Source {
 pub struct Exerts {
     pub value: Expr,
     pub dimension: Dimension,
-}
-
-/// A declared joint.
-pub struct KnownJoint {
-    pub kind: JointKind,
-    pub bodies: [String; 2],
-    pub multipliers: Vec<Symbol>,
-    /// Known once its rows are.
-    pub connection: Option<Connection>,
 }
 
 /// What the energies are made of.
@@ -88,32 +79,12 @@ impl Scope<'_> {
             ("length", [of]) => self.length(name, of, errors).transpose()?,
             ("speed", [of]) => self.speed(name, of, errors).transpose()?,
             ("reaction", [joint]) => self.reaction(name, joint),
-            ("reaction", [_, body]) => Err(Diagnostic::new(name.span(), "a reaction on a body is a vector")
-                .help(format!("write `reaction(…, {}).x`, `.y` or `.torque`", text_of(body)))),
+            ("reaction", [joint, body]) => Err(reactions::is_vector(name, joint, body)),
             ("transmission_angle", [a, b]) => self.transmission_angle(a, b),
             (text, _) => Err(wrong_arguments(name, text)),
         };
         let typed = errors.take(result)?;
         self.allowed(typed, name, place, errors)
-    }
-
-    /// `reaction(pin, rod).x`: a component of what a joint exerts on a body.
-    pub(super) fn component(
-        &mut self,
-        call: &Formula,
-        member: &Ident,
-        place: Place,
-        errors: &mut Diagnostics,
-    ) -> Option<Typed> {
-        let result = match &call.kind {
-            FormulaKind::Call { function, arguments } if function == "reaction" => {
-                self.reaction_on(function, arguments, member).map(|typed| (function, typed))
-            }
-            _ => Err(Diagnostic::new(member.span(), "only `reaction(joint, body)` has components")
-                .help("a component of a point is written `rod.tip.x`")),
-        };
-        let (function, typed) = errors.take(result)?;
-        self.allowed(typed, function, place, errors)
     }
 
     /// Σ F ṡ over what a force, an element or a drive does.
@@ -247,98 +218,6 @@ impl Scope<'_> {
         Ok(Typed { expr, dimension: Some(Dimension::NONE) })
     }
 
-    /// `reaction(pin)`: how large the force is that a joint transmits.
-    fn reaction(&mut self, name: &Ident, joint: &Formula) -> Result<Typed, Diagnostic> {
-        let asked = name_of(name, joint)?;
-        let wrenches = self.wrenches(name, asked)?;
-        let forces: Vec<Expr> =
-            wrenches.iter().filter(|(_, w)| w.force.is_some()).map(|(lambda, _)| *lambda).collect();
-        // The rows of a joint are along directions at right angles.
-        let expr = match forces[..] {
-            [x, y] => self.norm([x, y]),
-            [along] => self.arena.call(Function::Abs, along),
-            _ => self.arena.zero(),
-        };
-        Ok(Typed { expr, dimension: Some(FORCE) })
-    }
-
-    fn reaction_on(
-        &mut self,
-        name: &Ident,
-        arguments: &[Formula],
-        member: &Ident,
-    ) -> Result<Typed, Diagnostic> {
-        let [joint, rest @ ..] = arguments else { return Err(wrong_arguments(name, "reaction")) };
-        let asked = name_of(name, joint)?;
-        let wrenches = self.wrenches(name, asked)?;
-        let bodies = &self.joints[&asked.to_string()].bodies;
-        let body = match rest {
-            [Formula { kind: FormulaKind::Name(body), .. }] => body,
-            _ => {
-                let message = format!("on which body does `{asked}` act?");
-                let [first, second] = bodies;
-                return Err(Diagnostic::new(asked.span(), message).help(format!(
-                    "write `reaction({asked}, {first}).{member}` or `reaction({asked}, {second}).{member}`"
-                )));
-            }
-        };
-        let sign = match bodies.iter().rposition(|known| body == known) {
-            Some(0) => Number::MINUS_ONE,
-            Some(_) => Number::ONE,
-            None => {
-                let message = format!("`{asked}` does not act on `{body}`");
-                return Err(
-                    Diagnostic::new(body.span(), message).help(format!("it connects {}", listing(bodies)))
-                );
-            }
-        };
-        let along = |wrench: &Wrench| match member.to_string().as_str() {
-            "x" => Some(wrench.force.map(|force| force[0])),
-            "y" => Some(wrench.force.map(|force| force[1])),
-            "torque" => Some(wrench.torque),
-            _ => None,
-        };
-        let mut terms = Vec::new();
-        for (lambda, wrench) in &wrenches {
-            let component = along(wrench).ok_or_else(|| {
-                Diagnostic::new(member.span(), format!("a reaction has no `{member}`"))
-                    .help("it has `x`, `y` and `torque`")
-            })?;
-            if let Some(component) = component {
-                terms.push((self.arena.mul(*lambda, component), sign));
-            }
-        }
-        if terms.is_empty() {
-            let what = if member == "torque" { "torque" } else { "force" };
-            return Err(Diagnostic::new(member.span(), format!("`{asked}` exerts no {what}"))
-                .help("record what it does exert"));
-        }
-        let dimension = if member == "torque" { ENERGY } else { FORCE };
-        Ok(Typed { expr: self.arena.sum(&terms), dimension: Some(dimension) })
-    }
-
-    /// The multipliers of a joint, and what each one exerts on the second body.
-    fn wrenches(&mut self, name: &Ident, joint: &Ident) -> Result<Vec<(Expr, Wrench)>, Diagnostic> {
-        let text = joint.to_string();
-        let Some(known) = self.joints.get(&text) else {
-            if self.rows.contains_key(&text) {
-                return Err(Diagnostic::new(joint.span(), format!("`{text}` is a constraint, not a joint"))
-                    .help(format!("its multiplier is `lambda({text})`")));
-            }
-            return Err(unknown(joint, "joint", self.joints.keys()));
-        };
-        let Some(connection) = &known.connection else {
-            // A constraint is being resolved, by way of a `let`; or it is
-            // broken, and has its error.
-            return Err(Diagnostic::new(name.span(), format!("the reaction of `{text}` cannot stand here"))
-                .help(Place::Constraint.rule()));
-        };
-        let wrenches = joints::wrenches(&mut self.arena, known.kind, connection);
-        let multipliers = known.multipliers.clone();
-        let lambdas = multipliers.into_iter().map(|symbol| self.arena.variable(symbol)).collect::<Vec<_>>();
-        Ok(lambdas.into_iter().zip(wrenches).collect())
-    }
-
     fn energy(&mut self, name: &Ident) -> Result<Typed, Diagnostic> {
         self.only_in_outputs(name)?;
         let expr = match &self.energies {
@@ -418,21 +297,14 @@ impl Scope<'_> {
 }
 
 /// The one name that is an argument.
-fn name_of<'f>(function: &Ident, argument: &'f Formula) -> Result<&'f Ident, Diagnostic> {
+pub(super) fn name_of<'f>(function: &Ident, argument: &'f Formula) -> Result<&'f Ident, Diagnostic> {
     match &argument.kind {
         FormulaKind::Name(name) => Ok(name),
         _ => Err(wrong_arguments(function, &function.to_string())),
     }
 }
 
-fn text_of(formula: &Formula) -> String {
-    match &formula.kind {
-        FormulaKind::Name(name) => name.to_string(),
-        _ => "…".to_owned(),
-    }
-}
-
-fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
+pub(super) fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
     let (takes, example) = match text {
         "reaction" => ("the name of a joint, and a body for a component", "reaction(pin, rod).x"),
         "transmission_angle" => ("two bodies", "transmission_angle(rod, rocker)"),
@@ -444,7 +316,7 @@ fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
     Diagnostic::new(name.span(), format!("`{name}` takes {takes}")).help(format!("as in `{example}`"))
 }
 
-fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = &'n String>) -> Diagnostic {
+pub(super) fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = &'n String>) -> Diagnostic {
     let known: Vec<&str> = known.map(String::as_str).collect();
     let error = Diagnostic::new(name.span(), format!("there is no {what} `{name}`"));
     match nearest(&name.to_string(), known.iter().copied()) {

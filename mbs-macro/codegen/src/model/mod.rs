@@ -14,6 +14,7 @@ mod loads;
 mod measures;
 mod names;
 mod places;
+mod reactions;
 mod resolver;
 mod statements;
 
@@ -151,6 +152,8 @@ pub struct Load {
 pub struct Work {
     pub force: Expr,
     pub along: Vec<(usize, Expr)>,
+    /// The name of what exerts it.
+    pub span: Span,
 }
 
 /// A property that must be positive, or just not negative.

@@ -7,8 +7,9 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
-use super::measures::{Energies, KnownJoint, Source};
+use super::measures::{Energies, Source};
 use super::places::{Frame, GROUND};
+use super::reactions::KnownJoint;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
 
@@ -77,7 +78,9 @@ impl Place {
             Self::Constraint => {
                 "a constraint is written in positions, parameters and time; its derivatives are taken for you"
             }
-            Self::Load => "a force may depend on positions, velocities, reactions, time, inputs and parameters",
+            Self::Load => {
+                "a force may depend on positions, velocities, reactions, time, inputs and parameters"
+            }
             Self::Anywhere => "this cannot stand here",
         }
     }

@@ -78,7 +78,8 @@ pub(super) fn element(input: ParseStream<'_>, shape: &Shape) -> Result<ItemKind>
     let name = name(input)?;
     let example = format!("{} {name} {}", shape.word, shape.example);
     let (first, second) = if shape.is_between {
-        let (first, second) = two_places(input, "what it connects is", &format!("a {}", shape.word), &example)?;
+        let (first, second) =
+            two_places(input, "what it connects is", &format!("a {}", shape.word), &example)?;
         (first, Some(second))
     } else {
         clause(input, "on", &example)?;

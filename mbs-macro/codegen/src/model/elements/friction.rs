@@ -13,10 +13,11 @@ use proc_macro2::Span;
 
 use super::super::joints;
 use super::super::measures::Exerts;
+use super::super::reactions::KnownJoint;
 use super::super::resolver::Resolver;
 use super::{FORCE, Property, RATE, Resolved, SPEED, TORQUE, all_said};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Element, ElementKind};
+use crate::syntax::{Attachment, Element, ElementKind, JointKind};
 
 pub const SLIDING: &[Property] = &[
     Property::varying("coefficient", Dimension::NONE).not_negative(),
@@ -44,9 +45,10 @@ pub fn is_said(element: &Element, given: &BTreeMap<String, Span>, dry: &[&str]) 
         return Err(Diagnostic::new(element.name.span(), message)
             .help("give `torque`, or `coefficient`, `normal` and `radius`"));
     }
-    let example = match element.kind {
-        ElementKind::Friction => "{ coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }",
-        _ => "{ torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }",
+    let example = match (element.kind, of_dry) {
+        (ElementKind::Friction, _) => "{ coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }",
+        (_, None) => "{ torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }",
+        (_, Some(_)) => "{ coefficient = 0.1; normal = 20 [N]; radius = 5 [mm]; transition = 0.1 [rad/s]; }",
     };
     let is_dry = has("torque") || of_dry.is_some() || has("transition");
     match (is_dry, has("torque")) {
@@ -70,7 +72,7 @@ impl Resolver<'_> {
             let angle = self.scope.arena.sub(friction.first.angle, friction.second.angle);
             (angle, "one of its bodies has to turn")
         };
-        if !self.check_motion(element, &[moved], help) {
+        if !self.check_motion(element, &[moved], help) || !self.check_freedom(element) {
             return;
         }
         let limit = self.dry_limit(friction);
@@ -88,6 +90,36 @@ impl Resolver<'_> {
         self.apply(&element.name, force, moved);
         let dimension = if is_sliding { FORCE } else { TORQUE };
         self.exerts(&element.name, Exerts { value: force, dimension });
+    }
+
+    /// Refuses friction where a joint leaves nothing to rub: sliding of points
+    /// that coincide, turning of bodies that keep their angle.
+    fn check_freedom(&mut self, element: &Element) -> bool {
+        let Some(second) = &element.second else { return true };
+        let ends = [&element.first, second];
+        let is_sliding = element.kind == ElementKind::Friction;
+        let same = |a: &Attachment, b: &Attachment| a.body == b.body && (!is_sliding || a.point == b.point);
+        let holds = |joint: &&KnownJoint| {
+            let [first, second] = joint.ends.each_ref();
+            let is_between = (same(ends[0], first) && same(ends[1], second))
+                || (same(ends[0], second) && same(ends[1], first));
+            is_between
+                && match joint.kind {
+                    JointKind::Fixed => true,
+                    JointKind::Revolute => is_sliding,
+                    JointKind::Prismatic => !is_sliding,
+                    JointKind::PointOnLine | JointKind::Distance => false,
+                }
+        };
+        let Some(joint) = self.scope.joints.values().find(holds) else { return true };
+        let (what, help) = match is_sliding {
+            true => ("slides", "friction of a pin is `torsion_friction`"),
+            false => ("turns", "friction of a guide is `friction`"),
+        };
+        let message = format!("nothing {what} at `{}`", element.name);
+        let error = Diagnostic::new(element.name.span(), message).help(help);
+        self.errors.push(error.note(joint.span, "this joint holds its places together"));
+        false
     }
 
     /// u·(p₁ − p₂): how far the first place is along the direction on the

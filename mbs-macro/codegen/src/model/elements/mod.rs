@@ -208,9 +208,9 @@ impl Resolver<'_> {
         };
         let values: Option<Vec<Expr>> = formulas.iter().map(|formula| read(formula)).collect();
         let values = values?;
-        if row.range != Range::All {
+        if let (true, [value]) = (row.range != Range::All, values.as_slice()) {
             self.checks.push(Check {
-                value: values[0],
+                value: *value,
                 is_strict: row.range == Range::Positive,
                 property: row.name,
                 element: element.name.to_string(),
