@@ -224,3 +224,35 @@ fn points_and_reactions_are_those_of_rigid_bodies() -> Result<(), Error> {
     near(o.transmission, between.min(std::f64::consts::PI - between), 1.0);
     Ok(())
 }
+
+mechanism! {
+    /// A weight on a line, whose length is a constraint, and a force.
+    Line {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body bob (x, y) { mass = 2 [kg]; }
+        point hook on ground = (0, 0.2 [m]);
+        spring line (bob, ground.hook) { damping = 1 [N*s/m]; }
+        constraint held: length(line) = 0.7 [m];
+        force blown on bob = (3 [N/m]*length(line), 0);
+        start { x = 0; guess y = -0.5 [m]; }
+        output tension [N] = lambda(held);
+        output blow [W] = power(blown);
+        output reaction_of_line [N] = force(line);
+    }
+}
+
+/// At rest below its hook: tension m g, acceleration 3 N/m · 0.7 m / 2 kg.
+#[test]
+fn length_of_a_spring_stands_anywhere() -> Result<(), Error> {
+    let mut run = Simulation::new(Line::declared(), 1e-3)?;
+    let (outputs, solved) = (run.outputs()?, run.reactions()?);
+    assert!((outputs.tension - 2.0 * 9.81).abs() < 1e-13, "{}", outputs.tension);
+    assert!((solved.acceleration.x - 1.05).abs() < 1e-14);
+    assert_eq!(outputs.blow, 0.0);
+    run.advance_to(0.1)?;
+    let (outputs, v) = (run.outputs()?, run.state().v);
+    // the length keeps to h³ times the third derivative, and its rate to h²
+    assert!((outputs.blow - 2.1 * v.x).abs() < 1e-6 && outputs.reaction_of_line.abs() < 1e-4);
+    Ok(())
+}

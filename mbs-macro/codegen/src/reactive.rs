@@ -16,8 +16,9 @@
 //! so that they are eliminated as they stand. The steps give the solution
 //!
 //! * exactly, after the first one, while loads follow |λ| and turn no λ around;
-//! * exactly, after the second one, or quadratically for √(λ_x² + λ_y²), for a
-//!   single load, which is monotone and convex or concave in f;
+//! * for a single load, which is monotone and convex or concave in f, whatever
+//!   turns around: exactly, after one step per |…| and another one, so that no
+//!   more are taken; or quadratically for √(λ_x² + λ_y²);
 //! * for several loads that turn reactions around with an error that falls by
 //!   2L/(1 − L) a step at least, if L < 1/3.
 //!
@@ -30,12 +31,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use mbs_symbolic::{Expr, Factorization, Function, Number, Symbol, Unknown};
+use mbs_symbolic::{Expr, Factorization, Function, Node, Number, Symbol, Unknown};
 
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
 
-/// Newton's steps.
+/// Newton's steps, at most.
 const STEPS: usize = 4;
 
 /// Q as a function of the state.
@@ -69,7 +70,7 @@ pub fn forces(
     let mut system = System { model, without, responses };
     let mut solution = vec![system.model.arena.zero(); system.responses.len()];
     let mut least = system.model.arena.one();
-    for _ in 0..STEPS {
+    for _ in 0..system.steps() {
         solution = system.step(&solution, &mut least)?;
     }
     let positive = model.arena.call2(Function::Max, least, model.arena.zero());
@@ -95,6 +96,30 @@ struct System<'m> {
 }
 
 impl System<'_> {
+    /// As many steps as the loads can need.
+    fn steps(&mut self) -> usize {
+        let ([load], [response]) = (self.model.reactive_loads.as_slice(), self.responses.as_slice()) else {
+            return STEPS;
+        };
+        let force = load.force;
+        let arena = &mut self.model.arena;
+        let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
+        let slope = arena.derivative(force, &direction);
+        let curvature = arena.derivative(slope, &direction);
+        if !arena.is_zero(curvature) {
+            return STEPS;
+        }
+        let has_kink = |node: &Expr| {
+            let is_kinked = match arena.node(*node) {
+                Node::Call(function, _) | Node::Call2(function, ..) => is_piecewise(*function),
+                _ => false,
+            };
+            is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))
+        };
+        let kinks = arena.reachable(&[force]).iter().filter(|node| has_kink(node)).count();
+        STEPS.min(1 + kinks)
+    }
+
     /// One step of Newton's method for r(f) = f − f(λ₀ + G f) = 0; `least` is
     /// the smallest pivot so far.
     fn step(&mut self, at: &[Expr], least: &mut Expr) -> Result<Vec<Expr>, Circular> {
@@ -166,6 +191,11 @@ impl System<'_> {
         }
         Ok(rows.iter().map(|row| row[count]).collect())
     }
+}
+
+/// Whether a function is made of smooth pieces.
+fn is_piecewise(function: Function) -> bool {
+    matches!(function, Function::Abs | Function::Sign | Function::Min | Function::Max | Function::Greater)
 }
 
 /// λ₀: the multipliers without the loads that depend on them.

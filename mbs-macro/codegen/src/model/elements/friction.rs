@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Number};
+use mbs_symbolic::{Expr, Function, Node, Number};
 use proc_macro2::Span;
 
 use super::super::joints;
@@ -140,7 +140,11 @@ impl Resolver<'_> {
         let (coefficient, normal) = (friction.get("coefficient")?, friction.get("normal")?);
         let arena = &mut self.scope.arena;
         let radius = friction.get("radius").unwrap_or(arena.one());
-        let normal = arena.call(Function::Abs, normal);
+        let normal = match arena.node(normal) {
+            // The size of a reaction is one already.
+            Node::Call(Function::Abs | Function::Sqrt, _) => normal,
+            _ => arena.call(Function::Abs, normal),
+        };
         Some(arena.product(&[(coefficient, 1), (normal, 1), (radius, 1)]))
     }
 }
