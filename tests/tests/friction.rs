@@ -309,12 +309,14 @@ fn pole_jams_beyond_the_critical_friction() -> Result<(), Error> {
     let (s, c) = 60.0_f64.to_radians().sin_cos();
     let critical = (0.01 + 0.25 * c * c) / (0.25 * s * c);
     let run = |mu: f64| {
-        let pole = Painleve::new(PainleveParameters { mu, ..Default::default() })?;
+        let pole = Painleve::new(PainleveParameters { mu })?;
         Simulation::new(pole, 1e-6)?.step()
     };
     assert!(run(0.99 * critical).is_ok());
     let jam = run(1.01 * critical);
-    assert!(matches!(jam, Err(Error::Singular { .. })), "{jam:?}");
+    let Err(Error::Singular { constraint, coordinate, growth, .. }) = jam else { panic!("{jam:?}") };
+    // no pivot of the constraints is to blame
+    assert_eq!((constraint, coordinate, growth), ("", "", f64::INFINITY));
     Ok(())
 }
 

@@ -9,7 +9,7 @@
 //! | `model` | `Model` | names are symbols, dimensions agree |
 //! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
 //! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
-//! | `plan` | `Plan` | programs: elimination fixed, parameter-only work hoisted |
+//! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `emit` | tokens | cannot fail |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
