@@ -42,6 +42,15 @@ fn motor_runs_up_exponentially() -> Result<(), Error> {
     Ok(())
 }
 
+/// Properties are checked for the parameters that a program passes in.
+#[test]
+fn motor_without_a_no_load_speed_does_not_exist() {
+    let refused = RunUp::new(RunUpParameters { no_load: 0.0, ..RunUpParameters::default() });
+    let Err(Error::Parameter { name, value, .. }) = refused else { panic!("{refused:?}") };
+    assert_eq!((name, value), ("no_load of drive", 0.0));
+    assert!(RunUp::new(RunUpParameters { stall: 0.0, ..RunUpParameters::default() }).is_ok());
+}
+
 mechanism! {
     /// A ball that falls through air, and one thrown into a wind.
     Fall {
