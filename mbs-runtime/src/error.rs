@@ -55,7 +55,8 @@ pub enum Error {
         feedback: &'static str,
     },
     /// A pivot of the elimination vanished: constraints depend on each other
-    /// in this position, or a massless coordinate is undetermined.
+    /// in this position, or a massless coordinate is undetermined. Without
+    /// names: friction jams, or no single pivot is to blame.
     Singular {
         /// When, in s.
         t: f64,

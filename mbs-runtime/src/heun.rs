@@ -124,7 +124,11 @@ impl<C: Components> Solution<'_, C> {
         {
             return error;
         }
-        let pivot = worst.and_then(|(at, _)| self.pivots.get(at));
+        // Where every pivot is healthy, something else has no solution: friction
+        // that jams.
+        let share = C::Real::from_f64(1.0 / 64.0) * limit;
+        let culprit = worst.filter(|(_, growth)| is_over(*growth, share));
+        let pivot = culprit.and_then(|(at, _)| self.pivots.get(at));
         let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
         let growth = if is_over(self.growth, limit) { self.growth } else { worst_growth };
         Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth: growth.to_f64() }

@@ -5,14 +5,16 @@ use std::collections::{BTreeMap, HashMap};
 
 use mbs_symbolic::{Expr, Number, Symbol};
 
-use crate::model::{Direction, Meaning, Model};
+use crate::model::{Direction, Meaning, Model, energies};
 
 /// The equations of a mechanism; see design symbols in the crate docs.
 pub struct Equations {
     /// M, diagonal: every body is described by its own coordinates.
     pub mass: Vec<Expr>,
-    /// Q
+    /// Q without the loads that depend on multipliers.
     pub forces: Vec<Expr>,
+    /// Q
+    pub total_forces: Vec<Expr>,
     /// Φ
     pub phi: Vec<Expr>,
     /// Φ_q, row by row, entries that are 0 left out.
@@ -50,10 +52,24 @@ pub fn derive(model: &mut Model) -> Equations {
         })
         .collect();
     let feedback = phi.iter().zip(&phi_dot).map(|(&phi, &phi_dot)| feedback(model, phi, phi_dot)).collect();
-    let kinetic_energy = kinetic_energy(model, &mass);
-    let potential_energy = potential_energy(model);
+    let inertias = energies::inertias(&model.coordinates, &model.bodies, model.gravity);
+    let kinetic_energy = energies::kinetic(&mut model.arena, &inertias);
+    let potential_energy = energies::potential(&mut model.arena, &inertias, &model.potentials);
     let forces = forces(model);
-    Equations { mass, forces, phi, phi_q, phi_t, phi_dot, gamma, feedback, kinetic_energy, potential_energy }
+    let total_forces = total_forces(model, &forces);
+    Equations {
+        mass,
+        forces,
+        total_forces,
+        phi,
+        phi_q,
+        phi_t,
+        phi_dot,
+        gamma,
+        feedback,
+        kinetic_energy,
+        potential_energy,
+    }
 }
 
 /// Coordinates change at their velocities, t at 1, velocities not at all.
@@ -95,27 +111,6 @@ fn mass(model: &Model) -> Vec<Expr> {
     model.coordinates.iter().map(of).collect()
 }
 
-fn kinetic_energy(model: &mut Model, mass: &[Expr]) -> Expr {
-    let half = Number::ratio(1, 2);
-    let mut terms = Vec::new();
-    for (coordinate, &mass) in model.coordinates.iter().zip(mass) {
-        let velocity = model.arena.variable(coordinate.velocity);
-        terms.push((model.arena.product(&[(mass, 1), (velocity, 2)]), half));
-    }
-    model.arena.sum(&terms)
-}
-
-fn potential_energy(model: &mut Model) -> Expr {
-    let mut terms: Vec<_> = model.potentials.iter().map(|&energy| (energy, Number::ONE)).collect();
-    for coordinate in &model.coordinates {
-        let Some(gravity) = gravity_along(model, coordinate.direction) else { continue };
-        let position = model.arena.variable(coordinate.position);
-        let mass = model.bodies[coordinate.body].mass;
-        terms.push((model.arena.product(&[(mass, 1), (gravity, 1), (position, 1)]), Number::MINUS_ONE));
-    }
-    model.arena.sum(&terms)
-}
-
 fn forces(model: &mut Model) -> Vec<Expr> {
     let mut forces = Vec::new();
     for (at, coordinate) in model.coordinates.iter().enumerate() {
@@ -132,6 +127,17 @@ fn forces(model: &mut Model) -> Vec<Expr> {
         forces.push(model.arena.sum(&terms));
     }
     forces
+}
+
+fn total_forces(model: &mut Model, forces: &[Expr]) -> Vec<Expr> {
+    let mut total = forces.to_vec();
+    for load in &model.reactive_loads {
+        for &(coordinate, slope) in &load.along {
+            let force = model.arena.mul(load.force, slope);
+            total[coordinate] = model.arena.add(total[coordinate], force);
+        }
+    }
+    total
 }
 
 fn gravity_along(model: &Model, direction: Direction) -> Option<Expr> {

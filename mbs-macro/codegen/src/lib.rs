@@ -10,7 +10,7 @@
 //! | `model` | `Model` | names are symbols, dimensions agree |
 //! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
 //! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
-//! | `plan` | `Plan` | programs: elimination fixed, parameter-only work hoisted |
+//! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `emit` | tokens | cannot fail |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
@@ -23,6 +23,7 @@ mod diagnostics;
 mod emit;
 mod model;
 mod plan;
+mod reactive;
 mod syntax;
 mod verify;
 
@@ -47,7 +48,7 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let samples = verify::Samples::new(&model);
     verify::check_equations(&model, &equations, &samples)?;
     let plan =
-        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::undetermined(&model, &error))?;
+        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::unsolvable(&model, &error))?;
     verify::check_closure(&model, &plan)?;
     Ok(emit::emit(&model, &equations, &plan))
 }

@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Strategy, Undetermined, Unknown,
+    Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
     WatchedPivot, factor, lower, lower_whole,
 };
 
 use crate::derive::Equations;
 use crate::model::Model;
+use crate::reactive::{self, Circular, Forces};
 use crate::verify::Samples;
 
 /// More unknowns than this, and only the order that keeps matrices sparse is
@@ -25,7 +26,8 @@ pub struct Plan {
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
     pub prepare: Program,
-    /// left − right and value of every requirement, then masses and inertias.
+    /// left − right and value of every requirement, then masses and inertias,
+    /// then properties of elements.
     pub requirements: Program,
     /// Declared positions and velocities.
     pub start: Program,
@@ -61,14 +63,34 @@ pub struct Plan {
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
+/// Why there is no plan.
+pub enum Unsolvable {
+    /// Unknowns that no pivot determines; `verify` has already seen to it that
+    /// there are none where the constraints are independent.
+    Unknowns(Undetermined),
+    /// A load that is undetermined by the reactions on which it depends.
+    Load(Circular),
+}
+
+impl From<Undetermined> for Unsolvable {
+    fn from(unknowns: Undetermined) -> Self {
+        Self::Unknowns(unknowns)
+    }
+}
+
+impl From<Circular> for Unsolvable {
+    fn from(load: Circular) -> Self {
+        Self::Load(load)
+    }
+}
+
 /// Plans all functions.
 ///
 /// # Errors
-/// The unknowns that no pivot determines; `verify` has already seen to it that
-/// there are none where the constraints are independent.
-pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Undetermined> {
+/// What the equations of motion leave open.
+pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Unsolvable> {
     label(model, equations);
-    let (strategy, factorization) = cheapest(model, equations, samples)?;
+    let Solver { strategy, factorization, forces, .. } = cheapest(model, equations, samples)?;
     let (positions, mut start_pivots) = correction(model, equations, strategy, samples, false)?;
     let (velocities, more) = correction(model, equations, strategy, samples, true)?;
     start_pivots.extend(
@@ -90,8 +112,8 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         .zip(&equations.feedback)
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
-    let stabilized = stabilized(model, equations, &factorization);
-    let (constrained, reactions) = with_given_feedback(model, equations, &factorization);
+    let stabilized = stabilized(model, equations, &forces, &factorization);
+    let (constrained, reactions) = with_given_feedback(model, equations, &forces, &factorization);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -107,7 +129,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         gamma: program(&equations.gamma),
         baumgarte_rhs: program(&rhs),
         mass: program(&equations.mass),
-        forces: program(&equations.forces),
+        forces: program(&forces.values),
         kinetic_energy: program(&[equations.kinetic_energy]),
         potential_energy: program(&[equations.potential_energy]),
         stabilized: program(&stabilized),
@@ -177,38 +199,48 @@ fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
     kkt
 }
 
+/// An eliminated system, and the forces that it is solved for.
+struct Solver {
+    /// Operations of the function that runs most.
+    cost: u32,
+    strategy: Strategy,
+    factorization: Factorization,
+    forces: Forces,
+}
+
 /// The elimination that costs least in the function that runs most.
-fn cheapest(
-    model: &mut Model,
-    equations: &Equations,
-    samples: &Samples,
-) -> Result<(Strategy, Factorization), Undetermined> {
+fn cheapest(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Solver, Unsolvable> {
     let kkt = system(model, equations, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
-    let mut best: Option<(u32, Strategy, Factorization)> = None;
+    let mut best: Option<Solver> = None;
     for strategy in Strategy::ALL {
         if strategy == Strategy::NullSpace && unknowns > LARGEST_NULL_SPACE {
             continue;
         }
         let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
         let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
-        let roots = stabilized(model, equations, &factorization);
+        let forces = reactive::forces(model, equations, &factorization)?;
+        let roots = stabilized(model, equations, &forces, &factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
         let cost = program.operations_for(roots.len() - 1).total();
-        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-            best = Some((cost, strategy, factorization));
+        if best.as_ref().is_none_or(|best| cost < best.cost) {
+            best = Some(Solver { cost, strategy, factorization, forces });
         }
     }
-    best.map(|(_, strategy, factorization)| (strategy, factorization))
-        .ok_or(Undetermined { unknowns: Vec::new() })
+    best.ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
 }
 
 /// q̈, the feedback and the growth, with feedback from the state.
-fn stabilized(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Vec<Expr> {
+fn stabilized(
+    model: &mut Model,
+    equations: &Equations,
+    forces: &Forces,
+    factorization: &Factorization,
+) -> Vec<Expr> {
     // Shared, so that the function can hand out the very value it used.
     let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
     let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
-    for (at, &force) in equations.forces.iter().enumerate() {
+    for (at, &force) in forces.values.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
     for (at, (&gamma, &feedback)) in equations.gamma.iter().zip(&feedback).enumerate() {
@@ -217,18 +249,25 @@ fn stabilized(model: &mut Model, equations: &Equations, factorization: &Factoriz
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots = accelerations(model, &solution);
     roots.extend(feedback);
-    roots.push(factorization.growth(&mut model.arena));
+    roots.push(growth(model, forces, factorization));
     roots
+}
+
+/// The growth of the elimination, and of what solves for the forces.
+fn growth(model: &mut Model, forces: &Forces, factorization: &Factorization) -> Expr {
+    let growth = factorization.growth(&mut model.arena);
+    model.arena.add(growth, forces.growth)
 }
 
 /// The roots of `constrained` and of `reactions`, where the feedback is given.
 fn with_given_feedback(
     model: &mut Model,
     equations: &Equations,
+    forces: &Forces,
     factorization: &Factorization,
 ) -> (Vec<Expr>, Vec<Expr>) {
     let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
-    for (at, &force) in equations.forces.iter().enumerate() {
+    for (at, &force) in forces.values.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
     for (at, &gamma) in equations.gamma.iter().enumerate() {
@@ -236,7 +275,7 @@ fn with_given_feedback(
         rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
-    let growth = factorization.growth(&mut model.arena);
+    let growth = growth(model, forces, factorization);
     let mut constrained = accelerations(model, &solution);
     let mut reactions = constrained.clone();
     constrained.push(growth);
@@ -311,7 +350,9 @@ fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: 
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
     let declared = model.requirements.iter().flat_map(|r| [r.difference, r.value]);
-    declared.chain(equations.mass.iter().copied()).collect()
+    let checks = model.checks.iter().map(|check| check.value);
+    let checks = checks.filter(|&value| model.arena.stage(value) == Stage::Parameter);
+    declared.chain(equations.mass.iter().copied()).chain(checks).collect()
 }
 
 fn declared_start(model: &Model) -> Vec<Expr> {

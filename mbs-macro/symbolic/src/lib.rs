@@ -45,6 +45,7 @@ mod number;
 mod operators;
 mod program;
 mod spline;
+mod substitute;
 pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};

@@ -35,7 +35,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Constraint { name, .. }
         | ItemKind::Force { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
-        ItemKind::Spring(spring) => plain(&spring.name),
+        ItemKind::Element(element) => plain(&element.name),
         ItemKind::Profile(profile) => vec![format!("{}()", profile.name), profile.name.to_string()],
         ItemKind::Body { name, coordinates, .. } => {
             let coordinates = coordinates.iter().map(|coordinate| coordinate.name.to_string());
@@ -94,13 +94,11 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(left, visit);
             in_formula(right, visit);
         }
-        ItemKind::Force { name, target, value, .. } => {
+        ItemKind::Force { name, target, frame, value, .. } => {
             visit(Mention::Name(name));
             visit(Mention::Place(target));
-            match value {
-                Load::Scalar(value) => in_formula(value, visit),
-                Load::Vector(value) => in_vector(value, visit),
-            }
+            frame.iter_mut().for_each(|body| visit(Mention::Name(body)));
+            in_load(value, visit);
         }
         ItemKind::Point { body, value, .. } => {
             visit(Mention::Name(body));
@@ -127,11 +125,12 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             profile.points.iter_mut().for_each(|point| in_vector(point, visit));
             in_formula(&mut profile.period, visit);
         }
-        ItemKind::Spring(spring) => {
-            visit(Mention::Name(&mut spring.name));
-            visit(Mention::Place(&mut spring.first));
-            visit(Mention::Place(&mut spring.second));
-            spring.properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
+        ItemKind::Element(element) => {
+            visit(Mention::Name(&mut element.name));
+            visit(Mention::Place(&mut element.first));
+            element.second.iter_mut().for_each(|second| visit(Mention::Place(second)));
+            element.along.iter_mut().for_each(|along| in_vector(along, visit));
+            element.properties.iter_mut().for_each(|property| in_load(&mut property.value, visit));
         }
         ItemKind::Start { entries, .. } => {
             for entry in entries {
@@ -151,6 +150,13 @@ fn in_condition(condition: &mut Condition, visit: &mut dyn FnMut(Mention<'_>)) {
     in_formula(&mut condition.right, visit);
 }
 
+fn in_load(load: &mut Load, visit: &mut dyn FnMut(Mention<'_>)) {
+    match load {
+        Load::Scalar(value) => in_formula(value, visit),
+        Load::Vector(value) => in_vector(value, visit),
+    }
+}
+
 fn in_vector(vector: &mut Vector, visit: &mut dyn FnMut(Mention<'_>)) {
     in_formula(&mut vector.x, visit);
     in_formula(&mut vector.y, visit);
@@ -160,7 +166,9 @@ fn in_formula(formula: &mut Formula, visit: &mut dyn FnMut(Mention<'_>)) {
     match &mut formula.kind {
         FormulaKind::Number { .. } => {}
         kind @ (FormulaKind::Name(_) | FormulaKind::Member(_)) => visit(Mention::Formula(kind)),
-        FormulaKind::Negative(inner) | FormulaKind::WithUnit { inner, .. } => in_formula(inner, visit),
+        FormulaKind::Negative(inner)
+        | FormulaKind::WithUnit { inner, .. }
+        | FormulaKind::Component { call: inner, .. } => in_formula(inner, visit),
         FormulaKind::Binary { left, right, .. } => {
             in_formula(left, visit);
             in_formula(right, visit);

@@ -158,7 +158,7 @@ impl<'a> Functions<'a> {
     }
 
     pub fn forces(&self) -> String {
-        let lines = self.coordinates(&self.equations.forces);
+        let lines = self.coordinates(&self.equations.total_forces);
         self.finish("forces", "Generalized forces Q: gravity and applied loads.", &lines)
     }
 

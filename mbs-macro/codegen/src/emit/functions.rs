@@ -1,6 +1,6 @@
 //! The generated functions.
 
-use mbs_symbolic::{Operand, Program};
+use mbs_symbolic::{Operand, Program, Stage};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -12,7 +12,7 @@ use super::names::{Names, field};
 use super::program::{Body, body};
 use super::splines::splines;
 use crate::derive::Equations;
-use crate::model::{Direction, Model};
+use crate::model::{Check, Direction, Model};
 use crate::plan::Plan;
 use crate::syntax::Comparison;
 
@@ -88,7 +88,7 @@ fn parameter_checks(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             }
         });
     }
-    for (coordinate, mass) in model.coordinates.iter().zip(outputs) {
+    for (coordinate, mass) in model.coordinates.iter().zip(outputs.by_ref()) {
         let body = &model.bodies[coordinate.body];
         let what = if coordinate.direction == Direction::Angle { "inertia" } else { "mass" };
         let name = format!("{what} of {}", body.name);
@@ -103,6 +103,23 @@ fn parameter_checks(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
                     name: #name,
                     value: (#mass).to_f64(),
                     requirement: "it must not be negative",
+                });
+            }
+        });
+    }
+    let is_known = |check: &&Check| model.arena.stage(check.value) == Stage::Parameter;
+    for (check, value) in model.checks.iter().filter(is_known).zip(outputs) {
+        let (comparison, requirement) = match check.is_strict {
+            true => (quote!(>), "it has to be positive"),
+            false => (quote!(>=), "it must not be negative"),
+        };
+        let name = format!("{} of {}", check.property, check.element);
+        checks.extend(quote! {
+            if !(#value #comparison T::from_f64(0.0)) {
+                return ::core::result::Result::Err(#runtime::Error::Parameter {
+                    name: #name,
+                    value: (#value).to_f64(),
+                    requirement: #requirement,
                 });
             }
         });

@@ -26,7 +26,7 @@ impl Resolver<'_> {
         let (mut sizes, mut unit, mut carrier) = (Some([one; 2]), Dimension::LENGTH, Some(zero));
         for clause in &joint.clauses {
             match clause {
-                Clause::Along(vector) => along = self.direction_of(joint, vector),
+                Clause::Along(vector) => along = self.direction_of(&joint.name, vector),
                 Clause::At(formula) => at = self.offset(joint, formula),
                 Clause::Equals(formula) if joint.kind == JointKind::Cam => {
                     value = places.and_then(|(first, second)| {
@@ -64,7 +64,7 @@ impl Resolver<'_> {
     }
 
     /// A direction: two numbers or lengths, not both 0.
-    fn direction_of(&mut self, joint: &Joint, vector: &Vector) -> Option<[Expr; 2]> {
+    pub(super) fn direction_of(&mut self, name: &Ident, vector: &Vector) -> Option<[Expr; 2]> {
         let x = self.scope.formula(&vector.x, Place::Property, &mut self.errors);
         let y = self.scope.formula(&vector.y, Place::Property, &mut self.errors);
         let (x, y) = (x?, y?);
@@ -72,14 +72,14 @@ impl Resolver<'_> {
             && a != b
         {
             self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` mixes dimensions", joint.name))
+                Diagnostic::new(vector.span, format!("the direction of `{name}` mixes dimensions"))
                     .help("give both components in the same unit, or both as numbers"),
             );
             return None;
         }
         if self.scope.arena.is_zero(x.expr) && self.scope.arena.is_zero(y.expr) {
             self.errors.push(
-                Diagnostic::new(vector.span, format!("the direction of `{}` is zero", joint.name))
+                Diagnostic::new(vector.span, format!("the direction of `{name}` is zero"))
                     .help("write `(1, 0)` for x, `(0, 1)` for y"),
             );
             return None;

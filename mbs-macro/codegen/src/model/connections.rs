@@ -4,6 +4,7 @@ use mbs_symbolic::{Expr, Symbol};
 use proc_macro2::Ident;
 
 use super::joints::{self, JointRow};
+use super::reactions::KnownJoint;
 use super::resolver::Resolver;
 use super::{Constraint, Meaning};
 use crate::diagnostics::Diagnostic;
@@ -16,6 +17,16 @@ impl Resolver<'_> {
         for suffix in self.suffixes(joint) {
             self.declare_row(&row_name(joint, suffix), false);
         }
+        let multipliers: Vec<_> = self
+            .suffixes(joint)
+            .into_iter()
+            .filter_map(|suffix| self.scope.rows.get(&row_name(joint, suffix).to_string()))
+            .map(|row| row.multiplier)
+            .collect();
+        let ends = [joint.first.clone(), joint.second.clone()];
+        let (kind, span) = (joint.kind, joint.name.span());
+        let known = KnownJoint { kind, span, ends, multipliers, connection: None };
+        self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 
     fn suffixes(&self, joint: &Joint) -> Vec<&'static str> {
@@ -43,6 +54,7 @@ impl Resolver<'_> {
             if let Some(known) = self.scope.rows.get_mut(&name.to_string()) {
                 known.is_broken = !is_restricting;
                 known.dimension = row.map(|row| row.dimension);
+                known.phi = row.map(|row| row.phi);
             }
             if let (Some(JointRow { phi, dimension }), true) = (row, is_restricting) {
                 let (name, doc, span) = (name.to_string(), doc.to_owned(), joint.name.span());
@@ -54,6 +66,9 @@ impl Resolver<'_> {
 
     fn joint_rows(&mut self, joint: &Joint) -> Option<Vec<JointRow>> {
         let connection = self.connection(joint)?;
+        if let Some(known) = self.scope.joints.get_mut(&joint.name.to_string()) {
+            known.connection = Some(connection);
+        }
         Some(joints::rows(&mut self.scope.arena, joint.kind, &connection))
     }
 

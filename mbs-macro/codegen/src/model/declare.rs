@@ -4,12 +4,13 @@ use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Number, Stage};
 use proc_macro2::Ident;
 
+use super::measures::Source;
 use super::names::{Definition, Row, State, Value, duplicate};
 use super::places::{Frame, GROUND};
 use super::resolver::Resolver;
 use super::{Body, Coordinate, Direction, Meaning, Parameter, Quantity};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
+use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn declare(&mut self, item: &'a Item) {
@@ -39,8 +40,21 @@ impl<'a> Resolver<'a> {
             ItemKind::Joint(joint) => self.declare_joint(joint),
             ItemKind::Profile(profile) => self.declare_profile(&profile.name),
             ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
+            ItemKind::Force { name, is_torque, .. } => {
+                self.declare_source(name, if *is_torque { "torque" } else { "force" }, None);
+            }
+            ItemKind::Element(element) => {
+                let ends = element.second.clone().map(|second| [element.first.clone(), second]);
+                self.declare_source(&element.name, element.kind.word(), ends);
+            }
             _ => {}
         }
+    }
+
+    /// A second one of the same name is refused when it is resolved.
+    fn declare_source(&mut self, name: &Ident, word: &'static str, ends: Option<[Attachment; 2]>) {
+        let source = Source { word, span: name.span(), ends, work: Vec::new(), exerts: None };
+        self.scope.sources.entry(name.to_string()).or_insert(source);
     }
 
     fn declare_parameter(&mut self, name: &Ident, formula: &'a Formula, doc: &str) {
@@ -151,7 +165,7 @@ impl<'a> Resolver<'a> {
         let multiplier =
             self.scope.symbol(&format!("lambda({text})"), Stage::Variable, Meaning::Multiplier(position));
         let span = name.span();
-        let row = Row { position, is_drive, span, multiplier, dimension: None, is_broken: false };
+        let row = Row { position, is_drive, span, multiplier, dimension: None, phi: None, is_broken: false };
         self.scope.rows.insert(text, row);
     }
 }

@@ -42,6 +42,7 @@ impl Scope<'_> {
                 self.finite(typed, &[l.expr, r.expr], *op_span, errors)
             }
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
+            FormulaKind::Component { call, member } => self.component(call, member, place, errors),
             FormulaKind::WithUnit { inner, unit } => {
                 let value = self.formula(inner, place, errors)?;
                 if value.dimension.is_some_and(|dimension| dimension != Dimension::NONE) {
@@ -192,8 +193,12 @@ impl Scope<'_> {
                 .help(format!("its multiplier is `lambda({text})`"));
         }
         if functions::is_known(&text) || self.profiles.contains_key(&text) {
-            return Diagnostic::new(name.span(), format!("`{text}` is a function"))
-                .help(format!("give it its argument: `{text}(…)`"));
+            return Diagnostic::new(name.span(), format!("`{text}` is a function")).help(
+                match text.ends_with("_energy") {
+                    true => format!("write `{text}()`"),
+                    false => format!("give it its argument: `{text}(…)`"),
+                },
+            );
         }
         let known = self.values.keys().map(String::as_str).chain(["t", "pi"]);
         match nearest(&text, known) {

@@ -9,6 +9,7 @@ use proc_macro2::Ident;
 use super::Meaning;
 use super::joints;
 use super::laws::LAWS;
+use super::measures::MEASURES;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Attachment, Formula, FormulaKind};
@@ -28,6 +29,7 @@ impl Scope<'_> {
                 errors.take(result)
             }
             "distance" => self.distance(name, arguments, place, errors),
+            text if MEASURES.contains(&text) => self.measure(name, arguments, place, errors),
             text => {
                 if let Some(function) = Function::named(text) {
                     return self.function(function, name, arguments, place, errors);
@@ -233,7 +235,10 @@ impl Scope<'_> {
 /// The functions of the language.
 fn known<'a>() -> impl Iterator<Item = &'a str> {
     let elementary = mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).filter(|name| !name.is_empty());
-    elementary.chain(LAWS.iter().map(|law| law.name)).chain(["der", "lambda", "effort", "distance"])
+    elementary
+        .chain(LAWS.iter().map(|law| law.name))
+        .chain(["der", "lambda", "effort", "distance"])
+        .chain(MEASURES.iter().copied())
 }
 
 /// Whether the language has a function of this name.

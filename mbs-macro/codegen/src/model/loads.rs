@@ -4,9 +4,11 @@ use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
-use super::Load;
+use super::joints;
+use super::measures::Exerts;
 use super::names::{Place, duplicate};
 use super::resolver::Resolver;
+use super::{Load, Meaning, Work};
 use crate::diagnostics::{Diagnostic, listing, nearest};
 use crate::syntax::{self, Attachment};
 
@@ -18,8 +20,8 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         is_torque: bool,
-        target: &Attachment,
-        load: &syntax::Load,
+        (target, frame): (&Attachment, Option<&Ident>),
+        value: &syntax::Load,
     ) {
         if !self.declare_load(name) {
             return;
@@ -29,9 +31,16 @@ impl Resolver<'_> {
         let body = self.bodies.iter().position(|body| body.name == target_text);
         match (coordinate, body) {
             (Some(coordinate), _) if target.point.is_none() => {
-                self.load_on_coordinate(coordinate, body_name, load);
+                if let Some(frame) = frame {
+                    self.errors.push(no_frame(frame, "a force along a coordinate"));
+                    return;
+                }
+                self.load_on_coordinate(name, coordinate, body_name, value);
             }
-            (_, Some(body)) => self.load_on_body(body, is_torque, target, load),
+            (_, Some(body)) => {
+                let load = LoadOnBody { name, body, is_torque, target, frame };
+                self.load_on_body(&load, value);
+            }
             (Some(_), None) => self.errors.push(
                 Diagnostic::new(
                     body_name.span(),
@@ -64,7 +73,7 @@ impl Resolver<'_> {
         true
     }
 
-    fn load_on_coordinate(&mut self, coordinate: usize, target: &Ident, load: &syntax::Load) {
+    fn load_on_coordinate(&mut self, name: &Ident, coordinate: usize, target: &Ident, load: &syntax::Load) {
         let syntax::Load::Scalar(formula) = load else {
             self.errors.push(
                 Diagnostic::new(
@@ -79,32 +88,30 @@ impl Resolver<'_> {
         let what = format!("the generalized force along `{target}`");
         if let Some(value) = self.scope.formula_of(formula, Place::Load, (&what, dimension), &mut self.errors)
         {
-            self.loads.push(Load { coordinate, value });
+            let one = self.scope.arena.one();
+            self.push_work(name, Work { force: value, along: vec![(coordinate, one)], span: name.span() });
+            self.exerts(name, Exerts { value, dimension });
         }
     }
 
-    fn load_on_body(&mut self, body: usize, is_torque: bool, target: &Attachment, load: &syntax::Load) {
+    fn load_on_body(&mut self, load: &LoadOnBody<'_>, value: &syntax::Load) {
         // A place that does not exist has its error already.
-        let Some(placed) = self.scope.attachment(target, &mut self.errors) else { return };
-        let name = &target.body;
-        match (is_torque, load) {
+        let Some(placed) = self.scope.attachment(load.target, &mut self.errors) else { return };
+        let name = &load.target.body;
+        match (load.is_torque, value) {
             (true, syntax::Load::Scalar(formula)) => {
+                if let Some(frame) = load.frame {
+                    self.errors.push(no_frame(frame, "a torque"));
+                    return;
+                }
                 let what = ("a torque", ENERGY);
                 let value = self.scope.formula_of(formula, Place::Load, what, &mut self.errors);
                 if let Some(value) = value {
-                    self.push_load(body, (placed.angle, "angle"), (value, formula.span), name);
+                    self.push_load(load, (placed.angle, "angle"), (value, formula.span));
+                    self.exerts(load.name, Exerts { value, dimension: ENERGY });
                 }
             }
-            (false, syntax::Load::Vector(vector)) => {
-                let what = ("a force", Dimension::of(1, 1, -2));
-                let [x, y] = placed.position;
-                for (moved, formula) in [((x, "x coordinate"), &vector.x), ((y, "y coordinate"), &vector.y)] {
-                    let value = self.scope.formula_of(formula, Place::Load, what, &mut self.errors);
-                    if let Some(value) = value {
-                        self.push_load(body, moved, (value, formula.span), name);
-                    }
-                }
-            }
+            (false, syntax::Load::Vector(vector)) => self.force_on_body(load, placed.position, vector),
             (true, syntax::Load::Vector(vector)) => self.errors.push(
                 Diagnostic::new(vector.span, "a planar torque is a scalar")
                     .help(format!("write `torque … on {name} = …;` with one formula")),
@@ -117,35 +124,96 @@ impl Resolver<'_> {
         }
     }
 
-    /// Adds a component F of a load that does the virtual work F δs: the force
-    /// F ∂s/∂q along every coordinate q of the body. One that the body cannot
-    /// follow is refused unless it is 0, rather than dropped.
-    fn push_load(
-        &mut self,
-        body: usize,
-        (moved, what): (Expr, &str),
-        (value, span): (Expr, Span),
-        name: &Ident,
-    ) {
-        let mut moves = false;
-        for coordinate in self.bodies[body].coordinates.clone() {
-            let slope = self.scope.arena.partial(moved, self.coordinates[coordinate].position);
-            if !self.scope.arena.is_zero(slope) {
-                moves = true;
-                let value = self.scope.arena.mul(value, slope);
-                self.loads.push(Load { coordinate, value });
+    fn force_on_body(&mut self, load: &LoadOnBody<'_>, [x, y]: [Expr; 2], vector: &syntax::Vector) {
+        let what = ("a force", Dimension::of(1, 1, -2));
+        let mut read = |formula| self.scope.formula_of(formula, Place::Load, what, &mut self.errors);
+        let (fx, fy) = (read(&vector.x), read(&vector.y));
+        let (fx, fy) = match load.frame {
+            None => (fx, fy),
+            Some(frame) => {
+                let angle = self.scope.frame(frame).map(|frame| frame.angle);
+                let (Some(angle), Some(fx), Some(fy)) = (self.errors.take(angle), fx, fy) else { return };
+                let [fx, fy] = joints::rotate(&mut self.scope.arena, angle, [fx, fy]);
+                (Some(fx), Some(fy))
+            }
+        };
+        let components = [((x, "x coordinate"), fx, vector.x.span), ((y, "y coordinate"), fy, vector.y.span)];
+        for (moved, value, span) in components {
+            if let Some(value) = value {
+                self.push_load(load, moved, (value, span));
             }
         }
+    }
+
+    /// Adds a component of a load on a body. One that the body cannot follow is
+    /// refused unless it is 0, rather than dropped.
+    fn push_load(&mut self, load: &LoadOnBody<'_>, (moved, what): (Expr, &str), (value, span): (Expr, Span)) {
+        let moves = self.apply(load.name, value, moved);
         if !moves && !self.scope.arena.is_zero(value) {
             let mend = if what == "angle" {
                 "let it act on a body that turns"
             } else {
                 "write 0 for this component"
             };
+            let name = &self.bodies[load.body].name;
             let message = format!("body `{name}` has no {what}, so this would have no effect");
             self.errors.push(
                 Diagnostic::new(span, message).help(format!("{mend}, or give `{name}` the coordinate")),
             );
         }
     }
+
+    /// Adds a force F that does the virtual work F δs: F ∂s/∂q along every
+    /// coordinate q; false if s depends on none.
+    pub(super) fn apply(&mut self, name: &Ident, force: Expr, moved: Expr) -> bool {
+        let mut along = Vec::new();
+        for symbol in self.scope.arena.symbols_in(moved) {
+            if let Meaning::Coordinate(coordinate) = self.scope.meaning(symbol) {
+                let slope = self.scope.arena.partial(moved, symbol);
+                if !self.scope.arena.is_zero(slope) {
+                    along.push((coordinate, slope));
+                }
+            }
+        }
+        let moves = !along.is_empty();
+        self.push_work(name, Work { force, along, span: name.span() });
+        moves
+    }
+
+    fn push_work(&mut self, name: &Ident, work: Work) {
+        let is_multiplier = |symbol| matches!(self.scope.meaning(symbol), Meaning::Multiplier(_));
+        if self.scope.arena.symbols_in(work.force).into_iter().any(is_multiplier) {
+            self.reactive_loads.push(work.clone());
+        } else {
+            for &(coordinate, slope) in &work.along {
+                let value = self.scope.arena.mul(work.force, slope);
+                self.loads.push(Load { coordinate, value });
+            }
+        }
+        if let Some(source) = self.scope.sources.get_mut(&name.to_string()) {
+            source.work.push(work);
+        }
+    }
+
+    /// Notes what scalar an element exerts, for outputs.
+    pub(super) fn exerts(&mut self, name: &Ident, exerts: Exerts) {
+        if let Some(source) = self.scope.sources.get_mut(&name.to_string()) {
+            source.exerts = Some(exerts);
+        }
+    }
+}
+
+/// A declared force or torque on a body.
+struct LoadOnBody<'l> {
+    name: &'l Ident,
+    body: usize,
+    is_torque: bool,
+    target: &'l Attachment,
+    /// The body whose axes a force is given in; those of the ground if left out.
+    frame: Option<&'l Ident>,
+}
+
+fn no_frame(frame: &Ident, what: &str) -> Diagnostic {
+    Diagnostic::new(frame.span(), format!("{what} is the same in every frame"))
+        .help(format!("leave `in {frame}` out"))
 }

@@ -6,16 +6,19 @@
 mod clauses;
 mod connections;
 mod declare;
+mod elements;
+pub mod energies;
 mod formula;
 mod functions;
 mod joints;
 mod laws;
 mod loads;
+mod measures;
 mod names;
 mod places;
 mod profiles;
+mod reactions;
 mod resolver;
-mod springs;
 mod statements;
 
 use mbs_symbolic::units::Dimension;
@@ -46,6 +49,10 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     pub gravity: [Expr; 2],
     pub loads: Vec<Load>,
+    /// Loads that depend on multipliers.
+    pub reactive_loads: Vec<Work>,
+    /// What properties of elements have to satisfy.
+    pub checks: Vec<Check>,
     /// Energies of springs.
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
@@ -145,6 +152,24 @@ pub struct Constraint {
 pub struct Load {
     pub coordinate: usize,
     pub value: Expr,
+}
+
+/// A force F that does the virtual work F δs, with ∂s/∂q where that is not 0.
+#[derive(Clone)]
+pub struct Work {
+    pub force: Expr,
+    pub along: Vec<(usize, Expr)>,
+    /// The name of what exerts it.
+    pub span: Span,
+}
+
+/// A property that must be positive, or just not negative.
+pub struct Check {
+    pub value: Expr,
+    pub is_strict: bool,
+    pub property: &'static str,
+    pub element: String,
+    pub span: Span,
 }
 
 pub struct Start {

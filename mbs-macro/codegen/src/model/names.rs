@@ -7,8 +7,10 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
+use super::measures::{Energies, Source};
 use super::places::{Frame, GROUND};
 use super::profiles::Profile;
+use super::reactions::KnownJoint;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Formula;
 
@@ -62,7 +64,9 @@ impl Place {
             Meaning::Time | Meaning::Coordinate(_) => {
                 matches!(self, Self::Constraint | Self::Load | Self::Anywhere)
             }
-            Meaning::Velocity(_) | Meaning::Input(_) => matches!(self, Self::Load | Self::Anywhere),
+            Meaning::Velocity(_) | Meaning::Input(_) | Meaning::Multiplier(_) => {
+                matches!(self, Self::Load | Self::Anywhere)
+            }
             _ => self == Self::Anywhere,
         }
     }
@@ -75,7 +79,9 @@ impl Place {
             Self::Constraint => {
                 "a constraint is written in positions, parameters and time; its derivatives are taken for you"
             }
-            Self::Load => "a force may depend on positions, velocities, time, inputs and parameters",
+            Self::Load => {
+                "a force may depend on positions, velocities, reactions, time, inputs and parameters"
+            }
             Self::Anywhere => "this cannot stand here",
         }
     }
@@ -97,6 +103,11 @@ pub struct Scope<'a> {
     pub bodies: BTreeMap<String, Frame>,
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
+    pub joints: BTreeMap<String, KnownJoint>,
+    /// Named forces, torques and elements.
+    pub sources: BTreeMap<String, Source>,
+    /// Known once all forces are.
+    pub energies: Option<Energies>,
     pub time: Symbol,
     pub local: Option<Local>,
     pub profiles: BTreeMap<String, Profile>,
@@ -109,6 +120,8 @@ pub struct Row {
     pub multiplier: Symbol,
     /// Dimension of Φ; known once the constraint is resolved.
     pub dimension: Option<Dimension>,
+    /// Known with the dimension.
+    pub phi: Option<Expr>,
     /// Its equation has errors, which are reported there.
     pub is_broken: bool,
 }
@@ -121,6 +134,9 @@ impl<'a> Scope<'a> {
             values: BTreeMap::new(),
             bodies: BTreeMap::new(),
             rows: BTreeMap::new(),
+            joints: BTreeMap::new(),
+            sources: BTreeMap::new(),
+            energies: None,
             time: Arena::new().symbol("t", Stage::Variable),
             local: None,
             profiles: BTreeMap::new(),

@@ -77,7 +77,7 @@ impl Scope<'_> {
     }
 
     /// The body called `name`.
-    pub fn frame(&self, name: &Ident) -> Result<&Frame, Diagnostic> {
+    pub(super) fn frame(&self, name: &Ident) -> Result<&Frame, Diagnostic> {
         let text = name.to_string();
         self.bodies.get(&text).ok_or_else(|| {
             let error = Diagnostic::new(name.span(), format!("there is no body `{text}`"));

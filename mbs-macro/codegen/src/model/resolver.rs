@@ -6,10 +6,12 @@ use mbs_symbolic::{Expr, Stage};
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
+use super::energies;
+use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement, Start,
-    Symbols,
+    Body, Check, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
+    Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -31,6 +33,8 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     resolver.each(declaration, Resolver::resolve_places);
     resolver.each(declaration, Resolver::resolve_constraint);
     resolver.each(declaration, Resolver::resolve_item);
+    resolver.forces_are_known();
+    resolver.each(declaration, Resolver::resolve_measurement);
     resolver.resolve_rest();
     resolver.finish(declaration)
 }
@@ -55,6 +59,8 @@ pub(super) struct Resolver<'a> {
     pub row_count: usize,
     pub gravity: Option<([Expr; 2], Span)>,
     pub loads: Vec<Load>,
+    pub reactive_loads: Vec<Work>,
+    pub checks: Vec<Check>,
     pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
     pub starts: Vec<Start>,
@@ -82,6 +88,8 @@ impl<'a> Resolver<'a> {
             row_count: 0,
             gravity: None,
             loads: Vec::new(),
+            reactive_loads: Vec::new(),
+            checks: Vec::new(),
             potentials: Vec::new(),
             load_names: Vec::new(),
             starts: Vec::new(),
@@ -101,6 +109,12 @@ impl<'a> Resolver<'a> {
                 self.errors.truncate(before);
             }
         }
+    }
+
+    fn forces_are_known(&mut self) {
+        let gravity = self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity);
+        let inertias = energies::inertias(&self.coordinates, &self.bodies, gravity);
+        self.scope.energies = Some(Energies { inertias, springs: self.potentials.clone() });
     }
 
     /// What nothing else has asked for still has to be right.
@@ -165,6 +179,8 @@ impl<'a> Resolver<'a> {
             constraints: self.constraints,
             gravity: self.gravity.map_or([zero; 2], |(gravity, _)| gravity),
             loads: self.loads,
+            reactive_loads: self.reactive_loads,
+            checks: self.checks,
             potentials: self.potentials,
             start: self.starts,
             outputs: self.outputs,

@@ -31,6 +31,7 @@ impl<'a> Resolver<'a> {
         if let Some(row) = self.scope.rows.get_mut(&name.to_string()) {
             row.is_broken = resolved.is_none();
             row.dimension = resolved.map(|(_, dimension)| dimension);
+            row.phi = resolved.map(|(phi, _)| phi);
         }
         let Some((phi, dimension)) = resolved else { return };
         let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
@@ -101,17 +102,21 @@ impl<'a> Resolver<'a> {
                 }
             }
             ItemKind::Body { name, properties, .. } => self.resolve_body(name, properties),
-            ItemKind::Force { name, is_torque, target, value } => {
-                self.resolve_load(name, *is_torque, target, value)
+            ItemKind::Force { name, is_torque, target, frame, value } => {
+                self.resolve_load(name, *is_torque, (target, frame.as_ref()), value);
             }
-            ItemKind::Spring(spring) => self.resolve_spring(spring),
+            ItemKind::Element(element) => self.resolve_element(element),
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
-            ItemKind::Output { name, unit, value } => {
-                self.resolve_output(name, unit.as_ref(), value, &item.doc)
-            }
             _ => {}
+        }
+    }
+
+    /// Outputs come last: they may ask for everything.
+    pub(super) fn resolve_measurement(&mut self, item: &Item) {
+        if let ItemKind::Output { name, unit, value } = &item.kind {
+            self.resolve_output(name, unit.as_ref(), value, &item.doc);
         }
     }
 

@@ -138,7 +138,12 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
                 end(&content)?;
             }
         }
-        return Ok(Formula { span, kind: FormulaKind::Call { function: name, arguments } });
+        let call = Formula { span, kind: FormulaKind::Call { function: name, arguments } };
+        if input.parse::<Option<Token![.]>>()?.is_none() {
+            return Ok(call);
+        }
+        let member = member(input)?;
+        return Ok(Formula { span, kind: FormulaKind::Component { call: Box::new(call), member } });
     }
     // `input.error` would speak of an unexpected end of input
     Err(Error::new(input.span(), "a formula is expected here: a number, a name, a function call or `( … )`"))
@@ -151,12 +156,13 @@ fn path(input: ParseStream<'_>, name: Ident) -> Result<FormulaKind> {
     }
     let mut path = vec![name];
     while input.parse::<Option<Token![.]>>()?.is_some() {
-        path.push(
-            Ident::parse_any(input)
-                .map_err(|error| Error::new(error.span(), "a name is expected behind `.`"))?,
-        );
+        path.push(member(input)?);
     }
     Ok(FormulaKind::Member(path))
+}
+
+fn member(input: ParseStream<'_>) -> Result<Ident> {
+    Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected behind `.`"))
 }
 
 fn number(literal: &Lit) -> Result<Formula> {

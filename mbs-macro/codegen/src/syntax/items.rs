@@ -15,7 +15,7 @@ use super::statements::Reader;
 use super::{
     Comparison, Condition, Coordinate, Declaration, Formula, ItemKind, Load, Property, Role, StartEntry,
 };
-use super::{joints, profiles, springs};
+use super::{elements, joints, profiles};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -36,8 +36,6 @@ const KEYWORDS: &[&str] = &[
     "output",
     "point",
     "profile",
-    "spring",
-    "torsion_spring",
     "require",
     "for",
     "if",
@@ -83,7 +81,7 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
 pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     let doc = doc(input)?;
     let keyword = Ident::parse_any(input).map_err(|error| {
-        Error::new(error.span(), format!("a statement is expected here: {}", KEYWORDS.join(", ")))
+        Error::new(error.span(), format!("a statement is expected here: {}", statements().join(", ")))
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
@@ -105,18 +103,28 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
         "require" => require(input),
         "instance" => instance(input),
         "profile" => profiles::profile(input),
-        "spring" | "torsion_spring" => springs::spring(input, &keyword),
-        word => match joints::JOINTS.iter().find(|shape| shape.word == word) {
-            Some(shape) => joints::joint(input, shape),
-            None => Err(unknown_statement(&keyword, word)),
-        },
+        word => {
+            let joint = joints::JOINTS.iter().find(|shape| shape.word == word);
+            let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
+            match (joint, element) {
+                (Some(shape), _) => joints::joint(input, shape),
+                (None, Some(shape)) => elements::element(input, shape),
+                (None, None) => Err(unknown_statement(&keyword, word)),
+            }
+        }
     }?;
     Ok((doc, kind))
 }
 
-fn unknown_statement(keyword: &Ident, word: &str) -> Error {
+/// The words that begin statements.
+fn statements() -> Vec<&'static str> {
+    let elements = elements::ELEMENTS.iter().map(|shape| shape.word);
     let joints = joints::JOINTS.iter().map(|shape| shape.word);
-    let known: Vec<_> = KEYWORDS.iter().copied().chain(joints).collect();
+    KEYWORDS.iter().copied().chain(elements).chain(joints).collect()
+}
+
+fn unknown_statement(keyword: &Ident, word: &str) -> Error {
+    let known = statements();
     let hint = match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("statements begin with {}", known.join(", ")),
@@ -192,6 +200,15 @@ fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
         }
         _ => Error::new(span, message),
     }
+}
+
+/// What follows has to be this word.
+pub(super) fn expect_word(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
+    let span = input.span();
+    if Ident::parse_any(input).is_ok_and(|word| word == expected) {
+        return Ok(());
+    }
+    Err(Error::new(span, format!("`{expected}` is expected before this, as in `{example}`")))
 }
 
 /// What follows has to be `{ … }`.
@@ -391,10 +408,14 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
         return Err(Error::new(span, message));
     }
     let target = input.parse()?;
+    let frame = match input.parse::<Option<Token![in]>>()? {
+        Some(_) => Some(name(input)?),
+        None => None,
+    };
     equals(input)?;
     let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
     semicolon(input)?;
-    Ok(ItemKind::Force { name: what, is_torque, target, value })
+    Ok(ItemKind::Force { name: what, is_torque, target, frame, value })
 }
 
 fn start(input: ParseStream<'_>) -> Result<ItemKind> {

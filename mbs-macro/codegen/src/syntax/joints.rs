@@ -83,21 +83,7 @@ pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
 pub(super) fn joint(input: ParseStream<'_>, shape: &Shape) -> Result<ItemKind> {
     let name = name(input)?;
     let example = format!("{} {name} {};", shape.word, shape.example);
-    if !input.peek(token::Paren) {
-        return Err(
-            input.error(format!("the two places that it connects are expected here, as in `{example}`"))
-        );
-    }
-    let content;
-    parenthesized!(content in input);
-    let first = content.parse()?;
-    if content.parse::<Option<Token![,]>>()?.is_none() {
-        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
-    }
-    let second = content.parse()?;
-    if !content.is_empty() {
-        return Err(Error::new(content.span(), format!("a joint connects two places, as in `{example}`")));
-    }
+    let (first, second) = two_places(input, "the two places that it connects are", "a joint", &example)?;
     let clauses = clauses(input, shape, &name, &example)?;
     Ok(ItemKind::Joint(Box::new(Joint { kind: shape.kind, name, first, second, clauses })))
 }
@@ -131,6 +117,29 @@ fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -
     }
     semicolon(input)?;
     Ok(clauses)
+}
+
+/// `(a.p, b.q)`
+pub(super) fn two_places(
+    input: ParseStream<'_>,
+    places: &str,
+    what: &str,
+    example: &str,
+) -> Result<(Attachment, Attachment)> {
+    if !input.peek(token::Paren) {
+        return Err(input.error(format!("{places} expected here, as in `{example}`")));
+    }
+    let content;
+    parenthesized!(content in input);
+    let first = content.parse()?;
+    if content.parse::<Option<Token![,]>>()?.is_none() {
+        return Err(Error::new(content.span(), format!("{what} connects two places, as in `{example}`")));
+    }
+    let second = content.parse()?;
+    if !content.is_empty() {
+        return Err(Error::new(content.span(), format!("{what} connects two places, as in `{example}`")));
+    }
+    Ok((first, second))
 }
 
 /// Whether both clauses cannot stand together.

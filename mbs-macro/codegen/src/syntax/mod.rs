@@ -1,11 +1,11 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
+mod elements;
 mod formula;
 mod indices;
 mod items;
 mod joints;
 mod profiles;
-mod springs;
 mod statements;
 
 use mbs_symbolic::Number;
@@ -60,8 +60,8 @@ pub enum ItemKind {
     Body { name: Ident, coordinates: Vec<Coordinate>, properties: Vec<Property> },
     /// `constraint name: left = right;`, or another [`Role`] before it.
     Constraint { name: Ident, role: Role, left: Formula, equals: Span, right: Formula },
-    /// `force name on target = …;` or `torque name on target = …;`
-    Force { name: Ident, is_torque: bool, target: Attachment, value: Load },
+    /// `force name on target = …;`, in a body's frame `… in body = …;`, or `torque name on target = …;`
+    Force { name: Ident, is_torque: bool, target: Attachment, frame: Option<Ident>, value: Load },
     /// `point tip on crank = (l/2, 0);`
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
@@ -69,7 +69,7 @@ pub enum ItemKind {
     /// `profile lift = spline((0, 0), …) period 360 [deg];`
     Profile(Profile),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
-    Spring(Spring),
+    Element(Box<Element>),
     /// `start { … }`
     Start { entries: Vec<StartEntry> },
     /// `output name [unit] = …;`
@@ -200,14 +200,34 @@ pub struct Profile {
     pub period: Formula,
 }
 
-/// A spring with a damper between two places, or two angles.
+/// A force element: spring, motor, friction, drag.
 #[derive(Clone)]
-pub struct Spring {
+pub struct Element {
     pub name: Ident,
-    pub is_torsion: bool,
+    pub kind: ElementKind,
     pub first: Attachment,
-    pub second: Attachment,
-    pub properties: Vec<Property>,
+    /// The other end, where it has one.
+    pub second: Option<Attachment>,
+    /// The direction in which it acts, in the frame of the second body.
+    pub along: Option<Vector>,
+    pub properties: Vec<ElementProperty>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    Spring,
+    TorsionSpring,
+    Motor,
+    Friction,
+    TorsionFriction,
+    Drag,
+}
+
+/// `stiffness = …;` in an element.
+#[derive(Clone)]
+pub struct ElementProperty {
+    pub name: Ident,
+    pub value: Load,
 }
 
 /// A place on a body: `crank.tip`, or `crank` for its centre.
@@ -301,6 +321,11 @@ pub enum FormulaKind {
     Call {
         function: Ident,
         arguments: Vec<Formula>,
+    },
+    /// `reaction(pin, rod).x`
+    Component {
+        call: Box<Formula>,
+        member: Ident,
     },
     /// `( … ) [unit]`
     WithUnit {

@@ -13,6 +13,8 @@ pub use samples::Samples;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
+use crate::plan::Unsolvable;
+use crate::reactive::Circular;
 
 /// Checks the equations before they are planned.
 ///
@@ -41,6 +43,17 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             );
         }
     }
+    for check in &model.checks {
+        let value = model.arena.evaluate(&[check.value], &values)[0];
+        // what depends on the motion is not known here, and not a number
+        if value < 0.0 || (check.is_strict && value == 0.0) {
+            let is_number = model.arena.as_number(check.value).is_some();
+            let at = if is_number { "" } else { " at the declared parameters" };
+            let message = format!("the {} of `{}` is {value}{at}", check.property, check.element);
+            let help = if check.is_strict { "it has to be positive" } else { "it must not be negative" };
+            errors.push(Diagnostic::new(check.span, message).help(help));
+        }
+    }
     for start in &model.start {
         let value = model.arena.evaluate(&[start.value], &values)[0];
         if !value.is_finite() {
@@ -65,8 +78,21 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     }
 }
 
+/// The error for a mechanism that cannot be planned.
+pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
+    match error {
+        Unsolvable::Unknowns(unknowns) => undetermined(model, unknowns),
+        Unsolvable::Load(Circular(at)) => {
+            let span = model.reactive_loads.get(*at).map_or(model.name.span(), |load| load.span);
+            Diagnostic::new(span, "this load changes the reaction that it depends on by its own size or more, so nothing determines it")
+                .help("let it follow a smaller part of the reaction, or another one")
+                .into()
+        }
+    }
+}
+
 /// The error for unknowns that no pivot determines.
-pub fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
+fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
     let coordinates: Vec<_> = error
         .unknowns
         .iter()

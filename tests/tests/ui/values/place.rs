@@ -1,5 +1,5 @@
 //! What may stand where: constants are numbers, masses fixed, constraints in
-//! positions, forces without accelerations or reactions.
+//! positions, forces without accelerations.
 
 use mbs_runtime::mechanism;
 
@@ -19,7 +19,6 @@ mechanism! {
         constraint by_name: theta1 = twice*t;
         constraint by_reaction: x3*lambda(by_rate)/(1 [N]) = 0;
         drive speed_drive: theta1 = torque/(1 [N*m]);
-        torque motor on crank = effort(speed_drive);
         torque brake on crank = -der(speed)*(1 [kg*m^2]);
         start { theta1 = x1/l1; der(theta1) = speed; }
     }

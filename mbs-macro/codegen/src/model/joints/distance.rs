@@ -4,7 +4,7 @@
 //! λ: the tension of the rod, positive when it pulls the points together.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Number};
+use mbs_symbolic::{Arena, Expr, Number};
 
 use super::{Connection, JointRow, separation, square};
 
@@ -15,4 +15,9 @@ pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
     let scaled = arena.product(&[(squared, 1), (half, 1), (connection.value, -1)]);
     let half_length = arena.mul(half, connection.value);
     vec![JointRow { phi: arena.sub(scaled, half_length), dimension: Dimension::LENGTH }]
+}
+
+/// (p₁ − p₂)/L: the tension pulls the second body to the first.
+pub fn pull(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
+    separation(arena, connection).map(|component| arena.product(&[(component, 1), (connection.value, -1)]))
 }

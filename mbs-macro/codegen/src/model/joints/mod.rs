@@ -30,6 +30,7 @@ pub struct Placed {
 
 /// A joint with its places and clauses resolved; what plays no part in it has
 /// the value that changes nothing.
+#[derive(Clone, Copy)]
 pub struct Connection {
     pub first: Placed,
     pub second: Placed,
@@ -51,6 +52,14 @@ pub struct Connection {
 pub struct JointRow {
     pub phi: Expr,
     pub dimension: Dimension,
+}
+
+/// What a row exerts on the second body for λ = 1; the first feels the opposite.
+pub struct Wrench {
+    /// A force in the ground frame, where the row holds a place.
+    pub force: Option<[Expr; 2]>,
+    /// A torque, where it holds an angle.
+    pub torque: Option<Expr>,
 }
 
 /// The names of a joint's rows behind its own: `pin_x`, `pin_y`; a joint with
@@ -83,6 +92,59 @@ pub fn rows(arena: &mut Arena, kind: JointKind, connection: &Connection) -> Vec<
     }
 }
 
+/// What the rows of a joint exert, in their order.
+pub fn wrenches(arena: &mut Arena, kind: JointKind, connection: &Connection) -> Vec<Wrench> {
+    let force = |force| Wrench { force: Some(force), torque: None };
+    let (zero, one) = (arena.zero(), arena.one());
+    let mut wrenches = match kind {
+        JointKind::Revolute | JointKind::Fixed => vec![force([one, zero]), force([zero, one])],
+        JointKind::Prismatic | JointKind::PointOnLine => vec![force(unit_normal(arena, connection))],
+        JointKind::Distance => vec![force(distance::pull(arena, connection))],
+        JointKind::Rack => vec![force(unit_direction(arena, connection))],
+        JointKind::Rolling => {
+            vec![force(unit_direction(arena, connection)), force(unit_normal(arena, connection))]
+        }
+        // torques that differ on both bodies, or a force along a curve's normal
+        JointKind::Gear
+        | JointKind::InternalGear
+        | JointKind::Belt
+        | JointKind::CrossedBelt
+        | JointKind::Cam => Vec::new(),
+    };
+    if matches!(kind, JointKind::Fixed | JointKind::Prismatic) {
+        wrenches.push(Wrench { force: None, torque: Some(one) });
+    }
+    wrenches
+}
+
+/// The direction on the second body, of length 1.
+fn unit_direction(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
+    let [nx, ny] = unit_normal(arena, connection);
+    [ny, arena.neg(nx)]
+}
+
+/// n, the direction on the second body turned by 90°, of length 1.
+fn unit_normal(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
+    let [ux, uy] = connection.along;
+    let length = square(arena, connection.along);
+    let length = arena.call(Function::Sqrt, length);
+    let normal = [arena.neg(uy), ux];
+    rotate(arena, connection.second.angle, normal).map(|n| arena.product(&[(n, 1), (length, -1)]))
+}
+
+/// How far the first place is from the second along a direction of the second
+/// body.
+pub fn offset_along(arena: &mut Arena, first: &Placed, second: &Placed, along: [Expr; 2]) -> Expr {
+    let length = square(arena, along);
+    let length = arena.call(Function::Sqrt, length);
+    let along = rotate(arena, second.angle, along);
+    let ([x1, y1], [x2, y2]) = (first.position, second.position);
+    let (dx, dy) = (arena.sub(x1, x2), arena.sub(y1, y2));
+    let (along_x, along_y) = (arena.mul(along[0], dx), arena.mul(along[1], dy));
+    let offset = arena.add(along_x, along_y);
+    arena.product(&[(offset, 1), (length, -1)])
+}
+
 /// Where a point of a body is: origin + R(angle)·local.
 pub fn place(arena: &mut Arena, origin: [Expr; 2], angle: Expr, local: [Expr; 2]) -> Placed {
     let [x, y] = rotate(arena, angle, local);
@@ -105,7 +167,7 @@ pub fn polar_angle(arena: &mut Arena, first: &Placed, second: &Placed) -> Expr {
 }
 
 /// R(angle)·v
-fn rotate(arena: &mut Arena, angle: Expr, [x, y]: [Expr; 2]) -> [Expr; 2] {
+pub fn rotate(arena: &mut Arena, angle: Expr, [x, y]: [Expr; 2]) -> [Expr; 2] {
     let (sine, cosine) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
     let (xc, ys) = (arena.mul(x, cosine), arena.mul(y, sine));
     let (xs, yc) = (arena.mul(x, sine), arena.mul(y, cosine));

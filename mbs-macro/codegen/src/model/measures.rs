@@ -1,0 +1,317 @@
+//! Functions that measure the mechanism: what its elements exert and do, how
+//! fast its points are, how its bodies stand. Those of joints are in `reactions`.
+
+use std::collections::HashMap;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, Function, Number};
+use proc_macro2::{Ident, Span};
+
+use super::energies::{self, Inertia};
+use super::joints;
+use super::names::{Place, Scope, Typed};
+use super::{Meaning, Work, reactions};
+use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::syntax::{Attachment, Formula, FormulaKind};
+
+/// The functions of this file.
+pub const MEASURES: &[&str] = &[
+    "force",
+    "torque",
+    "length",
+    "power",
+    "kinetic_energy",
+    "potential_energy",
+    "reaction",
+    "transmission_angle",
+    "speed",
+];
+
+pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
+pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
+
+/// Below this size the norm of a vector is kept from its kink at 0, so that
+/// its derivative exists there: (1e-12)² in SI units.
+const SOFTENING: f64 = 1e-24;
+
+/// A named force, torque or element.
+pub struct Source {
+    /// The word that declares it.
+    pub word: &'static str,
+    pub span: Span,
+    /// Where it acts between two places.
+    pub ends: Option<[Attachment; 2]>,
+    pub work: Vec<Work>,
+    /// The scalar that it exerts, if it has one.
+    pub exerts: Option<Exerts>,
+}
+
+/// A tension, a friction force, a torque.
+#[derive(Clone, Copy)]
+pub struct Exerts {
+    pub value: Expr,
+    pub dimension: Dimension,
+}
+
+/// What the energies are made of.
+pub struct Energies {
+    pub inertias: Vec<Inertia>,
+    pub springs: Vec<Expr>,
+}
+
+impl Scope<'_> {
+    pub(super) fn measure(
+        &mut self,
+        name: &Ident,
+        arguments: &[Formula],
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let result = match (name.to_string().as_str(), arguments) {
+            ("kinetic_energy" | "potential_energy", []) => self.energy(name),
+            ("kinetic_energy" | "potential_energy", _) => {
+                Err(Diagnostic::new(name.span(), format!("`{name}` takes no argument"))
+                    .help(format!("write `{name}()`")))
+            }
+            ("power", [of]) => self.delivered(name, of),
+            ("force", [of]) => self.exerted(name, of, FORCE),
+            ("torque", [of]) => self.exerted(name, of, ENERGY),
+            ("length", [of]) => self.length(name, of, errors).transpose()?,
+            ("speed", [of]) => self.speed(name, of, errors).transpose()?,
+            ("reaction", [joint]) => self.reaction(name, joint),
+            ("reaction", [joint, body]) => Err(reactions::is_vector(name, joint, body)),
+            ("transmission_angle", [a, b]) => self.transmission_angle(a, b),
+            (text, _) => Err(wrong_arguments(name, text)),
+        };
+        let typed = errors.take(result)?;
+        self.allowed(typed, name, place, errors)
+    }
+
+    /// Σ F ṡ over what a force, an element or a drive does.
+    fn delivered(&mut self, name: &Ident, of: &Formula) -> Result<Typed, Diagnostic> {
+        self.only_in_outputs(name)?;
+        let asked = name_of(name, of)?;
+        let text = asked.to_string();
+        let expr = match (self.sources.get(&text), self.rows.get(&text)) {
+            (Some(source), Some(row)) => {
+                let message = format!("`{text}` is a {} and a constraint", source.word);
+                return Err(Diagnostic::new(asked.span(), message)
+                    .note(source.span, "the one is declared here")
+                    .note(row.span, "the other is declared here")
+                    .help("rename one of them"));
+            }
+            (Some(source), None) => {
+                let work = source.work.clone();
+                let powers: Vec<_> = work.iter().map(|work| (self.power_of(work), Number::ONE)).collect();
+                self.arena.sum(&powers)
+            }
+            (None, Some(row)) => {
+                let (phi, multiplier) = (row.phi, row.multiplier);
+                let phi = phi.unwrap_or(self.arena.zero());
+                let rate = self.rate_at_rest(phi);
+                let lambda = self.arena.variable(multiplier);
+                let power = self.arena.mul(lambda, rate);
+                self.arena.neg(power)
+            }
+            (None, None) => {
+                let known = self.sources.keys().chain(self.rows.keys());
+                return Err(unknown(asked, "force, element or drive", known));
+            }
+        };
+        Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
+    }
+
+    fn power_of(&mut self, work: &Work) -> Expr {
+        let mut terms = Vec::new();
+        for &(coordinate, slope) in &work.along {
+            let velocity = self.velocity(coordinate);
+            terms.push((self.arena.mul(slope, velocity), Number::ONE));
+        }
+        let rate = self.arena.sum(&terms);
+        self.arena.mul(work.force, rate)
+    }
+
+    /// `force(s)`, `torque(m)`: the scalar that an element exerts.
+    fn exerted(&mut self, name: &Ident, of: &Formula, wanted: Dimension) -> Result<Typed, Diagnostic> {
+        self.only_in_outputs(name)?;
+        let asked = name_of(name, of)?;
+        let text = asked.to_string();
+        let Some(source) = self.sources.get(&text) else {
+            return Err(unknown(asked, "force or element", self.sources.keys()));
+        };
+        match source.exerts {
+            Some(exerts) if exerts.dimension == wanted => {
+                Ok(Typed { expr: exerts.value, dimension: Some(wanted) })
+            }
+            Some(_) => {
+                let (is, function) = if wanted == FORCE { ("torque", "torque") } else { ("force", "force") };
+                Err(Diagnostic::new(asked.span(), format!("`{text}` exerts a {is}"))
+                    .help(format!("write `{function}({text})`")))
+            }
+            // broken elsewhere, or a vector
+            None if source.work.is_empty() => Ok(Typed { expr: self.arena.zero(), dimension: None }),
+            None => Err(Diagnostic::new(asked.span(), format!("`{text}` is a vector"))
+                .help("give its components names with `let`, and record those")),
+        }
+    }
+
+    /// `length(spring)`: the distance between its places.
+    fn length(
+        &mut self,
+        name: &Ident,
+        of: &Formula,
+        errors: &mut Diagnostics,
+    ) -> Result<Option<Typed>, Diagnostic> {
+        let asked = name_of(name, of)?;
+        let text = asked.to_string();
+        let springs = |(_, source): &(&String, &Source)| source.word == "spring";
+        let Some(ends) = self.sources.get(&text).filter(|s| s.word == "spring").and_then(|s| s.ends.clone())
+        else {
+            let known = self.sources.iter().filter(springs).map(|(name, _)| name);
+            return Err(unknown(asked, "spring between points", known));
+        };
+        let [first, second] = &ends;
+        let placed = self.attachment(first, errors).zip(self.attachment(second, errors));
+        Ok(placed.map(|(first, second)| {
+            let expr = joints::distance_between(&mut self.arena, &first, &second);
+            Typed { expr, dimension: Some(Dimension::LENGTH) }
+        }))
+    }
+
+    /// `speed(rod.tip)`
+    fn speed(
+        &mut self,
+        name: &Ident,
+        of: &Formula,
+        errors: &mut Diagnostics,
+    ) -> Result<Option<Typed>, Diagnostic> {
+        let attachment = match &of.kind {
+            FormulaKind::Name(body) => Attachment::of_path(body.clone(), Vec::new()),
+            FormulaKind::Member(path) if path.len() == 2 => {
+                Attachment::of_path(path[0].clone(), vec![path[1].clone()])
+            }
+            _ => {
+                return Err(Diagnostic::new(name.span(), "`speed` takes a body or a point of one")
+                    .help("write `speed(rod)` or `speed(rod.tip)`; of a quantity it is `der(…)`"));
+            }
+        };
+        let Some(placed) = self.attachment(&attachment, errors) else { return Ok(None) };
+        let velocity = placed.position.map(|component| self.rate(component));
+        let expr = self.norm(velocity);
+        Ok(Some(Typed { expr, dimension: Some(Dimension::of(0, 1, -1)) }))
+    }
+
+    /// The angle between the x axes of two bodies, 0 … 90°.
+    fn transmission_angle(&mut self, a: &Formula, b: &Formula) -> Result<Typed, Diagnostic> {
+        let angle = |formula: &Formula| match &formula.kind {
+            FormulaKind::Name(body) => self.frame(body).map(|frame| frame.angle),
+            _ => Err(Diagnostic::new(formula.span, "the name of a body is expected here")
+                .help("write `transmission_angle(rod, rocker)`")),
+        };
+        let (a, b) = (angle(a)?, angle(b)?);
+        let between = self.arena.sub(a, b);
+        let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| {
+            let value = self.arena.call(function, between);
+            self.arena.call(Function::Abs, value)
+        });
+        let expr = self.arena.call2(Function::Atan2, sine, cosine);
+        Ok(Typed { expr, dimension: Some(Dimension::NONE) })
+    }
+
+    fn energy(&mut self, name: &Ident) -> Result<Typed, Diagnostic> {
+        self.only_in_outputs(name)?;
+        let expr = match &self.energies {
+            Some(Energies { inertias, .. }) if name == "kinetic_energy" => {
+                energies::kinetic(&mut self.arena, inertias)
+            }
+            Some(Energies { inertias, springs }) => energies::potential(&mut self.arena, inertias, springs),
+            None => self.arena.zero(),
+        };
+        Ok(Typed { expr, dimension: Some(ENERGY) })
+    }
+
+    /// Forces are all known once the energies are: outputs come last.
+    fn only_in_outputs(&self, name: &Ident) -> Result<(), Diagnostic> {
+        if self.energies.is_some() {
+            return Ok(());
+        }
+        Err(Diagnostic::new(name.span(), format!("`{name}` cannot stand here"))
+            .help("it measures the mechanism in motion, for outputs alone"))
+    }
+
+    /// The total time derivative of a function of coordinates and time.
+    pub(super) fn rate(&mut self, expr: Expr) -> Expr {
+        self.rate_with(expr, true)
+    }
+
+    /// The same with time held.
+    fn rate_at_rest(&mut self, expr: Expr) -> Expr {
+        self.rate_with(expr, false)
+    }
+
+    fn rate_with(&mut self, expr: Expr, has_time: bool) -> Expr {
+        let mut direction = HashMap::new();
+        for symbol in self.arena.symbols_in(expr) {
+            let rate = match self.meaning(symbol) {
+                Meaning::Coordinate(at) => self.velocity(at),
+                Meaning::Time if has_time => self.arena.one(),
+                _ => continue,
+            };
+            direction.insert(symbol, rate);
+        }
+        self.arena.derivative(expr, &direction)
+    }
+
+    fn velocity(&mut self, coordinate: usize) -> Expr {
+        let at = self.meanings.iter().position(|&meaning| meaning == Meaning::Velocity(coordinate));
+        match at.and_then(|at| self.arena.symbol_at(at)) {
+            Some(symbol) => self.arena.variable(symbol),
+            None => self.arena.zero(),
+        }
+    }
+
+    /// The length of a vector, smooth at 0; exact where one component is 0.
+    pub(super) fn norm(&mut self, [x, y]: [Expr; 2]) -> Expr {
+        let arena = &mut self.arena;
+        match (arena.is_zero(x), arena.is_zero(y)) {
+            (_, true) => arena.call(Function::Abs, x),
+            (true, false) => arena.call(Function::Abs, y),
+            (false, false) => {
+                let (xx, yy) = (arena.powi(x, 2), arena.powi(y, 2));
+                let softening = arena.number(SOFTENING.into());
+                let square = arena.sum(&[(xx, Number::ONE), (yy, Number::ONE), (softening, Number::ONE)]);
+                arena.call(Function::Sqrt, square)
+            }
+        }
+    }
+}
+
+/// The one name that is an argument.
+pub(super) fn name_of<'f>(function: &Ident, argument: &'f Formula) -> Result<&'f Ident, Diagnostic> {
+    match &argument.kind {
+        FormulaKind::Name(name) => Ok(name),
+        _ => Err(wrong_arguments(function, &function.to_string())),
+    }
+}
+
+pub(super) fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
+    let (takes, example) = match text {
+        "reaction" => ("the name of a joint, and a body for a component", "reaction(pin, rod).x"),
+        "transmission_angle" => ("two bodies", "transmission_angle(rod, rocker)"),
+        "speed" => ("a body or a point of one", "speed(rod.tip)"),
+        "length" => ("the name of a spring", "length(s)"),
+        "power" => ("the name of a force, an element or a drive", "power(motor)"),
+        _ => ("the name of an element", "force(s)"),
+    };
+    Diagnostic::new(name.span(), format!("`{name}` takes {takes}")).help(format!("as in `{example}`"))
+}
+
+pub(super) fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = &'n String>) -> Diagnostic {
+    let known: Vec<&str> = known.map(String::as_str).collect();
+    let error = Diagnostic::new(name.span(), format!("there is no {what} `{name}`"));
+    match nearest(&name.to_string(), known.iter().copied()) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None if known.is_empty() => error.help("declare it first"),
+        None => error.help(format!("declared are {}", listing(known))),
+    }
+}

@@ -1,0 +1,54 @@
+//! Expressions in the place of symbols.
+
+use std::collections::HashMap;
+
+use crate::arena::{Arena, Expr, Node, Symbol};
+use crate::number::Number;
+use crate::operators::Function;
+
+impl Arena {
+    /// The expression with every symbol that `values` has replaced by its value
+    /// there, all at once: what a value contains is not replaced again.
+    ///
+    /// The result is canonical; what holds no such symbol stays the same node.
+    pub fn substitute(&mut self, expr: Expr, values: &HashMap<Symbol, Expr>) -> Expr {
+        let mut known: HashMap<Expr, Expr> = HashMap::new();
+        for operand in self.reachable(&[expr]) {
+            let substituted = self.substitute_in_node(operand, values, &known);
+            known.insert(operand, substituted);
+        }
+        known[&expr]
+    }
+
+    fn substitute_in_node(
+        &mut self,
+        expr: Expr,
+        values: &HashMap<Symbol, Expr>,
+        known: &HashMap<Expr, Expr>,
+    ) -> Expr {
+        if let Node::Symbol(symbol) = self.node(expr) {
+            return values.get(symbol).copied().unwrap_or(expr);
+        }
+        if self.operands(expr).iter().all(|operand| known[operand] == *operand) {
+            return expr;
+        }
+        match self.node(expr).clone() {
+            Node::Number(_) | Node::Symbol(_) => expr,
+            Node::Sum(constant, terms) => {
+                let constant = self.number(constant);
+                let mut terms: Vec<_> = terms.iter().map(|(term, c)| (known[term], *c)).collect();
+                terms.push((constant, Number::ONE));
+                self.sum(&terms)
+            }
+            Node::Product(factors) => {
+                let factors: Vec<_> = factors.iter().map(|(factor, e)| (known[factor], *e)).collect();
+                self.product(&factors)
+            }
+            Node::Call(function, x) => self.call(function, known[&x]),
+            Node::Call2(Function::Pow, x, y) => self.pow(known[&x], known[&y]),
+            Node::Call2(function, x, y) => self.call2(function, known[&x], known[&y]),
+            Node::Spline(spline, order, x) => self.spline_derivative(spline, order, known[&x]),
+            Node::Shared(x) => self.share(known[&x]),
+        }
+    }
+}

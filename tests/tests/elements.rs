@@ -1,0 +1,184 @@
+//! Force elements against closed-form answers, a motor's run-up and a fall
+//! through air, and against the virtual work of their forces.
+
+use mbs_runtime::{Components, Error, Mechanism, Reactions, Simulation, State, mechanism};
+use tests::jet::Jet;
+use tests::random::Random;
+
+mechanism! {
+    /// A flywheel on a direct-current motor.
+    RunUp {
+        dof = 1;
+        param inertia = 0.02 [kg*m^2];
+        param stall = 2 [N*m];
+        param no_load = 3000 [rpm];
+        input voltage [1];
+        body rotor (phi) { mass = 0; inertia = inertia; }
+        motor drive (rotor, ground) { stall = stall; no_load = no_load; level = voltage; }
+        start { phi = 0; }
+        output torque [N*m] = torque(drive);
+        output power [W] = power(drive);
+    }
+}
+
+/// ω(t) = u ω₀ (1 − e^{−t/τ}), τ = J ω₀/T_stall. Heun's error for a decay
+/// is (h/τ)² t/(6τ) of u ω₀, which the bound exceeds sixfold.
+#[test]
+fn motor_runs_up_exponentially() -> Result<(), Error> {
+    let no_load = 3000.0 * std::f64::consts::PI / 30.0;
+    let tau = 0.02 * no_load / 2.0;
+    let mut run = Simulation::new(RunUp::declared(), 1e-3 * tau)?;
+    run.inputs_mut().voltage = 0.5;
+    assert!((run.outputs()?.torque - 1.0).abs() < 1e-15);
+    for t in [0.5 * tau, 2.0 * tau] {
+        run.advance_to(t)?;
+        let expected = 0.5 * no_load * (1.0 - (-t / tau).exp());
+        let bound = 1e-6 * (t / tau) * 0.5 * no_load;
+        let rotor = run.state().v.phi;
+        assert!((rotor - expected).abs() < bound, "{rotor} {expected}");
+        let outputs = run.outputs()?;
+        assert!((outputs.power - outputs.torque * rotor).abs() <= 1e-15 * outputs.power.abs());
+    }
+    Ok(())
+}
+
+/// Properties are checked for the parameters that a program passes in.
+#[test]
+fn motor_without_a_no_load_speed_does_not_exist() {
+    let refused = RunUp::new(RunUpParameters { no_load: 0.0, ..RunUpParameters::default() });
+    let Err(Error::Parameter { name, value, .. }) = refused else { panic!("{refused:?}") };
+    assert_eq!((name, value), ("no_load of drive", 0.0));
+    assert!(RunUp::new(RunUpParameters { stall: 0.0, ..RunUpParameters::default() }).is_ok());
+}
+
+mechanism! {
+    /// A ball that falls through air, and one thrown into a wind.
+    Fall {
+        dof = 3;
+        param density = 1.2 [kg/m^3];
+        param area = 0.05 [m^2];
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 0.1 [kg]; }
+        drag air on ball { density = density; area = area; coefficient = 0.5; }
+        body thrown (xt, yt) { mass = 0.1 [kg]; }
+        drag gust on thrown { density = density; area = area; coefficient = 0.5; wind = (3, 4) [m/s]; }
+        start { y = 0; }
+        output power [W] = power(air);
+        output resistance [N] = force(air);
+    }
+}
+
+/// v(t) = −v∞ tanh(g t/v∞), v∞² = 2 m g/(ρ c A). Heun's error is of order
+/// (h g/v∞)² = 2e-7 of v∞ here.
+#[test]
+fn falling_ball_reaches_its_terminal_velocity() -> Result<(), Error> {
+    let mut run = Simulation::new(Fall::declared(), 1e-3)?;
+    // at rest in the wind: F = ½ρcA·5·(3, 4)
+    let rest = run.reactions()?.acceleration;
+    let factor = 0.5 * 1.2 * 0.5 * 0.05 * 5.0 / 0.1;
+    assert!((rest.xt - factor * 3.0).abs() < 1e-14 && (rest.yt - (factor * 4.0 - 9.81)).abs() < 1e-14);
+    assert_eq!(rest.y, -9.81);
+    let terminal = (2.0 * 0.1 * 9.81 / (1.2 * 0.5 * 0.05_f64)).sqrt();
+    for t in [0.3, 1.0, 4.0] {
+        run.advance_to(t)?;
+        let expected = -terminal * (9.81 * t / terminal).tanh();
+        let found = run.state().v.y;
+        assert!((found - expected).abs() < 4e-7 * terminal, "{found} {expected}");
+    }
+    let outputs = run.outputs()?;
+    assert!((outputs.power + outputs.resistance * run.state().v.y.abs()).abs() < 1e-14);
+    Ok(())
+}
+
+mechanism! {
+    /// Two free bodies, one of which rubs along a line of the other, with a
+    /// motor between them, air on one and a thrust in the frame of the other.
+    Pair {
+        dof = 6;
+        body a (xa, ya, phia) { mass = 1 [kg]; inertia = 1 [kg*m^2]; }
+        body b (xb, yb, phib) { mass = 1 [kg]; inertia = 1 [kg*m^2]; }
+        point tip on a = (0.3, -0.2) [m];
+        point mark on b = (0.1, 0.4) [m];
+        friction rub (a.tip, b.mark) along (3, 4) {
+            coefficient = 0.3; normal = 5 [N]; transition = 0.7 [m/s]; viscous = 0.6 [N*s/m];
+        }
+        torsion_friction pin (a, b) { torque = 2 [N*m]; transition = 0.9 [rad/s]; viscous = 0.2 [N*m*s]; }
+        motor drive (b, a) { stall = 3 [N*m]; no_load = 4 [rad/s]; level = 0.7; }
+        drag air on a.tip { density = 1.2 [kg/m^3]; area = 0.5 [m^2]; coefficient = 0.8; wind = (1, 2) [m/s]; }
+        force thrust on b.mark in a = (2, 3) [N];
+        output sliding [W] = power(rub);
+        output turning [W] = power(pin);
+        output driving [W] = power(drive);
+        output blowing [W] = power(air);
+        output pushing [W] = power(thrust);
+        output fast [m/s] = speed(a.tip);
+    }
+}
+
+/// The same forces by virtual work: jets along each coordinate give the
+/// variation of places that are written out here.
+#[test]
+fn elements_do_the_virtual_work_of_their_forces() {
+    let pair = Pair::declared();
+    let mut random = Random::new(11);
+    for _ in 0..200 {
+        let (q, v): ([f64; 6], [f64; 6]) = (random.around_zero(2.0), random.around_zero(2.0));
+        let along = |direction: [f64; 6]| std::array::from_fn(|i| Jet::line(q[i], direction[i]));
+        let moving = places(along(v));
+        let slide = 0.3 * 5.0 * (moving.slide.first / 0.7).tanh() + 0.6 * moving.slide.first;
+        let turn = 2.0 * (moving.angle.first / 0.9).tanh() + 0.2 * moving.angle.first;
+        let motor = 3.0 * (0.7 + moving.angle.first / 4.0);
+        let wind = [moving.tip[0].first - 1.0, moving.tip[1].first - 2.0];
+        let drag = wind.map(|w| -0.5 * 1.2 * 0.5 * 0.8 * wind[0].hypot(wind[1]) * w);
+        let (s, c) = q[2].sin_cos();
+        let thrust = [2.0 * c - 3.0 * s, 2.0 * s + 3.0 * c];
+
+        let at = State { t: 0.0, q: PairCoordinates::from_array(q), v: PairCoordinates::from_array(v) };
+        let forces = pair.forces(&at, &Default::default()).into_array();
+        // friction forces and lever arms of size 10, twenty roundings
+        let near = |what: &str, a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{what}: {a} {b}");
+        let mut powers = [0.0; 5];
+        for (i, force) in forces.into_iter().enumerate() {
+            let moved = places(along(std::array::from_fn(|j| f64::from(u8::from(i == j)))));
+            let works = [
+                -slide * moved.slide.first,
+                -turn * moved.angle.first,
+                -motor * moved.angle.first,
+                drag[0] * moved.tip[0].first + drag[1] * moved.tip[1].first,
+                thrust[0] * moved.mark[0].first + thrust[1] * moved.mark[1].first,
+            ];
+            near("Q", force, works.iter().sum());
+            powers = std::array::from_fn(|k| powers[k] + works[k] * v[i]);
+        }
+        let none = Reactions { acceleration: at.q, multipliers: Default::default(), growth: 0.0 };
+        let outputs = pair.outputs(&at, &Default::default(), &none);
+        let measured = [outputs.sliding, outputs.turning, outputs.driving, outputs.blowing, outputs.pushing];
+        for (ours, theirs) in measured.into_iter().zip(powers) {
+            near("power", ours, theirs);
+        }
+        near("speed", outputs.fast, moving.tip[0].first.hypot(moving.tip[1].first));
+    }
+}
+
+struct Places {
+    tip: [Jet; 2],
+    mark: [Jet; 2],
+    /// How far the tip is along (3, 4)/5 on b.
+    slide: Jet,
+    /// φ_a − φ_b
+    angle: Jet,
+}
+
+fn places([xa, ya, phia, xb, yb, phib]: [Jet; 6]) -> Places {
+    use mbs_runtime::Real;
+    let turned = |angle: Jet, x: f64, y: f64| {
+        let (s, c) = angle.sin_cos();
+        let (x, y) = (Jet::from_f64(x), Jet::from_f64(y));
+        [x * c - y * s, x * s + y * c]
+    };
+    let ([tx, ty], [mx, my], [ux, uy]) =
+        (turned(phia, 0.3, -0.2), turned(phib, 0.1, 0.4), turned(phib, 0.6, 0.8));
+    let (tip, mark) = ([xa + tx, ya + ty], [xb + mx, yb + my]);
+    let slide = ux * (tip[0] - mark[0]) + uy * (tip[1] - mark[1]);
+    Places { tip, mark, slide, angle: phia - phib }
+}
