@@ -51,7 +51,7 @@ pub mod trammel_of_archimedes;
 pub mod v_engine;
 pub mod watt_linkage;
 
-pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerParameters};
+pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueezerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
