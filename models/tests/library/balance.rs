@@ -87,8 +87,8 @@ impl Balance {
             sum += term;
             size += term.abs();
         }
-        // written so that a NaN stays
-        if !(sum.abs() <= self.residual) {
+        // a NaN must not disappear
+        if sum.is_nan() || sum.abs() > self.residual {
             self.residual = sum.abs();
         }
         self.size = self.size.max(size);
@@ -97,7 +97,12 @@ impl Balance {
     /// The largest residual over ε times the largest sum of magnitudes.
     fn roundings(&self) -> f64 {
         let roundings = self.residual / (f64::EPSILON * self.size);
-        if roundings.is_nan() && self.size > 0.0 { f64::INFINITY } else { roundings.max(0.0) }
+        match self.residual {
+            0.0 => 0.0,
+            // `max` would pass over a NaN
+            _ if roundings.is_nan() => f64::INFINITY,
+            _ => roundings,
+        }
     }
 }
 

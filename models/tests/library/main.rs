@@ -30,34 +30,34 @@ pub struct Case<M: Mechanism> {
     pub end: f64,
     /// Parameters that take energy, to be 0 in the long run.
     pub without: &'static [&'static str],
-    /// Power of everything that is neither gravity, spring nor drive, in W.
-    pub power: fn(&M::Parameters, &State<M::Coordinates>, &M::Inputs) -> f64,
+    /// What inputs and dampers put in.
+    pub power: Power<M>,
 }
 
-/// A row per mechanism: what the long run needs, the power of inputs and
-/// dampers written out by hand.
+/// Power of everything that is neither gravity, spring nor drive, in W.
+type Power<M> = fn(
+    &<M as Mechanism>::Parameters,
+    &State<<M as Mechanism>::Coordinates>,
+    &<M as Mechanism>::Inputs,
+) -> f64;
+
+/// A row per mechanism: step and length of the long run, parameters to leave
+/// out in it, and the power of inputs and dampers written out by hand.
 macro_rules! library {
     ($($Name:ident: $step:literal, $end:literal, $without:expr, $power:expr;)*) => {
         $(model!($Name);)*
 
-        /// In any state M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ.
-        #[test]
-        fn reactions_balance_every_body() {
+        const NAMES: &[&str] = &[$(stringify!($Name)),*];
+
+        fn reactions() {
             $(balance::reactions(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
         }
 
-        /// In any state the energy changes by the power of drives, inputs and
-        /// dampers.
-        #[test]
-        fn power_balances() {
+        fn power() {
             $(balance::power(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
         }
 
-        /// Over a long run, with half the step, violations and energy drift
-        /// fall as the order of the method demands.
-        #[test]
-        fn drift_falls_with_the_step() {
-            println!("{}", drift::HEADING);
+        fn drift() {
             $(drift::check(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
         }
     };
@@ -68,7 +68,7 @@ fn case<M: Model>(
     step: f64,
     end: f64,
     without: &'static [&'static str],
-    power: fn(&M::Parameters, &State<M::Coordinates>, &M::Inputs) -> f64,
+    power: Power<M>,
 ) -> Case<M> {
     Case { name, step, end, without, power }
 }
@@ -102,4 +102,32 @@ library! {
     Pantograph: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Jansen: 0.5e-3, 10.0, [], |_, at, u| u.beach*at.v.yf;
     Klann: 0.5e-3, 10.0, [], |_, at, u| u.support*at.v.yf;
+}
+
+/// In any state M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ.
+#[test]
+fn reactions_balance_every_body() {
+    reactions();
+}
+
+/// In any state the energy changes by the power of drives, inputs and dampers.
+#[test]
+fn power_balances() {
+    power();
+}
+
+/// Over a long run, with half the step, violations and energy drift fall as the
+/// order of the method demands.
+#[test]
+fn drift_falls_with_the_step() {
+    println!("{}", drift::HEADING);
+    drift();
+}
+
+/// A mechanism that is added to the library has to be added here.
+#[test]
+fn no_mechanism_is_left_out() {
+    let library = include_str!("../../src/lib.rs");
+    let mechanisms = library.lines().filter(|line| line.starts_with("pub mod ")).count();
+    assert_eq!(NAMES.len(), mechanisms, "{NAMES:?}");
 }
