@@ -1,13 +1,22 @@
 //! Excavator arm: boom, stick and bucket on three hydraulic cylinders.
 //!
 //! ```text
-//!               ___o elbow___
-//!        boom /‾   ║ ‾‾──    ‾‾stick──o wrist
-//!           ╱    ╱ ╚══cylinder══╝    ╱ bucket
-//!      O  o    ╱ cylinder          ╱
-//!        ╱ ╲ ╱                    o teeth
-//!    ───o───╱──
-//!      base lugs
+//!                                o
+//!                           2   ╱ ··          boom O–E, stick E–W, bucket W–T
+//!                              ╱   o·  E
+//!                             ╱  ··   ·o      cylinders
+//!                            o···       ···     1: base to boom
+//!                          ···           ···    2: boom to stick, behind E
+//!                        ··           3   ····  3: stick to bucket, behind W
+//!                     o··                    ···
+//!                  ···                         o─o W
+//!                ··╱╱                    ──────
+//!             ··· ╱                   o──
+//!          ···   ╱ 1                  T
+//!        ··     ╱
+//!  O   o·     ╱╱
+//!            ╱
+//!           o base
 //! ```
 //!
 //! Drives set the lengths of the cylinders; their efforts are the cylinders'

@@ -12,8 +12,7 @@
 //! ```
 //!
 //! For coupler curves, transmission angles and the torque of the motor. The
-//! crank turns fully if it is the shortest bar and, with the longest, no longer
-//! than the other two (Grashof).
+//! conditions on the lengths let the crank turn fully.
 //!
 //! Reference: with K1 = base/crank, K2 = base/rocker and K3 = (crank² − coupler²
 //! + rocker² + base²)/(2 crank rocker), the rocker's angle satisfies
@@ -33,10 +32,10 @@ mechanism! {
         param base = 100 [mm] where base > 0;
         /// Length of the crank O–A.
         param crank_length = 30 [mm] where crank_length > 0;
-        /// Length of the coupler A–B.
-        param coupler_length = 80 [mm] where coupler_length > 0;
-        /// Length of the rocker C–B.
-        param rocker_length = 70 [mm] where rocker_length > 0;
+        /// Length of the coupler A–B; the bars have to reach when the crank points away.
+        param coupler_length = 80 [mm] where coupler_length + rocker_length > base + crank_length;
+        /// Length of the rocker C–B; the bars have to fit when the crank points inwards.
+        param rocker_length = 70 [mm] where abs(coupler_length - rocker_length) < abs(base - crank_length);
         /// Coupler point P, along A–B from A.
         param along = 40 [mm];
         /// Coupler point P, across A–B.

@@ -25,10 +25,10 @@ mechanism! {
         param base = 100 [mm] where base > 0;
         /// Length of the crank O–A.
         param crank_length = 30 [mm] where crank_length > 0;
-        /// Length of the coupler A–B.
-        param coupler_length = 80 [mm] where coupler_length > 0;
-        /// Length of the rocker C–B.
-        param rocker_length = 70 [mm] where rocker_length > 0;
+        /// Length of the coupler A–B; the bars have to reach when the crank points away.
+        param coupler_length = 80 [mm] where coupler_length + rocker_length > base + crank_length;
+        /// Length of the rocker C–B; the bars have to fit when the crank points inwards.
+        param rocker_length = 70 [mm] where abs(coupler_length - rocker_length) < abs(base - crank_length);
         /// Mass of the bars per length.
         param density = 2 [kg/m] where density > 0;
         /// Speed of the crank at the start.

@@ -1,22 +1,22 @@
 //! Geneva wheel while its pin is in the slot.
 //!
 //! ```text
-//!                        ┌───────────┐
-//!            pin         │  wheel    │
-//!        a    o══════════╪═══╗       │
-//!           ╱   slot     │   ║       │
-//!          ╱ α         φ │   o C     │
-//!    ─────o──────────────┼───        │──── x
-//!         O   distance   └───────────┘
+//!                o pin
+//!            a  ╱  ‾‾══__  slot
+//!              ╱        ‾‾══__
+//!             ╱ α        φ    ‾‾══__
+//!     ───────o──────────────────────o──── x
+//!            O                      C  wheel
+//!            │← distance_of_shafts →│
 //! ```
 //!
 //! A wheel with n slots steps by one while the crank turns by π − 2π/n; for a
-//! tangential entry the crank has the length a = distance·sin(π/n). The motion
+//! tangential entry the crank has the length a = distance_of_shafts·sin(π/n). The motion
 //! begins at the entry. After the exit a real wheel rests on its lock, here the
 //! pin stays in the slot, as in an inverted slider-crank.
 //!
-//! Reference: φ = −atan2(a sin α, distance − a cos α), so the wheel's rate is 0
-//! at entry and exit and −ω sin(π/n)/(1 − sin(π/n)) in the middle.
+//! Reference: φ = −atan2(a sin α, distance_of_shafts − a cos α), so the wheel's
+//! rate is 0 at entry and exit and −ω sin(π/n)/(1 − sin(π/n)) in the middle.
 
 use mbs_runtime::mechanism;
 

@@ -32,8 +32,8 @@ mechanism! {
         param share = 0.5 where share > 0;
         /// Length of the crank and distance of its hub from O.
         param radius = 0.08 [m] where radius > 0;
-        /// Amplitude of the crank.
-        param amplitude = 50 [deg];
+        /// Amplitude of the crank, less than what lays all bars on one line.
+        param amplitude = 50 [deg] where 2*radius*cos(amplitude/2) > share*(long - short);
         /// Angular frequency of the crank.
         param omega = 3 [rad/s];
         /// Mass of the bars per length.

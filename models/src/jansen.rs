@@ -1,19 +1,27 @@
 //! Jansen's leg: a crank makes a foot walk.
 //!
 //! ```text
-//!              B           j
-//!          e __o‾‾‾‾───────____
-//!        __╱  │ b              ‾‾o M   crank m about O
-//!     D o     │     a          __╱
-//!       │‾─ d─o Q ──────────__╱ O, l above Q
-//!     f │     │ c        __╱
-//!       │   g │    __──‾‾ k
-//!     E o─────o C‾‾
-//!        ╲    │
-//!       h ╲   │ i
-//!          ╲  │
-//!           ╲ │
-//!            ╲o F foot
+//!                                      B
+//!                                 ────o
+//!                e        ────────  ╱  ····
+//!                  ───────        ╱╱       ·····  j
+//!          ────────          b  ╱               ·····
+//!   D  o───                   ╱╱                     ····     m
+//!       ··   ───────────     ╱                    o─────────o M
+//!      f  ··        d   ─────o Q                O        ···
+//!           ··                ╲                      ····
+//!             ··           c   ╲                ····
+//!           E   o───            ╲           ····  k
+//!                ╲  ──────       ╲      ····
+//!                 ╲     g ──────  ╲  ···
+//!                  ╲            ─── o C
+//!                   ╲             ╱
+//!                  h ╲          ╱╱
+//!                     ╲       ╱╱  i
+//!                      ╲     ╱
+//!                       ╲  ╱╱         Q lies a to the left of O, l below it
+//!                        ╲╱
+//!                         o F foot
 //! ```
 //!
 //! The lengths are Theo Jansen's eleven "holy numbers" with a and l for the

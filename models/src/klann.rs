@@ -1,15 +1,20 @@
 //! Klann's leg: six bars and a crank make a foot walk.
 //!
 //! ```text
-//!                 hip        A
-//!             K o─────────o
-//!        knee ╱ │          rocker_a
-//!           ╱   │ leg
-//!          ╱    o E______ coupler
-//!         ╱   ╱       ‾‾‾──o C──────o M   crank about O
-//!        ╱  ╱         rocker_b ╲
-//!       ╱ ╱                     o B
-//!      ╱╱
+//!                               K o──────
+//!                            ····        ─────── o A
+//!                         ····
+//!                      ···  ··
+//!                   ···   ··
+//!             E  ···    ··
+//!             o ──────────────
+//!            ╱     ··  ───── o ───────────── o ────── o
+//!           ╱    ··         C    ─── o B      M        O
+//!          ╱   ··
+//!         ╱  ··            crank O–M, rockers B–C and A–K,
+//!        ╱ ··              coupler M–C–E, leg E–K–foot
+//!       ╱··
+//!      ╱·
 //!     o foot
 //! ```
 //!

@@ -30,8 +30,8 @@ mechanism! {
         param side = 0.15 [m] where side > 0;
         /// Length of the crank and distance of its hub from O.
         param radius = 0.1 [m] where radius > 0;
-        /// Amplitude of the crank; beyond 97° the cell would be stretched flat.
-        param amplitude = 60 [deg] where amplitude < 1.6;
+        /// Amplitude of the crank, less than what stretches the cell flat.
+        param amplitude = 60 [deg] where 2*radius*cos(amplitude/2) > long - side;
         /// Angular frequency of the crank.
         param omega = 3 [rad/s];
         /// Mass of a joint; the bars count as massless.

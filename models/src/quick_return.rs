@@ -32,8 +32,8 @@ mechanism! {
         /// Length of the lever.
         param lever_length = 280 [mm] where lever_length > offset + crank_length;
         /// Length of the link to the ram.
-        param link_length = 150 [mm] where link_length > 0;
-        /// Height of the ram above the crank's centre.
+        param link_length = 150 [mm] where link_length > abs(lever_length - offset - ram_height);
+        /// Height of the ram above the crank's centre, near the lever's tip.
         param ram_height = 140 [mm];
         /// Inertia of the crank with its wheel, balanced.
         param crank_inertia = 0.05 [kg*m^2] where crank_inertia > 0;

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Reference: x = r cos θ, exactly; the torque of the drive is that of the
-//! yoke's inertia, m r² ω² sin θ cos θ, less r sin θ times the load, which helps while
-//! x falls.
+//! yoke's inertia, m r² ω² sin θ cos θ, less r sin θ times the load, which helps
+//! while x falls.
 
 use mbs_runtime::mechanism;
 

@@ -28,13 +28,15 @@ mechanism! {
         param arm = 0.4 [m] where arm > 0;
         /// Half the length of the coupler.
         param half = 0.1 [m] where half > 0;
-        /// Amplitude of the first arm.
-        param amplitude = 25 [deg];
+        /// Amplitude of the first arm, less than what stretches coupler and other arm.
+        param amplitude = 25 [deg] where reach < arm + 2*half;
         /// Angular frequency.
         param omega = 5 [rad/s];
         /// Mass of the bars per length.
         param density = 1 [kg/m] where density > 0;
         gravity = (0, -9.81) [m/s^2];
+        // B1–C2 with the first arm at its highest
+        let reach = sqrt((2*arm - arm*cos(amplitude))^2 + (2*half + arm*sin(amplitude))^2);
 
         body arm1    (x1, y1, phi1) { mass = density*arm; inertia = density*arm^3/12; }
         body coupler (x2, y2, phi2) { mass = density*2*half; inertia = density*(2*half)^3/12; }
