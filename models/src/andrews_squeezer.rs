@@ -1,17 +1,23 @@
 //! Andrews' squeezer: seven bodies, three loops, one degree of freedom.
 //!
 //! ```text
-//!                     C ▨
-//!                      ╱ spring
-//!                   D o
-//!          B ▨──K3───╱ ╲
-//!                       ╲ K3       K1
-//!                      E o───K2───o F──o O  ↺ motor
-//!                     ╱   ╲
-//!                K4 ╱      ╲ K6
-//!              G  o          o H
-//!            K5 ╱           ╱ K7
-//!           A ▨────────────▨ A
+//!                                                          o C
+//!                                                        ╱╱
+//!                                                       ╱
+//!                                                     ╱╱ spring
+//!                                                    ╱
+//!                                                  ╱╱
+//!                            o B─────────        ╱╱
+//!                             ╲╲    K3   ──────o D
+//!                               ╲             ╱
+//!                          o G   ╲ K3       ╱╱
+//!                K5    ···· ···   ╲       ╱╱ K3
+//!                  ····      K4 ···╲     ╱
+//!              ····                ·╲  ╱╱
+//!     A o······                      o E──────────o F─o O  ↺ motor
+//!        ────────                  ╱╱     K2       K1
+//!                ──────  K7     ╱╱ K6
+//!                      ──────o H
 //! ```
 //!
 //! The test problem of programs for constrained systems: with a motor torque of

@@ -1,20 +1,25 @@
 //! Chebyshev's lambda linkage: a turning crank, a nearly straight path.
 //!
 //! ```text
-//!                  P o - - - - - - -   y = 4 a
-//!                     ╲
-//!                      ╲ 2.5 a
-//!                       ╲
-//!                      B o
-//!                 2.5 a ╱ ╲ 2.5 a
-//!       A o____________╱   ╲
-//!      a ╱                  ╲
-//!       o────────────────────o C
-//!       O        2 a
+//!     - - - - - - - - - - - - - - - - - o P  - - -  y = 4 a
+//!                                    ···
+//!                                 ···
+//!                              ···  2.5 a
+//!                           ···
+//!                        ···
+//!                     o··
+//!                  ··· B╲
+//!               ···      ╲╲
+//!            ···           ╲  2.5 a
+//!         ···  2.5 a        ╲
+//!       ··                   ╲╲
+//!    A o────  a                ╲
+//!           ─────o──────────────o C
+//!                O      2 a
 //! ```
 //!
-//! A, C and P lie on a circle about B, so C sees A–P at a right angle; that
-//! gives the path of P in closed form:
+//! A, C and P lie on a circle about B, the middle of the coupler A–P, so C sees
+//! A–P at a right angle; that gives the path of P in closed form:
 //!
 //! ```text
 //! x = a (2 + w sin θ),  y = a w (2 − cos θ),  w² = (20 + 4 cos θ)/(5 − 4 cos θ)
@@ -41,9 +46,9 @@ mechanism! {
         gravity = (0, -9.81) [m/s^2];
         let arm = 2.5*crank_length;
 
-        body crank   (x1, y1, theta) { mass = density*crank_length; inertia = density*crank_length^3/12; }
-        body coupler (x2, y2, phi)   { mass = density*2*arm; inertia = density*(2*arm)^3/12; }  // centred at B
-        body rocker  (x3, y3, psi)   { mass = density*arm; inertia = density*arm^3/12; }
+        body crank (x1, y1, theta) { mass = density*crank_length; inertia = density*crank_length^3/12; }
+        body coupler (x2, y2, phi) { mass = density*2*arm; inertia = density*(2*arm)^3/12; }   // centred at B
+        body rocker (x3, y3, psi) { mass = density*arm; inertia = density*arm^3/12; }
 
         point o on crank = (-crank_length/2, 0);
         point a on crank = (crank_length/2, 0);

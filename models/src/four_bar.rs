@@ -1,23 +1,32 @@
 //! Four-bar linkage, a crank-rocker driven at constant speed.
 //!
 //! ```text
-//!              P ·
-//!              ╱   ╲          B
-//!            ╱   coupler  ___o
-//!         A o────────‾‾‾‾‾    ╲
-//!    crank ╱                   ╲ rocker
-//!         ╱ θ2               θ4 ╲
-//!    ────o───────────────────────o──── x
-//!        O         base          C
+//!                  P o────────────
+//!                   ╱             ─────────── o B
+//!                  ╱   coupler         ····   ╲
+//!                 ╱               ·····       ╲
+//!                ╱            ····             ╲
+//!               ╱         ····                 ╲  rocker
+//!              ╱     ·····                      ╲
+//!             ╱  ····                            ╲
+//!          A o···                                ╲
+//!           ╱                                     ╲
+//!   crank  ╱                                      ╲
+//!         ╱  θ2                                 θ4 ╲
+//!        ╱                                         ╲
+//!     ──o───────────────────────────────────────────o──── x
+//!       O                   base                    C
 //! ```
 //!
 //! For coupler curves, transmission angles and the torque of the motor. The
 //! conditions on the lengths let the crank turn fully.
 //!
-//! Reference: with K1 = base/crank, K2 = base/rocker and K3 = (crank² − coupler²
-//! + rocker² + base²)/(2 crank rocker), the rocker's angle satisfies
+//! Reference: the rocker's angle satisfies
 //!
-//! K1 cos θ4 − K2 cos θ2 + K3 = cos(θ2 − θ4)
+//! ```text
+//! K1 cos θ4 − K2 cos θ2 + K3 = cos(θ2 − θ4),   K1 = base/crank,   K2 = base/rocker,
+//! K3 = (base² + crank² − coupler² + rocker²)/(2 crank rocker)
+//! ```
 //!
 //! (F. Freudenstein, "An analytical approach to the design of four-link
 //! mechanisms", Trans. ASME 76, 1954), a quadratic in tan(θ4/2).
@@ -46,9 +55,9 @@ mechanism! {
         param omega = 120 [rpm];
         gravity = (0, -9.81) [m/s^2];
 
-        body crank   (x1, y1, theta2) { mass = density*crank_length; inertia = density*crank_length^3/12; }
+        body crank (x1, y1, theta2) { mass = density*crank_length; inertia = density*crank_length^3/12; }
         body coupler (x2, y2, theta3) { mass = density*coupler_length; inertia = density*coupler_length^3/12; }
-        body rocker  (x3, y3, theta4) { mass = density*rocker_length; inertia = density*rocker_length^3/12; }
+        body rocker (x3, y3, theta4) { mass = density*rocker_length; inertia = density*rocker_length^3/12; }
 
         point o on crank = (-crank_length/2, 0);
         point a on crank = (crank_length/2, 0);

@@ -1,11 +1,11 @@
 //! Four-bar linkage under gravity with a torque on its crank.
 //!
 //! ```text
-//!                    coupler   B
-//!         A o──────────────────o
-//!    crank ╱  ↺ crank_torque    ╲ rocker
-//!    ─────o──────────────────────o──── x
-//!         O         base         C
+//!                     coupler   B
+//!          A o──────────────────o
+//!     crank ╱  ↺ crank_torque    ╲ rocker
+//!     ─────o──────────────────────o──── x
+//!          O         base         C
 //! ```
 //!
 //! The linkage of [`four_bar`](crate::four_bar) without its drive: one degree of
@@ -37,9 +37,9 @@ mechanism! {
         input crank_torque [N*m];
         gravity = (0, -9.81) [m/s^2];
 
-        body crank   (x1, y1, theta2) { mass = density*crank_length; inertia = density*crank_length^3/12; }
+        body crank (x1, y1, theta2) { mass = density*crank_length; inertia = density*crank_length^3/12; }
         body coupler (x2, y2, theta3) { mass = density*coupler_length; inertia = density*coupler_length^3/12; }
-        body rocker  (x3, y3, theta4) { mass = density*rocker_length; inertia = density*rocker_length^3/12; }
+        body rocker (x3, y3, theta4) { mass = density*rocker_length; inertia = density*rocker_length^3/12; }
 
         point o on crank = (-crank_length/2, 0);
         point a on crank = (crank_length/2, 0);

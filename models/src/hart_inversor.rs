@@ -1,13 +1,20 @@
 //! Hart's inversor: an exact straight line with a crossed parallelogram.
 //!
 //! ```text
-//!       C                       A      A–B, C–D: long, crossing
-//!       o╲__                __╱o       A–D, C–B: short
-//!       │   ‾‾─__      __─‾‾   │
-//!     Q o         ‾‾╳‾‾ o O    o P     O, P, Q divide A–B, A–D, C–B
-//!     ┆ │   __─‾‾      ‾‾─__   │       in the same ratio
-//!     ┆ o╱‾‾                ‾‾╲o
-//!  line B                       D      O–hub–P: crank of length r about (r, 0)
+//!                                                    o A
+//!                                                 ···│
+//!            A–B, C–D: long, crossing          ···   │
+//!            A–D, C–B: short                ···       │
+//!                                        ···          │
+//!   C o──                             ···          ·· o P
+//!      ╲ ─────────                 ···         ····   │
+//!      ┆╲╲        ──────────  O ·o·        o···       │
+//!      ┆  ╲                 ──·────────   hub          │
+//!      ┆   ╲              ···          ──────────      │
+//!      ┆  Q o          ···                       ───── o D
+//!      ┆     ╲      ···
+//!      ┆      ╲╲ ···           O, P, Q divide A–B, A–D, C–B
+//!    line   B   o              in the same ratio
 //! ```
 //!
 //! O, P and Q stay on a line parallel to A–C with OP·OQ = −share·(1 − share)

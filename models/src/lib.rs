@@ -26,6 +26,11 @@
 //! | [`Pantograph`] | 0 | scaling, two drives |
 //! | [`Jansen`] | 0 | walking, bars as distances |
 //! | [`Klann`] | 0 | walking, bars as distances |
+//!
+//! Each file states a reference result, which `tests/references` holds the
+//! mechanism to. `tests/library` holds all of them to the balance of forces and
+//! power, and to the order of the method over a long run; `mbs drift` prints
+//! that run.
 
 pub mod andrews_squeezer;
 pub mod cart_pendulum;

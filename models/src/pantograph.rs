@@ -1,14 +1,17 @@
 //! Pantograph: the pen draws what the tracer follows, enlarged exactly.
 //!
 //! ```text
-//!                  elbow
-//!                   o
-//!          long1  ╱   ╲  long2
-//!               o       o
-//!             ╱   ╲   ╱   ╲
-//!           ╱       o       ╲
-//!     ────o      tracer       o pen
-//!       pivot
+//!             elbow  o──────
+//!                  ╱╱       ─────  long2
+//!          long1  ╱             ─o──────
+//!                ╱            ╱╱        ──────
+//!              ╱╱   short1  ╱╱                ───o pen
+//!             ╱            ╱
+//!            o────       ╱╱
+//!           ╱     ──────o tracer
+//!          ╱   short2
+//!        ╱╱
+//!       o pivot
 //! ```
 //!
 //! A parallelogram in the elbow of two arms keeps pivot, tracer and pen on a

@@ -1,14 +1,20 @@
 //! Peaucellier's cell: the first linkage that draws an exact straight line.
 //!
 //! ```text
-//!                     A
-//!              long __o
-//!            __──‾‾  ╱ ╲ side   ┆
-//!         O o       o   ╲_______o P
-//!            ‾‾──__ D╲ ╱        ┆ line
-//!              long ‾‾o         ┆
-//!                     B
-//!     O──hub──D: crank of length r about (r, 0)
+//!                                    o A
+//!                                ···╱ ···
+//!                             ···   ╱    ···  side
+//!             long         ···     ╱        ···
+//!                       ···       ╱            ···
+//!                    ···         ╱               ·· o P
+//!                 ···           ╱                  ╱┆
+//!              ···          D ·o··                ╱ ┆ line
+//!           ···          ····     ···            ╱  ┆
+//!        ···         ····            ···        ╱   ┆
+//!     o··          o·                   ···    ╱    ┆
+//!    O  ─────────  hub                     ···╱     ┆
+//!                ───────────────────────────── o B  ┆
+//!                       long
 //! ```
 //!
 //! O, D and P stay on a ray with OD·OP = long² − side², an inversion; D goes

@@ -2,16 +2,22 @@
 //! quickly back.
 //!
 //! ```text
-//!                  tip   link
-//!                  o═════════════o[ ram ]───▶ tool
-//!                 ╱
-//!          pin  ╱╱
-//!           o==╱╱
-//!          ╱  ╱╱ lever
-//!         o  ╱╱        crank centre O
-//!           ╱╱
-//!          ╱╱ φ
-//!         o            pivot, `offset` below O
+//!   tip o─────────   link
+//!       ╲         ────────────── o ram ──── tool
+//!        ╲                     ═════════
+//!        ╲
+//!         ╲  lever
+//!          ╲
+//!      pin  o···  crank
+//!           ╲   ···
+//!            ╲     o O
+//!             ╲    │
+//!             ╲    │
+//!              ╲   │ offset
+//!               ╲  │
+//!               ╲ φ│
+//!                ╲ │
+//!                  o pivot
 //! ```
 //!
 //! Reference: the lever's angle is φ = atan2(r sin θ + offset, r cos θ) for a

@@ -1,14 +1,18 @@
 //! V engine: two slider-cranks on one crank pin.
 //!
 //! ```text
-//!     [2]╲             ╱[1]   pistons
-//!         ╲  V angle  ╱
-//!      rod ╲         ╱ rod
-//!           ╲       ╱
-//!            ╲     ╱
-//!             ╲  o╱ pin
-//!              ╲ ╱ r
-//!               o crank, θ
+//!    [2]                                        [1]  pistons
+//!       o                                      o
+//!        ···              V angle           ···
+//!           ···                          ···
+//!              ···                    ···
+//!           rod   ···              ···  rod
+//!                    ···        ···
+//!                       ···  ···
+//!                           o pin
+//!                            ╲  r
+//!                             ╲
+//!                              o O, θ from x
 //! ```
 //!
 //! Reference: along a bore at the angle β (90° ∓ half the V angle) a piston

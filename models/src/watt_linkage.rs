@@ -2,11 +2,13 @@
 //! straight.
 //!
 //! ```text
-//!     C1 o────────────o B1
-//!           arm        ╲  half
-//!                       · M
-//!                   half ╲        arm
-//!                      B2 o────────────o C2
+//!                  arm    ────o B1
+//!         ────────────────     ╲ half
+//!     o───                      o M
+//!     C1                         ╲ half
+//!                                 o────
+//!                                 B2   ────────────────
+//!                                           arm        ────o C2
 //! ```
 //!
 //! It guides beam engines' piston rods and cars' axles. The middle stays on
