@@ -38,7 +38,10 @@ mechanism! {
         gravity = (0, -9.81) [m/s^2];
 
         body crank (x1, y1, theta2) { mass = density*crank_length; inertia = density*crank_length^3/12; }
-        body coupler (x2, y2, theta3) { mass = density*coupler_length; inertia = density*coupler_length^3/12; }
+        body coupler (x2, y2, theta3) {
+            mass = density*coupler_length;
+            inertia = density*coupler_length^3/12;
+        }
         body rocker (x3, y3, theta4) { mass = density*rocker_length; inertia = density*rocker_length^3/12; }
 
         point o on crank = (-crank_length/2, 0);

@@ -23,7 +23,8 @@
 //! Reference: the lever's angle is φ = atan2(r sin θ + offset, r cos θ) for a
 //! crank of length r. It stands where the crank is across it, so with
 //! sin α = r/offset it swings by 2α, and the strokes' times are as
-//! (π + 2α) : (π − 2α).
+//! (π + 2α) : (π − 2α). (A crank longer than the offset would turn the lever
+//! round: Whitworth's quick return.)
 
 use mbs_runtime::mechanism;
 

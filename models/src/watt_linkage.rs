@@ -16,9 +16,9 @@
 //!
 //! r² = arm² − (c sin θ ± √(half² − c² cos² θ))²,  c half the distance C1–C2
 //!
-//! with θ from C1–C2 (E. H. Lockwood, A Book of Curves, 1961, has curves of this
-//! kind). Reference: that equation, and the middle's rest at r = 0 with the arms
-//! at right angles to the coupler.
+//! with θ from C1–C2, which follows from the closure of the loop (J. Watt
+//! patented the linkage in 1784). Reference: that equation, and the middle at
+//! r = 0 where the arms are at right angles to the coupler.
 
 use mbs_runtime::mechanism;
 
