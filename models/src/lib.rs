@@ -9,6 +9,7 @@
 //! | [`DoublePendulum`] | 2 | a chain of rods, normal modes |
 //! | [`CartPendulum`] | 2 | a plant for controllers |
 //! | [`SpringMassDamper`] | 1 | a spring with damping, no constraint |
+//! | [`Metronome`] | 1 | a torsion spring, a fixed joint |
 //! | [`FourBar`] | 0 | coupler curve, transmission angle, bearing forces |
 //! | [`FourBarFree`] | 1 | a closed loop that keeps its energy |
 //! | [`QuickReturn`] | 0 | a pin in a slot, unequal strokes |
@@ -17,6 +18,7 @@
 //! | [`TogglePress`] | 0 | a drive on a point, force amplification |
 //! | [`VEngine`] | 0 | two loops on one crank pin |
 //! | [`Excavator`] | 0 | hydraulic cylinders as drives of distances |
+//! | [`Tipper`] | 0 | a prismatic joint between moving bodies, as in a cylinder |
 //! | [`AndrewsSqueezer`] | 1 | the test problem of seven bodies |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
@@ -43,6 +45,7 @@ pub mod geneva_pin_slot;
 pub mod hart_inversor;
 pub mod jansen;
 pub mod klann;
+pub mod metronome;
 pub mod pantograph;
 pub mod peaucellier;
 pub mod pendulum;
@@ -51,6 +54,7 @@ pub mod scotch_yoke;
 pub mod slider_crank;
 pub mod slider_crank_free;
 pub mod spring_mass_damper;
+pub mod tipper;
 pub mod toggle_press;
 pub mod trammel_of_archimedes;
 pub mod v_engine;
@@ -67,6 +71,7 @@ pub use geneva_pin_slot::{GenevaPinSlot, GenevaPinSlotParameters};
 pub use hart_inversor::{HartInversor, HartInversorParameters};
 pub use jansen::{Jansen, JansenInputs, JansenParameters};
 pub use klann::{Klann, KlannInputs, KlannParameters};
+pub use metronome::{Metronome, MetronomeParameters};
 pub use pantograph::{Pantograph, PantographParameters};
 pub use peaucellier::{Peaucellier, PeaucellierParameters};
 pub use pendulum::Pendulum;
@@ -75,6 +80,7 @@ pub use scotch_yoke::{ScotchYoke, ScotchYokeInputs, ScotchYokeParameters};
 pub use slider_crank::{SliderCrank, SliderCrankParameters};
 pub use slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
 pub use spring_mass_damper::{SpringMassDamper, SpringMassDamperInputs, SpringMassDamperParameters};
+pub use tipper::{Tipper, TipperParameters};
 pub use toggle_press::{TogglePress, TogglePressInputs, TogglePressParameters};
 pub use trammel_of_archimedes::{TrammelOfArchimedes, TrammelOfArchimedesParameters};
 pub use v_engine::{VEngine, VEngineInputs, VEngineParameters};

@@ -13,8 +13,9 @@ mod random;
 use mbs_runtime::{Components, Mechanism, State};
 use models::{
     AndrewsSqueezer, CartPendulum, Chebyshev, DoublePendulum, Excavator, FourBar, FourBarFree, GenevaPinSlot,
-    HartInversor, Jansen, Klann, Pantograph, Peaucellier, Pendulum, QuickReturn, ScotchYoke, SliderCrank,
-    SliderCrankFree, SpringMassDamper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
+    HartInversor, Jansen, Klann, Metronome, Pantograph, Peaucellier, Pendulum, QuickReturn, ScotchYoke,
+    SliderCrank, SliderCrankFree, SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
+    WattLinkage,
 };
 
 use crate::dual::Dual;
@@ -80,6 +81,7 @@ library! {
     DoublePendulum: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     CartPendulum: 0.5e-3, 10.0, [], |_, at, u| u.push*at.v.x;
     SpringMassDamper: 0.5e-3, 10.0, ["damping"], |p, at, u| (u.push - p.damping*at.v.x)*at.v.x;
+    Metronome: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     FourBar: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     FourBarFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta2;
     QuickReturn: 0.5e-3, 10.0, [], |_, at, u| u.cutting_force*at.v.x3;
@@ -93,6 +95,7 @@ library! {
     Excavator: 0.5e-3, 10.0, [], |p, at, u| {
         u.resistance*(at.v.x3 - p.bucket_length/2.0*at.q.phi3.sin()*at.v.phi3)
     };
+    Tipper: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     AndrewsSqueezer: 1e-5, 1.0, [], |_, at, u| u.motor_torque*at.v.angle1;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;

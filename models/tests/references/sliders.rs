@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use mbs_runtime::{Kinematics, NoComponents};
 use models::{
-    GenevaPinSlot, QuickReturn, ScotchYoke, ScotchYokeInputs, TogglePress, TogglePressInputs,
+    GenevaPinSlot, QuickReturn, ScotchYoke, ScotchYokeInputs, Tipper, TogglePress, TogglePressInputs,
     TogglePressParameters, VEngine,
 };
 
@@ -109,5 +109,18 @@ fn v_engine_pistons() {
         };
         near("piston 1", at.outputs.piston1_position, piston(FRAC_PI_2 - p.v_angle / 2.0), EXACT);
         near("piston 2", at.outputs.piston2_position, piston(FRAC_PI_2 + p.v_angle / 2.0), EXACT);
+    });
+}
+
+#[test]
+fn tipper_is_a_triangle() {
+    let mechanism = Tipper::declared();
+    let p = *mechanism.parameters();
+    let (a, below) = (p.foot_x.hypot(p.foot_depth), p.foot_depth.atan2(p.foot_x));
+    along(mechanism, NoComponents::default(), TAU / p.omega, 100, |at| {
+        let s =
+            f64::midpoint(p.shortest, p.longest) - (p.longest - p.shortest) / 2.0 * (p.omega * at.t).cos();
+        let tilt = ((a * a + p.lug * p.lug - s * s) / (2.0 * a * p.lug)).acos() - below;
+        near("tilt", at.outputs.tilt, tilt, EXACT);
     });
 }
