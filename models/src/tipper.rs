@@ -43,9 +43,9 @@ mechanism! {
         /// Mass of barrel and rod each.
         param part_mass = 60 [kg] where part_mass > 0;
         /// Distance of foot and lug at its least.
-        param shortest = 1 [m] where shortest > 0;
+        param shortest = 1 [m] where shortest < longest;
         /// And at its most.
-        param longest = 1.7 [m] where longest > shortest;
+        param longest = 1.7 [m] where longest < lug + sqrt(foot_x^2 + foot_depth^2);
         /// Angular frequency of the motion out and in.
         param omega = 0.5 [rad/s];
         gravity = (0, -9.81) [m/s^2];
