@@ -6,11 +6,82 @@
 //! | [`SliderCrank`] | 0 | fully driven: kinematics, drive torque |
 //! | [`SliderCrankFree`] | 1 | an `input` set by the embedding program |
 //! | [`Pendulum`] | 1 | Cartesian coordinates, a reaction as output |
+//! | [`DoublePendulum`] | 2 | a chain of rods, normal modes |
+//! | [`CartPendulum`] | 2 | a plant for controllers |
+//! | [`SpringMassDamper`] | 1 | a spring with damping, no constraint |
+//! | [`Metronome`] | 1 | a torsion spring, a fixed joint |
+//! | [`FourBar`] | 0 | coupler curve, transmission angle, bearing forces |
+//! | [`FourBarFree`] | 1 | a closed loop that keeps its energy |
+//! | [`QuickReturn`] | 0 | a pin in a slot, unequal strokes |
+//! | [`ScotchYoke`] | 0 | harmonic motion |
+//! | [`GenevaPinSlot`] | 0 | intermittent motion, its driven phase |
+//! | [`TogglePress`] | 0 | a drive on a point, force amplification |
+//! | [`VEngine`] | 0 | two loops on one crank pin |
+//! | [`Excavator`] | 0 | hydraulic cylinders as drives of distances |
+//! | [`Tipper`] | 0 | a prismatic joint between moving bodies, as in a cylinder |
+//! | [`AndrewsSqueezer`] | 1 | the test problem of seven bodies |
+//! | [`Peaucellier`] | 0 | exact straight line |
+//! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
+//! | [`Chebyshev`] | 0 | nearly straight line |
+//! | [`WattLinkage`] | 0 | nearly straight line |
+//! | [`TrammelOfArchimedes`] | 0 | ellipse |
+//! | [`Pantograph`] | 0 | scaling, two drives |
+//! | [`Jansen`] | 0 | walking, bars as distances |
+//! | [`Klann`] | 0 | walking, bars as distances |
+//!
+//! Each file states a reference result, which `tests/references` holds the
+//! mechanism to. `tests/library` holds all of them to the balance of forces and
+//! power, and to the order of the method over a long run; `mbs drift` prints
+//! that run.
 
+pub mod andrews_squeezer;
+pub mod cart_pendulum;
+pub mod chebyshev;
+pub mod double_pendulum;
+pub mod excavator;
+pub mod four_bar;
+pub mod four_bar_free;
+pub mod geneva_pin_slot;
+pub mod hart_inversor;
+pub mod jansen;
+pub mod klann;
+pub mod metronome;
+pub mod pantograph;
+pub mod peaucellier;
 pub mod pendulum;
+pub mod quick_return;
+pub mod scotch_yoke;
 pub mod slider_crank;
 pub mod slider_crank_free;
+pub mod spring_mass_damper;
+pub mod tipper;
+pub mod toggle_press;
+pub mod trammel_of_archimedes;
+pub mod v_engine;
+pub mod watt_linkage;
 
+pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueezerParameters};
+pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
+pub use chebyshev::{Chebyshev, ChebyshevParameters};
+pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
+pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
+pub use four_bar::{FourBar, FourBarParameters};
+pub use four_bar_free::{FourBarFree, FourBarFreeInputs, FourBarFreeParameters};
+pub use geneva_pin_slot::{GenevaPinSlot, GenevaPinSlotParameters};
+pub use hart_inversor::{HartInversor, HartInversorParameters};
+pub use jansen::{Jansen, JansenInputs, JansenParameters};
+pub use klann::{Klann, KlannInputs, KlannParameters};
+pub use metronome::{Metronome, MetronomeParameters};
+pub use pantograph::{Pantograph, PantographParameters};
+pub use peaucellier::{Peaucellier, PeaucellierParameters};
 pub use pendulum::Pendulum;
+pub use quick_return::{QuickReturn, QuickReturnInputs, QuickReturnParameters};
+pub use scotch_yoke::{ScotchYoke, ScotchYokeInputs, ScotchYokeParameters};
 pub use slider_crank::{SliderCrank, SliderCrankParameters};
 pub use slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
+pub use spring_mass_damper::{SpringMassDamper, SpringMassDamperInputs, SpringMassDamperParameters};
+pub use tipper::{Tipper, TipperParameters};
+pub use toggle_press::{TogglePress, TogglePressInputs, TogglePressParameters};
+pub use trammel_of_archimedes::{TrammelOfArchimedes, TrammelOfArchimedesParameters};
+pub use v_engine::{VEngine, VEngineInputs, VEngineParameters};
+pub use watt_linkage::{WattLinkage, WattLinkageParameters};

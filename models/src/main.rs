@@ -1,15 +1,50 @@
 //! The `mbs` command: mechanisms at a desk, and the paper reproduced.
 
+mod drift;
 mod paper;
 
 use std::process::ExitCode;
 
+use mbs_workbench::model::{of, with};
+use mbs_workbench::{Model, Settings};
+
 fn main() -> ExitCode {
-    mbs_workbench::app()
-        .mechanism::<models::SliderCrank>("slider-crank")
-        .mechanism::<models::SliderCrankFree>("slider-crank-free")
-        .mechanism::<models::Pendulum>("pendulum")
-        .command(paper::command(), paper::run)
+    let app = library().into_iter().fold(mbs_workbench::app(), |app, (name, model)| app.model(name, model));
+    app.command(paper::command(), paper::run)
+        .command(drift::command(), drift::run)
         .default_command("paper")
         .run()
+}
+
+/// The mechanisms with the names under which commands know them.
+fn library() -> Vec<(&'static str, Box<dyn Model>)> {
+    // 20 000 steps that have to follow 300 rad/s
+    let fast = Settings { step: 20e-6, end: 0.4, ..Settings::default() };
+    vec![
+        ("slider-crank", of::<models::SliderCrank>()),
+        ("slider-crank-free", of::<models::SliderCrankFree>()),
+        ("pendulum", of::<models::Pendulum>()),
+        ("double-pendulum", of::<models::DoublePendulum>()),
+        ("cart-pendulum", of::<models::CartPendulum>()),
+        ("spring-mass-damper", of::<models::SpringMassDamper>()),
+        ("metronome", of::<models::Metronome>()),
+        ("four-bar", of::<models::FourBar>()),
+        ("four-bar-free", of::<models::FourBarFree>()),
+        ("quick-return", of::<models::QuickReturn>()),
+        ("scotch-yoke", of::<models::ScotchYoke>()),
+        ("geneva-pin-slot", of::<models::GenevaPinSlot>()),
+        ("toggle-press", of::<models::TogglePress>()),
+        ("v-engine", of::<models::VEngine>()),
+        ("excavator", of::<models::Excavator>()),
+        ("tipper", of::<models::Tipper>()),
+        ("andrews-squeezer", with::<models::AndrewsSqueezer>(fast)),
+        ("peaucellier", of::<models::Peaucellier>()),
+        ("hart-inversor", of::<models::HartInversor>()),
+        ("chebyshev", of::<models::Chebyshev>()),
+        ("watt-linkage", of::<models::WattLinkage>()),
+        ("trammel-of-archimedes", of::<models::TrammelOfArchimedes>()),
+        ("pantograph", of::<models::Pantograph>()),
+        ("jansen", of::<models::Jansen>()),
+        ("klann", of::<models::Klann>()),
+    ]
 }

@@ -133,6 +133,33 @@ fn the_list_has_names_units_and_values() {
     }
 }
 
+/// A name begins its line; what belongs to it is indented.
+#[test]
+fn every_mechanism_runs_as_it_is_declared() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = String::from_utf8(mbs(folder.path(), "list").stdout).unwrap();
+    let heads = list.lines().skip(2).filter(|line| !line.starts_with(' '));
+    let names: Vec<_> = heads.filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() > 20, "{list}");
+    for name in names {
+        let output = mbs(folder.path(), &format!("simulate {name} --every 1000 --out {name}.csv"));
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let rows = std::fs::read_to_string(folder.path().join(format!("{name}.csv"))).unwrap();
+        assert!(rows.lines().count() > 2, "{name}: {rows}");
+    }
+}
+
+#[test]
+fn drift_has_a_row_per_mechanism() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "drift");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8(output.stdout).unwrap();
+    for part in ["max ‖Φ‖", "slider-crank", "andrews-squeezer", "klann"] {
+        assert!(table.contains(part), "{table}");
+    }
+}
+
 #[test]
 fn a_new_crate_is_complete_and_never_overwrites() {
     let folder = tempfile::tempdir().unwrap();

@@ -76,8 +76,14 @@ pub fn app() -> App {
 impl App {
     /// Adds a mechanism under a name.
     #[must_use]
-    pub fn mechanism<M: Mechanism<Real = f64>>(mut self, name: &str) -> Self {
-        self.models.0.push((name.to_owned(), model::of::<M>()));
+    pub fn mechanism<M: Mechanism<Real = f64>>(self, name: &str) -> Self {
+        self.model(name, model::of::<M>())
+    }
+
+    /// Adds a mechanism whose type no longer matters under a name.
+    #[must_use]
+    pub fn model(mut self, name: &str, model: Box<dyn Model>) -> Self {
+        self.models.0.push((name.to_owned(), model));
         self
     }
 

@@ -23,6 +23,11 @@ pub trait Model: Send + Sync {
     /// The equations and their elimination.
     fn derivation(&self) -> &'static Derivation;
 
+    /// What a run is asked to do where nothing else is said.
+    fn defaults(&self) -> Settings {
+        Settings::default()
+    }
+
     /// Runs a simulation. `progress` is called now and then with the steps
     /// taken and the steps in all.
     ///
@@ -36,10 +41,19 @@ pub trait Model: Send + Sync {
 
 /// The mechanism `M` as a [`Model`].
 pub fn of<M: Mechanism<Real = f64>>() -> Box<dyn Model> {
-    Box::new(Typed::<M>(PhantomData))
+    with::<M>(Settings::default())
 }
 
-struct Typed<M>(PhantomData<M>);
+/// The mechanism `M` as a [`Model`] with defaults of its own: a fast mechanism
+/// needs a smaller step.
+pub fn with<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
+    Box::new(Typed::<M> { defaults, mechanism: PhantomData })
+}
+
+struct Typed<M> {
+    defaults: Settings,
+    mechanism: PhantomData<M>,
+}
 
 impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     fn info(&self) -> &'static Info {
@@ -48,6 +62,10 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
 
     fn derivation(&self) -> &'static Derivation {
         M::DERIVATION
+    }
+
+    fn defaults(&self) -> Settings {
+        self.defaults.clone()
     }
 
     fn simulate(&self, settings: &Settings, progress: &mut dyn FnMut(u64, u64)) -> Result<Recording, Error> {

@@ -31,7 +31,7 @@ pub(crate) fn command() -> Command {
             option("input", "NAME=VALUE", "An input, such as crank_torque=0.5N*m; repeatable")
                 .action(ArgAction::Append),
         )
-        .arg(option("step", "TIME", "Step [default: 0.5ms]"))
+        .arg(option("step", "TIME", "Step [default: 0.5ms, or what a fast mechanism asks for]"))
         .arg(option("end", "TIME", "End time [default: 1s]"))
         .arg(
             option("every", "N", "Record every N-th step")
@@ -70,7 +70,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
     let name = text("model").unwrap_or_default();
     let model = models.get(name)?;
-    let settings = settings(model.info(), matches)?;
+    let settings = settings(model, matches)?;
     let path = |name: &str| matches.get_one::<PathBuf>(name).map(PathBuf::as_path);
     carry_out(name, model, &settings, path("out"), path("plot"))
 }
@@ -80,11 +80,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
 pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<(), Error> {
     let path = |ending: &str| PathBuf::from(format!("{name}.{ending}"));
     let (csv, svg) = (path("csv"), path("svg"));
-    carry_out(name, model, &Settings::default(), Some(&csv), Some(&svg))
+    carry_out(name, model, &model.defaults(), Some(&csv), Some(&svg))
 }
 
-fn settings(info: &Info, matches: &ArgMatches) -> Result<Settings, Error> {
-    let defaults = Settings::default();
+fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
+    let (info, defaults) = (model.info(), model.defaults());
     let value = |name: &str, dimension| match matches.get_one::<String>(name) {
         Some(text) => quantity::parse(name, text, dimension).map(Some),
         None => Ok(None),

@@ -1,0 +1,136 @@
+//! What holds for every mechanism of the library, whatever it does: its
+//! reactions balance forces and moments, its energy changes by the power that
+//! goes in, its constraints stay closed.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
+mod balance;
+mod drift;
+mod dual;
+mod model;
+mod random;
+
+use mbs_runtime::{Components, Mechanism, State};
+use models::{
+    AndrewsSqueezer, CartPendulum, Chebyshev, DoublePendulum, Excavator, FourBar, FourBarFree, GenevaPinSlot,
+    HartInversor, Jansen, Klann, Metronome, Pantograph, Peaucellier, Pendulum, QuickReturn, ScotchYoke,
+    SliderCrank, SliderCrankFree, SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
+    WattLinkage,
+};
+
+use crate::dual::Dual;
+use crate::model::{Model, model};
+
+/// How a mechanism is to be tested.
+pub struct Case<M: Mechanism> {
+    /// As in the library.
+    pub name: &'static str,
+    /// Step of the long run in s.
+    pub step: f64,
+    /// Length of the long run in s.
+    pub end: f64,
+    /// Parameters that take energy, to be 0 in the long run.
+    pub without: &'static [&'static str],
+    /// What inputs and dampers put in.
+    pub power: Power<M>,
+}
+
+/// Power of everything that is neither gravity, spring nor drive, in W.
+type Power<M> = fn(
+    &<M as Mechanism>::Parameters,
+    &State<<M as Mechanism>::Coordinates>,
+    &<M as Mechanism>::Inputs,
+) -> f64;
+
+/// A row per mechanism: step and length of the long run, parameters to leave
+/// out in it, and the power of inputs and dampers written out by hand.
+macro_rules! library {
+    ($($Name:ident: $step:literal, $end:literal, $without:expr, $power:expr;)*) => {
+        $(model!($Name);)*
+
+        const NAMES: &[&str] = &[$(stringify!($Name)),*];
+
+        fn reactions() {
+            $(balance::reactions(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
+        }
+
+        fn power() {
+            $(balance::power(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
+        }
+
+        fn drift() {
+            $(drift::check(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
+        }
+    };
+}
+
+fn case<M: Model>(
+    name: &'static str,
+    step: f64,
+    end: f64,
+    without: &'static [&'static str],
+    power: Power<M>,
+) -> Case<M> {
+    Case { name, step, end, without, power }
+}
+
+library! {
+    SliderCrank: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    SliderCrankFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta1;
+    Pendulum: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    DoublePendulum: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    CartPendulum: 0.5e-3, 10.0, [], |_, at, u| u.push*at.v.x;
+    SpringMassDamper: 0.5e-3, 10.0, ["damping"], |p, at, u| (u.push - p.damping*at.v.x)*at.v.x;
+    Metronome: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    FourBar: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    FourBarFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta2;
+    QuickReturn: 0.5e-3, 10.0, [], |_, at, u| u.cutting_force*at.v.x3;
+    ScotchYoke: 0.5e-3, 10.0, [], |_, at, u| -u.load*at.v.x;
+    GenevaPinSlot: 0.5e-3, 10.0, [], |p, at, _| -p.friction*at.v.phi.powi(2);
+    TogglePress: 0.5e-3, 10.0, [], |_, at, u| u.work*at.v.y3;
+    VEngine: 0.5e-3, 10.0, [], |p, at, u| {
+        let (s, c) = (p.v_angle/2.0).sin_cos();
+        -u.gas1*(s*at.v.x3 + c*at.v.y3) - u.gas2*(-s*at.v.x4 + c*at.v.y4)
+    };
+    Excavator: 0.5e-3, 10.0, [], |p, at, u| {
+        u.resistance*(at.v.x3 - p.bucket_length/2.0*at.q.phi3.sin()*at.v.phi3)
+    };
+    Tipper: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    AndrewsSqueezer: 1e-5, 1.0, [], |_, at, u| u.motor_torque*at.v.angle1;
+    Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    WattLinkage: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    TrammelOfArchimedes: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    Pantograph: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    Jansen: 0.5e-3, 10.0, [], |_, at, u| u.beach*at.v.yf;
+    Klann: 0.5e-3, 10.0, [], |_, at, u| u.support*at.v.yf;
+}
+
+/// In any state M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ.
+#[test]
+fn reactions_balance_every_body() {
+    reactions();
+}
+
+/// In any state the energy changes by the power of drives, inputs and dampers.
+#[test]
+fn power_balances() {
+    power();
+}
+
+/// Over a long run, with half the step, violations and energy drift fall as the
+/// order of the method demands.
+#[test]
+fn drift_falls_with_the_step() {
+    println!("{}", drift::HEADING);
+    drift();
+}
+
+/// A mechanism that is added to the library has to be added here.
+#[test]
+fn no_mechanism_is_left_out() {
+    let library = include_str!("../../src/lib.rs");
+    let mechanisms = library.lines().filter(|line| line.starts_with("pub mod ")).count();
+    assert_eq!(NAMES.len(), mechanisms, "{NAMES:?}");
+}

@@ -1,0 +1,65 @@
+//! The reference result of every mechanism in the library: a closed form, a
+//! published number or an exact geometric property, as its file states it.
+//!
+//! Driven mechanisms are compared without integration. Newton's iteration ends
+//! within 4ε (1 + ‖q‖) of Φ = 0; the condition of the linkages here is below a
+//! few hundred along their motion, so 1e-12 of their size is safe. The
+//! slider-cranks are compared in `paper.rs` and in the crate `tests`.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
+mod excavator;
+mod four_bars;
+mod legs;
+mod paths;
+mod sliders;
+mod squeezer;
+mod swings;
+
+use mbs_runtime::{Components, Kinematics, Mechanism, Motion};
+
+/// Of the size of a linkage; see above.
+const EXACT: f64 = 1e-12;
+
+#[track_caller]
+fn near(what: &str, ours: f64, reference: f64, tolerance: f64) {
+    // written so that a NaN fails
+    let is_near = (ours - reference).abs() <= tolerance;
+    assert!(is_near, "{what}: {ours} against {reference}, off by {:e}", ours - reference);
+}
+
+/// A driven mechanism at an instant.
+struct Instant<M: Mechanism> {
+    t: f64,
+    motion: Motion<M::Coordinates>,
+    outputs: M::Outputs,
+}
+
+/// Looks at a driven mechanism at `count` instants from 0 to `end`.
+fn along<M: Mechanism<Real = f64>>(
+    mechanism: M,
+    inputs: M::Inputs,
+    end: f64,
+    count: u32,
+    mut look: impl FnMut(Instant<M>),
+) {
+    let mut kinematics = Kinematics::new(mechanism).unwrap();
+    for k in 0..=count {
+        let t = end * f64::from(k) / f64::from(count);
+        let motion = kinematics.at(t).unwrap();
+        let none = M::Constraints::splat(0.0);
+        let reactions = mechanism.reactions(&motion.state, &inputs, &none);
+        let outputs = mechanism.outputs(&motion.state, &inputs, &reactions);
+        look(Instant { t, motion, outputs });
+    }
+}
+
+/// The intersection of two circles that lies to the left (1) or right (−1) of
+/// the way from the first centre to the second.
+fn intersection(first: [f64; 2], r1: f64, second: [f64; 2], r2: f64, side: f64) -> [f64; 2] {
+    let (dx, dy) = (second[0] - first[0], second[1] - first[1]);
+    let d = dx.hypot(dy);
+    let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
+    let across = side * (r1 * r1 - along * along).sqrt();
+    [first[0] + (along * dx - across * dy) / d, first[1] + (along * dy + across * dx) / d]
+}
