@@ -39,12 +39,12 @@ Operations per call:
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
 | `phi_t` | 0 | 1 | 0 | 0 | 0 | 0 |
 | `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
-| `baumgarte_rhs` | 47 | 37 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 43 | 37 | 0 | 2 | 0 | 0 |
 | `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 55 | 44 | 1 | 2 | 0 | 2 |
+| `stabilized` | 49 | 44 | 1 | 2 | 0 | 2 |
 | `constrained` | 26 | 17 | 1 | 2 | 0 | 2 |
 | `reactions` | 48 | 36 | 1 | 2 | 0 | 2 |
 | `position_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
@@ -533,16 +533,16 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         let abs_l2 = parameters.l2.abs();
         let v1 = T::from_f64(0.5) * parameters.l1;
         let v2 = T::from_f64(0.5) * parameters.l2;
-        let v3 = parameters.l1 * parameters.l1;
-        let v4 = parameters.inertia_factor * parameters.m1;
-        let v5 = v4 * v3;
+        let v3 = parameters.m1 * parameters.l1;
+        let v4 = parameters.inertia_factor * v3;
+        let v5 = parameters.l1 * v4;
         let v6 = parameters.l2 * parameters.l2;
         let v7 = parameters.m2 * v6;
         let v8 = parameters.inertia_factor * v7;
         let v9 = T::from_f64(9.81) * parameters.m1;
         let v10 = T::from_f64(9.81) * parameters.m2;
         let v11 = T::from_f64(0.5) * parameters.m1;
-        let v12 = T::from_f64(0.5) * v5;
+        let v12 = v1 * v4;
         let v13 = T::from_f64(0.5) * parameters.m2;
         let v14 = T::from_f64(0.5) * v8;
         let v15 = T::from_f64(0.5) * parameters.m3;
@@ -862,7 +862,7 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
     }
     /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
 
-Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
+Cost: 43 mul + 37 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -877,8 +877,8 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v4 = at.v.theta1 * cos_theta1;
-        let v5 = self.hoisted[0] * at.v.theta1;
-        let v6 = v5 * v4;
+        let v5 = self.hoisted[0] * v4;
+        let v6 = at.v.theta1 * v5;
         let v7 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = at.q.x1 - v7;
         let v9 = gains.minus_beta_squared * phi_crank_x;
@@ -888,86 +888,82 @@ Cost: 47 mul + 37 add + 0 div + 2 sincos.*/
         let v13 = gains.minus_two_alpha * phi_dot_crank_x;
         let v14 = v9 - v6;
         let v15 = v14 + v13;
-        let v16 = v5 * v10;
-        let v17 = self.hoisted[0] * v4;
-        let phi_dot_crank_y = at.v.y1 - v17;
-        let v19 = gains.minus_two_alpha * phi_dot_crank_y;
-        let v20 = self.hoisted[0] * sin_theta1;
-        let phi_crank_y = at.q.y1 - v20;
-        let v22 = gains.minus_beta_squared * phi_crank_y;
-        let v23 = v22 - v16;
-        let v24 = v23 + v19;
+        let v16 = at.v.theta1 * v11;
+        let phi_dot_crank_y = at.v.y1 - v5;
+        let v18 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v19 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = at.q.y1 - v19;
+        let v21 = gains.minus_beta_squared * phi_crank_y;
+        let v22 = v21 - v16;
+        let v23 = v22 + v18;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v26 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v27 = at.t * self.parameters.omega;
-        let phi_crank_speed = at.q.theta1 - v27;
-        let v29 = gains.minus_beta_squared * phi_crank_speed;
-        let feedback_crank_speed = v26 + v29;
-        let v31 = self.parameters.l1 * at.v.theta1;
-        let v32 = v31 * v4;
-        let v33 = at.v.theta2 * cos_theta2;
-        let v34 = self.hoisted[1] * at.v.theta2;
-        let v35 = v34 * v33;
-        let v36 = self.parameters.l1 * v10;
-        let v37 = at.v.theta2 * sin_theta2;
-        let v38 = self.hoisted[1] * v37;
-        let v39 = at.v.x2 + v38;
-        let phi_dot_rod_x = v36 + v39;
-        let v41 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v42 = self.parameters.l1 * cos_theta1;
-        let v43 = self.hoisted[1] * cos_theta2;
-        let v44 = at.q.x2 - v43;
-        let phi_rod_x = v44 - v42;
-        let v46 = gains.minus_beta_squared * phi_rod_x;
-        let v47 = v35 + v32;
-        let v48 = v46 - v47;
-        let v49 = v48 + v41;
-        let v50 = v31 * v10;
-        let v51 = v34 * v37;
-        let v52 = self.parameters.l1 * v4;
-        let v53 = self.hoisted[1] * v33;
-        let v54 = at.v.y2 - v53;
-        let phi_dot_rod_y = v54 - v52;
-        let v56 = gains.minus_two_alpha * phi_dot_rod_y;
-        let v57 = self.parameters.l1 * sin_theta1;
-        let v58 = self.hoisted[1] * sin_theta2;
-        let v59 = at.q.y2 - v58;
-        let phi_rod_y = v59 - v57;
-        let v61 = gains.minus_beta_squared * phi_rod_y;
-        let v62 = v51 + v50;
-        let v63 = v61 - v62;
-        let v64 = v63 + v56;
-        let v65 = self.parameters.l2 * at.v.theta2;
-        let v66 = v65 * v37;
-        let v67 = self.parameters.l2 * v33;
-        let phi_dot_guide = v67 + v52;
-        let v69 = gains.minus_two_alpha * phi_dot_guide;
-        let v70 = self.parameters.l2 * sin_theta2;
-        let phi_guide = v70 + v57;
-        let v72 = gains.minus_beta_squared * phi_guide;
-        let v73 = v66 + v50;
-        let v74 = v73 + v72;
-        let v75 = v74 + v69;
-        let v76 = v65 * v33;
-        let v77 = self.parameters.l2 * v37;
-        let v78 = at.v.x3 + v77;
-        let phi_dot_slider = v36 + v78;
-        let v80 = gains.minus_two_alpha * phi_dot_slider;
-        let v81 = self.parameters.l2 * cos_theta2;
-        let v82 = at.q.x3 - v81;
-        let phi_slider = v82 - v42;
-        let v84 = gains.minus_beta_squared * phi_slider;
-        let v85 = v76 + v32;
-        let v86 = v84 - v85;
-        let v87 = v86 + v80;
+        let v25 = gains.minus_two_alpha * phi_dot_crank_speed;
+        let v26 = at.t * self.parameters.omega;
+        let phi_crank_speed = at.q.theta1 - v26;
+        let v28 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v25 + v28;
+        let v30 = self.parameters.l1 * v4;
+        let v31 = at.v.theta1 * v30;
+        let v32 = at.v.theta2 * cos_theta2;
+        let v33 = self.hoisted[1] * v32;
+        let v34 = at.v.theta2 * v33;
+        let v35 = self.parameters.l1 * v10;
+        let v36 = at.v.theta2 * sin_theta2;
+        let v37 = self.hoisted[1] * v36;
+        let v38 = at.v.x2 + v37;
+        let phi_dot_rod_x = v35 + v38;
+        let v40 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v41 = self.parameters.l1 * cos_theta1;
+        let v42 = self.hoisted[1] * cos_theta2;
+        let v43 = at.q.x2 - v42;
+        let phi_rod_x = v43 - v41;
+        let v45 = gains.minus_beta_squared * phi_rod_x;
+        let v46 = v34 + v31;
+        let v47 = v45 - v46;
+        let v48 = v47 + v40;
+        let v49 = at.v.theta1 * v35;
+        let v50 = at.v.theta2 * v37;
+        let v51 = at.v.y2 - v33;
+        let phi_dot_rod_y = v51 - v30;
+        let v53 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v54 = self.parameters.l1 * sin_theta1;
+        let v55 = self.hoisted[1] * sin_theta2;
+        let v56 = at.q.y2 - v55;
+        let phi_rod_y = v56 - v54;
+        let v58 = gains.minus_beta_squared * phi_rod_y;
+        let v59 = v50 + v49;
+        let v60 = v58 - v59;
+        let v61 = v60 + v53;
+        let v62 = self.parameters.l2 * v36;
+        let v63 = at.v.theta2 * v62;
+        let v64 = self.parameters.l2 * v32;
+        let phi_dot_guide = v64 + v30;
+        let v66 = gains.minus_two_alpha * phi_dot_guide;
+        let v67 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v67 + v54;
+        let v69 = gains.minus_beta_squared * phi_guide;
+        let v70 = v69 + v63;
+        let v71 = v49 + v70;
+        let v72 = v66 + v71;
+        let v73 = at.v.theta2 * v64;
+        let v74 = at.v.x3 + v62;
+        let phi_dot_slider = v35 + v74;
+        let v76 = gains.minus_two_alpha * phi_dot_slider;
+        let v77 = self.parameters.l2 * cos_theta2;
+        let v78 = at.q.x3 - v77;
+        let phi_slider = v78 - v41;
+        let v80 = gains.minus_beta_squared * phi_slider;
+        let v81 = v73 + v31;
+        let v82 = v80 - v81;
+        let v83 = v82 + v76;
         SliderCrankConstraints {
             crank_x: v15,
-            crank_y: v24,
+            crank_y: v23,
             crank_speed: feedback_crank_speed,
-            rod_x: v49,
-            rod_y: v64,
-            guide: v75,
-            slider: v87,
+            rod_x: v48,
+            rod_y: v61,
+            guide: v72,
+            slider: v83,
         }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
@@ -1505,7 +1501,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             ::mbs_runtime::Function {
                 name: "baumgarte_rhs",
                 operations: ::mbs_runtime::Operations {
-                    mul: 47u32,
+                    mul: 43u32,
                     add: 37u32,
                     div: 0u32,
                     sin_cos: 2u32,
@@ -1560,7 +1556,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             ::mbs_runtime::Function {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
-                    mul: 55u32,
+                    mul: 49u32,
                     add: 44u32,
                     div: 1u32,
                     sin_cos: 2u32,
@@ -2131,105 +2127,99 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v4 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = at.q.x1 - v4;
         let v6 = gains.minus_beta_squared * phi_crank_x;
-        let v7 = at.v.theta1 * sin_theta1;
-        let v8 = self.hoisted[0] * v7;
+        let v7 = self.hoisted[0] * sin_theta1;
+        let v8 = at.v.theta1 * v7;
         let phi_dot_crank_x = at.v.x1 + v8;
         let v10 = gains.minus_two_alpha * phi_dot_crank_x;
         let feedback_crank_x = v6 + v10;
-        let v12 = at.v.theta1 * cos_theta1;
-        let v13 = self.hoisted[0] * at.v.theta1;
-        let v14 = v13 * v12;
+        let v12 = at.v.theta1 * at.v.theta1;
+        let v13 = v12 * v4;
         let phi_dot_crank_speed = at.v.theta1 - self.parameters.omega;
-        let v16 = gains.minus_two_alpha * phi_dot_crank_speed;
-        let v17 = at.t * self.parameters.omega;
-        let phi_crank_speed = at.q.theta1 - v17;
-        let v19 = gains.minus_beta_squared * phi_crank_speed;
-        let feedback_crank_speed = v16 + v19;
-        let v21 = self.hoisted[0] * sin_theta1;
-        let v22 = feedback_crank_speed * v21;
-        let v23 = v22 + v14;
-        let acc_x1 = feedback_crank_x - v23;
-        let v25 = self.hoisted[0] * v12;
-        let phi_dot_crank_y = at.v.y1 - v25;
-        let v27 = gains.minus_two_alpha * phi_dot_crank_y;
-        let phi_crank_y = at.q.y1 - v21;
-        let v29 = gains.minus_beta_squared * phi_crank_y;
-        let feedback_crank_y = v29 + v27;
-        let v31 = feedback_crank_speed * v4;
-        let v32 = v13 * v7;
-        let v33 = v31 - v32;
-        let acc_y1 = v33 + feedback_crank_y;
-        let v35 = self.parameters.l1 * v7;
-        let v36 = at.v.theta2 * sin_theta2;
-        let v37 = self.hoisted[1] * v36;
-        let v38 = at.v.x2 + v37;
-        let phi_dot_rod_x = v35 + v38;
-        let v40 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v41 = self.parameters.l1 * cos_theta1;
-        let v42 = self.hoisted[1] * cos_theta2;
-        let v43 = at.q.x2 - v42;
-        let phi_rod_x = v43 - v41;
-        let v45 = gains.minus_beta_squared * phi_rod_x;
-        let feedback_rod_x = v45 + v40;
-        let v47 = at.v.theta2 * cos_theta2;
-        let v48 = self.hoisted[1] * at.v.theta2;
-        let v49 = v48 * v47;
-        let v50 = self.parameters.l1 * at.v.theta1;
-        let v51 = v50 * v12;
-        let v52 = self.parameters.l1 * sin_theta1;
-        let v53 = feedback_crank_speed * v52;
-        let v54 = v53 + v51;
-        let v55 = v49 + v54;
-        let v56 = feedback_rod_x - v55;
-        let v57 = self.hoisted[11] / cos_theta2;
-        let v58 = self.parameters.l1 * v12;
-        let v59 = self.parameters.l2 * v47;
-        let phi_dot_guide = v59 + v58;
-        let v61 = gains.minus_two_alpha * phi_dot_guide;
-        let v62 = self.parameters.l2 * sin_theta2;
-        let phi_guide = v62 + v52;
-        let v64 = gains.minus_beta_squared * phi_guide;
-        let feedback_guide = v64 + v61;
-        let v66 = self.parameters.l2 * at.v.theta2;
-        let v67 = v66 * v36;
-        let v68 = feedback_crank_speed * v41;
-        let v69 = v50 * v7;
-        let v70 = v68 - v69;
-        let v71 = v67 - v70;
-        let v72 = v71 + feedback_guide;
-        let acc_theta2 = v57 * v72;
-        let v74 = self.hoisted[1] * sin_theta2;
-        let v75 = v74 * acc_theta2;
-        let acc_x2 = v56 - v75;
-        let v77 = self.hoisted[1] * v47;
-        let v78 = at.v.y2 - v77;
-        let phi_dot_rod_y = v78 - v58;
-        let v80 = gains.minus_two_alpha * phi_dot_rod_y;
-        let v81 = at.q.y2 - v74;
-        let phi_rod_y = v81 - v52;
-        let v83 = gains.minus_beta_squared * phi_rod_y;
-        let feedback_rod_y = v83 + v80;
-        let v85 = v48 * v36;
-        let v86 = v70 - v85;
-        let v87 = v86 + feedback_rod_y;
-        let v88 = v42 * acc_theta2;
-        let acc_y2 = v87 + v88;
-        let v90 = self.parameters.l2 * v36;
-        let v91 = at.v.x3 + v90;
-        let phi_dot_slider = v35 + v91;
-        let v93 = gains.minus_two_alpha * phi_dot_slider;
-        let v94 = self.parameters.l2 * cos_theta2;
-        let v95 = at.q.x3 - v94;
-        let phi_slider = v95 - v41;
-        let v97 = gains.minus_beta_squared * phi_slider;
-        let feedback_slider = v97 + v93;
-        let v99 = v66 * v47;
-        let v100 = v99 + v54;
-        let v101 = feedback_slider - v100;
-        let v102 = v62 * acc_theta2;
-        let acc_x3 = v101 - v102;
-        let v104 = self.hoisted[12] * v57;
-        let abs_v104 = v104.abs();
+        let v15 = gains.minus_two_alpha * phi_dot_crank_speed;
+        let v16 = at.t * self.parameters.omega;
+        let phi_crank_speed = at.q.theta1 - v16;
+        let v18 = gains.minus_beta_squared * phi_crank_speed;
+        let feedback_crank_speed = v15 + v18;
+        let v20 = feedback_crank_speed * v7;
+        let v21 = v20 + v13;
+        let acc_x1 = feedback_crank_x - v21;
+        let v23 = at.v.theta1 * v4;
+        let phi_dot_crank_y = at.v.y1 - v23;
+        let v25 = gains.minus_two_alpha * phi_dot_crank_y;
+        let phi_crank_y = at.q.y1 - v7;
+        let v27 = gains.minus_beta_squared * phi_crank_y;
+        let feedback_crank_y = v27 + v25;
+        let v29 = feedback_crank_speed * v4;
+        let v30 = v12 * v7;
+        let v31 = v29 - v30;
+        let acc_y1 = v31 + feedback_crank_y;
+        let v33 = self.parameters.l1 * sin_theta1;
+        let v34 = at.v.theta1 * v33;
+        let v35 = self.hoisted[1] * sin_theta2;
+        let v36 = at.v.theta2 * v35;
+        let v37 = at.v.x2 + v36;
+        let phi_dot_rod_x = v34 + v37;
+        let v39 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v40 = self.parameters.l1 * cos_theta1;
+        let v41 = self.hoisted[1] * cos_theta2;
+        let v42 = at.q.x2 - v41;
+        let phi_rod_x = v42 - v40;
+        let v44 = gains.minus_beta_squared * phi_rod_x;
+        let feedback_rod_x = v44 + v39;
+        let v46 = at.v.theta2 * at.v.theta2;
+        let v47 = v46 * v41;
+        let v48 = v12 * v40;
+        let v49 = feedback_crank_speed * v33;
+        let v50 = v49 + v48;
+        let v51 = v47 + v50;
+        let v52 = feedback_rod_x - v51;
+        let v53 = self.hoisted[11] / cos_theta2;
+        let v54 = at.v.theta1 * v40;
+        let v55 = self.parameters.l2 * cos_theta2;
+        let v56 = at.v.theta2 * v55;
+        let phi_dot_guide = v56 + v54;
+        let v58 = gains.minus_two_alpha * phi_dot_guide;
+        let v59 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v59 + v33;
+        let v61 = gains.minus_beta_squared * phi_guide;
+        let feedback_guide = v61 + v58;
+        let v63 = v46 * v59;
+        let v64 = feedback_crank_speed * v40;
+        let v65 = v12 * v33;
+        let v66 = v64 - v65;
+        let v67 = v63 - v66;
+        let v68 = v67 + feedback_guide;
+        let acc_theta2 = v53 * v68;
+        let v70 = v35 * acc_theta2;
+        let acc_x2 = v52 - v70;
+        let v72 = at.v.theta2 * v41;
+        let v73 = at.v.y2 - v72;
+        let phi_dot_rod_y = v73 - v54;
+        let v75 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v76 = at.q.y2 - v35;
+        let phi_rod_y = v76 - v33;
+        let v78 = gains.minus_beta_squared * phi_rod_y;
+        let feedback_rod_y = v78 + v75;
+        let v80 = v46 * v35;
+        let v81 = v66 - v80;
+        let v82 = v81 + feedback_rod_y;
+        let v83 = v41 * acc_theta2;
+        let acc_y2 = v82 + v83;
+        let v85 = at.v.theta2 * v59;
+        let v86 = at.v.x3 + v85;
+        let phi_dot_slider = v34 + v86;
+        let v88 = gains.minus_two_alpha * phi_dot_slider;
+        let v89 = at.q.x3 - v55;
+        let phi_slider = v89 - v40;
+        let v91 = gains.minus_beta_squared * phi_slider;
+        let feedback_slider = v91 + v88;
+        let v93 = v46 * v55;
+        let v94 = v93 + v50;
+        let v95 = feedback_slider - v94;
+        let v96 = v59 * acc_theta2;
+        let acc_x3 = v95 - v96;
+        let v98 = self.hoisted[12] * v53;
+        let abs_v98 = v98.abs();
         ::mbs_runtime::Stabilized {
             acceleration: SliderCrankCoordinates {
                 x1: acc_x1,
@@ -2249,7 +2239,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 guide: feedback_guide,
                 slider: feedback_slider,
             },
-            growth: abs_v104,
+            growth: abs_v98,
         }
     }
     #[inline(always)]

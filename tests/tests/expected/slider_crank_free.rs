@@ -37,7 +37,7 @@ Operations per call:
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
 | `phi_t` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `gamma` | 14 | 9 | 0 | 2 | 0 | 0 |
-| `baumgarte_rhs` | 44 | 34 | 0 | 2 | 0 | 0 |
+| `baumgarte_rhs` | 40 | 34 | 0 | 2 | 0 | 0 |
 | `mass` | 0 | 0 | 0 | 0 | 0 | 0 |
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
@@ -920,7 +920,7 @@ Cost: 14 mul + 9 add + 0 div + 2 sincos.*/
     }
     /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
 
-Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
+Cost: 40 mul + 34 add + 0 div + 2 sincos.*/
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -935,8 +935,8 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
         let (sin_theta1, cos_theta1) = at.q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = at.q.theta2.sin_cos();
         let v4 = at.v.theta1 * cos_theta1;
-        let v5 = self.hoisted[0] * at.v.theta1;
-        let v6 = v5 * v4;
+        let v5 = self.hoisted[0] * v4;
+        let v6 = at.v.theta1 * v5;
         let v7 = self.hoisted[0] * cos_theta1;
         let phi_crank_x = at.q.x1 - v7;
         let v9 = gains.minus_beta_squared * phi_crank_x;
@@ -946,79 +946,75 @@ Cost: 44 mul + 34 add + 0 div + 2 sincos.*/
         let v13 = gains.minus_two_alpha * phi_dot_crank_x;
         let v14 = v9 - v6;
         let v15 = v14 + v13;
-        let v16 = v5 * v10;
-        let v17 = self.hoisted[0] * v4;
-        let phi_dot_crank_y = at.v.y1 - v17;
-        let v19 = gains.minus_two_alpha * phi_dot_crank_y;
-        let v20 = self.hoisted[0] * sin_theta1;
-        let phi_crank_y = at.q.y1 - v20;
-        let v22 = gains.minus_beta_squared * phi_crank_y;
-        let v23 = v22 - v16;
-        let v24 = v23 + v19;
-        let v25 = self.parameters.l1 * at.v.theta1;
-        let v26 = v25 * v4;
-        let v27 = at.v.theta2 * cos_theta2;
-        let v28 = self.hoisted[1] * at.v.theta2;
-        let v29 = v28 * v27;
-        let v30 = self.parameters.l1 * v10;
-        let v31 = at.v.theta2 * sin_theta2;
-        let v32 = self.hoisted[1] * v31;
-        let v33 = at.v.x2 + v32;
-        let phi_dot_rod_x = v30 + v33;
-        let v35 = gains.minus_two_alpha * phi_dot_rod_x;
-        let v36 = self.parameters.l1 * cos_theta1;
-        let v37 = self.hoisted[1] * cos_theta2;
-        let v38 = at.q.x2 - v37;
-        let phi_rod_x = v38 - v36;
-        let v40 = gains.minus_beta_squared * phi_rod_x;
-        let v41 = v29 + v26;
-        let v42 = v40 - v41;
-        let v43 = v42 + v35;
-        let v44 = v25 * v10;
-        let v45 = v28 * v31;
-        let v46 = self.parameters.l1 * v4;
-        let v47 = self.hoisted[1] * v27;
-        let v48 = at.v.y2 - v47;
-        let phi_dot_rod_y = v48 - v46;
-        let v50 = gains.minus_two_alpha * phi_dot_rod_y;
-        let v51 = self.parameters.l1 * sin_theta1;
-        let v52 = self.hoisted[1] * sin_theta2;
-        let v53 = at.q.y2 - v52;
-        let phi_rod_y = v53 - v51;
-        let v55 = gains.minus_beta_squared * phi_rod_y;
-        let v56 = v45 + v44;
-        let v57 = v55 - v56;
-        let v58 = v57 + v50;
-        let v59 = self.parameters.l2 * at.v.theta2;
-        let v60 = v59 * v31;
-        let v61 = self.parameters.l2 * v27;
-        let phi_dot_guide = v61 + v46;
-        let v63 = gains.minus_two_alpha * phi_dot_guide;
-        let v64 = self.parameters.l2 * sin_theta2;
-        let phi_guide = v64 + v51;
-        let v66 = gains.minus_beta_squared * phi_guide;
-        let v67 = v60 + v44;
-        let v68 = v67 + v66;
-        let v69 = v68 + v63;
-        let v70 = v59 * v27;
-        let v71 = self.parameters.l2 * v31;
-        let v72 = at.v.x3 + v71;
-        let phi_dot_slider = v30 + v72;
-        let v74 = gains.minus_two_alpha * phi_dot_slider;
-        let v75 = self.parameters.l2 * cos_theta2;
-        let v76 = at.q.x3 - v75;
-        let phi_slider = v76 - v36;
-        let v78 = gains.minus_beta_squared * phi_slider;
-        let v79 = v70 + v26;
-        let v80 = v78 - v79;
-        let v81 = v80 + v74;
+        let v16 = at.v.theta1 * v11;
+        let phi_dot_crank_y = at.v.y1 - v5;
+        let v18 = gains.minus_two_alpha * phi_dot_crank_y;
+        let v19 = self.hoisted[0] * sin_theta1;
+        let phi_crank_y = at.q.y1 - v19;
+        let v21 = gains.minus_beta_squared * phi_crank_y;
+        let v22 = v21 - v16;
+        let v23 = v22 + v18;
+        let v24 = self.parameters.l1 * v4;
+        let v25 = at.v.theta1 * v24;
+        let v26 = at.v.theta2 * cos_theta2;
+        let v27 = self.hoisted[1] * v26;
+        let v28 = at.v.theta2 * v27;
+        let v29 = self.parameters.l1 * v10;
+        let v30 = at.v.theta2 * sin_theta2;
+        let v31 = self.hoisted[1] * v30;
+        let v32 = at.v.x2 + v31;
+        let phi_dot_rod_x = v29 + v32;
+        let v34 = gains.minus_two_alpha * phi_dot_rod_x;
+        let v35 = self.parameters.l1 * cos_theta1;
+        let v36 = self.hoisted[1] * cos_theta2;
+        let v37 = at.q.x2 - v36;
+        let phi_rod_x = v37 - v35;
+        let v39 = gains.minus_beta_squared * phi_rod_x;
+        let v40 = v28 + v25;
+        let v41 = v39 - v40;
+        let v42 = v41 + v34;
+        let v43 = at.v.theta1 * v29;
+        let v44 = at.v.theta2 * v31;
+        let v45 = at.v.y2 - v27;
+        let phi_dot_rod_y = v45 - v24;
+        let v47 = gains.minus_two_alpha * phi_dot_rod_y;
+        let v48 = self.parameters.l1 * sin_theta1;
+        let v49 = self.hoisted[1] * sin_theta2;
+        let v50 = at.q.y2 - v49;
+        let phi_rod_y = v50 - v48;
+        let v52 = gains.minus_beta_squared * phi_rod_y;
+        let v53 = v44 + v43;
+        let v54 = v52 - v53;
+        let v55 = v54 + v47;
+        let v56 = self.parameters.l2 * v30;
+        let v57 = at.v.theta2 * v56;
+        let v58 = self.parameters.l2 * v26;
+        let phi_dot_guide = v58 + v24;
+        let v60 = gains.minus_two_alpha * phi_dot_guide;
+        let v61 = self.parameters.l2 * sin_theta2;
+        let phi_guide = v61 + v48;
+        let v63 = gains.minus_beta_squared * phi_guide;
+        let v64 = v63 + v57;
+        let v65 = v43 + v64;
+        let v66 = v60 + v65;
+        let v67 = at.v.theta2 * v58;
+        let v68 = at.v.x3 + v56;
+        let phi_dot_slider = v29 + v68;
+        let v70 = gains.minus_two_alpha * phi_dot_slider;
+        let v71 = self.parameters.l2 * cos_theta2;
+        let v72 = at.q.x3 - v71;
+        let phi_slider = v72 - v35;
+        let v74 = gains.minus_beta_squared * phi_slider;
+        let v75 = v67 + v25;
+        let v76 = v74 - v75;
+        let v77 = v76 + v70;
         SliderCrankFreeConstraints {
             crank_x: v15,
-            crank_y: v24,
-            rod_x: v43,
-            rod_y: v58,
-            guide: v69,
-            slider: v81,
+            crank_y: v23,
+            rod_x: v42,
+            rod_y: v55,
+            guide: v66,
+            slider: v77,
         }
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
@@ -1573,7 +1569,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             ::mbs_runtime::Function {
                 name: "baumgarte_rhs",
                 operations: ::mbs_runtime::Operations {
-                    mul: 44u32,
+                    mul: 40u32,
                     add: 34u32,
                     div: 0u32,
                     sin_cos: 2u32,

@@ -17,6 +17,11 @@ pub(super) fn factor(flat: &mut Flat) {
 /// Two members of a row, up to a common sign.
 type Pair = (Value, Value, bool);
 
+/// How many rows hold a pair, and whether one of them is nothing else: of two
+/// pairs that save the same now, that one leaves the other rows free to share
+/// more.
+type Rank = (usize, bool);
+
 /// The two kinds of rows.
 trait Rows {
     fn row(&self, definition: &Definition) -> Option<Vec<Signed>>;
@@ -52,8 +57,8 @@ impl Rows for Sums {
 struct Work {
     rows: BTreeMap<Value, Vec<Signed>>,
     holders: BTreeMap<Pair, BTreeSet<Value>>,
-    /// Pairs by number of holders; entries may be out of date.
-    queue: BinaryHeap<(usize, Reverse<Pair>)>,
+    /// Pairs by their rank; entries may be out of date.
+    queue: BinaryHeap<(Rank, Reverse<Pair>)>,
 }
 
 fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
@@ -83,12 +88,18 @@ fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
 
 impl Work {
     fn insert(&mut self, value: Value, row: Vec<Signed>) {
-        for pair in pairs(&row) {
-            let holders = self.holders.entry(pair).or_default();
-            holders.insert(value);
-            self.queue.push((holders.len(), Reverse(pair)));
-        }
+        let pairs = pairs(&row);
         self.rows.insert(value, row);
+        for pair in pairs {
+            self.holders.entry(pair).or_default().insert(value);
+            self.queue.push((self.rank(&pair), Reverse(pair)));
+        }
+    }
+
+    fn rank(&self, pair: &Pair) -> Rank {
+        let Some(holders) = self.holders.get(pair) else { return (0, false) };
+        let is_whole = |holder: &Value| self.rows.get(holder).is_some_and(|row| row.len() == 2);
+        (holders.len(), holders.iter().any(is_whole))
     }
 
     fn remove(&mut self, value: Value) -> Vec<Signed> {
@@ -96,7 +107,7 @@ impl Work {
         for pair in pairs(&row) {
             if let Some(holders) = self.holders.get_mut(&pair) {
                 holders.remove(&value);
-                self.queue.push((holders.len(), Reverse(pair)));
+                self.queue.push((self.rank(&pair), Reverse(pair)));
             }
         }
         row
@@ -104,8 +115,8 @@ impl Work {
 
     /// The pair with the most holders, two at least.
     fn most_frequent(&mut self) -> Option<Pair> {
-        while let Some((count, Reverse(pair))) = self.queue.pop() {
-            if count >= 2 && self.holders.get(&pair).map_or(0, BTreeSet::len) == count {
+        while let Some((rank, Reverse(pair))) = self.queue.pop() {
+            if rank.0 >= 2 && self.rank(&pair) == rank {
                 return Some(pair);
             }
         }
