@@ -15,7 +15,7 @@ use crate::verify::Samples;
 
 /// More unknowns than this, and only the order that keeps matrices sparse is
 /// tried.
-const LARGEST_NULL_SPACE: usize = 64;
+const LARGEST_NULL_SPACE: usize = 160;
 
 /// The programs of all generated functions.
 pub struct Plan {
