@@ -42,9 +42,9 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let mut model = model::resolve(&declaration)?;
     let equations = derive::derive(&mut model);
     let samples = verify::Samples::new(&model);
-    verify::check_equations(&model, &equations, &samples)?;
+    let rows = verify::check_equations(&model, &equations, &samples)?;
     let plan =
-        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::undetermined(&model, &error))?;
+        plan::plan(&mut model, &equations, &rows, &samples).map_err(|error| verify::undetermined(&model, &error))?;
     verify::check_closure(&model, &plan)?;
     Ok(emit::emit(&model, &equations, &plan))
 }

@@ -1,6 +1,8 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
+mod minimum_norm;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
@@ -10,7 +12,7 @@ use mbs_symbolic::{
 
 use crate::derive::Equations;
 use crate::model::Model;
-use crate::verify::Samples;
+use crate::verify::{Rows, Samples};
 
 /// More unknowns than this, and only the order that keeps matrices sparse is
 /// tried.
@@ -19,6 +21,7 @@ const LARGEST_NULL_SPACE: usize = 64;
 /// The programs of all generated functions.
 pub struct Plan {
     pub strategy: Strategy,
+    pub rows: Rows,
     /// What depends on parameters alone, as formulas.
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
@@ -59,16 +62,23 @@ pub struct Plan {
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
-/// Plans all functions.
+/// Plans all functions. The accelerations and corrections are solved for with
+/// the independent constraints; the redundant ones have their share of the
+/// multipliers.
 ///
 /// # Errors
 /// The unknowns that no pivot determines; `verify` has already seen to it that
 /// there are none where the constraints are independent.
-pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Undetermined> {
+pub fn plan(
+    model: &mut Model,
+    equations: &Equations,
+    rows: &Rows,
+    samples: &Samples,
+) -> Result<Plan, Undetermined> {
     label(model, equations);
-    let (strategy, factorization) = cheapest(model, equations, samples)?;
-    let (positions, mut start_pivots) = correction(model, equations, strategy, samples, false)?;
-    let (velocities, more) = correction(model, equations, strategy, samples, true)?;
+    let (strategy, factorization) = cheapest(model, equations, rows, samples)?;
+    let (positions, mut start_pivots) = correction(model, equations, rows, strategy, samples, false)?;
+    let (velocities, more) = correction(model, equations, rows, strategy, samples, true)?;
     start_pivots.extend(
         more.into_iter()
             .filter(|new| start_pivots.iter().all(|old| old.growth != new.growth))
@@ -88,8 +98,8 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         .zip(&equations.feedback)
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
-    let stabilized = stabilized(model, equations, &factorization);
-    let (constrained, reactions) = with_given_feedback(model, equations, &factorization);
+    let stabilized = stabilized(model, equations, rows, &factorization);
+    let (constrained, reactions) = with_given_feedback(model, equations, rows, &factorization);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -97,6 +107,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
     let plan = Plan {
         strategy,
+        rows: rows.clone(),
         phi: program(&equations.phi),
         phi_dot: program(&equations.phi_dot),
         phi_q: program(&dense),
@@ -152,7 +163,7 @@ fn label(model: &mut Model, equations: &Equations) {
 }
 
 /// The constrained system with the coordinates in `held` left out.
-fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
+fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
     let mut kkt = Kkt::new();
     for (at, &mass) in equations.mass.iter().enumerate() {
         if held.contains(&at) {
@@ -165,9 +176,9 @@ fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
             kkt.mark_massive(at);
         }
     }
-    for (at, row) in equations.phi_q.iter().enumerate() {
+    for &at in &rows.basis {
         kkt.add_unknown(Unknown::Row(at));
-        for (&column, &entry) in row.iter().filter(|(column, _)| !held.contains(column)) {
+        for (&column, &entry) in equations.phi_q[at].iter().filter(|(column, _)| !held.contains(column)) {
             kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
         }
     }
@@ -178,9 +189,10 @@ fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
 fn cheapest(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     samples: &Samples,
 ) -> Result<(Strategy, Factorization), Undetermined> {
-    let kkt = system(model, equations, &BTreeSet::new());
+    let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<(u32, Strategy, Factorization)> = None;
     for strategy in Strategy::ALL {
@@ -189,7 +201,7 @@ fn cheapest(
         }
         let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
         let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
-        let roots = stabilized(model, equations, &factorization);
+        let roots = stabilized(model, equations, rows, &factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
@@ -201,15 +213,20 @@ fn cheapest(
 }
 
 /// q̈, the feedback and the growth, with feedback from the state.
-fn stabilized(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Vec<Expr> {
+fn stabilized(
+    model: &mut Model,
+    equations: &Equations,
+    rows: &Rows,
+    factorization: &Factorization,
+) -> Vec<Expr> {
     // Shared, so that the function can hand out the very value it used.
     let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
     let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
     for (at, &force) in equations.forces.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
-    for (at, (&gamma, &feedback)) in equations.gamma.iter().zip(&feedback).enumerate() {
-        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+    for &at in &rows.basis {
+        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots = accelerations(model, &solution);
@@ -222,23 +239,24 @@ fn stabilized(model: &mut Model, equations: &Equations, factorization: &Factoriz
 fn with_given_feedback(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     factorization: &Factorization,
 ) -> (Vec<Expr>, Vec<Expr>) {
     let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
     for (at, &force) in equations.forces.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
-    for (at, &gamma) in equations.gamma.iter().enumerate() {
+    for &at in &rows.basis {
         let feedback = model.arena.variable(model.symbols.feedback[at]);
-        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let growth = factorization.growth(&mut model.arena);
     let mut constrained = accelerations(model, &solution);
     let mut reactions = constrained.clone();
     constrained.push(growth);
-    for (at, constraint) in model.constraints.iter().enumerate() {
-        let multiplier = solution.get(&Unknown::Row(at)).copied().unwrap_or(model.arena.zero());
+    let multipliers = minimum_norm::multipliers(&mut model.arena, equations, rows, factorization, &solution);
+    for (constraint, multiplier) in model.constraints.iter().zip(multipliers) {
         model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
         reactions.push(multiplier);
     }
@@ -261,17 +279,18 @@ fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<E
 fn correction(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     strategy: Strategy,
     samples: &Samples,
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
-    let held = held(model, equations, samples, of_velocities);
-    let kkt = system(model, equations, &held);
+    let held = held(model, equations, rows, samples, of_velocities);
+    let kkt = system(model, equations, rows, &held);
     let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
     let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
     let mut rhs = BTreeMap::new();
-    for (at, &residual) in model.symbols.feedback.iter().enumerate() {
-        rhs.insert(Unknown::Row(at), model.arena.variable(residual));
+    for &at in &rows.basis {
+        rhs.insert(Unknown::Row(at), model.arena.variable(model.symbols.feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots: Vec<Expr> = (0..model.coordinates.len())
@@ -285,15 +304,21 @@ fn correction(
 /// as long as the constraints can be met by moving the others. Judged at the
 /// declared start, where x² + y² = l² cannot be met by moving y if y = 0; or,
 /// should the start be singular as it is declared, at random positions.
-fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: bool) -> BTreeSet<usize> {
-    let nothing = BTreeSet::new();
-    let generic = samples.rank(model, equations, &nothing);
-    let is_regular = samples.rank_at_start(model, equations, &nothing) == generic;
+fn held(
+    model: &Model,
+    equations: &Equations,
+    rows: &Rows,
+    samples: &Samples,
+    of_velocities: bool,
+) -> BTreeSet<usize> {
+    let (nothing, rows) = (BTreeSet::new(), &rows.basis);
+    let generic = samples.rank(model, equations, rows, &nothing);
+    let is_regular = samples.rank_at_start(model, equations, rows, &nothing) == generic;
     let rank = |held: &BTreeSet<usize>| {
         if is_regular {
-            samples.rank_at_start(model, equations, held)
+            samples.rank_at_start(model, equations, rows, held)
         } else {
-            samples.rank(model, equations, held)
+            samples.rank(model, equations, rows, held)
         }
     };
     let mut held = nothing;

@@ -47,6 +47,7 @@ pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
 pub use eliminate::{Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor};
+pub use evaluate::{Tape, Values};
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;
 pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};

@@ -35,6 +35,8 @@ pub struct Model {
     /// Where the runtime is found; `::mbs_runtime` by default.
     pub runtime: TokenStream,
     pub dof: (i64, Span),
+    /// Where redundant constraints are allowed, if they are.
+    pub minimum_norm: Option<Span>,
     pub parameters: Vec<Parameter>,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,

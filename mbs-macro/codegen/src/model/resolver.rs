@@ -46,6 +46,7 @@ pub(super) struct Resolver<'a> {
     pub mechanism: Span,
     pub runtime: Option<(TokenStream, Span)>,
     pub dof: Option<(i64, Span)>,
+    pub minimum_norm: Option<Span>,
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
@@ -74,6 +75,7 @@ impl<'a> Resolver<'a> {
             mechanism: declaration.name.span(),
             runtime: None,
             dof: None,
+            minimum_norm: None,
             parameters: Vec::new(),
             resolved_parameters: 0,
             inputs: Vec::new(),
@@ -148,6 +150,7 @@ impl<'a> Resolver<'a> {
             name: declaration.name.clone(),
             runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
+            minimum_norm: self.minimum_norm,
             parameters: self.parameters,
             inputs: self.inputs,
             coordinates: self.coordinates,

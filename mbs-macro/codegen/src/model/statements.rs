@@ -72,6 +72,10 @@ impl<'a> Resolver<'a> {
                 Some((_, earlier)) => self.repeated("`dof`", *keyword, earlier),
                 None => self.dof = Some((*value, *keyword)),
             },
+            ItemKind::Redundant { keyword } => match self.minimum_norm {
+                Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
+                None => self.minimum_norm = Some(*keyword),
+            },
             ItemKind::Crate { keyword, path } => match self.runtime {
                 Some((_, earlier)) => self.repeated("`crate`", *keyword, earlier),
                 None => self.runtime = Some((path.clone(), *keyword)),

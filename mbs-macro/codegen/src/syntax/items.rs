@@ -19,6 +19,7 @@ use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
     "dof",
+    "redundant",
     "crate",
     "param",
     "const",
@@ -110,6 +111,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
+        "redundant" => redundant(input, keyword.span()),
         "crate" => crate_path(input, keyword.span()),
         "param" => parameter(input),
         "const" => constant(input),
@@ -213,6 +215,18 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
         .base10_parse()
         .map_err(|_| Error::new(value.span(), "no mechanism has that many degrees of freedom"))?;
     Ok(ItemKind::Dof { keyword, value: small.into() })
+}
+
+fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let expected = "`minimum_norm` is expected here: redundant constraints then share the force, with \
+                    multipliers of least norm";
+    let choice = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    if choice != "minimum_norm" {
+        return Err(Error::new(choice.span(), expected));
+    }
+    semicolon(input)?;
+    Ok(ItemKind::Redundant { keyword })
 }
 
 fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

@@ -28,6 +28,8 @@ pub struct Item {
 pub enum ItemKind {
     /// `dof = 0;`
     Dof { keyword: Span, value: i64 },
+    /// `redundant = minimum_norm;`
+    Redundant { keyword: Span },
     /// `crate = path;`
     Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`

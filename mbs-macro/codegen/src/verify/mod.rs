@@ -1,29 +1,34 @@
 //! What must hold before code is emitted: the degrees of freedom of the
 //! contract, independent constraints, an assembly at the declared dimensions.
 
+mod assembly;
 mod closure;
+mod echelon;
+mod manifold;
 mod rank;
+mod redundancy;
 mod samples;
 
 use mbs_symbolic::{Undetermined, Unknown};
 
 pub use closure::check_closure;
+pub use rank::Rows;
 pub use samples::Samples;
 
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
 
-/// Checks the equations before they are planned.
+/// Checks the equations before they are planned, and gives the constraints to
+/// solve for.
 ///
 /// # Errors
 /// All violations, in mechanism words.
-pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<(), Diagnostics> {
+pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<Rows, Diagnostics> {
     let mut errors = Diagnostics::default();
     check_declared_values(model, &mut errors);
-    let independent = rank::check_independence(model, equations, samples, &mut errors);
-    rank::check_contract(model, equations, samples, independent, &mut errors);
-    errors.finish(())
+    let rows = rank::check_independence(model, equations, samples, &mut errors);
+    errors.finish(rows)
 }
 
 /// Declared parameters satisfy their own conditions; no mass is negative.

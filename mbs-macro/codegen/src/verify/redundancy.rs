@@ -1,0 +1,89 @@
+//! Constraints that are redundant on purpose: which ones are solved for, and
+//! whether the others are met with them.
+
+use proc_macro2::Span;
+
+use super::Samples;
+use super::assembly::{Assembly, Closing};
+use super::closure::unit;
+use super::echelon::row_echelon;
+use super::manifold::Manifold;
+use super::rank::Rows;
+use crate::diagnostics::{Diagnostic, listing};
+use crate::model::Model;
+
+/// The rows to solve for, in the order of declaration as long as each adds
+/// something, judged where the mechanism is assembled.
+///
+/// # Errors
+/// A redundant constraint that is violated where the others are met, or none
+/// that is redundant.
+pub fn choose(
+    model: &Model,
+    assembly: &Assembly<'_>,
+    samples: &Samples,
+    manifold: Option<&Manifold>,
+    statement: Span,
+) -> Result<Rows, Diagnostic> {
+    let count = model.constraints.len();
+    // As many rows as the contract asks for; all if it asks for more.
+    let wanted = usize::try_from(model.coordinates.len() as i64 - model.dof.0).unwrap_or(0).min(count);
+    if let Some(manifold) = manifold {
+        let redundant: Vec<usize> = manifold.redundant().iter().map(|(row, _)| *row).collect();
+        if count - redundant.len() <= wanted {
+            return match redundant.is_empty() {
+                false => Ok(Rows::without(count, redundant)),
+                true => Err(nothing_redundant(model, statement)),
+            };
+        }
+    }
+    // All together they do not close, or leave less motion than promised: the
+    // ones that add least are the ones that were meant to be redundant.
+    let all: Vec<usize> = (0..count).collect();
+    let near = assembly.close(&all, &samples.start_position(model)).at;
+    let independence = row_echelon(assembly.jacobian(&near).0).independence;
+    let mut by_weakness = all;
+    by_weakness.sort_by(|&a, &b| independence[a].total_cmp(&independence[b]));
+    let mut spare: Vec<usize> = by_weakness.into_iter().take(count - wanted).collect();
+    spare.sort_unstable();
+    let rows = Rows::without(count, spare);
+    let closing = assembly.close(&rows.basis, &samples.start_position(model));
+    match largest_violation(assembly, &rows.redundant, &closing) {
+        Some((row, violation)) if closing.is_closed => Err(does_not_fit(model, &rows, row, violation)),
+        // What does not close even so is found with the programs themselves;
+        // what closes is told by the contract.
+        _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
+        _ => Ok(rows),
+    }
+}
+
+/// The redundant row that is violated most, if one does not close.
+fn largest_violation(assembly: &Assembly<'_>, redundant: &[usize], closing: &Closing) -> Option<(usize, f64)> {
+    let sizes = redundant.iter().map(|&row| (row, closing.phi[row].abs()));
+    let (row, violation) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (!assembly.is_met(row, closing)).then_some((row, violation))
+}
+
+/// The error for a redundant constraint that stays violated where the others are met.
+pub fn does_not_fit(model: &Model, rows: &Rows, row: usize, violation: f64) -> Diagnostic {
+    let constraint = &model.constraints[row];
+    let others = rows.basis.iter().map(|&other| model.constraints[other].name.as_str());
+    Diagnostic::new(
+        constraint.span,
+        format!(
+            "redundant constraint `{}` does not fit: it stays violated by {violation:.1e}{} where {} are met",
+            constraint.name,
+            unit(constraint.dimension),
+            listing(others)
+        ),
+    )
+    .help(
+        "a redundant constraint has to hold wherever the others do; correct its dimensions, best by a formula \
+         of the parameters that the others use",
+    )
+}
+
+fn nothing_redundant(model: &Model, statement: Span) -> Diagnostic {
+    Diagnostic::new(statement, format!("no constraint of `{}` is redundant", model.name))
+        .help("remove `redundant = minimum_norm;`")
+}
