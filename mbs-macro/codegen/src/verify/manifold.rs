@@ -20,6 +20,7 @@ const SAME: f64 = 1e-3;
 
 /// Assembled positions and Φ_q there.
 pub struct Manifold {
+    pub start: Position,
     echelons: Vec<Echelon>,
     /// Whether the mechanism has only this one position although Φ_q would let
     /// it move: then it is singular there, and no constraint is redundant.
@@ -36,10 +37,8 @@ impl Manifold {
         };
         let mut positions = vec![start.clone()];
         let mut generator = Generator::new();
-        let interval = interval(assembly, &start);
-        for step in 1..=POSITIONS {
+        for t in instants(assembly, &start) {
             let from = positions[positions.len() - 1].clone();
-            let t = if interval > 0.0 { interval * step as f64 } else { 0.0 };
             positions.extend(stride(assembly, rows, &from, t, &mut generator));
         }
         let echelons: Vec<Echelon> =
@@ -47,7 +46,12 @@ impl Manifold {
         let can_move = echelons[0].rank() < model.coordinates.len();
         let is_isolated =
             can_move && positions.iter().all(|position| assembly.distance(position, &start) < SAME);
-        Some(Self { echelons, is_isolated })
+        Some(Self { start, echelons, is_isolated })
+    }
+
+    /// The times at which the mechanism is looked at beside its start.
+    pub fn instants(&self, assembly: &Assembly<'_>) -> Vec<f64> {
+        instants(assembly, &self.start)
     }
 
     /// What holds at every position that was looked at: the echelon of the one
@@ -63,15 +67,17 @@ impl Manifold {
     }
 }
 
-/// The time in which the drives move the mechanism by about one stride; 0 where
-/// nothing depends on time.
-fn interval(assembly: &Assembly<'_>, start: &Position) -> f64 {
-    if !assembly.depends_on_time() {
-        return 0.0;
-    }
-    let speed = assembly.drive_speed(start);
-    // A drive that starts from rest says nothing: a tenth of a second.
-    if speed > 1e-6 && speed.is_finite() { STRIDE / speed } else { 0.1 }
+/// Times between which the drives move the mechanism by about one stride; 0
+/// again and again where nothing depends on time.
+fn instants(assembly: &Assembly<'_>, start: &Position) -> Vec<f64> {
+    let interval = if assembly.depends_on_time() {
+        let speed = assembly.drive_speed(start);
+        // A drive that starts from rest says nothing: a tenth of a second.
+        if speed > 1e-6 && speed.is_finite() { STRIDE / speed } else { 0.1 }
+    } else {
+        0.0
+    };
+    (1..=POSITIONS).map(|step| interval * step as f64).collect()
 }
 
 /// Another assembled position near `from`, if one is found.

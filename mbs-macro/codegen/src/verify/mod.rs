@@ -4,7 +4,9 @@
 mod assembly;
 mod closure;
 mod echelon;
+mod generic;
 mod manifold;
+mod prime_field;
 mod rank;
 mod redundancy;
 mod samples;

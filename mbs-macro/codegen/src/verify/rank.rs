@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::Samples;
 use super::assembly::Assembly;
+use super::generic;
 use super::manifold::Manifold;
 use super::redundancy;
 use crate::derive::Equations;
@@ -47,7 +48,7 @@ pub fn check_independence(
         check_contract(model, equations, samples, &rows, errors);
         return rows;
     }
-    let generic = generic(model, equations, samples);
+    let generic = generic_dependence(model, equations, samples);
     let at_dimensions = manifold.as_ref().map_or(&[][..], Manifold::redundant);
     if generic.is_empty() {
         report(model, at_dimensions, " in every position at its declared dimensions", errors);
@@ -61,9 +62,18 @@ pub fn check_independence(
 }
 
 /// The rows that depend on others whatever the dimensions and the position.
-pub fn generic(model: &Model, equations: &Equations, samples: &Samples) -> Vec<Dependent> {
+fn generic_dependence(model: &Model, equations: &Equations, samples: &Samples) -> Vec<Dependent> {
+    let exact = generic::judge(&model.arena, equations);
+    if let Some(verdict) = &exact
+        && verdict.is_exact
+    {
+        return verdict.dependent.clone();
+    }
+    let known = exact.map_or_else(Vec::new, |verdict| verdict.dependent);
     let echelons = samples.positions().map(|position| samples.echelon(model, equations, position));
-    echelons.max_by_key(|echelon| echelon.rank()).map_or_else(Vec::new, |echelon| echelon.dependent)
+    let sampled =
+        echelons.max_by_key(|echelon| echelon.rank()).map_or_else(Vec::new, |echelon| echelon.dependent);
+    if sampled.len() > known.len() { sampled } else { known }
 }
 
 /// One error for each constraint that is too many.
@@ -84,12 +94,15 @@ fn report(model: &Model, dependent: &[Dependent], whenever: &str, errors: &mut D
         for other in others() {
             error = error.note(other.span, format!("`{}` is one of them", other.name));
         }
-        errors.push(error.help(if names.is_empty() {
-            "remove it, or correct the equation that was meant to say something else"
+        let remove = if names.is_empty() { "remove it" } else { "remove one of them" };
+        let on_purpose = if names.is_empty() || constraint.is_drive {
+            ""
         } else {
-            "remove one of them, or correct the equation that was meant to say something else; if it is \
-             there on purpose, as a spare link is, add `redundant = minimum_norm;`"
-        }));
+            "; if it is there on purpose, as a spare link is, add `redundant = minimum_norm;`"
+        };
+        errors.push(error.help(format!(
+            "{remove}, or correct the equation that was meant to say something else{on_purpose}"
+        )));
     }
 }
 

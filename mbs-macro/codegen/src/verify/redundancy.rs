@@ -31,10 +31,11 @@ pub fn choose(
     if let Some(manifold) = manifold {
         let redundant: Vec<usize> = manifold.redundant().iter().map(|(row, _)| *row).collect();
         if count - redundant.len() <= wanted {
-            return match redundant.is_empty() {
-                false => Ok(Rows::without(count, redundant)),
-                true => Err(nothing_redundant(model, statement)),
-            };
+            if redundant.is_empty() {
+                return Err(nothing_redundant(model, statement));
+            }
+            let rows = Rows::without(count, redundant);
+            return fits_in_time(model, assembly, &rows, manifold).map(|()| rows);
         }
     }
     // All together they do not close, or leave less motion than promised: the
@@ -55,6 +56,26 @@ pub fn choose(
         _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
         _ => Ok(rows),
     }
+}
+
+/// Redundant drives keep in step with the others: what closes at t = 0 also
+/// closes later.
+fn fits_in_time(
+    model: &Model,
+    assembly: &Assembly<'_>,
+    rows: &Rows,
+    manifold: &Manifold,
+) -> Result<(), Diagnostic> {
+    let mut from = manifold.start.clone();
+    for t in manifold.instants(assembly) {
+        from.t = t;
+        let closing = assembly.close(&rows.basis, &from);
+        match largest_violation(assembly, &rows.redundant, &closing) {
+            Some((row, violation)) if closing.is_closed => return Err(does_not_fit(model, rows, row, violation)),
+            _ => from = closing.at,
+        }
+    }
+    Ok(())
 }
 
 /// The redundant row that is violated most, if one does not close.
