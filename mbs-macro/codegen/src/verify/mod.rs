@@ -5,17 +5,21 @@ mod assembly;
 mod closure;
 mod echelon;
 mod generic;
+mod jets;
 mod manifold;
 mod prime_field;
 mod rank;
 mod redundancy;
+mod rounding;
 mod samples;
+mod validation;
 
 use mbs_symbolic::{Undetermined, Unknown};
 
 pub use closure::check_closure;
 pub use rank::Rows;
 pub use samples::Samples;
+pub use validation::check_programs;
 
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};

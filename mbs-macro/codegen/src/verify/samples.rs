@@ -58,6 +58,11 @@ impl Samples {
         evaluate_at(arena, roots, &self.values[position])
     }
 
+    /// The value of a symbol at one of the positions.
+    pub fn value(&self, symbol: Symbol, position: usize) -> f64 {
+        self.values[position].get(symbol.index()).copied().unwrap_or(0.0)
+    }
+
     /// The number of positions.
     pub fn positions(&self) -> std::ops::Range<usize> {
         0..self.values.len()
