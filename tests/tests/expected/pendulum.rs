@@ -670,6 +670,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "",

@@ -1409,6 +1409,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "guide",

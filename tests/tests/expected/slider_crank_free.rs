@@ -1478,6 +1478,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "guide",
