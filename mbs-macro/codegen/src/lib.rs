@@ -43,8 +43,8 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let equations = derive::derive(&mut model);
     let samples = verify::Samples::new(&model);
     let rows = verify::check_equations(&model, &equations, &samples)?;
-    let plan =
-        plan::plan(&mut model, &equations, &rows, &samples).map_err(|error| verify::undetermined(&model, &error))?;
+    let plan = plan::plan(&mut model, &equations, &rows, &samples)
+        .map_err(|error| verify::undetermined(&model, &error))?;
     verify::check_closure(&model, &plan)?;
     verify::check_programs(&model, &equations, &plan, &samples)?;
     Ok(emit::emit(&model, &equations, &plan))

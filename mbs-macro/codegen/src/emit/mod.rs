@@ -5,6 +5,7 @@ mod functions;
 mod info;
 mod names;
 mod program;
+mod solver;
 mod types;
 
 use proc_macro2::TokenStream;
@@ -20,11 +21,13 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let names = Names::new(model);
     let types = types::emit(model, plan, equations, &names);
     let construction = functions::construction(model, plan, &names);
+    let solver = solver::emit(model, &names);
     let functions = functions::inherent(model, equations, plan, &names);
     let mechanism = functions::mechanism(model, plan, &names);
     quote! {
         #types
         #construction
+        #solver
         #functions
         #mechanism
     }

@@ -12,6 +12,7 @@ mod loads;
 mod names;
 mod places;
 mod resolver;
+mod solver;
 mod springs;
 mod statements;
 
@@ -20,6 +21,7 @@ use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
+pub use solver::{Feedback, Solver};
 
 use crate::syntax::Comparison;
 
@@ -37,6 +39,7 @@ pub struct Model {
     pub dof: (i64, Span),
     /// Where redundant constraints are allowed, if they are.
     pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,

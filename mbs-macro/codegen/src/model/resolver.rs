@@ -8,7 +8,7 @@ use quote::quote;
 
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Start, Symbols,
+    Body, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Solver, Start, Symbols,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::Declaration;
@@ -47,6 +47,7 @@ pub(super) struct Resolver<'a> {
     pub runtime: Option<(TokenStream, Span)>,
     pub dof: Option<(i64, Span)>,
     pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
@@ -76,6 +77,7 @@ impl<'a> Resolver<'a> {
             runtime: None,
             dof: None,
             minimum_norm: None,
+            solver: Solver::default(),
             parameters: Vec::new(),
             resolved_parameters: 0,
             inputs: Vec::new(),
@@ -125,6 +127,7 @@ impl<'a> Resolver<'a> {
                     .help("give it a longer name"),
             );
         }
+        self.check_solver();
         if self.dof.is_none() {
             let left = self.coordinates.len() as i64 - self.row_count as i64;
             self.errors.push(
@@ -151,6 +154,7 @@ impl<'a> Resolver<'a> {
             runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
             minimum_norm: self.minimum_norm,
+            solver: self.solver,
             parameters: self.parameters,
             inputs: self.inputs,
             coordinates: self.coordinates,

@@ -76,6 +76,10 @@ impl<'a> Resolver<'a> {
                 Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
                 None => self.minimum_norm = Some(*keyword),
             },
+            ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
+            ItemKind::Feedback { keyword, is_held, gains } => {
+                self.resolve_feedback(*keyword, *is_held, gains);
+            }
             ItemKind::Crate { keyword, path } => match self.runtime {
                 Some((_, earlier)) => self.repeated("`crate`", *keyword, earlier),
                 None => self.runtime = Some((path.clone(), *keyword)),

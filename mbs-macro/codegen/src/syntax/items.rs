@@ -12,7 +12,8 @@ use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
 
 use super::formula::{end, is_vector};
 use super::{
-    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
+    Comparison, Condition, Coordinate, Declaration, Formula, FormulaKind, Item, ItemKind, Load, Property,
+    StartEntry,
 };
 use super::{joints, springs};
 use crate::diagnostics::{Diagnostics, nearest};
@@ -20,6 +21,8 @@ use crate::diagnostics::{Diagnostics, nearest};
 const KEYWORDS: &[&str] = &[
     "dof",
     "redundant",
+    "step",
+    "feedback",
     "crate",
     "param",
     "const",
@@ -112,6 +115,8 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
         "redundant" => redundant(input, keyword.span()),
+        "step" => step(input, keyword.span()),
+        "feedback" => feedback(input, keyword.span()),
         "crate" => crate_path(input, keyword.span()),
         "param" => parameter(input),
         "const" => constant(input),
@@ -227,6 +232,29 @@ fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     }
     semicolon(input)?;
     Ok(ItemKind::Redundant { keyword })
+}
+
+fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Step { keyword, value })
+}
+
+fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let value: Formula = input.parse()?;
+    let expected = "`held(alpha, beta)` or `per_stage(alpha, beta)` is expected here";
+    let error = Error::new(value.span, expected);
+    let FormulaKind::Call { function, arguments } = value.kind else { return Err(error) };
+    let is_held = match function.to_string().as_str() {
+        "held" => true,
+        "per_stage" => false,
+        _ => return Err(Error::new(function.span(), expected)),
+    };
+    let gains = <[Formula; 2]>::try_from(arguments).map_err(|_| error)?;
+    semicolon(input)?;
+    Ok(ItemKind::Feedback { keyword, is_held, gains })
 }
 
 fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

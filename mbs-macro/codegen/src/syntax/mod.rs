@@ -30,6 +30,10 @@ pub enum ItemKind {
     Dof { keyword: Span, value: i64 },
     /// `redundant = minimum_norm;`
     Redundant { keyword: Span },
+    /// `step = 0.5 [ms];`
+    Step { keyword: Span, value: Formula },
+    /// `feedback = held(alpha, beta);`
+    Feedback { keyword: Span, is_held: bool, gains: [Formula; 2] },
     /// `crate = path;`
     Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`

@@ -5,9 +5,9 @@
 
 use mbs_symbolic::Tape;
 
+use super::samples::typical_length;
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
-use super::samples::typical_length;
 
 const ITERATIONS: usize = 100;
 

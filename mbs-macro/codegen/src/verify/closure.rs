@@ -69,7 +69,7 @@ fn check_redundant(model: &Model, plan: &Plan, q: &[f64], phi: &[f64]) -> Result
     let sizes = plan.rows.redundant.iter().map(|&row| (row, phi[row].abs()));
     match sizes.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((row, violation)) if violation > CLOSED * (1.0 + largest(q).1) => {
-            Err(does_not_fit(model, &plan.rows, row, violation).into())
+            Err(does_not_fit(model, row, violation, 0.0).into())
         }
         _ => Ok(()),
     }

@@ -195,7 +195,8 @@ impl<'a> Point<'a> {
     fn constant_turn(&mut self, constant: Number) -> Turn {
         let quarters = constant.to_f64() / FRAC_PI_2;
         // π is known to a rounding, and so are sums of a few of its multiples.
-        if quarters.abs() < 1e6 && (quarters - quarters.round()).abs() <= 8.0 * f64::EPSILON * quarters.abs() {
+        if quarters.abs() < 1e6 && (quarters - quarters.round()).abs() <= 8.0 * f64::EPSILON * quarters.abs()
+        {
             Turn::RIGHT.times(quarters.round() as i64)
         } else {
             self.random_turn()
@@ -302,7 +303,9 @@ mod tests {
             1 => format!("constraint c{at}: y1 + {c}*l*sin(p) = y2 + l*sin(q + p);"),
             2 => format!("constraint c{at}: (x1 - x2)^2 + (y1 - y2)^2 = {c}*{c}*l^2 + 2*l^2;"),
             3 => format!("constraint c{at}: {c}*x1 - 2*y1 + {c}*l*sin(p)^2 = l;"),
-            4 => format!("constraint c{at}: x1 + y1 + {c}*l*(cos(p) + sin(p)) = x2 + y2 + l*cos(q + p) + l*sin(p + q);"),
+            4 => format!(
+                "constraint c{at}: x1 + y1 + {c}*l*(cos(p) + sin(p)) = x2 + y2 + l*cos(q + p) + l*sin(p + q);"
+            ),
             _ => format!("constraint c{at}: {c}*l*p + l*q + x1 = l;"),
         }
     }

@@ -25,9 +25,9 @@ pub fn evaluate(tape: &Tape, arena: &Arena, curve: &dyn Fn(Symbol) -> Jet) -> Ve
                 sum + Jet::still(Rounded::constant(*coefficient)) * values.of(*term)
             })
         }
-        Node::Product(factors) => factors
-            .iter()
-            .fold(Jet::still(ONE), |product, (factor, exponent)| product * values.of(*factor).powi(*exponent)),
+        Node::Product(factors) => factors.iter().fold(Jet::still(ONE), |product, (factor, exponent)| {
+            product * values.of(*factor).powi(*exponent)
+        }),
         Node::Call(function, x) => values.of(*x).call(*function),
         Node::Call2(function, x, y) => values.of(*x).call2(*function, values.of(*y)),
         Node::Shared(x) => values.of(*x),
@@ -49,11 +49,7 @@ impl Jet {
 
     /// value + s·first + s²/2·second
     pub fn curve(value: f64, first: f64, second: f64) -> Self {
-        Self {
-            value: Rounded::exact(value),
-            first: Rounded::exact(first),
-            second: Rounded::exact(second),
-        }
+        Self { value: Rounded::exact(value), first: Rounded::exact(first), second: Rounded::exact(second) }
     }
 
     fn is_still(&self) -> bool {

@@ -30,7 +30,12 @@ pub struct Manifold {
 impl Manifold {
     /// The mechanism assembled near its declared start and followed from there;
     /// `None` if it does not assemble.
-    pub fn explore(assembly: &Assembly<'_>, samples: &Samples, model: &Model, rows: &[usize]) -> Option<Self> {
+    pub fn explore(
+        assembly: &Assembly<'_>,
+        samples: &Samples,
+        model: &Model,
+        rows: &[usize],
+    ) -> Option<Self> {
         let Closing { at: start, is_closed: true, .. } = assembly.close(rows, &samples.start_position(model))
         else {
             return None;
@@ -90,7 +95,8 @@ fn stride(
 ) -> Option<Position> {
     let mut length = STRIDE;
     for _ in 0..3 {
-        let moved = from.q.iter().zip(&assembly.units).map(|(q, unit)| q + length * unit * generator.symmetric());
+        let moved =
+            from.q.iter().zip(&assembly.units).map(|(q, unit)| q + length * unit * generator.symmetric());
         let closing = assembly.close(rows, &Position { q: moved.collect(), t });
         if closing.is_closed {
             return Some(closing.at);

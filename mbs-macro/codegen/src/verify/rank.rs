@@ -44,7 +44,7 @@ pub fn check_independence(
     let manifold = Manifold::explore(&assembly, samples, model, &all.basis);
     if let Some(statement) = model.minimum_norm {
         let chosen = redundancy::choose(model, &assembly, samples, manifold.as_ref(), statement);
-        let rows = errors.take(chosen).unwrap_or(all);
+        let Some(rows) = errors.take(chosen) else { return all };
         check_contract(model, equations, samples, &rows, errors);
         return rows;
     }

@@ -9,7 +9,7 @@ use super::closure::unit;
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
 use super::rank::Rows;
-use crate::diagnostics::{Diagnostic, listing};
+use crate::diagnostics::Diagnostic;
 use crate::model::Model;
 
 /// The rows to solve for, in the order of declaration as long as each adds
@@ -50,7 +50,7 @@ pub fn choose(
     let rows = Rows::without(count, spare);
     let closing = assembly.close(&rows.basis, &samples.start_position(model));
     match largest_violation(assembly, &rows.redundant, &closing) {
-        Some((row, violation)) if closing.is_closed => Err(does_not_fit(model, &rows, row, violation)),
+        Some((row, violation)) if closing.is_closed => Err(does_not_fit(model, row, violation, 0.0)),
         // What does not close even so is found with the programs themselves;
         // what closes is told by the contract.
         _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
@@ -71,7 +71,9 @@ fn fits_in_time(
         from.t = t;
         let closing = assembly.close(&rows.basis, &from);
         match largest_violation(assembly, &rows.redundant, &closing) {
-            Some((row, violation)) if closing.is_closed => return Err(does_not_fit(model, rows, row, violation)),
+            Some((row, violation)) if closing.is_closed => {
+                return Err(does_not_fit(model, row, violation, t));
+            }
             _ => from = closing.at,
         }
     }
@@ -79,23 +81,27 @@ fn fits_in_time(
 }
 
 /// The redundant row that is violated most, if one does not close.
-fn largest_violation(assembly: &Assembly<'_>, redundant: &[usize], closing: &Closing) -> Option<(usize, f64)> {
+fn largest_violation(
+    assembly: &Assembly<'_>,
+    redundant: &[usize],
+    closing: &Closing,
+) -> Option<(usize, f64)> {
     let sizes = redundant.iter().map(|&row| (row, closing.phi[row].abs()));
     let (row, violation) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (!assembly.is_met(row, closing)).then_some((row, violation))
 }
 
-/// The error for a redundant constraint that stays violated where the others are met.
-pub fn does_not_fit(model: &Model, rows: &Rows, row: usize, violation: f64) -> Diagnostic {
+/// The error for a redundant constraint that stays violated where the others
+/// are met, at the time `t`.
+pub fn does_not_fit(model: &Model, row: usize, violation: f64, t: f64) -> Diagnostic {
     let constraint = &model.constraints[row];
-    let others = rows.basis.iter().map(|&other| model.constraints[other].name.as_str());
+    let (name, unit) = (&constraint.name, unit(constraint.dimension));
+    let when = if t == 0.0 { String::new() } else { format!(" at t = {t:.2e} s") };
     Diagnostic::new(
         constraint.span,
         format!(
-            "redundant constraint `{}` does not fit: it stays violated by {violation:.1e}{} where {} are met",
-            constraint.name,
-            unit(constraint.dimension),
-            listing(others)
+            "redundant constraint `{name}` does not fit: it stays violated by {violation:.1e}{unit}{when} where \
+             the others are met"
         ),
     )
     .help(

@@ -91,9 +91,8 @@ impl Point<'_> {
 
     fn value(&self, expr: Expr) -> Rounded {
         let tape = Tape::new(&self.model.arena, &[expr]);
-        let jets = jets::evaluate(&tape, &self.model.arena, &|symbol| {
-            Jet::curve((self.symbol)(symbol), 0.0, 0.0)
-        });
+        let jets =
+            jets::evaluate(&tape, &self.model.arena, &|symbol| Jet::curve((self.symbol)(symbol), 0.0, 0.0));
         jets.first().map_or(Rounded::default(), |jet| jet.value)
     }
 
@@ -211,7 +210,8 @@ impl Point<'_> {
     fn solutions(&self) -> Check {
         let (n, plan) = (self.model.coordinates.len(), self.plan);
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
-        let given: Vec<f64> = self.model.symbols.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
+        let given: Vec<f64> =
+            self.model.symbols.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
         let own: Vec<f64> = self.feedback(&motion).iter().map(|feedback| feedback.value).collect();
         let reactions = self.solved(&plan.reactions, &given);
         if let Some(values) = &reactions {
@@ -450,7 +450,10 @@ mod tests {
         ];
         for (name, choose, is_solving) in programs {
             let (tried, missed) = missed(&mut planned, choose, is_solving);
-            assert!(tried > 0 && missed == 0, "{missed} of {tried} wrong instructions of {name} are accepted");
+            assert!(
+                tried > 0 && missed == 0,
+                "{missed} of {tried} wrong instructions of {name} are accepted"
+            );
         }
     }
 

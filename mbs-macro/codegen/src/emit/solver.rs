@@ -1,0 +1,45 @@
+//! The declared step and feedback as constants, checked by the runtime's own
+//! condition when the declaration is compiled.
+
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+
+use super::names::Names;
+use crate::model::{Feedback, Model};
+
+pub fn emit(model: &Model, names: &Names) -> TokenStream {
+    let Names { mechanism, runtime, .. } = names;
+    let Some((step, _)) = model.solver.step else { return TokenStream::new() };
+    let mut tokens = quote! {
+        impl #mechanism<::core::primitive::f64> {
+            /// The declared step in s.
+            pub const STEP: ::core::primitive::f64 = #step;
+        }
+    };
+    let Some(Feedback { is_held, alpha, beta, span }) = model.solver.feedback else { return tokens };
+    let (kind, word) = if is_held { (quote!(Held), "held") } else { (quote!(PerStage), "per-stage") };
+    let message = format!(
+        "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \
+         the constraint violation would grow; reduce them or the step"
+    );
+    tokens.extend(quote! {
+        impl #mechanism<::core::primitive::f64> {
+            /// The declared feedback of the constraint violation, stable with
+            /// steps of [`STEP`](Self::STEP).
+            pub const FEEDBACK: #runtime::Baumgarte<#runtime::#kind> =
+                match #runtime::Baumgarte::new(#alpha, #beta) {
+                    ::core::result::Result::Ok(feedback) => feedback,
+                    ::core::result::Result::Err(_) => #runtime::Baumgarte::NONE,
+                };
+        }
+    });
+    // At the statement itself, so that this is where the compiler points.
+    tokens.extend(quote_spanned! {span=>
+        const _: () = ::core::assert!(
+            #mechanism::<::core::primitive::f64>::FEEDBACK
+                .is_stable(#mechanism::<::core::primitive::f64>::STEP),
+            #message
+        );
+    });
+    tokens
+}
