@@ -55,6 +55,39 @@ mechanism! {
 }
 
 mechanism! {
+    /// A parallelogram on a slope, of whole bodies and joints, with a spare rod.
+    pub Jointed {
+        dof = 1;
+        redundant = minimum_norm;
+        param l = 0.5 [m];
+        param w = 0.8 [m];
+        gravity = (3, -9) [m/s^2];
+        body left  (x1, y1, p1) { mass = 1 [kg]; inertia = 0.02 [kg*m^2]; }
+        body right (x2, y2, p2) { mass = 1 [kg]; inertia = 0.02 [kg*m^2]; }
+        body top   (x3, y3, p3) { mass = 2 [kg]; inertia = 0.1 [kg*m^2]; }
+        point a on ground = (0, 0);
+        point b on ground = (0.8*w, 0.6*w);
+        point hook on ground = (0.24*w, 0.18*w);
+        point left_foot on left = (-l/2, 0);
+        point left_tip on left = (l/2, 0);
+        point right_foot on right = (-l/2, 0);
+        point right_tip on right = (l/2, 0);
+        point top_left on top = (-0.4*w, -0.3*w);
+        point top_right on top = (0.4*w, 0.3*w);
+        point top_hook on top = (-0.16*w, -0.12*w);
+        distance spare (top.top_hook, ground.hook) = l;
+        revolute foot_a (left.left_foot, ground.a);
+        revolute foot_b (right.right_foot, ground.b);
+        revolute tip_a (left.left_tip, top.top_left);
+        revolute tip_b (right.right_tip, top.top_right);
+        start {
+            p1 = -1; guess p2 = -1.1; guess x1 = 0.15 [m]; guess y1 = -0.2 [m];
+            guess x2 = 0.7 [m]; guess y2 = 0.3 [m]; guess x3 = 0.6 [m]; guess y3 = -0.15 [m];
+        }
+    }
+}
+
+mechanism! {
     /// A beam on three supports: one more than its three coordinates need.
     pub Beam {
         dof = 0;
@@ -159,6 +192,23 @@ fn multipliers_of_a_spare_link_are_those_of_least_norm() {
         assert_least_norm!(run.mechanism(), assembled(run.mechanism(), run.state()));
         run.advance_to(run.time() + 0.1).expect("regular");
     }
+}
+
+#[test]
+fn a_spare_rod_shares_the_load() {
+    let mut run = Simulation::new(Jointed::declared(), 1e-3).expect("assembles");
+    // `spare` says what the joints say, the last of which is the one too many.
+    assert_eq!(Jointed::<f64>::INFO.redundant, [8]);
+    let mut tensions = Vec::new();
+    for _ in 0..8 {
+        let state = mbs_runtime::start::consistent(run.mechanism(), run.state()).expect("assembled");
+        assert_least_norm!(run.mechanism(), state);
+        let none = Default::default();
+        tensions.push(run.mechanism().accelerations(&state, &none).multipliers.spare);
+        run.advance_to(run.time() + 0.1).expect("regular");
+    }
+    assert!(run.violation() < 1e-5, "{}", run.violation());
+    assert!(tensions.iter().all(|tension| tension.abs() > 0.1), "{tensions:?}");
 }
 
 /// The state on Φ = 0: least norm off the constraints depends on what the

@@ -46,6 +46,7 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let plan = plan::plan(&mut model, &equations, &rows, &samples)
         .map_err(|error| verify::undetermined(&model, &error))?;
     verify::check_closure(&model, &plan)?;
+    verify::check_limit(&model, &plan)?;
     verify::check_programs(&model, &equations, &plan, &samples)?;
     Ok(emit::emit(&model, &equations, &plan))
 }

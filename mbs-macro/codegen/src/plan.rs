@@ -62,6 +62,14 @@ pub struct Plan {
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
+impl Plan {
+    /// What one evaluation of a step's right-hand side takes, the watch over the
+    /// pivots included.
+    pub fn operations(&self) -> u32 {
+        self.stabilized.operations().total()
+    }
+}
+
 /// Plans all functions. The accelerations and corrections are solved for with
 /// the independent constraints; the redundant ones have their share of the
 /// multipliers.

@@ -351,6 +351,15 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         &self.parameters
     }
 }
+impl<T: ::mbs_runtime::Real> Pendulum<T> {
+    /// Operations of one evaluation of the right-hand side, the watch over
+    /// the pivots included; a step takes two, or less.
+    pub const OPERATIONS: ::core::primitive::u32 = 32u32;
+    /// The size of a state (time, positions, velocities) in bytes.
+    pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
+        ::mbs_runtime::State<PendulumCoordinates<T>>,
+    >();
+}
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /**Constraints Φ(q, t): 0 where the mechanism is assembled.

@@ -562,6 +562,15 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         &self.parameters
     }
 }
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    /// Operations of one evaluation of the right-hand side, the watch over
+    /// the pivots included; a step takes two, or less.
+    pub const OPERATIONS: ::core::primitive::u32 = 104u32;
+    /// The size of a state (time, positions, velocities) in bytes.
+    pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
+        ::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    >();
+}
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /**Constraints Φ(q, t): 0 where the mechanism is assembled.

@@ -21,7 +21,7 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let names = Names::new(model);
     let types = types::emit(model, plan, equations, &names);
     let construction = functions::construction(model, plan, &names);
-    let solver = solver::emit(model, &names);
+    let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
     let mechanism = functions::mechanism(model, plan, &names);
     quote! {

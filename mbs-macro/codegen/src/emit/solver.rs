@@ -1,21 +1,32 @@
-//! The declared step and feedback as constants, checked by the runtime's own
-//! condition when the declaration is compiled.
+//! What a step costs, and the declared step and feedback, as constants; whether
+//! these are stable is decided by the runtime's own condition.
 
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
 use super::names::Names;
 use crate::model::{Feedback, Model};
+use crate::plan::Plan;
 
-pub fn emit(model: &Model, names: &Names) -> TokenStream {
-    let Names { mechanism, runtime, .. } = names;
-    let Some((step, _)) = model.solver.step else { return TokenStream::new() };
+pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+    let Names { mechanism, runtime, state, .. } = names;
+    let operations = plan.operations();
     let mut tokens = quote! {
+        impl<T: #runtime::Real> #mechanism<T> {
+            /// Operations of one evaluation of the right-hand side, the watch over
+            /// the pivots included; a step takes two, or less.
+            pub const OPERATIONS: ::core::primitive::u32 = #operations;
+            /// The size of a state (time, positions, velocities) in bytes.
+            pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#state>();
+        }
+    };
+    let Some((step, _)) = model.solver.step else { return tokens };
+    tokens.extend(quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The declared step in s.
             pub const STEP: ::core::primitive::f64 = #step;
         }
-    };
+    });
     let Some(Feedback { is_held, alpha, beta, span }) = model.solver.feedback else { return tokens };
     let (kind, word) = if is_held { (quote!(Held), "held") } else { (quote!(PerStage), "per-stage") };
     let message = format!(

@@ -1,4 +1,5 @@
-//! `step = …;` and `feedback = …;`: how a mechanism is meant to be integrated.
+//! `step = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
+//! integrated, and what that may cost.
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Dimension;
@@ -12,6 +13,8 @@ use crate::syntax::Formula;
 /// The declared choices, in SI units.
 #[derive(Default)]
 pub struct Solver {
+    /// Operations that one evaluation of the right-hand side may take.
+    pub limit: Option<(u32, Span)>,
     pub step: Option<(f64, Span)>,
     pub feedback: Option<Feedback>,
 }
@@ -24,6 +27,13 @@ pub struct Feedback {
 }
 
 impl Resolver<'_> {
+    pub(super) fn resolve_limit(&mut self, keyword: Span, operations: u32) {
+        match self.solver.limit {
+            Some((_, earlier)) => self.repeated("`limit`", keyword, earlier),
+            None => self.solver.limit = Some((operations, keyword)),
+        }
+    }
+
     pub(super) fn resolve_step(&mut self, keyword: Span, value: &Formula) {
         if let Some((_, earlier)) = self.solver.step {
             return self.repeated("`step`", keyword, earlier);
@@ -68,7 +78,7 @@ impl Resolver<'_> {
 
     /// Whether gains are stable depends on the step.
     pub(super) fn check_solver(&mut self) {
-        if let Solver { step: None, feedback: Some(feedback) } = &self.solver {
+        if let Solver { step: None, feedback: Some(feedback), .. } = &self.solver {
             self.errors.push(
                 Diagnostic::new(
                     feedback.span,

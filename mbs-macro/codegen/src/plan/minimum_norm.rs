@@ -101,10 +101,11 @@ fn solve(arena: &mut Arena, mut matrix: Vec<Vec<Expr>>, mut rhs: Vec<Expr>) -> V
         for i in k + 1..size {
             let factor = arena.mul(matrix[i][k], inverse);
             let factor = arena.share(factor);
-            for j in k + 1..=i {
-                let product = arena.mul(factor, matrix[j][k]);
-                let entry = arena.sub(matrix[i][j], product);
-                matrix[i][j] = arena.share(entry);
+            let column: Vec<Expr> = matrix[k + 1..=i].iter().map(|line| line[k]).collect();
+            for (entry, other) in matrix[i][k + 1..].iter_mut().zip(column) {
+                let product = arena.mul(factor, other);
+                let updated = arena.sub(*entry, product);
+                *entry = arena.share(updated);
             }
             let product = arena.mul(factor, rhs[k]);
             let entry = arena.sub(rhs[i], product);

@@ -21,6 +21,7 @@ use crate::diagnostics::{Diagnostics, nearest};
 const KEYWORDS: &[&str] = &[
     "dof",
     "redundant",
+    "limit",
     "step",
     "feedback",
     "crate",
@@ -115,6 +116,7 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
         "redundant" => redundant(input, keyword.span()),
+        "limit" => limit(input, keyword.span()),
         "step" => step(input, keyword.span()),
         "feedback" => feedback(input, keyword.span()),
         "crate" => crate_path(input, keyword.span()),
@@ -232,6 +234,20 @@ fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     }
     semicolon(input)?;
     Ok(ItemKind::Redundant { keyword })
+}
+
+fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    let expected = "`operations` is expected here, as in `limit operations = 200;`";
+    let what = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    if what != "operations" {
+        return Err(Error::new(what.span(), expected));
+    }
+    equals(input)?;
+    let whole = |span| Error::new(span, "a whole number, 0 or larger, is expected here");
+    let value: syn::LitInt = input.parse().map_err(|error| whole(error.span()))?;
+    let operations = value.base10_parse().map_err(|_| whole(value.span()))?;
+    semicolon(input)?;
+    Ok(ItemKind::Limit { keyword, operations })
 }
 
 fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

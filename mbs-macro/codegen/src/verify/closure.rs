@@ -88,7 +88,10 @@ fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
         (&constraint.name, others.iter().map(|&other| model.constraints[other].name.as_str()));
     let what = match found {
         Some((_, others)) if others.is_empty() => format!("`{name}` restricts no motion"),
-        Some(_) => format!("`{name}` repeats what {} already say", listing(others)),
+        Some((_, found)) => {
+            let say = if found.len() == 1 { "says" } else { "say" };
+            format!("`{name}` repeats what {} already {say}", listing(others))
+        }
         None => format!("`{name}` and others are not independent"),
     };
     Diagnostic::new(constraint.span, format!("near the declared start, {what}"))

@@ -24,6 +24,7 @@ pub use validation::check_programs;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
+use crate::plan::Plan;
 
 /// Checks the equations before they are planned, and gives the constraints to
 /// solve for.
@@ -74,6 +75,26 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
                 );
             }
         }
+    }
+}
+
+/// The code is as cheap as its declaration promises.
+///
+/// # Errors
+/// By how much it is not.
+pub fn check_limit(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
+    let operations = plan.operations();
+    match model.solver.limit {
+        Some((limit, span)) if operations > limit => Err(Diagnostic::new(
+            span,
+            format!(
+                "a right-hand side of `{}` takes {operations} operations, {limit} are allowed",
+                model.name
+            ),
+        )
+        .help("use fewer coordinates (a body needs those only that something acts along), or raise the limit")
+        .into()),
+        _ => Ok(()),
     }
 }
 

@@ -29,13 +29,13 @@ impl Rounded {
     }
 
     /// A result that was rounded once more.
-    fn rounded(value: f64, error: f64) -> Self {
+    fn after(value: f64, error: f64) -> Self {
         Self { value, error: error + f64::EPSILON * value.abs() }
     }
 
     pub fn recip(self) -> Self {
         let value = 1.0 / self.value;
-        Self::rounded(value, self.error * value * value)
+        Self::after(value, self.error * value * value)
     }
 
     pub fn powi(self, exponent: i32) -> Self {
@@ -88,7 +88,7 @@ impl Rounded {
 impl Add for Rounded {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self::rounded(self.value + other.value, self.error + other.error)
+        Self::after(self.value + other.value, self.error + other.error)
     }
 }
 
@@ -110,7 +110,7 @@ impl Mul for Rounded {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let error = self.value.abs() * other.error + other.value.abs() * self.error;
-        Self::rounded(self.value * other.value, error)
+        Self::after(self.value * other.value, error)
     }
 }
 

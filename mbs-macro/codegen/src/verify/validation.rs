@@ -24,6 +24,10 @@ use crate::plan::Plan;
 const LARGEST_GROWTH: f64 = 1e3;
 const RESIDUAL: f64 = 1e-6;
 
+/// How far two eliminations may differ, relative to the largest component: that
+/// is a matter of the condition too.
+const DIFFERENCE: f64 = 1e-4;
+
 /// Directions in which the balance of forces is looked at.
 const DIRECTIONS: usize = 3;
 
@@ -325,7 +329,8 @@ fn is_close(found: Rounded, expected: Rounded) -> bool {
 /// Two ways to the same vector, compared by its largest component.
 fn same(name: &str, found: &[f64], expected: &[f64]) -> Check {
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    match found.iter().zip(expected).position(|(found, expected)| exceeds(found - expected, size)) {
+    let differs = |(found, expected): (&f64, &f64)| (found - expected).abs() > DIFFERENCE * size;
+    match found.iter().zip(expected).position(differs) {
         None => Ok(()),
         Some(at) => Err(format!("result {at} of `{name}` is {:e} instead of {:e}", found[at], expected[at])),
     }

@@ -29,7 +29,6 @@ mechanism! {
     pub Depends {
         dof = 1;
         step = h;
-        step = 1 [ms];
         param h = 1 [ms];
         param l = 1 [m];
         body bob (x, y) { mass = 1 [kg]; }
