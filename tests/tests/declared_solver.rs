@@ -32,7 +32,7 @@ fn the_cost_is_that_of_the_description() {
     let counted = Pendulum::<f64>::INFO.operations("stabilized").expect("a generated function");
     let mbs_runtime::Operations { mul, add, div, sin_cos, other, watch } = counted;
     assert_eq!(Pendulum::<f64>::OPERATIONS, mul + add + div + sin_cos + other + watch);
-    assert!(Pendulum::<f64>::OPERATIONS <= 40);
+    const { assert!(Pendulum::<f64>::OPERATIONS <= 40) };
     // Time, two positions, two velocities.
     assert_eq!((Pendulum::<f64>::STATE_BYTES, Pendulum::<f32>::STATE_BYTES), (40, 20));
     assert_eq!(Pendulum::<f64>::STATE_BYTES, size_of::<State<PendulumCoordinates<f64>>>());

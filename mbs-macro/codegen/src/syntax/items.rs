@@ -12,10 +12,9 @@ use syn::{Attribute, Error, Result, Token, braced, parenthesized, token};
 
 use super::formula::{end, is_vector};
 use super::{
-    Comparison, Condition, Coordinate, Declaration, Formula, FormulaKind, Item, ItemKind, Load, Property,
-    StartEntry,
+    Comparison, Condition, Coordinate, Declaration, Formula, Item, ItemKind, Load, Property, StartEntry,
 };
-use super::{joints, springs};
+use super::{joints, solver, springs};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -115,10 +114,10 @@ fn item(input: ParseStream<'_>) -> Result<Item> {
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
-        "redundant" => redundant(input, keyword.span()),
-        "limit" => limit(input, keyword.span()),
-        "step" => step(input, keyword.span()),
-        "feedback" => feedback(input, keyword.span()),
+        "redundant" => solver::redundant(input, keyword.span()),
+        "limit" => solver::limit(input, keyword.span()),
+        "step" => solver::step(input, keyword.span()),
+        "feedback" => solver::feedback(input, keyword.span()),
         "crate" => crate_path(input, keyword.span()),
         "param" => parameter(input),
         "const" => constant(input),
@@ -222,55 +221,6 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
         .base10_parse()
         .map_err(|_| Error::new(value.span(), "no mechanism has that many degrees of freedom"))?;
     Ok(ItemKind::Dof { keyword, value: small.into() })
-}
-
-fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    equals(input)?;
-    let expected = "`minimum_norm` is expected here: redundant constraints then share the force, with \
-                    multipliers of least norm";
-    let choice = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
-    if choice != "minimum_norm" {
-        return Err(Error::new(choice.span(), expected));
-    }
-    semicolon(input)?;
-    Ok(ItemKind::Redundant { keyword })
-}
-
-fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    let expected = "`operations` is expected here, as in `limit operations = 200;`";
-    let what = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
-    if what != "operations" {
-        return Err(Error::new(what.span(), expected));
-    }
-    equals(input)?;
-    let whole = |span| Error::new(span, "a whole number, 0 or larger, is expected here");
-    let value: syn::LitInt = input.parse().map_err(|error| whole(error.span()))?;
-    let operations = value.base10_parse().map_err(|_| whole(value.span()))?;
-    semicolon(input)?;
-    Ok(ItemKind::Limit { keyword, operations })
-}
-
-fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    equals(input)?;
-    let value = input.parse()?;
-    semicolon(input)?;
-    Ok(ItemKind::Step { keyword, value })
-}
-
-fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    equals(input)?;
-    let value: Formula = input.parse()?;
-    let expected = "`held(alpha, beta)` or `per_stage(alpha, beta)` is expected here";
-    let error = Error::new(value.span, expected);
-    let FormulaKind::Call { function, arguments } = value.kind else { return Err(error) };
-    let is_held = match function.to_string().as_str() {
-        "held" => true,
-        "per_stage" => false,
-        _ => return Err(Error::new(function.span(), expected)),
-    };
-    let gains = <[Formula; 2]>::try_from(arguments).map_err(|_| error)?;
-    semicolon(input)?;
-    Ok(ItemKind::Feedback { keyword, is_held, gains })
 }
 
 fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

@@ -3,6 +3,7 @@
 mod formula;
 mod items;
 mod joints;
+mod solver;
 mod springs;
 
 use mbs_symbolic::Number;

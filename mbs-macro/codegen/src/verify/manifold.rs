@@ -98,7 +98,9 @@ fn stride(
         let moved =
             from.q.iter().zip(&assembly.units).map(|(q, unit)| q + length * unit * generator.symmetric());
         let closing = assembly.close(rows, &Position { q: moved.collect(), t });
-        if closing.is_closed {
+        // Another branch may have another rank; drives move as far as they do.
+        let is_near = t != from.t || assembly.distance(&closing.at, from) <= 4.0 * STRIDE;
+        if closing.is_closed && is_near {
             return Some(closing.at);
         }
         length *= 0.3;
