@@ -8,6 +8,7 @@ mechanism! {
     pub Pendulum {
         dof = 1;
         limit operations = 40;
+        limit stack = 4096;
         const h = 0.5 [ms];
         step = h;
         feedback = per_stage(0.9/h, 1.2/h);

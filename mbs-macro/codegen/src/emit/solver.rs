@@ -10,7 +10,9 @@ use crate::plan::Plan;
 
 pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, state, .. } = names;
+    let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
     let operations = plan.operations();
+    let values = 2 * plan.stabilized.instructions.len().max(plan.constrained.instructions.len());
     let mut tokens = quote! {
         impl<T: #runtime::Real> #mechanism<T> {
             /// Operations of one evaluation of the right-hand side, the watch over
@@ -18,8 +20,22 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             pub const OPERATIONS: ::core::primitive::u32 = #operations;
             /// The size of a state (time, positions, velocities) in bytes.
             pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#state>();
+            /// A bound of the stack that a step takes, in bytes, in optimized code:
+            /// every value of both evaluations of the right-hand side once, eight
+            /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+            pub const STACK_BYTES: ::core::primitive::usize = #values * ::core::mem::size_of::<T>()
+                + 8 * (Self::STATE_BYTES + ::core::mem::size_of::<#rows>() + ::core::mem::size_of::<#inputs>())
+                + 1024;
         }
     };
+    if let Some((limit, span)) = model.solver.stack {
+        let limit = limit as usize;
+        let message =
+            format!("a step of `{mechanism}` may take more stack than the {limit} bytes that are allowed");
+        tokens.extend(quote_spanned! {span=>
+            const _: () = ::core::assert!(#mechanism::<::core::primitive::f64>::STACK_BYTES <= #limit, #message);
+        });
+    }
     let Some((step, _)) = model.solver.step else { return tokens };
     tokens.extend(quote! {
         impl #mechanism<::core::primitive::f64> {

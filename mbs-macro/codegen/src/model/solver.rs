@@ -14,7 +14,9 @@ use crate::syntax::Formula;
 #[derive(Default)]
 pub struct Solver {
     /// Operations that one evaluation of the right-hand side may take.
-    pub limit: Option<(u32, Span)>,
+    pub operations: Option<(u32, Span)>,
+    /// Bytes of stack that a step in `f64` may take.
+    pub stack: Option<(u32, Span)>,
     pub step: Option<(f64, Span)>,
     pub feedback: Option<Feedback>,
 }
@@ -27,10 +29,15 @@ pub struct Feedback {
 }
 
 impl Resolver<'_> {
-    pub(super) fn resolve_limit(&mut self, keyword: Span, operations: u32) {
-        match self.solver.limit {
-            Some((_, earlier)) => self.repeated("`limit`", keyword, earlier),
-            None => self.solver.limit = Some((operations, keyword)),
+    pub(super) fn resolve_limit(&mut self, keyword: Span, is_stack: bool, value: u32) {
+        let solver = &mut self.solver;
+        let (limit, what) = match is_stack {
+            true => (&mut solver.stack, "`limit stack`"),
+            false => (&mut solver.operations, "`limit operations`"),
+        };
+        match *limit {
+            Some((_, earlier)) => self.repeated(what, keyword, earlier),
+            None => *limit = Some((value, keyword)),
         }
     }
 

@@ -31,8 +31,8 @@ pub enum ItemKind {
     Dof { keyword: Span, value: i64 },
     /// `redundant = minimum_norm;`
     Redundant { keyword: Span },
-    /// `limit operations = 200;`
-    Limit { keyword: Span, operations: u32 },
+    /// `limit operations = 200;` or `limit stack = 4096;`
+    Limit { keyword: Span, is_stack: bool, value: u32 },
     /// `step = 0.5 [ms];`
     Step { keyword: Span, value: Formula },
     /// `feedback = held(alpha, beta);`

@@ -22,17 +22,18 @@ pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
 }
 
 pub fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    let expected = "`operations` is expected here, as in `limit operations = 200;`";
+    let expected = "`operations` or `stack` is expected here, as in `limit operations = 200;`";
     let what = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
-    if what != "operations" {
+    let is_stack = what == "stack";
+    if !is_stack && what != "operations" {
         return Err(Error::new(what.span(), expected));
     }
     equals(input)?;
     let whole = |span| Error::new(span, "a whole number, 0 or larger, is expected here");
     let value: syn::LitInt = input.parse().map_err(|error| whole(error.span()))?;
-    let operations = value.base10_parse().map_err(|_| whole(value.span()))?;
+    let value = value.base10_parse().map_err(|_| whole(value.span()))?;
     semicolon(input)?;
-    Ok(ItemKind::Limit { keyword, operations })
+    Ok(ItemKind::Limit { keyword, is_stack, value })
 }
 
 pub fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

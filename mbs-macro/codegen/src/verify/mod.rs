@@ -84,7 +84,7 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
 /// By how much it is not.
 pub fn check_limit(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     let operations = plan.operations();
-    match model.solver.limit {
+    match model.solver.operations {
         Some((limit, span)) if operations > limit => Err(Diagnostic::new(
             span,
             format!(

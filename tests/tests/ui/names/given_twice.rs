@@ -15,6 +15,8 @@ mechanism! {
         redundant = minimum_norm;
         limit operations = 100;
         limit operations = 200;
+        limit stack = 4096;
+        limit stack = 8192;
         step = 1 [ms];
         step = 2 [ms];
         feedback = held(1 [1/s], 1 [1/s]);

@@ -5,7 +5,7 @@ use mbs_runtime::mechanism;
 mechanism! {
     pub Pendulum {
         dof = 1;
-        limit stack = 4096;
+        limit memory = 4096;
         limit operations = many;
         limit operations = -1;
         body bob (x, y) { mass = 1 [kg]; }
