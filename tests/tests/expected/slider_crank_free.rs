@@ -644,6 +644,15 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
     pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
         ::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     >();
+    /// A bound of the stack that a step takes, in bytes, in optimized code:
+    /// every value of both evaluations of the right-hand side once, eight
+    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    pub const STACK_BYTES: ::core::primitive::usize = 312usize
+        * ::core::mem::size_of::<T>()
+        + 8
+            * (Self::STATE_BYTES
+                + ::core::mem::size_of::<SliderCrankFreeConstraints<T>>()
+                + ::core::mem::size_of::<SliderCrankFreeInputs<T>>()) + 1024;
 }
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
