@@ -576,6 +576,23 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         &self.parameters
     }
 }
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    /// Operations of one evaluation of the right-hand side, the watch over
+    /// the pivots included; a step takes two, or less.
+    pub const OPERATIONS: ::core::primitive::u32 = 104u32;
+    /// The size of a state (time, positions, velocities) in bytes.
+    pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
+        ::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    >();
+    /// A bound of the stack that a step takes, in bytes, in optimized code:
+    /// every value of both evaluations of the right-hand side once, eight
+    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    pub const STACK_BYTES: ::core::primitive::usize = 212usize
+        * ::core::mem::size_of::<T>()
+        + 8
+            * (Self::STATE_BYTES + ::core::mem::size_of::<SliderCrankConstraints<T>>()
+                + ::core::mem::size_of::<::mbs_runtime::NoComponents<T>>()) + 1024;
+}
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /**Constraints Φ(q, t): 0 where the mechanism is assembled.
@@ -1419,6 +1436,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "guide",

@@ -19,6 +19,7 @@ mod places;
 mod profiles;
 mod reactions;
 mod resolver;
+mod solver;
 mod statements;
 
 use mbs_symbolic::units::Dimension;
@@ -26,6 +27,7 @@ use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
+pub use solver::{Feedback, Solver};
 
 use crate::syntax::Comparison;
 
@@ -41,6 +43,9 @@ pub struct Model {
     /// Where the runtime is found; `::mbs_runtime` by default.
     pub runtime: TokenStream,
     pub dof: (i64, Span),
+    /// Where redundant constraints are allowed, if they are.
+    pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     pub requirements: Vec<Requirement>,
     pub inputs: Vec<Quantity>,

@@ -11,7 +11,7 @@ use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
     Body, Check, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
-    Start, Symbols, Work,
+    Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -46,6 +46,8 @@ pub(super) struct Resolver<'a> {
     pub mechanism: Span,
     pub runtime: Option<(TokenStream, Span)>,
     pub dof: Option<(i64, Span)>,
+    pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
@@ -76,6 +78,8 @@ impl<'a> Resolver<'a> {
             mechanism: declaration.name.span(),
             runtime: None,
             dof: None,
+            minimum_norm: None,
+            solver: Solver::default(),
             parameters: Vec::new(),
             resolved_parameters: 0,
             requirements: Vec::new(),
@@ -146,6 +150,7 @@ impl<'a> Resolver<'a> {
                     .help("give it a longer name"),
             );
         }
+        self.check_solver();
         if self.dof.is_none() {
             let left = self.coordinates.len() as i64 - self.row_count as i64;
             self.errors.push(
@@ -171,6 +176,8 @@ impl<'a> Resolver<'a> {
             name: declaration.name.clone(),
             runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
+            minimum_norm: self.minimum_norm,
+            solver: self.solver,
             parameters: self.parameters,
             requirements: self.requirements,
             inputs: self.inputs,

@@ -82,6 +82,15 @@ impl<'a> Resolver<'a> {
                 Some((_, earlier)) => self.repeated("`dof`", *keyword, earlier),
                 None => self.dof = Some((*value, *keyword)),
             },
+            ItemKind::Redundant { keyword } => match self.minimum_norm {
+                Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
+                None => self.minimum_norm = Some(*keyword),
+            },
+            ItemKind::Limit { keyword, is_stack, value } => self.resolve_limit(*keyword, *is_stack, *value),
+            ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
+            ItemKind::Feedback { keyword, is_held, gains } => {
+                self.resolve_feedback(*keyword, *is_held, gains);
+            }
             ItemKind::Crate { keyword, path } => match self.runtime {
                 Some((_, earlier)) => self.repeated("`crate`", *keyword, earlier),
                 None => self.runtime = Some((path.clone(), *keyword)),

@@ -15,11 +15,15 @@ use super::statements::Reader;
 use super::{
     Comparison, Condition, Coordinate, Declaration, Formula, ItemKind, Load, Property, Role, StartEntry,
 };
-use super::{elements, joints, profiles};
+use super::{elements, joints, profiles, solver};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
     "dof",
+    "redundant",
+    "limit",
+    "step",
+    "feedback",
     "crate",
     "param",
     "const",
@@ -85,6 +89,10 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     })?;
     let kind = match keyword.to_string().as_str() {
         "dof" => dof(input, keyword.span()),
+        "redundant" => solver::redundant(input, keyword.span()),
+        "limit" => solver::limit(input, keyword.span()),
+        "step" => solver::step(input, keyword.span()),
+        "feedback" => solver::feedback(input, keyword.span()),
         "crate" => crate_path(input, keyword.span()),
         "param" => parameter(input),
         "const" => constant(input),
