@@ -95,6 +95,7 @@ mod mechanism;
 mod real;
 mod simulation;
 mod sincos;
+pub mod sketch;
 pub mod start;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
@@ -106,6 +107,7 @@ pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
+pub use sketch::Sketch;
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]

@@ -1139,6 +1139,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Coordinates = SliderCrankCoordinates<T>;
     type Constraints = SliderCrankConstraints<T>;
     type Outputs = SliderCrankOutputs<T>;
+    type Points = [[T; 2]; 4];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "SliderCrank",
         "Slider-crank driven at constant speed.",
@@ -1611,6 +1612,26 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             },
         ],
     );
+    const SKETCH: &'static ::mbs_runtime::Sketch = &::mbs_runtime::Sketch {
+        points: &["crank", "rod", "slider", "ground"],
+        bodies: &[
+            ::mbs_runtime::sketch::Body {
+                name: "crank",
+                points: &[0],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "rod",
+                points: &[1],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "slider",
+                points: &[2],
+            },
+        ],
+        ground: &[3],
+        joints: &[],
+        springs: &[],
+    };
     fn new(
         parameters: SliderCrankParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
@@ -2116,5 +2137,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         SliderCrankOutputs {
             drive_torque: v0,
         }
+    }
+    fn points(&self, t: T, q: &SliderCrankCoordinates<T>) -> [[T; 2]; 4] {
+        [
+            [q.x1, q.y1],
+            [q.x2, q.y2],
+            [q.x3, T::from_f64(0.0)],
+            [T::from_f64(0.0), T::from_f64(0.0)],
+        ]
     }
 }

@@ -1194,6 +1194,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Coordinates = SliderCrankFreeCoordinates<T>;
     type Constraints = SliderCrankFreeConstraints<T>;
     type Outputs = SliderCrankFreeOutputs<T>;
+    type Points = [[T; 2]; 4];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "SliderCrankFree",
         "Slider-crank with a torque on the crank.",
@@ -1680,6 +1681,26 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             },
         ],
     );
+    const SKETCH: &'static ::mbs_runtime::Sketch = &::mbs_runtime::Sketch {
+        points: &["crank", "rod", "slider", "ground"],
+        bodies: &[
+            ::mbs_runtime::sketch::Body {
+                name: "crank",
+                points: &[0],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "rod",
+                points: &[1],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "slider",
+                points: &[2],
+            },
+        ],
+        ground: &[3],
+        joints: &[],
+        springs: &[],
+    };
     fn new(
         parameters: SliderCrankFreeParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
@@ -2331,5 +2352,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             crank_speed: at.v.theta1,
             motor_power: v0,
         }
+    }
+    fn points(&self, t: T, q: &SliderCrankFreeCoordinates<T>) -> [[T; 2]; 4] {
+        [
+            [q.x1, q.y1],
+            [q.x2, q.y2],
+            [q.x3, T::from_f64(0.0)],
+            [T::from_f64(0.0), T::from_f64(0.0)],
+        ]
     }
 }

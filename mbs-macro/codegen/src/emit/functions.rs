@@ -9,6 +9,7 @@ use super::docs;
 use super::info;
 use super::names::{Names, field};
 use super::program::{Body, body};
+use super::sketch;
 use crate::derive::Equations;
 use crate::model::{Direction, Model};
 use crate::plan::Plan;
@@ -282,6 +283,9 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
     let fields = Fields::new(model);
     let info = info::emit(model, plan, names);
+    let sketch = sketch::emit(&model.sketch, names);
+    let points = Literal::usize_unsuffixed(model.sketch.points.len());
+    let places = sketch::places(body(model, names, &plan.points, &Access::of_position()));
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
@@ -301,7 +305,9 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             type Coordinates = #q;
             type Constraints = #rows;
             type Outputs = #outputs;
+            type Points = [[T; 2]; #points];
             const INFO: &'static #runtime::Info = &#info;
+            const SKETCH: &'static #runtime::Sketch = &#sketch;
 
             fn new(parameters: #parameters<T>) -> ::core::result::Result<Self, #runtime::Error> {
                 Self::new(parameters)
@@ -331,6 +337,7 @@ pub fn mechanism(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             }
             #[inline]
             fn outputs(&self, at: &#state, inputs: &#inputs, reactions: &#reactions) -> #outputs { #output_values }
+            fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
     }
 }

@@ -7,6 +7,7 @@ mod info;
 mod names;
 mod parts;
 mod program;
+mod sketch;
 mod types;
 
 use proc_macro2::TokenStream;

@@ -12,6 +12,7 @@ mod loads;
 mod names;
 mod places;
 mod resolver;
+mod sketch;
 mod springs;
 mod statements;
 
@@ -20,6 +21,7 @@ use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
+pub use sketch::{Link, Sketch};
 
 use crate::syntax::Comparison;
 
@@ -47,6 +49,7 @@ pub struct Model {
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
+    pub sketch: Sketch,
 }
 
 /// What a symbol stands for.
