@@ -13,7 +13,9 @@ pub struct Sketch {
     pub bodies: &'static [Body],
     /// The points of the ground: the origin, then those that were declared.
     pub ground: &'static [usize],
-    /// The joints, in the order of declaration.
+    /// The joints: first what holds bodies that lack coordinates (one that has
+    /// x alone is `prismatic` on the x axis) under the bodies' names, then those
+    /// that were declared, in order.
     pub joints: &'static [Joint],
     /// The springs, in the order of declaration.
     pub springs: &'static [Spring],

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use mbs_symbolic::{Arena, Expr};
 use proc_macro2::Ident;
 
-use super::joints;
 use super::names::Place;
 use super::places::GROUND;
 use super::resolver::Resolver;
+use super::{Direction, joints};
 use crate::diagnostics::Diagnostics;
 use crate::syntax::{Attachment, Declaration, Item, ItemKind, JOINTS, JointKind};
 
@@ -76,10 +76,39 @@ impl Resolver<'_> {
             sketch.bodies.push((body, points));
         }
         sketch.ground = self.sketch_points(GROUND, &declared, &mut sketch, &mut known);
+        for at in 0..self.bodies.len() {
+            self.sketch_guide(at, &mut sketch);
+        }
         for item in &declaration.items {
             self.sketch_link(item, &known, &mut sketch);
         }
         sketch
+    }
+
+    /// A body that lacks coordinates is guided by the ground: one that has x
+    /// alone slides on the x axis, one that has an angle alone turns about the
+    /// origin.
+    fn sketch_guide(&self, body: usize, sketch: &mut Sketch) {
+        let Some(body) = self.bodies.get(body) else { return };
+        let has = |direction| body.coordinates.iter().any(|&at| self.coordinates[at].direction == direction);
+        let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
+        let (kind, along) = match [Direction::X, Direction::Y, Direction::Angle].map(has) {
+            [true, false, false] => ("prismatic", Some([one, zero])),
+            [false, true, false] => ("prismatic", Some([zero, one])),
+            [true, false, true] => ("point_on_line", Some([one, zero])),
+            [false, true, true] => ("point_on_line", Some([zero, one])),
+            [false, false, true] => ("revolute", None),
+            _ => return,
+        };
+        let centre = sketch.bodies.iter().find(|(name, _)| *name == body.name);
+        let first = centre.and_then(|(_, points)| points.first().copied());
+        let (Some(first), Some(&second)) = (first, sketch.ground.first()) else { return };
+        let ahead = along.map(|origin| {
+            let name = format!("{}.ahead", body.name);
+            sketch.points.push(Point { name, origin, angle: zero, local: None });
+            sketch.points.len() - 1
+        });
+        sketch.joints.push(Link { name: body.name.clone(), kind, first, second, ahead });
     }
 
     /// Adds the points of a body and gives their positions.

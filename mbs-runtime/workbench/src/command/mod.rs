@@ -2,4 +2,5 @@
 
 pub(crate) mod list;
 pub(crate) mod new;
+mod page;
 pub(crate) mod simulate;
