@@ -1,8 +1,8 @@
 //! The report of the reproduction: `index.html`.
 
-use mbs_workbench::picture::Shape;
+use mbs_workbench::Table;
+use mbs_workbench::picture::{self, Shape};
 use mbs_workbench::report::{Animation, Block, Readout, Report, Section};
-use mbs_workbench::{Picture, Table};
 
 use super::figures::Picture;
 use super::setup::{Setup, Trace};
@@ -124,7 +124,7 @@ fn animation(title: &str, run: &Trace) -> Animation {
     ];
     Animation {
         title: title.into(),
-        picture: Picture {
+        picture: picture::Picture {
             times: frames.iter().map(|&k| run.t[k]).collect(),
             points: frames.iter().map(place).collect(),
             shapes,

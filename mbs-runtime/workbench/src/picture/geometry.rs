@@ -117,7 +117,7 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 
 /// The outline of places as positions in the list: the corners of the convex
 /// hull, counter-clockwise (Andrew 1979); of places on a line, within `tolerance`,
-/// its two ends; of places that coincide, one.
+/// its two ends; of places that coincide, the first.
 pub(super) fn outline(places: &[[f64; 2]], tolerance: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| {
@@ -127,7 +127,7 @@ pub(super) fn outline(places: &[[f64; 2]], tolerance: f64) -> Vec<usize> {
     let length = |&(a, b): &(usize, usize)| distance(places[a], places[b]);
     let Some(widest) = pairs().max_by(|a, b| length(a).total_cmp(&length(b))) else { return Vec::new() };
     if length(&widest) <= tolerance {
-        return vec![widest.0.min(widest.1)];
+        return vec![0];
     }
     let (a, b) = (widest.0.min(widest.1), widest.0.max(widest.1));
     let off_line = |&c: &usize| cross(places[a], places[b], places[c]).abs() / length(&widest);
