@@ -8,7 +8,8 @@
 //!   [`Settings`] and gives a [`Recording`].
 //! - [`quantity`] reads values with units; [`Table`] and [`number`] print them.
 //! - [`sweep`] runs a computation over a grid on all cores.
-//! - [`figure`] draws curves and heat maps to SVG and PNG; [`report`] makes one
+//! - [`picture`] finds what a mechanism looks like from its sketch and a run.
+//! - [`figure`] draws curves, heat maps and mechanisms to SVG and PNG; [`report`] makes one
 //!   offline HTML page of figures, tables and moving pictures.
 //!
 //! # Example
