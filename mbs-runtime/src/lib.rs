@@ -96,6 +96,7 @@ mod mechanism;
 mod real;
 mod simulation;
 mod sincos;
+pub mod sketch;
 mod spline;
 pub mod start;
 
@@ -109,6 +110,7 @@ pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
+pub use sketch::Sketch;
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]

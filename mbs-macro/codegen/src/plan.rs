@@ -61,6 +61,8 @@ pub struct Plan {
     /// The same of the corrections of a start.
     pub start_pivots: Program,
     pub outputs: Program,
+    /// x and y of every point of the sketch.
+    pub points: Program,
     /// (constraint, coordinate) of every watched pivot.
     pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
@@ -169,16 +171,20 @@ pub fn plan(
         prepare: Program::default(),
         requirements: Program::default(),
         start: Program::default(),
+        points: Program::default(),
         pivot_names: names(&factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
     let requirements = requirements(model, equations);
     let start = declared_start(model);
+    let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
         prepare: lower_whole(&mut model.arena, hoisted.values()),
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements),
         start: lower_whole(&mut model.arena, &start),
+        // Pictures are no reason to carry more hoisted values through a step.
+        points: lower_whole(&mut model.arena, &points),
         ..plan
     })
 }

@@ -601,6 +601,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Coordinates = PendulumCoordinates<T>;
     type Constraints = PendulumConstraints<T>;
     type Outputs = PendulumOutputs<T>;
+    type Points = [[T; 2]; 2];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "Pendulum",
         "A point mass on a massless rod.",
@@ -1036,6 +1037,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
         ],
     };
+    const SKETCH: &'static ::mbs_runtime::Sketch = &::mbs_runtime::Sketch {
+        points: &["bob", "ground"],
+        bodies: &[
+            ::mbs_runtime::sketch::Body {
+                name: "bob",
+                points: &[0],
+            },
+        ],
+        ground: &[1],
+        joints: &[],
+        springs: &[],
+    };
     fn new(
         parameters: PendulumParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
@@ -1299,5 +1312,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             tension: v5,
             angle: v7,
         }
+    }
+    fn points(&self, t: T, q: &PendulumCoordinates<T>) -> [[T; 2]; 2] {
+        [[q.x, q.y], [T::from_f64(0.0), T::from_f64(0.0)]]
     }
 }

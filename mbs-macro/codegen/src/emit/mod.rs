@@ -8,6 +8,7 @@ mod info;
 mod names;
 mod parts;
 mod program;
+mod sketch;
 mod solver;
 mod splines;
 mod types;

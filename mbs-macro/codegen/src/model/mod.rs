@@ -19,6 +19,7 @@ mod places;
 mod profiles;
 mod reactions;
 mod resolver;
+mod sketch;
 mod solver;
 mod statements;
 
@@ -27,6 +28,7 @@ use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
+pub use sketch::{Link, Sketch};
 pub use solver::{Feedback, Solver};
 
 use crate::syntax::Comparison;
@@ -62,6 +64,7 @@ pub struct Model {
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
+    pub sketch: Sketch,
 }
 
 /// What a symbol stands for.

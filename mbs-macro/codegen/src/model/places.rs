@@ -36,6 +36,11 @@ impl Frame {
     pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
         Self { coordinates, origin, angle, points: BTreeMap::new() }
     }
+
+    /// The place on the body of the point called `name`, if there is one.
+    pub fn local(&self, name: &str) -> Option<[Expr; 2]> {
+        self.points.get(name)?.local
+    }
 }
 
 impl Scope<'_> {

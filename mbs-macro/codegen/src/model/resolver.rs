@@ -165,6 +165,7 @@ impl<'a> Resolver<'a> {
                 )),
             );
         }
+        let sketch = self.sketch(declaration);
         let zero = self.scope.arena.zero();
         let symbols = self.generated_symbols();
         let model = Model {
@@ -191,6 +192,7 @@ impl<'a> Resolver<'a> {
             potentials: self.potentials,
             start: self.starts,
             outputs: self.outputs,
+            sketch,
         };
         self.errors.finish(model)
     }

@@ -16,7 +16,7 @@ use crate::diagnostics::nearest;
 /// A kind of joint: the word that declares it, and its clauses.
 pub struct Shape {
     pub word: &'static str,
-    kind: JointKind,
+    pub kind: JointKind,
     /// Of each of these groups, one clause is needed and no other is taken.
     needs: &'static [&'static [ClauseKind]],
     takes: &'static [ClauseKind],

@@ -14,6 +14,7 @@ use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
+pub use joints::JOINTS;
 
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
