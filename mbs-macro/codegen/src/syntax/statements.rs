@@ -215,10 +215,11 @@ fn whole(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result<i64
     indices.evaluate(tokens)
 }
 
-type Compare = fn(&i64, &i64) -> bool;
+/// A comparison: how it is written, whether it comes next, what it says.
+type Comparison = (&'static str, fn(ParseStream<'_>) -> bool, fn(&i64, &i64) -> bool);
 
 /// Longer ones first, so that `<=` is not read as `<`.
-const COMPARISONS: &[(&str, fn(ParseStream<'_>) -> bool, Compare)] = &[
+const COMPARISONS: &[Comparison] = &[
     ("<=", |input| input.peek(Token![<=]), i64::le),
     (">=", |input| input.peek(Token![>=]), i64::ge),
     ("==", |input| input.peek(Token![==]), i64::eq),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
-use mbs_runtime::{Dimension, Info, Quantity};
+use mbs_runtime::{Dimension, Quantity};
 
 use super::page;
 use crate::app::Models;
