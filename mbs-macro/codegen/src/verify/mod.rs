@@ -2,6 +2,7 @@
 //! contract, independent constraints, an assembly at the declared dimensions.
 
 mod closure;
+mod floating;
 mod rank;
 mod samples;
 
