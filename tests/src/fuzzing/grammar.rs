@@ -62,7 +62,7 @@ const NUMBERS: &[&str] = &[
     "9223372036854775807",
     "9223372036854775808",
     "170141183460469231731687303715884105728",
-    "1_000",
+    "1_0",
     "0x10",
     "0b11",
     "1f64",
@@ -169,9 +169,9 @@ pub fn noise(random: &mut Random) -> String {
         14 => format!("let a0 = sin(x); {} output o = der(a{few});", tower("sin(A)*cos(A) + A")),
         15 => format!("let a0 = x + y; {} output o = a{few};", tower("(A + 1)^2 + y*A")),
         16 => format!("const k0 = 1.5; {} output o = k{few};", tower("A*A").replace('a', "k")),
-        17 => format!("for i in 0..{size} {{ body w[i] (q[i] = z[i]) {{ mass = 1 [kg]; }} }}"),
+        17 => format!("for i in 0..{} {{ body w[i] (q[i] = z[i]) {{ mass = 1 [kg]; }} }}", size.min(64)),
         18 => {
-            let inner = random.of(&["instance i: A;", "instance i: A; instance j: A;", "instance i: B;"]);
+            let inner = random.of(&["instance i: A;", "instance i: A; instance j: A; instance k: A;", "instance i: B;"]);
             format!(
                 "assembly A {{ {inner} body w (x) {{ mass = m; }} }} assembly B {{ instance i: A; }} instance i: B;"
             )
@@ -180,7 +180,7 @@ pub fn noise(random: &mut Random) -> String {
             "let a = x{};",
             random.of(&["^-1", "/x", "^0", "^0.5", "^1000000", "^(1/3)"]).repeat(size)
         ),
-        20 => format!("constraint c: x{0} = y{0};", "*x*y*theta".repeat(size.min(64))),
+        20 => format!("constraint c: x{0} = y{0};", "*x*y*theta".repeat(size.min(16))),
         _ => format!("{}{}", statement(random, 0), deep("[", "", "]")),
     };
     format!("Noise {{ dof = {}; {BASE} {content} }}", random.below(5))
