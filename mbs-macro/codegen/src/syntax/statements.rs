@@ -15,6 +15,9 @@ use crate::diagnostics::Diagnostics;
 /// More statements than this are not a mechanism but a slip in a range.
 const MOST_STATEMENTS: usize = 100_000;
 
+/// Blocks within blocks may nest this deep: each level is read anew.
+const DEEPEST: usize = 64;
+
 /// Reads statements; after an error it goes on behind the next `;` or `{ … }`,
 /// so that all errors of a declaration are shown at once.
 pub(super) struct Reader<'a> {
@@ -24,11 +27,13 @@ pub(super) struct Reader<'a> {
     position: usize,
     /// Statements so far, copies and rounds of loops included.
     count: usize,
+    /// Blocks around the statement.
+    depth: usize,
 }
 
 impl<'a> Reader<'a> {
     pub fn new(errors: &'a mut Diagnostics) -> Self {
-        Self { errors, position: 0, count: 0 }
+        Self { errors, position: 0, count: 0, depth: 0 }
     }
 
     /// The statements of a block.
@@ -184,6 +189,11 @@ impl<'a> Reader<'a> {
     }
 
     fn inner(&mut self, body: &Group, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
+        if self.depth >= DEEPEST {
+            let message = format!("blocks are nested more than {DEEPEST} deep here");
+            return Err(Error::new(body.span_open(), message));
+        }
+        self.depth += 1;
         let tokens = TokenStream::from(TokenTree::from(regrouped(body, body.stream())));
         let parser = |input: ParseStream<'_>| {
             let content;
@@ -191,7 +201,9 @@ impl<'a> Reader<'a> {
             items.extend(self.statements(&content, indices));
             Ok(())
         };
-        parser.parse2(tokens)
+        let result = parser.parse2(tokens);
+        self.depth -= 1;
+        result
     }
 }
 
