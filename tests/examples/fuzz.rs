@@ -269,7 +269,8 @@ fn keep(text: &str, failure: &str, options: &Options, bar: &ProgressBar) -> Outc
     let path = format!("{CORPUS}/{:016x}.txt", hasher.finish());
     std::fs::create_dir_all(CORPUS)?;
     std::fs::write(&path, &text)?;
-    bar.suspend(|| eprintln!("{failure}\n  {path}\n  {text}"));
+    let beginning: String = text.chars().take(400).collect();
+    bar.suspend(|| eprintln!("{failure}\n  {path}\n  {beginning}"));
     Ok(())
 }
 

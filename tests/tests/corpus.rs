@@ -11,10 +11,10 @@ use tests::fuzzing::verdict::{Verdict, judge};
 const LIMIT: Duration = Duration::from_secs(60);
 
 fn corpus() -> Vec<(String, String)> {
-    let files = fs::read_dir("corpus").expect("the folder is here").map(|file| file.expect("readable").path());
-    let mut texts: Vec<_> = files
-        .map(|path| (path.display().to_string(), fs::read_to_string(&path).expect("a text")))
-        .collect();
+    let files =
+        fs::read_dir("corpus").expect("the folder is here").map(|file| file.expect("readable").path());
+    let mut texts: Vec<_> =
+        files.map(|path| (path.display().to_string(), fs::read_to_string(&path).expect("a text"))).collect();
     texts.sort();
     texts
 }

@@ -171,7 +171,11 @@ pub fn noise(random: &mut Random) -> String {
         16 => format!("const k0 = 1.5; {} output o = k{few};", tower("A*A").replace('a', "k")),
         17 => format!("for i in 0..{} {{ body w[i] (q[i] = z[i]) {{ mass = 1 [kg]; }} }}", size.min(64)),
         18 => {
-            let inner = random.of(&["instance i: A;", "instance i: A; instance j: A; instance k: A;", "instance i: B;"]);
+            let inner = random.of(&[
+                "instance i: A;",
+                "instance i: A; instance j: A; instance k: A;",
+                "instance i: B;",
+            ]);
             format!(
                 "assembly A {{ {inner} body w (x) {{ mass = m; }} }} assembly B {{ instance i: A; }} instance i: B;"
             )
