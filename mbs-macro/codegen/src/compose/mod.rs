@@ -11,6 +11,7 @@ mod names;
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use self::names::Mention;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
@@ -287,5 +288,5 @@ fn check(mention: &Mention<'_>, errors: &mut Diagnostics) {
 }
 
 fn prefixed(instance: &Ident, name: &Ident) -> Ident {
-    Ident::new(&format!("{instance}_{name}"), name.span())
+    Ident::new(&format!("{instance}_{}", name.unraw()), name.span())
 }

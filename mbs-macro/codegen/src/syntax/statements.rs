@@ -236,9 +236,10 @@ fn whole(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result<i64
 }
 
 type Compare = fn(&i64, &i64) -> bool;
+type Peek = fn(ParseStream<'_>) -> bool;
 
 /// Longer ones first, so that `<=` is not read as `<`.
-const COMPARISONS: &[(&str, fn(ParseStream<'_>) -> bool, Compare)] = &[
+const COMPARISONS: &[(&str, Peek, Compare)] = &[
     ("<=", |input| input.peek(Token![<=]), i64::le),
     (">=", |input| input.peek(Token![>=]), i64::ge),
     ("==", |input| input.peek(Token![==]), i64::eq),
