@@ -5,9 +5,11 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::mutation::flat;
 
-/// A declaration, and all of its tokens at every depth.
+/// A valid declaration to start from.
 pub struct Seed {
+    /// The declaration.
     pub tokens: TokenStream,
+    /// Its tokens, those in groups too.
     pub all: Vec<TokenTree>,
 }
 

@@ -16,6 +16,7 @@ const STACK: usize = 8 << 20;
 /// the process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
+    /// To Rust.
     Compiled,
     /// Errors in mechanism words.
     Refused,
@@ -27,6 +28,7 @@ pub enum Verdict {
     Internal(String),
     /// Compiled to what is no Rust.
     WrongCode(String),
+    /// Not done within the limit.
     TooSlow,
 }
 
