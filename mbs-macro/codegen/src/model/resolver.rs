@@ -25,6 +25,7 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     // Names first, so that statements may stand in any order.
     resolver.each(declaration, Resolver::declare);
     resolver.each(declaration, Resolver::declare_rows);
+    resolver.each(declaration, Resolver::resolve_value);
     resolver.each(declaration, |resolver, item| {
         if let ItemKind::Profile(profile) = &item.kind {
             resolver.resolve_profile(profile);

@@ -4,6 +4,7 @@
 mod assembly;
 mod closure;
 mod echelon;
+mod floating;
 mod generic;
 mod jets;
 mod manifold;
@@ -76,13 +77,21 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     for body in &model.bodies {
         let found = model.arena.evaluate(&[body.mass, body.inertia], &values);
         for (value, what, unit) in [(found[0], "mass", "kg"), (found[1], "inertia", "kg*m^2")] {
-            if value < 0.0 || !value.is_finite() {
+            // what is denormal has no reciprocal
+            if value < 0.0 || !value.is_finite() || value.is_subnormal() {
                 errors.push(
                     Diagnostic::new(
                         body.span,
-                        format!("the {what} of `{}` is {value} {unit} at the declared parameters", body.name),
+                        format!(
+                            "the {what} of `{}` is {value:?} {unit} at the declared parameters",
+                            body.name
+                        ),
                     )
-                    .help("it has to be finite and not negative"),
+                    .help(if value.is_subnormal() {
+                        "it is too small to compute with; leave out what has no mass, or write 0"
+                    } else {
+                        "it has to be finite and not negative"
+                    }),
                 );
             }
         }

@@ -130,11 +130,25 @@ fn check_contract(
         let free = free_coordinates(model, equations, samples, &rows.basis);
         let missing = n - m - declared;
         let s = if missing == 1 { "" } else { "s" };
-        format!("{missing} constraint{s} or drive{s} missing; free to move are {}", listing(free))
+        let pins = if missing == 1 { "" } else { " (a `revolute` is two constraints)" };
+        let floating = super::floating::floating_bodies(model);
+        let help =
+            format!("{missing} constraint{s} or drive{s} missing{pins}; free to move are {}", listing(free));
+        match floating.as_slice() {
+            [] => help,
+            _ => format!("{help}; no joint leads from {} to the ground", listing(floating)),
+        }
     } else {
         let surplus = declared - (n - m);
         let s = if surplus == 1 { "" } else { "s" };
-        format!("{surplus} constraint{s} too many for that; remove or correct, or declare dof = {}", n - m)
+        let drives = match model.constraints.iter().any(|constraint| constraint.is_drive) {
+            true => "; a drive is a constraint too",
+            false => "",
+        };
+        let left = n - m;
+        format!(
+            "{surplus} constraint{s} too many for that; remove or correct, or declare dof = {left}{drives}"
+        )
     };
     errors.push(Diagnostic::new(span, message).help(help));
 }
