@@ -28,6 +28,10 @@ const RESIDUAL: f64 = 1e-6;
 /// is a matter of the condition too.
 const DIFFERENCE: f64 = 1e-4;
 
+/// The largest coefficient of the equations over the smallest, beyond which
+/// solutions lose all digits of some components and tell nothing.
+const WIDEST_RANGE: f64 = 1e12;
+
 /// Directions in which the balance of forces is looked at.
 const DIRECTIONS: usize = 3;
 
@@ -214,8 +218,22 @@ impl Point<'_> {
         (kinetic, potential)
     }
 
+    /// Whether the numbers in the equations are near enough to each other for a
+    /// solution to have correct digits in every component.
+    fn is_well_scaled(&self) -> bool {
+        let entries = self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value);
+        let masses = (0..self.model.coordinates.len()).map(|at| self.mass(at).value);
+        let sizes = entries.chain(masses).map(f64::abs).filter(|&size| size > 0.0);
+        let (least, largest) = sizes
+            .fold((f64::INFINITY, 0.0_f64), |(least, largest), size| (least.min(size), largest.max(size)));
+        largest <= WIDEST_RANGE * least
+    }
+
     /// The solved equations, put back into themselves.
     fn solutions(&self) -> Check {
+        if !self.is_well_scaled() {
+            return Ok(());
+        }
         let (n, plan) = (self.model.coordinates.len(), self.plan);
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
         let given: Vec<f64> =
