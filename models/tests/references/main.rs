@@ -8,6 +8,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
+mod chains;
 mod excavator;
 mod four_bars;
 mod legs;
@@ -15,6 +16,7 @@ mod paths;
 mod sliders;
 mod squeezer;
 mod swings;
+mod transmissions;
 
 use mbs_runtime::{Components, Kinematics, Mechanism, Motion};
 

@@ -1,0 +1,45 @@
+//! Mechanisms with gears.
+
+use mbs_runtime::Simulation;
+use models::{PlanetaryGear, PlanetaryGearInputs};
+
+use crate::{EXACT, near};
+
+/// At an instant to rounding. Later Heun's error for the planet on its circle, a
+/// relative (ωh)² of the arm's largest ω.
+#[test]
+fn planetary_gear_has_the_ratio_of_willis() {
+    let mechanism = PlanetaryGear::declared();
+    let p = *mechanism.parameters();
+    let (rs, rp) = (p.sun_radius, p.planet_radius);
+    let (a, share) = (rs + rp, rs / (2.0 * (rs + rp)));
+    let inertia = p.sun_inertia
+        + share.powi(2) * (p.arm_inertia + p.planet_mass * a * a + p.planet_inertia * (a / rp).powi(2));
+    for (sun_torque, load) in [(0.0, 0.0), (0.02, 0.0), (0.02, -0.1), (0.0, 0.3)] {
+        let inputs = PlanetaryGearInputs { sun_torque, load };
+        let mut simulation = Simulation::builder(mechanism, 1e-4).inputs(inputs).build().unwrap();
+        let v = simulation.state().v;
+        near("arm", v.beta, share * p.speed, p.speed * EXACT);
+        near("planet", v.psi, -a / rp * share * p.speed, p.speed * EXACT);
+        let outputs = simulation.outputs().unwrap();
+        near("ratio", outputs.ratio, 2.0 * a / rs, 10.0 * EXACT);
+
+        let sun = (sun_torque + share * load) / inertia;
+        let planet = -a / rp * share * sun;
+        let inner = (sun_torque - p.sun_inertia * sun) / rs;
+        let outer = (p.planet_inertia * planet + rp * inner) / rp;
+        let pin = p.planet_mass * a * (share * sun).hypot((share * p.speed).powi(2));
+        // forces are of the size of 10 N, accelerations of 100 rad/s²
+        let reactions = simulation.reactions().unwrap();
+        near("sun", reactions.acceleration.alpha, sun, 1e3 * EXACT);
+        near("teeth of the sun", outputs.inner_force, inner, 1e2 * EXACT);
+        near("teeth of the ring", outputs.outer_force, outer, 1e2 * EXACT);
+        near("pin", outputs.pin_force, pin, 1e2 * EXACT);
+
+        simulation.advance_to(0.1).unwrap();
+        let end = p.speed + 0.1 * sun;
+        let largest = end.abs().max(p.speed);
+        near("sun after 0.1 s", simulation.state().v.alpha, end, largest * (share * largest * 1e-4).powi(2));
+        near("ratio", simulation.outputs().unwrap().ratio, 2.0 * a / rs, 1e3 * EXACT);
+    }
+}
