@@ -347,9 +347,17 @@ fn correction(
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
     let held = held(model, equations, rows, samples, of_velocities);
-    let kkt = system(model, equations, rows, &held);
     let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
-    let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
+    let kkt = system(model, equations, rows, &held);
+    let factorization = match factor(&mut model.arena, &kkt, strategy, &magnitude) {
+        // The rank with these coordinates held was misjudged: scales are too far
+        // apart. Without holding any there is a correction.
+        Err(_) if !held.is_empty() => {
+            let kkt = system(model, equations, rows, &BTreeSet::new());
+            factor(&mut model.arena, &kkt, strategy, &magnitude)?
+        }
+        result => result?,
+    };
     let mut rhs = BTreeMap::new();
     for &at in &rows.basis {
         rhs.insert(Unknown::Row(at), model.arena.variable(model.symbols.feedback[at]));

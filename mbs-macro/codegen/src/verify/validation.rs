@@ -28,8 +28,8 @@ const RESIDUAL: f64 = 1e-6;
 /// is a matter of the condition too.
 const DIFFERENCE: f64 = 1e-4;
 
-/// The largest coefficient of the equations over the smallest, beyond which
-/// solutions lose all digits of some components and tell nothing.
+/// The largest mass over the smallest, or the square of that of Φ_q, beyond
+/// which solutions lose all digits of some components and tell nothing.
 const WIDEST_RANGE: f64 = 1e12;
 
 /// Directions in which the balance of forces is looked at.
@@ -221,12 +221,16 @@ impl Point<'_> {
     /// Whether the numbers in the equations are near enough to each other for a
     /// solution to have correct digits in every component.
     fn is_well_scaled(&self) -> bool {
-        let entries = self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value);
-        let masses = (0..self.model.coordinates.len()).map(|at| self.mass(at).value);
-        let sizes = entries.chain(masses).map(f64::abs).filter(|&size| size > 0.0);
-        let (least, largest) = sizes
-            .fold((f64::INFINITY, 0.0_f64), |(least, largest), size| (least.min(size), largest.max(size)));
-        largest <= WIDEST_RANGE * least
+        let range = |sizes: &mut dyn Iterator<Item = f64>| {
+            let sizes = sizes.map(f64::abs).filter(|&size| size > 0.0);
+            let ends = |(least, largest): (f64, f64), size: f64| (least.min(size), largest.max(size));
+            let (least, largest) = sizes.fold((f64::INFINITY, 0.0_f64), ends);
+            largest / least
+        };
+        let entries = range(&mut self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value));
+        let masses = range(&mut (0..self.model.coordinates.len()).map(|at| self.mass(at).value));
+        // A pivot is at worst an entry, and masses are multiplied by its square.
+        entries * entries <= WIDEST_RANGE && masses <= WIDEST_RANGE
     }
 
     /// The solved equations, put back into themselves.
@@ -387,7 +391,7 @@ fn same(name: &str, found: &[f64], expected: &[f64]) -> Check {
 
 /// Whether a residual is more than rounding; one that is no number tells nothing.
 fn exceeds(residual: f64, terms: f64) -> bool {
-    terms.is_finite() && residual.abs() > RESIDUAL * terms
+    terms.is_finite() && residual.abs() > RESIDUAL * terms + f64::MIN_POSITIVE
 }
 
 #[cfg(test)]
