@@ -12,11 +12,11 @@ mod random;
 
 use mbs_runtime::{Components, Mechanism, State};
 use models::{
-    AndrewsSqueezer, CartPendulum, Chebyshev, DoublePendulum, Excavator, FourBar, FourBarFree, GenevaPinSlot,
-    HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40,
-    NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear,
-    QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Tipper, TogglePress,
-    TrammelOfArchimedes, VEngine, WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DoublePendulum, Excavator,
+    FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
+    NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
+    Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree,
+    SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use crate::dual::Dual;
@@ -87,6 +87,11 @@ library! {
     CartPendulum: 0.5e-3, 10.0, [], |_, at, u| u.push*at.v.x;
     SpringMassDamper: 0.5e-3, 10.0, ["damping"], |p, at, u| (u.push - p.damping*at.v.x)*at.v.x;
     Metronome: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    BlockOnIncline: 0.5e-3, 10.0, ["coefficient"], |p, at, u| {
+        let (s, c) = p.slope.sin_cos();
+        let v = at.v.x*c + at.v.y*s;
+        (u.push - p.coefficient*p.mass*9.81*c*(v/p.transition).tanh())*v
+    };
     FourBar: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     FourBarFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta2;
     NFourBar1: 0.5e-3, 10.0, [], |_, _, _| 0.0;
@@ -96,6 +101,9 @@ library! {
     QuickReturn: 0.5e-3, 10.0, [], |_, at, u| u.cutting_force*at.v.x3;
     ScotchYoke: 0.5e-3, 10.0, [], |_, at, u| -u.load*at.v.x;
     GenevaPinSlot: 0.5e-3, 10.0, [], |p, at, _| -p.friction*at.v.phi.powi(2);
+    // ten steps from point to point of its profile, so that the jumps of the
+    // spline's third derivative are not inside a step
+    CamFollower: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     TogglePress: 0.5e-3, 10.0, [], |_, at, u| u.work*at.v.y3;
     VEngine: 0.5e-3, 10.0, [], |p, at, u| {
         let (s, c) = (p.v_angle/2.0).sin_cos();
@@ -107,6 +115,9 @@ library! {
     Tipper: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     AndrewsSqueezer: 1e-5, 1.0, [], |_, at, u| u.motor_torque*at.v.angle1;
     PlanetaryGear: 0.5e-3, 10.0, [], |_, at, u| u.sun_torque*at.v.alpha + u.load*at.v.beta;
+    GearedMotor: 0.5e-3, 10.0, ["stall", "viscous"], |p, at, u| {
+        p.stall*(1.0 - at.v.phi1/p.no_load)*at.v.phi1 + (u.load - p.viscous*at.v.phi2)*at.v.phi2
+    };
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;
