@@ -33,8 +33,8 @@ pub fn reactions<M: Model>(case: &Case<M>) {
 
         let forces = mechanism.forces(at, inputs);
         let mut motion = Balance::default();
-        // accelerations by each force alone: where forces nearly cancel, what is
-        // left has the rounding of these
+        // accelerations by each force alone: where forces nearly cancel, and no
+        // γ is left beside, the accelerations have the rounding of these
         let mut singly = vec![0.0; a.len()];
         for (i, row) in mechanism.mass(&at.q).iter().enumerate() {
             let inertia = row.iter().zip(a).map(|(m, a)| m * a);
@@ -48,8 +48,10 @@ pub fn reactions<M: Model>(case: &Case<M>) {
         let mut constraints = Balance::default();
         for (row, gamma) in jacobian.iter().zip(mechanism.gamma(at)) {
             constraints.add(row.iter().zip(a).map(|(j, a)| j * a).chain([-gamma]));
-            let size = row.iter().zip(&singly).map(|(j, a)| (j * a).abs()).sum();
-            constraints.size = constraints.size.max(size);
+            if gamma == 0.0 {
+                let size = row.iter().zip(&singly).map(|(j, a)| (j * a).abs()).sum();
+                constraints.size = constraints.size.max(size);
+            }
         }
         worst[0] = worst[0].max(motion.roundings());
         worst[1] = worst[1].max(constraints.roundings() / solved.growth.max(1.0));
