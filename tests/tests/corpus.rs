@@ -1,5 +1,6 @@
 //! Every file of `corpus/` compiles or is answered with errors: seeds that use
 //! each kind of statement, and what once made the compiler panic or run away.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::collections::BTreeSet;
 use std::fs;
