@@ -9,7 +9,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::items::{equals, name, semicolon};
+use super::words::{equals, name, semicolon};
 use super::{Attachment, Clause, ClauseKind, ItemKind, Joint, JointKind};
 use crate::diagnostics::nearest;
 

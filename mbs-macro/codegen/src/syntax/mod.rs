@@ -8,6 +8,7 @@ mod joints;
 mod profiles;
 mod solver;
 mod statements;
+mod words;
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;

@@ -6,7 +6,7 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Error, Result};
 
-use super::items::{equals, semicolon};
+use super::words::{equals, semicolon};
 use super::{Formula, FormulaKind, ItemKind};
 
 pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

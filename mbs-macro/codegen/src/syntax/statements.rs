@@ -8,7 +8,8 @@ use syn::parse::{ParseStream, Parser};
 use syn::{Error, Result, Token, braced};
 
 use super::indices::{Indices, regrouped};
-use super::items::{block, doc, item, name};
+use super::items::item;
+use super::words::{block, doc, name};
 use super::{Item, ItemKind};
 use crate::diagnostics::Diagnostics;
 
