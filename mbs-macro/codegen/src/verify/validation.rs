@@ -32,6 +32,10 @@ const DIFFERENCE: f64 = 1e-4;
 /// which solutions lose all digits of some components and tell nothing.
 const WIDEST_RANGE: f64 = 1e12;
 
+/// Forces that have lost more than this by cancellation differ from one program
+/// to the next.
+const BLURRED: f64 = 1e-8;
+
 /// Directions in which the balance of forces is looked at.
 const DIRECTIONS: usize = 3;
 
@@ -245,8 +249,11 @@ impl Point<'_> {
         };
         let entries = range(&mut self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value));
         let masses = range(&mut (0..self.model.coordinates.len()).map(|at| self.mass(at).value));
+        let forces: Vec<_> = (0..self.model.coordinates.len()).map(|at| self.force(at)).collect();
+        let largest = forces.iter().fold(0.0_f64, |largest, force| largest.max(force.value.abs()));
+        let are_sharp = forces.iter().all(|force| force.error <= BLURRED * largest);
         // A pivot is at worst an entry, and masses are multiplied by its square.
-        entries * entries <= WIDEST_RANGE && masses <= WIDEST_RANGE
+        are_sharp && entries * entries <= WIDEST_RANGE && masses <= WIDEST_RANGE
     }
 
     /// The solved equations, put back into themselves.
