@@ -92,7 +92,9 @@ mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
 mod kinematics;
+pub mod lanes;
 mod mechanism;
+mod pack;
 mod real;
 mod simulation;
 mod sincos;
@@ -105,8 +107,10 @@ pub use derivation::{Derivation, Elimination, Formula};
 pub use error::Error;
 pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
+pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
+pub use pack::Pack;
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 

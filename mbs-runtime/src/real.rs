@@ -3,6 +3,8 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::spline::Spline;
+
 /// A real scalar: what a generated solver needs to know of its number type.
 ///
 /// Implemented for `f32` and `f64`. With the feature `std` the elementary
@@ -71,6 +73,13 @@ pub trait Real:
     fn max(self, other: Self) -> Self;
     /// 1 if `self > other`, else 0: the slope of `max`.
     fn greater(self, other: Self) -> Self;
+
+    /// A spline's derivative of this order at `self`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn interpolate(self, spline: &Spline, order: u8) -> Self {
+        spline.derivative_at(order, self)
+    }
 }
 
 /// Inlined within its range, which few mechanisms leave.

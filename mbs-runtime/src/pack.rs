@@ -1,0 +1,232 @@
+//! Several simulations of one mechanism that advance together.
+
+use crate::heun::trial;
+use crate::lanes::{Lane, Lanes};
+use crate::mechanism::growth_limit;
+use crate::{Components, Error, Feedback, Gains, Mechanism, Real, Simulation, State};
+
+/// The mechanism `M` over `N` lanes of its own scalar.
+pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
+
+/// The coordinates of `N` instances.
+pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
+
+/// The outputs of `N` instances.
+pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
+
+/// `N` simulations that advance by a step at once, one in each lane: parameters,
+/// inputs, states, gains, steps and times are their own.
+///
+/// What a lane does is what its [`Simulation`] would do alone, within what
+/// [`Lanes`] says. A lane that cannot make a step stays where it is and
+/// does not touch the others.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Pack, Simulation, mechanism};
+///
+/// mechanism! {
+///     /// A weight on a massless rod.
+///     pub Pendulum {
+///         dof = 1;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         constraint rod: x^2 + y^2 = length^2;
+///         start { x = length; guess y = 0; }
+///     }
+/// }
+///
+/// let lengths = [0.5, 1.0, 1.5, 2.0];
+/// let mut alone = [Simulation::new(Pendulum::declared(), 1e-3)?; 4];
+/// for (run, length) in alone.iter_mut().zip(lengths) {
+///     *run = Simulation::new(Pendulum::new(PendulumParameters { length })?, 1e-3)?;
+/// }
+/// let mut pack = Pack::new(alone)?;
+/// for _ in 0..500 {
+///     assert_eq!(pack.step(), [true; 4]);
+/// }
+/// alone[2].advance_to(0.5)?;
+/// assert_eq!(pack.simulation(2).state(), alone[2].state());
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
+    /// As they were packed.
+    members: [Simulation<M, F>; N],
+    mechanism: Many<M, N>,
+    inputs: <Many<M, N> as Mechanism>::Inputs,
+    state: State<ManyCoordinates<M, N>>,
+    gains: Gains<Lanes<M::Real, N>>,
+    step: Lanes<M::Real, N>,
+    start_time: Lanes<M::Real, N>,
+    /// Steps since the start; exact, and a number that vectors can compute with.
+    steps: Lanes<f64, N>,
+}
+
+impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
+    /// The simulations, each from where it is.
+    ///
+    /// # Errors
+    /// None for mechanisms that their own constructor has accepted.
+    pub fn new(members: [Simulation<M, F>; N]) -> Result<Self, Error> {
+        let numbers = |f: &dyn Fn(&Simulation<M, F>) -> M::Real| Lanes(members.each_ref().map(f));
+        let gains = members.each_ref().map(|member| member.baumgarte().gains());
+        Ok(Self {
+            mechanism: Many::<M, N>::new(pack(|lane| *members[lane].mechanism().parameters()))?,
+            inputs: pack(|lane| *members[lane].inputs()),
+            state: State {
+                t: numbers(&|member| member.state().t),
+                q: pack(|lane| members[lane].state().q),
+                v: pack(|lane| members[lane].state().v),
+            },
+            gains: Gains {
+                minus_two_alpha: Lanes(gains.map(|gains: Gains<M::Real>| gains.minus_two_alpha)),
+                minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
+            },
+            step: numbers(&Simulation::step_size),
+            start_time: numbers(&Simulation::start_time),
+            steps: Lanes(members.each_ref().map(|member| member.steps() as f64)),
+            members,
+        })
+    }
+
+    /// Advances every lane by a step; those that did. What a step of
+    /// [`simulation`](Self::simulation) says is why another did not.
+    #[inline(always)]
+    pub fn step(&mut self) -> [bool; N] {
+        let steps = self.steps + Lanes([1.0; N]);
+        let mut elapsed = self.step.0;
+        for (elapsed, steps) in elapsed.iter_mut().zip(steps.0) {
+            *elapsed = M::Real::from_f64(steps);
+        }
+        let t_next = self.start_time + Lanes(elapsed) * self.step;
+        let trial = trial::<Many<M, N>, F>(
+            &self.mechanism,
+            &self.state,
+            &self.inputs,
+            &self.gains,
+            self.step,
+            t_next,
+        );
+        let next = trial.next;
+        let healthy = (trial.here.1 + trial.there.1).test(growth_limit(), |growth, limit| growth < limit);
+        let healthy = and(and(healthy, finite(next.q)), finite(next.v));
+        if healthy == [true; N] {
+            (self.state, self.steps) = (next, steps);
+        } else {
+            self.keep(healthy, &next, steps);
+        }
+        healthy
+    }
+
+    /// Takes over what the lanes of a mask have computed.
+    #[cold]
+    fn keep(&mut self, mask: [bool; N], next: &State<ManyCoordinates<M, N>>, steps: Lanes<f64, N>) {
+        self.state = State {
+            t: next.t.select(mask, self.state.t),
+            q: next.q.zip_map(self.state.q, |new, old| new.select(mask, old)),
+            v: next.v.zip_map(self.state.v, |new, old| new.select(mask, old)),
+        };
+        self.steps = steps.select(mask, self.steps);
+    }
+
+    /// The simulation in a lane, as it is now: the last one, beyond the last lane.
+    pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
+        let lane = lane.min(N - 1);
+        let state =
+            State { t: self.state.t.0[lane], q: unpack(self.state.q, lane), v: unpack(self.state.v, lane) };
+        self.members[lane].moved_to(state, self.steps.0[lane] as u64)
+    }
+
+    /// What can be observed of all lanes.
+    #[inline(always)]
+    pub fn snapshot(&self) -> Snapshot<'_, M, N> {
+        Snapshot { mechanism: &self.mechanism, state: &self.state, inputs: &self.inputs }
+    }
+}
+
+/// `N` instances at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapshot<'a, M: Mechanism<Real: Lane>, const N: usize> {
+    /// The mechanism.
+    pub mechanism: &'a Many<M, N>,
+    /// Time, positions and velocities.
+    pub state: &'a State<ManyCoordinates<M, N>>,
+    /// The inputs.
+    pub inputs: &'a <Many<M, N> as Mechanism>::Inputs,
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
+    /// Constraint violations ‖Φ‖.
+    #[inline(always)]
+    pub fn violation(&self) -> Lanes<M::Real, N> {
+        self.mechanism.phi(self.state.t, &self.state.q).norm()
+    }
+
+    /// Constraint violations in velocities ‖Φ̇‖.
+    #[inline(always)]
+    pub fn velocity_violation(&self) -> Lanes<M::Real, N> {
+        self.mechanism.phi_dot(self.state).norm()
+    }
+
+    /// The declared outputs, and the lanes in which the position has any.
+    #[inline(always)]
+    pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
+        let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
+        let reactions = self.mechanism.reactions(self.state, self.inputs, &none);
+        let healthy = reactions.growth.test(growth_limit(), |growth, limit| growth < limit);
+        let healthy = and(healthy, finite(reactions.acceleration));
+        (self.mechanism.outputs(self.state, self.inputs, &reactions), healthy)
+    }
+}
+
+/// The lanes in which every component is finite.
+#[inline(always)]
+pub fn finite<T: Lane, C: Components<Real = Lanes<T, N>>, const N: usize>(components: C) -> [bool; N] {
+    let mut mask = [true; N];
+    for x in components.into_array().as_ref() {
+        mask = and(mask, x.test(*x, |x, _| x.is_finite()));
+    }
+    mask
+}
+
+/// Where both are set.
+#[inline(always)]
+pub fn and<const N: usize>(mut mask: [bool; N], other: [bool; N]) -> [bool; N] {
+    for (is_set, other) in mask.iter_mut().zip(other) {
+        *is_set &= other;
+    }
+    mask
+}
+
+/// Components of all lanes from those of each.
+fn pack<C, S, T, const N: usize>(of_lane: impl Fn(usize) -> S) -> C
+where
+    T: Lane,
+    S: Components<Real = T>,
+    C: Components<Real = Lanes<T, N>>,
+{
+    let mut packed = C::splat(Lanes::default()).into_array();
+    for lane in 0..N {
+        let scalars = of_lane(lane).into_array();
+        for (lanes, scalar) in packed.as_mut().iter_mut().zip(scalars.as_ref()) {
+            lanes.0[lane] = *scalar;
+        }
+    }
+    C::from_array(packed)
+}
+
+/// The components of one lane; 0 beyond the last one.
+pub fn unpack<S, C, T, const N: usize>(packed: C, lane: usize) -> S
+where
+    T: Lane,
+    S: Components<Real = T>,
+    C: Components<Real = Lanes<T, N>>,
+{
+    let mut scalars = S::splat(T::default()).into_array();
+    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.into_array().as_ref()) {
+        *scalar = lanes.0.get(lane).copied().unwrap_or_default();
+    }
+    S::from_array(scalars)
+}
