@@ -5,9 +5,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use mbs_ensemble::{Cancelled, Ensemble, Extremes, Run, Samples, Violation};
-use mbs_runtime::{
-    Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, mechanism,
-};
+use mbs_runtime::{Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, mechanism};
 use models::{DoublePendulum, FourBar, SliderCrank, SliderCrankFree, SliderCrankParameters};
 use models::{SliderCrankFreeInputs, SliderCrankFreeParameters};
 
@@ -35,9 +33,10 @@ mechanism! {
             normal = 10 [N] + 0.1*lambda(contact);
             transition = 0.05 [m/s];
         }
-        force pushed on block = (push*max(0, cos(3*t)) - 1 [N]*sign(x)*abs(sin(t)), 0);
-        torque drive on disk = 0.01 [N*m]*(tanh(phi) + exp(-t) + ln(2 + t) + atan2(1, 2 + phi^2)
-            + pow(1 + phi^2, 0.3) + sqrt(1 + t) + asin(0.5*sin(phi)) + tan(0.2*cos(phi)) + min(t, 0.1));
+        let s = t/1 [s];
+        force pushed on block = (push*max(0, cos(3*s)) - 1 [N]*sign(x)*abs(sin(s)), 0);
+        torque drive on disk = 0.01 [N*m]*(tanh(phi) + exp(-s) + ln(2 + s) + atan2(1, 2 + phi^2)
+            + pow(1 + phi^2, 0.3) + sqrt(1 + s) + asin(0.5*sin(phi)) + tan(0.2*cos(phi)) + min(s, 0.1));
         start { phi = 10 [deg]; x = 0.01 [m]; guess y = 25 [mm]; }
         output contact_force [N] = lambda(contact);
         output heat [W] = -power(rub);
@@ -52,7 +51,7 @@ fn alone<M: Mechanism<Real = f64>, F: Feedback>(mut run: Simulation<M, F>) -> Ve
     let mut numbers = vec![0.0_f64; 2];
     let count = M::Outputs::NAMES.len();
     let mut extremes = vec![[f64::NAN; 4]; count];
-    let mut samples = Vec::new();
+    let mut samples: Vec<f64> = Vec::new();
     for step in 0..=STEPS {
         numbers[0] = numbers[0].max(run.violation());
         numbers[1] = numbers[1].max(run.velocity_violation());
@@ -191,8 +190,7 @@ fn single_precision() {
     let member = |index: usize| {
         let of = |x: f64| x as f32;
         let SliderCrankParameters { l1, omega, .. } = driven(index);
-        let parameters =
-            SliderCrankParameters::<f32> { l1: of(l1), omega: of(omega), ..Default::default() };
+        let parameters = SliderCrankParameters::<f32> { l1: of(l1), omega: of(omega), ..Default::default() };
         Simulation::new(SliderCrank::<f32>::new(parameters)?, H)
     };
     let runs = Ensemble::new(END).lanes::<16>().run(20, member, &Violation).expect("nobody cancels");
