@@ -1,11 +1,15 @@
 //! Several instances at once, one per lane: [`Lanes`] of scalars, and a [`Pack`]
 //! of simulations.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
+)]
 
 use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-pub use crate::pack::{Many, ManyCoordinates, ManyOutputs, Pack, Snapshot, and, finite, unpack};
+pub use crate::pack::{Many, ManyCoordinates, ManyOutputs, Pack, Snapshot, and, unpack};
 
 use crate::Real;
 use crate::spline::Spline;
@@ -65,8 +69,8 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     #[must_use]
     pub fn map(self, f: impl Fn(T) -> T) -> Self {
         let mut lanes = self.0;
-        for lane in &mut lanes {
-            *lane = f(*lane);
+        for lane in 0..N {
+            lanes[lane] = f(self.0[lane]);
         }
         Self(lanes)
     }
@@ -76,8 +80,8 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     #[must_use]
     pub fn zip_map(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         let mut lanes = self.0;
-        for (lane, other) in lanes.iter_mut().zip(other.0) {
-            *lane = f(*lane, other);
+        for lane in 0..N {
+            lanes[lane] = f(self.0[lane], other.0[lane]);
         }
         Self(lanes)
     }
@@ -86,8 +90,8 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     #[inline(always)]
     pub fn test(self, other: Self, f: impl Fn(T, T) -> bool) -> [bool; N] {
         let mut holds = [false; N];
-        for ((holds, x), y) in holds.iter_mut().zip(self.0).zip(other.0) {
-            *holds = f(x, y);
+        for lane in 0..N {
+            holds[lane] = f(self.0[lane], other.0[lane]);
         }
         holds
     }
@@ -97,8 +101,8 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     #[must_use]
     pub fn select(self, mask: [bool; N], other: Self) -> Self {
         let mut lanes = other.0;
-        for ((lane, is_set), x) in lanes.iter_mut().zip(mask).zip(self.0) {
-            *lane = if is_set { x } else { *lane };
+        for lane in 0..N {
+            lanes[lane] = if mask[lane] { self.0[lane] } else { other.0[lane] };
         }
         Self(lanes)
     }
@@ -106,8 +110,8 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     #[inline(always)]
     fn holds(self, other: Self, f: impl Fn(T, T) -> bool) -> bool {
         let mut holds = true;
-        for (x, y) in self.0.into_iter().zip(other.0) {
-            holds &= f(x, y);
+        for lane in 0..N {
+            holds &= f(self.0[lane], other.0[lane]);
         }
         holds
     }
@@ -213,8 +217,9 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (mut sines, mut cosines) = (self.0, self.0);
-        for ((sine, cosine), x) in sines.iter_mut().zip(&mut cosines).zip(self.0) {
-            (*sine, *cosine) = if N == 1 { x.sin_cos() } else { x.straight_sin_cos() };
+        for lane in 0..N {
+            let x = self.0[lane];
+            (sines[lane], cosines[lane]) = if N == 1 { x.sin_cos() } else { x.straight_sin_cos() };
         }
         (Self(sines), Self(cosines))
     }

@@ -100,6 +100,7 @@ mod simulation;
 mod sincos;
 mod spline;
 pub mod start;
+mod straight;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
 pub use components::{Components, NoComponents};

@@ -1,12 +1,20 @@
 //! Several simulations of one mechanism that advance together.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
+)]
 
 use crate::heun::trial;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
+use crate::straight::Straight;
 use crate::{Components, Error, Feedback, Gains, Mechanism, Real, Simulation, State};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
 pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
+
+/// The mechanism `M` in a loop over lanes.
+type Each<M> = <M as Mechanism>::Over<Straight<<M as Mechanism>::Real>>;
 
 /// The coordinates of `N` instances.
 pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
@@ -54,6 +62,9 @@ pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
     /// As they were packed.
     members: [Simulation<M, F>; N],
+    /// For steps.
+    each: [Each<M>; N],
+    /// For observers.
     mechanism: Many<M, N>,
     inputs: <Many<M, N> as Mechanism>::Inputs,
     state: State<ManyCoordinates<M, N>>,
@@ -70,10 +81,18 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// # Errors
     /// None for mechanisms that their own constructor has accepted.
     pub fn new(members: [Simulation<M, F>; N]) -> Result<Self, Error> {
+        let parameters: <Many<M, N> as Mechanism>::Parameters =
+            pack(|lane| *members[lane].mechanism().parameters());
         let numbers = |f: &dyn Fn(&Simulation<M, F>) -> M::Real| Lanes(members.each_ref().map(f));
         let gains = members.each_ref().map(|member| member.baumgarte().gains());
+        let of_lanes = parameters.into_array();
+        let mut each = [Each::<M>::new(take(&of_lanes, 0))?; N];
+        for lane in 1..N {
+            each[lane] = Each::<M>::new(take(&of_lanes, lane))?;
+        }
         Ok(Self {
-            mechanism: Many::<M, N>::new(pack(|lane| *members[lane].mechanism().parameters()))?,
+            each,
+            mechanism: Many::<M, N>::new(parameters)?,
             inputs: pack(|lane| *members[lane].inputs()),
             state: State {
                 t: numbers(&|member| member.state().t),
@@ -95,28 +114,42 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// [`simulation`](Self::simulation) says is why another did not.
     #[inline(always)]
     pub fn step(&mut self) -> [bool; N] {
-        let steps = self.steps + Lanes([1.0; N]);
-        let mut elapsed = self.step.0;
-        for (elapsed, steps) in elapsed.iter_mut().zip(steps.0) {
-            *elapsed = M::Real::from_f64(steps);
+        if N == 1 {
+            return self.step_alone();
         }
-        let t_next = self.start_time + Lanes(elapsed) * self.step;
-        let trial = trial::<Many<M, N>, F>(
-            &self.mechanism,
-            &self.state,
-            &self.inputs,
-            &self.gains,
-            self.step,
-            t_next,
-        );
-        let next = trial.next;
-        let healthy = (trial.here.1 + trial.there.1).test(growth_limit(), |growth, limit| growth < limit);
-        let healthy = and(and(healthy, finite(next.q)), finite(next.v));
-        if healthy == [true; N] {
+        // The scalar's step in a loop over lanes: compilers make better vectors of that
+        // than of a step of which every operation is a loop.
+        let mut next = self.state;
+        let (old_q, old_v) = (next.q.into_array(), next.v.into_array());
+        let (mut q, mut v, t, inputs) = (old_q, old_v, next.t, self.inputs.into_array());
+        let (mut health, mut steps) = (next.t, self.steps);
+        for lane in 0..N {
+            let here = State { t: Straight(t.0[lane]), q: take(&old_q, lane), v: take(&old_v, lane) };
+            let inputs = take(&inputs, lane);
+            let gains = Gains {
+                minus_two_alpha: Straight(self.gains.minus_two_alpha.0[lane]),
+                minus_beta_squared: Straight(self.gains.minus_beta_squared.0[lane]),
+            };
+            let step = Straight(self.step.0[lane]);
+            let taken = steps.0[lane] + 1.0;
+            let t_next = Straight(self.start_time.0[lane]) + Straight::from_f64(taken) * step;
+            let trial = trial::<Each<M>, F>(&self.each[lane], &here, &inputs, &gains, step, t_next);
+            // What is not finite makes the sum NaN, and NaN is below no limit.
+            let growth = trial.here.1 + trial.there.1;
+            let sum = growth + (trouble_of(trial.next.q) + trouble_of(trial.next.v));
+            put(&mut q, lane, trial.next.q);
+            put(&mut v, lane, trial.next.v);
+            next.t.0[lane] = t_next.0;
+            steps.0[lane] = taken;
+            health.0[lane] = sum.0;
+        }
+        (next.q, next.v) = (Components::from_array(q), Components::from_array(v));
+        if health < growth_limit() {
             (self.state, self.steps) = (next, steps);
-        } else {
-            self.keep(healthy, &next, steps);
+            return [true; N];
         }
+        let healthy = health.test(growth_limit(), |health, limit| health < limit);
+        self.keep(healthy, &next, steps);
         healthy
     }
 
@@ -129,6 +162,16 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
             v: next.v.zip_map(self.state.v, |new, old| new.select(mask, old)),
         };
         self.steps = steps.select(mask, self.steps);
+    }
+
+    /// A single lane is its simulation, with all that a scalar can compute.
+    fn step_alone(&mut self) -> [bool; N] {
+        let mut simulation = self.simulation(0);
+        let healthy = simulation.step().is_ok();
+        let State { t, q, v } = *simulation.state();
+        self.state = State { t: Lanes([t; N]), q: pack(|_| q), v: pack(|_| v) };
+        self.steps = Lanes([simulation.steps() as f64; N]);
+        [healthy; N]
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
@@ -175,27 +218,27 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
     pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
         let reactions = self.mechanism.reactions(self.state, self.inputs, &none);
-        let healthy = reactions.growth.test(growth_limit(), |growth, limit| growth < limit);
-        let healthy = and(healthy, finite(reactions.acceleration));
+        let health = reactions.growth + trouble_of(reactions.acceleration);
+        let healthy = health.test(growth_limit(), |health, limit| health < limit);
         (self.mechanism.outputs(self.state, self.inputs, &reactions), healthy)
     }
 }
 
-/// The lanes in which every component is finite.
+/// 0 if every component is finite, else NaN: lane by lane.
 #[inline(always)]
-pub fn finite<T: Lane, C: Components<Real = Lanes<T, N>>, const N: usize>(components: C) -> [bool; N] {
-    let mut mask = [true; N];
+fn trouble_of<C: Components>(components: C) -> C::Real {
+    let mut sum = C::Real::default();
     for x in components.into_array().as_ref() {
-        mask = and(mask, x.test(*x, |x, _| x.is_finite()));
+        sum = sum + (*x - *x);
     }
-    mask
+    sum
 }
 
 /// Where both are set.
 #[inline(always)]
 pub fn and<const N: usize>(mut mask: [bool; N], other: [bool; N]) -> [bool; N] {
-    for (is_set, other) in mask.iter_mut().zip(other) {
-        *is_set &= other;
+    for lane in 0..N {
+        mask[lane] &= other[lane];
     }
     mask
 }
@@ -215,6 +258,32 @@ where
         }
     }
     C::from_array(packed)
+}
+
+/// The components of one lane, for a loop over lanes.
+#[inline(always)]
+fn take<S, T, const N: usize>(packed: &impl AsRef<[Lanes<T, N>]>, lane: usize) -> S
+where
+    T: Lane,
+    S: Components<Real = Straight<T>>,
+{
+    let mut scalars = S::splat(Straight(T::default())).into_array();
+    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.as_ref()) {
+        scalar.0 = lanes.0[lane];
+    }
+    S::from_array(scalars)
+}
+
+/// And back.
+#[inline(always)]
+fn put<S, T, const N: usize>(packed: &mut impl AsMut<[Lanes<T, N>]>, lane: usize, scalars: S)
+where
+    T: Lane,
+    S: Components<Real = Straight<T>>,
+{
+    for (lanes, scalar) in packed.as_mut().iter_mut().zip(scalars.into_array().as_ref()) {
+        lanes.0[lane] = scalar.0;
+    }
 }
 
 /// The components of one lane; 0 beyond the last one.

@@ -198,11 +198,12 @@ where
     F: Feedback,
     O: Observe<M>,
 {
-    let all = |mut mask: [bool; N]| {
-        for (is_good, is_idle) in mask.iter_mut().zip(idle) {
-            *is_good |= is_idle;
+    let all = |mask: [bool; N]| {
+        let mut all = true;
+        for lane in 0..N {
+            all &= mask[lane] | idle[lane];
         }
-        mask == [true; N]
+        all
     };
     for taken in 1..=steps {
         let moved = pack.step();
