@@ -32,7 +32,10 @@ use crate::spline::Spline;
 ///
 /// The operations are plain loops, all of them inlined: which vector instructions
 /// they become is up to the target features of the function around them.
+///
+/// Aligned to 64 bytes, so that no vector lies across two lines of a cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub struct Lanes<T, const N: usize>(pub [T; N]);
 
 /// A scalar that can stand in a lane: `f32` or `f64`.

@@ -13,6 +13,9 @@ use crate::{Components, Error, Feedback, Gains, Mechanism, Real, Simulation, Sta
 /// The mechanism `M` over `N` lanes of its own scalar.
 pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
 
+/// Coordinate by coordinate, the lanes.
+type Array<M, const N: usize> = <ManyCoordinates<M, N> as Components>::Array;
+
 /// The mechanism `M` in a loop over lanes.
 type Each<M> = <M as Mechanism>::Over<Straight<<M as Mechanism>::Real>>;
 
@@ -58,7 +61,7 @@ pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 /// assert_eq!(pack.simulation(2).state(), alone[2].state());
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
     /// As they were packed.
     members: [Simulation<M, F>; N],
@@ -66,8 +69,11 @@ pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
     each: [Each<M>; N],
     /// For observers.
     mechanism: Many<M, N>,
-    inputs: <Many<M, N> as Mechanism>::Inputs,
-    state: State<ManyCoordinates<M, N>>,
+    inputs: <<Many<M, N> as Mechanism>::Inputs as Components>::Array,
+    t: Lanes<M::Real, N>,
+    /// As arrays, which a loop over lanes reads in place.
+    q: Array<M, N>,
+    v: Array<M, N>,
     gains: Gains<Lanes<M::Real, N>>,
     step: Lanes<M::Real, N>,
     start_time: Lanes<M::Real, N>,
@@ -93,12 +99,11 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         Ok(Self {
             each,
             mechanism: Many::<M, N>::new(parameters)?,
-            inputs: pack(|lane| *members[lane].inputs()),
-            state: State {
-                t: numbers(&|member| member.state().t),
-                q: pack(|lane| members[lane].state().q),
-                v: pack(|lane| members[lane].state().v),
-            },
+            inputs: pack::<<Many<M, N> as Mechanism>::Inputs, _, _, N>(|lane| *members[lane].inputs())
+                .into_array(),
+            t: numbers(&|member| member.state().t),
+            q: pack::<ManyCoordinates<M, N>, _, _, N>(|lane| members[lane].state().q).into_array(),
+            v: pack::<ManyCoordinates<M, N>, _, _, N>(|lane| members[lane].state().v).into_array(),
             gains: Gains {
                 minus_two_alpha: Lanes(gains.map(|gains: Gains<M::Real>| gains.minus_two_alpha)),
                 minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
@@ -119,13 +124,11 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         }
         // The scalar's step in a loop over lanes: compilers make better vectors of that
         // than of a step of which every operation is a loop.
-        let mut next = self.state;
-        let (old_q, old_v) = (next.q.into_array(), next.v.into_array());
-        let (mut q, mut v, t, inputs) = (old_q, old_v, next.t, self.inputs.into_array());
-        let (mut health, mut steps) = (next.t, self.steps);
+        let (mut q, mut v, mut t) = (self.q, self.v, self.t);
+        let (mut health, mut steps) = (t, self.steps);
         for lane in 0..N {
-            let here = State { t: Straight(t.0[lane]), q: take(&old_q, lane), v: take(&old_v, lane) };
-            let inputs = take(&inputs, lane);
+            let here = State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) };
+            let inputs = take(&self.inputs, lane);
             let gains = Gains {
                 minus_two_alpha: Straight(self.gains.minus_two_alpha.0[lane]),
                 minus_beta_squared: Straight(self.gains.minus_beta_squared.0[lane]),
@@ -139,29 +142,20 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
             let sum = growth + (trouble_of(trial.next.q) + trouble_of(trial.next.v));
             put(&mut q, lane, trial.next.q);
             put(&mut v, lane, trial.next.v);
-            next.t.0[lane] = t_next.0;
+            t.0[lane] = t_next.0;
             steps.0[lane] = taken;
             health.0[lane] = sum.0;
         }
-        (next.q, next.v) = (Components::from_array(q), Components::from_array(v));
         if health < growth_limit() {
-            (self.state, self.steps) = (next, steps);
+            (self.t, self.q, self.v, self.steps) = (t, q, v, steps);
             return [true; N];
         }
         let healthy = health.test(growth_limit(), |health, limit| health < limit);
-        self.keep(healthy, &next, steps);
+        self.t = t.select(healthy, self.t);
+        self.steps = steps.select(healthy, self.steps);
+        keep(&mut self.q, &q, healthy);
+        keep(&mut self.v, &v, healthy);
         healthy
-    }
-
-    /// Takes over what the lanes of a mask have computed.
-    #[cold]
-    fn keep(&mut self, mask: [bool; N], next: &State<ManyCoordinates<M, N>>, steps: Lanes<f64, N>) {
-        self.state = State {
-            t: next.t.select(mask, self.state.t),
-            q: next.q.zip_map(self.state.q, |new, old| new.select(mask, old)),
-            v: next.v.zip_map(self.state.v, |new, old| new.select(mask, old)),
-        };
-        self.steps = steps.select(mask, self.steps);
     }
 
     /// A single lane is its simulation, with all that a scalar can compute.
@@ -169,7 +163,9 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         let mut simulation = self.simulation(0);
         let healthy = simulation.step().is_ok();
         let State { t, q, v } = *simulation.state();
-        self.state = State { t: Lanes([t; N]), q: pack(|_| q), v: pack(|_| v) };
+        self.t = Lanes([t; N]);
+        self.q = pack::<ManyCoordinates<M, N>, _, _, N>(|_| q).into_array();
+        self.v = pack::<ManyCoordinates<M, N>, _, _, N>(|_| v).into_array();
         self.steps = Lanes([simulation.steps() as f64; N]);
         [healthy; N]
     }
@@ -177,15 +173,20 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
     pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
         let lane = lane.min(N - 1);
-        let state =
-            State { t: self.state.t.0[lane], q: unpack(self.state.q, lane), v: unpack(self.state.v, lane) };
+        let State { t, q, v } = self.snapshot().state;
+        let state = State { t: t.0[lane], q: unpack(q, lane), v: unpack(v, lane) };
         self.members[lane].moved_to(state, self.steps.0[lane] as u64)
     }
 
     /// What can be observed of all lanes.
     #[inline(always)]
     pub fn snapshot(&self) -> Snapshot<'_, M, N> {
-        Snapshot { mechanism: &self.mechanism, state: &self.state, inputs: &self.inputs }
+        let (q, v) = (Components::from_array(self.q), Components::from_array(self.v));
+        Snapshot {
+            mechanism: &self.mechanism,
+            state: State { t: self.t, q, v },
+            inputs: Components::from_array(self.inputs),
+        }
     }
 }
 
@@ -195,9 +196,9 @@ pub struct Snapshot<'a, M: Mechanism<Real: Lane>, const N: usize> {
     /// The mechanism.
     pub mechanism: &'a Many<M, N>,
     /// Time, positions and velocities.
-    pub state: &'a State<ManyCoordinates<M, N>>,
+    pub state: State<ManyCoordinates<M, N>>,
     /// The inputs.
-    pub inputs: &'a <Many<M, N> as Mechanism>::Inputs,
+    pub inputs: <Many<M, N> as Mechanism>::Inputs,
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
@@ -210,17 +211,17 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
     /// Constraint violations in velocities ‖Φ̇‖.
     #[inline(always)]
     pub fn velocity_violation(&self) -> Lanes<M::Real, N> {
-        self.mechanism.phi_dot(self.state).norm()
+        self.mechanism.phi_dot(&self.state).norm()
     }
 
     /// The declared outputs, and the lanes in which the position has any.
     #[inline(always)]
     pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
-        let reactions = self.mechanism.reactions(self.state, self.inputs, &none);
+        let reactions = self.mechanism.reactions(&self.state, &self.inputs, &none);
         let health = reactions.growth + trouble_of(reactions.acceleration);
         let healthy = health.test(growth_limit(), |health, limit| health < limit);
-        (self.mechanism.outputs(self.state, self.inputs, &reactions), healthy)
+        (self.mechanism.outputs(&self.state, &self.inputs, &reactions), healthy)
     }
 }
 
@@ -258,6 +259,18 @@ where
         }
     }
     C::from_array(packed)
+}
+
+/// Takes over what the lanes of a mask have computed.
+#[cold]
+fn keep<T: Lane, const N: usize>(
+    old: &mut impl AsMut<[Lanes<T, N>]>,
+    new: &impl AsRef<[Lanes<T, N>]>,
+    mask: [bool; N],
+) {
+    for (old, new) in old.as_mut().iter_mut().zip(new.as_ref()) {
+        *old = new.select(mask, *old);
+    }
 }
 
 /// The components of one lane, for a loop over lanes.
