@@ -10,7 +10,8 @@ use crate::spline::Spline;
 /// Implemented for `f32` and `f64`. With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
-/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place.
+/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place up to
+/// 10³ rad, and within 2.5 beyond.
 pub trait Real:
     Copy
     + Debug

@@ -183,8 +183,8 @@ enum Stop<const N: usize> {
 /// AVX-512 comes as a processor of any server has it, and without fused operations,
 /// which nobody writes here: results do not depend on the target.
 #[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512cd+avx512bw+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2",
+    "x86_64+avx+avx2+fma+avx512f+avx512dq+avx512vl+avx512bw+avx512cd",
+    "x86_64+avx+avx2+fma",
 ))]
 fn advance<M, F, O, const N: usize>(
     pack: &mut Pack<M, F, N>,

@@ -145,8 +145,8 @@ impl Hand {
 
 /// Steps of eight slider-cranks, compiled for the same targets as an ensemble's.
 #[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512cd+avx512bw+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2",
+    "x86_64+avx+avx2+fma+avx512f+avx512dq+avx512vl+avx512bw+avx512cd",
+    "x86_64+avx+avx2+fma",
 ))]
 pub fn advance<const DRIVEN: bool>(hand: &Hand, q: &mut Seven, v: &mut Seven, h: f64, steps: u64) {
     let (mut q1, mut v1) = (*q, *v);
