@@ -229,6 +229,7 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
 #[inline(always)]
 fn trouble_of<C: Components>(components: C) -> C::Real {
     let mut sum = C::Real::default();
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is not 0")]
     for x in components.into_array().as_ref() {
         sum = sum + (*x - *x);
     }

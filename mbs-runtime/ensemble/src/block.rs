@@ -1,4 +1,6 @@
 //! One block: as many members as there are lanes.
+#![allow(clippy::needless_range_loop, reason = "lanes are counted through several arrays")]
+#![allow(clippy::type_complexity, reason = "an outcome per lane, where there is one, unless cancelled")]
 
 use std::ops::Range;
 

@@ -68,7 +68,7 @@ fn update<T: Lane, C: Components<Real = Lanes<T, N>>, const N: usize>(
     for ((best, time), &value) in
         bests.as_mut().iter_mut().zip(times.as_mut()).zip(values.into_array().as_ref())
     {
-        let is_new = value.test(*best, |new, old| beats(new, old) | !(old == old));
+        let is_new = value.test(*best, |new, old| beats(new, old) | old.partial_cmp(&old).is_none());
         let is_new = and(is_new, counts);
         *best = value.select(is_new, *best);
         *time = t.select(is_new, *time);

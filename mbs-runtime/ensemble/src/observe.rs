@@ -23,7 +23,7 @@ use mbs_runtime::lanes::{Lane, Snapshot, and};
 /// #         body bob (x, y) { mass = 2 [kg]; }
 /// #         constraint rod: x^2 + y^2 = length^2;
 /// #         start { x = length; guess y = 0; }
-/// #         output tension [N] = lambda(rod)*sqrt(x^2 + y^2)/length;
+/// #         output tension [N] = 2*lambda(rod)*sqrt(x^2 + y^2);
 /// #     }
 /// # }
 ///
