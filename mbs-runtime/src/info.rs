@@ -8,7 +8,7 @@ pub struct Info {
     pub name: &'static str,
     /// The doc comment, without leading spaces.
     pub doc: &'static str,
-    /// Coordinates minus constraints.
+    /// Coordinates minus independent constraints.
     pub dof: i32,
     /// The parameters; `default` is the declared value.
     pub parameters: &'static [Quantity],
@@ -20,6 +20,9 @@ pub struct Info {
     pub outputs: &'static [Quantity],
     /// The constraints, drives included, in the order of λ.
     pub constraints: &'static [Constraint],
+    /// Which constraints repeat others, as indices: they are not solved for, but
+    /// met with the others.
+    pub redundant: &'static [usize],
     /// The pivots that can vanish.
     pub pivots: &'static [Pivot],
     /// The pivots of the corrections of a start that can vanish.
@@ -126,6 +129,7 @@ impl Info {
         coordinates: &'static [Quantity],
         outputs: &'static [Quantity],
         constraints: &'static [Constraint],
+        redundant: &'static [usize],
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
         functions: &'static [Function],
@@ -139,6 +143,7 @@ impl Info {
             coordinates,
             outputs,
             constraints,
+            redundant,
             pivots,
             start_pivots,
             functions,

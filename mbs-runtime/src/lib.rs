@@ -98,6 +98,7 @@ mod pack;
 mod real;
 mod simulation;
 mod sincos;
+pub mod sketch;
 mod spline;
 pub mod start;
 mod straight;
@@ -114,6 +115,7 @@ pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, Stat
 pub use pack::Pack;
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
+pub use sketch::Sketch;
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]

@@ -1,6 +1,6 @@
 //! What a generated mechanism offers to integrators and tools.
 
-use crate::{Components, Derivation, Error, Info, Real};
+use crate::{Components, Derivation, Error, Info, Real, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,12 +85,18 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Constraints: Components<Real = Self::Real>;
     /// The declared outputs.
     type Outputs: Components<Real = Self::Real>;
+    /// An array of places (x, y), one per point of the sketch.
+    type Points: Copy + AsRef<[[Self::Real; 2]]>;
 
     /// Names, units, equations and operation counts.
     const INFO: &'static Info;
 
     /// The equations and their elimination, for people to read.
     const DERIVATION: &'static Derivation;
+
+    /// What a picture of it shows. Apart from [`INFO`](Self::INFO), so that a
+    /// program without pictures does not carry it.
+    const SKETCH: &'static Sketch;
 
     /// The mechanism with these parameters.
     ///
@@ -176,6 +182,10 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         inputs: &Self::Inputs,
         reactions: &Reactions<Self::Coordinates, Self::Constraints>,
     ) -> Self::Outputs;
+
+    /// Where every point of the [sketch](Self::SKETCH) is, in m in the ground
+    /// frame. For pictures: nothing of it takes part in a step.
+    fn points(&self, t: Self::Real, q: &Self::Coordinates) -> Self::Points;
 }
 
 /// The pivot growth from which on a position counts as singular: 1/(1024 ε),

@@ -46,7 +46,9 @@ pub fn assemble<M: Mechanism>(
 
         let rounding = M::Real::from_f64(4.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
         if delta.largest().1 <= rounding {
-            return Ok(q.zip_map(delta, |q, d| q + d));
+            let q = q.zip_map(delta, |q, d| q + d);
+            check_redundant(mechanism, t, &q)?;
+            return Ok(q);
         }
         let (next, next_phi) = damped(mechanism, t, &q, &delta, phi.norm());
         (q, phi) = (next, next_phi);
@@ -56,9 +58,29 @@ pub fn assemble<M: Mechanism>(
     // Newton may circle at rounding level, where Φ itself is at rounding.
     let rounding = M::Real::from_f64(64.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
     if violation <= rounding {
+        check_redundant(mechanism, t, &q)?;
         return Ok(q);
     }
     Err(Error::NotAssembled { t: t.to_f64(), constraint, violation: violation.to_f64() })
+}
+
+/// Redundant constraints take no part in the corrections: with parameters for
+/// which they do not fit, they stay violated.
+fn check_redundant<M: Mechanism>(mechanism: &M, t: M::Real, q: &M::Coordinates) -> Result<(), Error> {
+    if M::INFO.redundant.is_empty() {
+        return Ok(());
+    }
+    let phi = mechanism.phi(t, q).into_array();
+    // Half the digits: far above the rounding of any assembly.
+    let limit = M::Real::EPSILON.sqrt() * (M::Real::from_f64(1.0) + q.largest().1);
+    for &row in M::INFO.redundant {
+        let violation = phi.as_ref().get(row).map_or(M::Real::default(), |x| x.abs());
+        if violation > limit {
+            let constraint = M::Constraints::NAMES.get(row).copied().unwrap_or("");
+            return Err(Error::NotAssembled { t: t.to_f64(), constraint, violation: violation.to_f64() });
+        }
+    }
+    Ok(())
 }
 
 /// q + δ, or the longest halved step that does not enlarge ‖Φ‖.

@@ -7,19 +7,25 @@
 //! | [`SliderCrankFree`] | 1 | an `input` set by the embedding program |
 //! | [`Pendulum`] | 1 | Cartesian coordinates, a reaction as output |
 //! | [`DoublePendulum`] | 2 | a chain of rods, normal modes |
+//! | [`NPendulum1`], 2, 10, 40 | N | a chain by `for`, one text for every N |
 //! | [`CartPendulum`] | 2 | a plant for controllers |
 //! | [`SpringMassDamper`] | 1 | a spring with damping, no constraint |
 //! | [`Metronome`] | 1 | a torsion spring, a fixed joint |
+//! | [`BlockOnIncline`] | 1 | dry friction that follows a reaction |
 //! | [`FourBar`] | 0 | coupler curve, transmission angle, bearing forces |
 //! | [`FourBarFree`] | 1 | a closed loop that keeps its energy |
+//! | [`NFourBar1`], 2, 10, 40 | 1 | N loops, change points |
 //! | [`QuickReturn`] | 0 | a pin in a slot, unequal strokes |
 //! | [`ScotchYoke`] | 0 | harmonic motion |
 //! | [`GenevaPinSlot`] | 0 | intermittent motion, its driven phase |
+//! | [`CamFollower`] | 0 | a profile, contact force, lift-off |
 //! | [`TogglePress`] | 0 | a drive on a point, force amplification |
 //! | [`VEngine`] | 0 | two loops on one crank pin |
 //! | [`Excavator`] | 0 | hydraulic cylinders as drives of distances |
 //! | [`Tipper`] | 0 | a prismatic joint between moving bodies, as in a cylinder |
 //! | [`AndrewsSqueezer`] | 1 | the test problem of seven bodies |
+//! | [`PlanetaryGear`] | 1 | gears on a carrier, tooth forces |
+//! | [`GearedMotor`] | 1 | a torque–speed line, a pair of gears |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -27,6 +33,7 @@
 //! | [`TrammelOfArchimedes`] | 0 | ellipse |
 //! | [`Pantograph`] | 0 | scaling, two drives |
 //! | [`Jansen`] | 0 | walking, bars as distances |
+//! | [`JansenWalker`] | 0 | an assembly, three times |
 //! | [`Klann`] | 0 | walking, bars as distances |
 //!
 //! Each file states a reference result, which `tests/references` holds the
@@ -35,20 +42,27 @@
 //! that run.
 
 pub mod andrews_squeezer;
+pub mod block_on_incline;
+pub mod cam_follower;
 pub mod cart_pendulum;
 pub mod chebyshev;
 pub mod double_pendulum;
 pub mod excavator;
 pub mod four_bar;
 pub mod four_bar_free;
+pub mod geared_motor;
 pub mod geneva_pin_slot;
 pub mod hart_inversor;
 pub mod jansen;
+pub mod jansen_walker;
 pub mod klann;
 pub mod metronome;
+pub mod n_four_bar;
+pub mod n_pendulum;
 pub mod pantograph;
 pub mod peaucellier;
 pub mod pendulum;
+pub mod planetary_gear;
 pub mod quick_return;
 pub mod scotch_yoke;
 pub mod slider_crank;
@@ -61,20 +75,33 @@ pub mod v_engine;
 pub mod watt_linkage;
 
 pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueezerParameters};
+pub use block_on_incline::{BlockOnIncline, BlockOnInclineInputs, BlockOnInclineParameters};
+pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
 pub use four_bar::{FourBar, FourBarParameters};
 pub use four_bar_free::{FourBarFree, FourBarFreeInputs, FourBarFreeParameters};
+pub use geared_motor::{GearedMotor, GearedMotorInputs, GearedMotorParameters};
 pub use geneva_pin_slot::{GenevaPinSlot, GenevaPinSlotParameters};
 pub use hart_inversor::{HartInversor, HartInversorParameters};
 pub use jansen::{Jansen, JansenInputs, JansenParameters};
+pub use jansen_walker::{JansenWalker, JansenWalkerParameters};
 pub use klann::{Klann, KlannInputs, KlannParameters};
 pub use metronome::{Metronome, MetronomeParameters};
+pub use n_four_bar::{
+    NFourBar1, NFourBar1Parameters, NFourBar2, NFourBar2Parameters, NFourBar10, NFourBar10Parameters,
+    NFourBar40, NFourBar40Parameters,
+};
+pub use n_pendulum::{
+    NPendulum1, NPendulum1Parameters, NPendulum2, NPendulum2Parameters, NPendulum10, NPendulum10Parameters,
+    NPendulum40, NPendulum40Parameters,
+};
 pub use pantograph::{Pantograph, PantographParameters};
 pub use peaucellier::{Peaucellier, PeaucellierParameters};
 pub use pendulum::Pendulum;
+pub use planetary_gear::{PlanetaryGear, PlanetaryGearInputs, PlanetaryGearParameters};
 pub use quick_return::{QuickReturn, QuickReturnInputs, QuickReturnParameters};
 pub use scotch_yoke::{ScotchYoke, ScotchYokeInputs, ScotchYokeParameters};
 pub use slider_crank::{SliderCrank, SliderCrankParameters};

@@ -42,6 +42,11 @@ mechanism! {
         body crank  (x1, y1, theta1) { mass = m1; inertia = inertia_factor*m1*l1^2; }
         body rod    (x2, y2, theta2) { mass = m2; inertia = inertia_factor*m2*l2^2; }
         body slider (x3)             { mass = m3; }
+        // for pictures
+        point base on crank = (-l1/2, 0);
+        point tip on crank = (l1/2, 0);
+        point base on rod = (-l2/2, 0);
+        point tip on rod = (l2/2, 0);
 
         torque motor on crank = crank_torque;
 

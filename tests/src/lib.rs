@@ -1,7 +1,8 @@
 //! Shared pieces of the cross-checks: the slider-crank written out by hand,
-//! numbers that carry derivatives, random states.
+//! numbers that carry derivatives, random states, random declarations.
 
 pub mod by_hand;
+pub mod fuzzing;
 pub mod jet;
 pub mod operators;
 pub mod random;

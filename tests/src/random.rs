@@ -16,6 +16,21 @@ impl Random {
         z ^ (z >> 31)
     }
 
+    /// A whole number from 0 up to and without `limit`; 0 if there is none.
+    pub fn below(&mut self, limit: usize) -> usize {
+        (self.next() % (limit as u64).max(1)) as usize
+    }
+
+    /// True once in `times`.
+    pub fn once_in(&mut self, times: usize) -> bool {
+        self.below(times) == 0
+    }
+
+    /// One of `choices`, which are not empty.
+    pub fn of<'a, T>(&mut self, choices: &'a [T]) -> &'a T {
+        &choices[self.below(choices.len())]
+    }
+
     /// Uniform in `low … high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)

@@ -1,5 +1,6 @@
 //! Loops, conditions on whole numbers and assemblies are a way of writing: what
 //! they give is what would be written out.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{Components, Mechanism, Simulation, mechanism};
 

@@ -1,5 +1,5 @@
 //! Not one allocation in 10⁶ steps: driven and free, with both kinds of
-//! feedback, with reactions and outputs, and on the way into an error.
+//! feedback, with reactions, outputs and points, and on the way into an error.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -83,6 +83,7 @@ fn reactions_and_outputs_do_not_allocate() {
                     simulation.raw_reactions(),
                     simulation.outputs(),
                     simulation.energy(),
+                    simulation.mechanism().points(simulation.time(), &simulation.state().q),
                 );
                 let _ = std::hint::black_box(values);
             }

@@ -209,12 +209,14 @@ fn laws_have_their_end_conditions() -> Result<(), Error> {
     }
     assert_eq!(laws_at(3.0)?[2], [0.0; 5]);
     // just inside, the cycloid and the polynomial start and end without a jump:
-    // their third derivatives are 4π² and 60
+    // their third derivatives are 4π² and 60; at the end the polynomial's terms,
+    // up to 60 in its slope and 180 in the next, cancel but for their rounding
     let inside = 1e-6;
+    let rounding = 2.0 * f64::EPSILON;
     for t in [1.0 + 2.0 * inside, 3.0 - 2.0 * inside] {
         let [_, v, a] = laws_at(t)?;
-        assert!(a[..2].iter().all(|a| a.abs() < 0.025 * 60.0 * inside), "{a:?}");
-        assert!(v[..2].iter().all(|v| v.abs() < 0.05 * 30.0 * inside * inside), "{v:?}");
+        assert!(a[..2].iter().all(|a| a.abs() < 0.025 * (60.0 * inside + 180.0 * rounding)), "{a:?}");
+        assert!(v[..2].iter().all(|v| v.abs() < 0.05 * (30.0 * inside * inside + 60.0 * rounding)), "{v:?}");
         // the trapezoid is at its full deceleration on its way out
         let sign = if t < 2.0 { 1.0 } else { -1.0 };
         assert!((a[3] - sign * 0.025 * 16.0 / 3.0).abs() < 1e-14, "{a:?}");

@@ -46,9 +46,11 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let mut model = model::resolve(&declaration)?;
     let equations = derive::derive(&mut model);
     let samples = verify::Samples::new(&model);
-    verify::check_equations(&model, &equations, &samples)?;
-    let plan =
-        plan::plan(&mut model, &equations, &samples).map_err(|error| verify::unsolvable(&model, &error))?;
+    let rows = verify::check_equations(&model, &equations, &samples)?;
+    let plan = plan::plan(&mut model, &equations, &rows, &samples)
+        .map_err(|error| verify::unsolvable(&model, &error))?;
     verify::check_closure(&model, &plan)?;
+    verify::check_limit(&model, &plan)?;
+    verify::check_programs(&model, &equations, &plan, &samples)?;
     Ok(emit::emit(&model, &equations, &plan))
 }

@@ -1,6 +1,8 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
+mod minimum_norm;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
@@ -11,17 +13,18 @@ use mbs_symbolic::{
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::reactive::{self, Circular, Forces};
-use crate::verify::Samples;
+use crate::verify::{Rows, Samples};
 
 /// More unknowns than this, and only the order that keeps matrices sparse is
 /// tried.
-const LARGEST_NULL_SPACE: usize = 64;
+const LARGEST_NULL_SPACE: usize = 160;
 
 /// The programs of all generated functions.
 pub struct Plan {
     pub strategy: Strategy,
     /// The steps of the elimination, in order.
     pub order: Vec<Elimination>,
+    pub rows: Rows,
     /// What depends on parameters alone, as formulas.
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
@@ -58,18 +61,31 @@ pub struct Plan {
     /// The same of the corrections of a start.
     pub start_pivots: Program,
     pub outputs: Program,
+    /// x and y of every point of the sketch.
+    pub points: Program,
     /// (constraint, coordinate) of every watched pivot.
     pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
 }
 
+impl Plan {
+    /// What one evaluation of a step's right-hand side takes, the watch over the
+    /// pivots included.
+    pub fn operations(&self) -> u32 {
+        self.stabilized.operations().total()
+    }
+}
+
 /// Why there is no plan.
+#[derive(Debug)]
 pub enum Unsolvable {
     /// Unknowns that no pivot determines; `verify` has already seen to it that
     /// there are none where the constraints are independent.
     Unknowns(Undetermined),
     /// A load that is undetermined by the reactions on which it depends.
     Load(Circular),
+    /// A load that depends on reactions which redundant constraints share.
+    Shared,
 }
 
 impl From<Undetermined> for Unsolvable {
@@ -84,15 +100,25 @@ impl From<Circular> for Unsolvable {
     }
 }
 
-/// Plans all functions.
+/// Plans all functions. The accelerations and corrections are solved for with
+/// the independent constraints; the redundant ones have their share of the
+/// multipliers.
 ///
 /// # Errors
 /// What the equations of motion leave open.
-pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Plan, Unsolvable> {
+pub fn plan(
+    model: &mut Model,
+    equations: &Equations,
+    rows: &Rows,
+    samples: &Samples,
+) -> Result<Plan, Unsolvable> {
+    if rows.basis.len() < equations.phi.len() && !model.reactive_loads.is_empty() {
+        return Err(Unsolvable::Shared);
+    }
     label(model, equations);
-    let Solver { strategy, factorization, forces, .. } = cheapest(model, equations, samples)?;
-    let (positions, mut start_pivots) = correction(model, equations, strategy, samples, false)?;
-    let (velocities, more) = correction(model, equations, strategy, samples, true)?;
+    let Solver { strategy, factorization, forces, .. } = cheapest(model, equations, rows, samples)?;
+    let (positions, mut start_pivots) = correction(model, equations, rows, strategy, samples, false)?;
+    let (velocities, more) = correction(model, equations, rows, strategy, samples, true)?;
     start_pivots.extend(
         more.into_iter()
             .filter(|new| start_pivots.iter().all(|old| old.growth != new.growth))
@@ -112,8 +138,8 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         .zip(&equations.feedback)
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
-    let stabilized = stabilized(model, equations, &forces, &factorization);
-    let (constrained, reactions) = with_given_feedback(model, equations, &forces, &factorization);
+    let stabilized = stabilized(model, equations, rows, &forces, &factorization);
+    let (constrained, reactions) = with_given_feedback(model, equations, rows, &forces, &factorization);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -122,6 +148,7 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
     let plan = Plan {
         strategy,
         order: factorization.order.clone(),
+        rows: rows.clone(),
         phi: program(&equations.phi),
         phi_dot: program(&equations.phi_dot),
         phi_q: program(&dense),
@@ -144,16 +171,20 @@ pub fn plan(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         prepare: Program::default(),
         requirements: Program::default(),
         start: Program::default(),
+        points: Program::default(),
         pivot_names: names(&factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
     let requirements = requirements(model, equations);
     let start = declared_start(model);
+    let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
         prepare: lower_whole(&mut model.arena, hoisted.values()),
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements),
         start: lower_whole(&mut model.arena, &start),
+        // Pictures are no reason to carry more hoisted values through a step.
+        points: lower_whole(&mut model.arena, &points),
         ..plan
     })
 }
@@ -177,7 +208,7 @@ fn label(model: &mut Model, equations: &Equations) {
 }
 
 /// The constrained system with the coordinates in `held` left out.
-fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
+fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
     let mut kkt = Kkt::new();
     for (at, &mass) in equations.mass.iter().enumerate() {
         if held.contains(&at) {
@@ -190,9 +221,9 @@ fn system(model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> Kkt {
             kkt.mark_massive(at);
         }
     }
-    for (at, row) in equations.phi_q.iter().enumerate() {
+    for &at in &rows.basis {
         kkt.add_unknown(Unknown::Row(at));
-        for (&column, &entry) in row.iter().filter(|(column, _)| !held.contains(column)) {
+        for (&column, &entry) in equations.phi_q[at].iter().filter(|(column, _)| !held.contains(column)) {
             kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
         }
     }
@@ -209,8 +240,13 @@ struct Solver {
 }
 
 /// The elimination that costs least in the function that runs most.
-fn cheapest(model: &mut Model, equations: &Equations, samples: &Samples) -> Result<Solver, Unsolvable> {
-    let kkt = system(model, equations, &BTreeSet::new());
+fn cheapest(
+    model: &mut Model,
+    equations: &Equations,
+    rows: &Rows,
+    samples: &Samples,
+) -> Result<Solver, Unsolvable> {
+    let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<Solver> = None;
     for strategy in Strategy::ALL {
@@ -220,7 +256,7 @@ fn cheapest(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
         let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
         let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
         let forces = reactive::forces(model, equations, &factorization)?;
-        let roots = stabilized(model, equations, &forces, &factorization);
+        let roots = stabilized(model, equations, rows, &forces, &factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|best| cost < best.cost) {
@@ -234,6 +270,7 @@ fn cheapest(model: &mut Model, equations: &Equations, samples: &Samples) -> Resu
 fn stabilized(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     forces: &Forces,
     factorization: &Factorization,
 ) -> Vec<Expr> {
@@ -243,8 +280,8 @@ fn stabilized(
     for (at, &force) in forces.values.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
-    for (at, (&gamma, &feedback)) in equations.gamma.iter().zip(&feedback).enumerate() {
-        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+    for &at in &rows.basis {
+        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots = accelerations(model, &solution);
@@ -263,6 +300,7 @@ fn growth(model: &mut Model, forces: &Forces, factorization: &Factorization) -> 
 fn with_given_feedback(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     forces: &Forces,
     factorization: &Factorization,
 ) -> (Vec<Expr>, Vec<Expr>) {
@@ -270,17 +308,17 @@ fn with_given_feedback(
     for (at, &force) in forces.values.iter().enumerate() {
         rhs.insert(Unknown::Coordinate(at), force);
     }
-    for (at, &gamma) in equations.gamma.iter().enumerate() {
+    for &at in &rows.basis {
         let feedback = model.arena.variable(model.symbols.feedback[at]);
-        rhs.insert(Unknown::Row(at), model.arena.add(gamma, feedback));
+        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let growth = growth(model, forces, factorization);
     let mut constrained = accelerations(model, &solution);
     let mut reactions = constrained.clone();
     constrained.push(growth);
-    for (at, constraint) in model.constraints.iter().enumerate() {
-        let multiplier = solution.get(&Unknown::Row(at)).copied().unwrap_or(model.arena.zero());
+    let multipliers = minimum_norm::multipliers(&mut model.arena, equations, rows, factorization, &solution);
+    for (constraint, multiplier) in model.constraints.iter().zip(multipliers) {
         model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
         reactions.push(multiplier);
     }
@@ -303,17 +341,26 @@ fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<E
 fn correction(
     model: &mut Model,
     equations: &Equations,
+    rows: &Rows,
     strategy: Strategy,
     samples: &Samples,
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
-    let held = held(model, equations, samples, of_velocities);
-    let kkt = system(model, equations, &held);
+    let held = held(model, equations, rows, samples, of_velocities);
     let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
-    let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
+    let kkt = system(model, equations, rows, &held);
+    let factorization = match factor(&mut model.arena, &kkt, strategy, &magnitude) {
+        // The rank with these coordinates held was misjudged: scales are too far
+        // apart. Without holding any there is a correction.
+        Err(_) if !held.is_empty() => {
+            let kkt = system(model, equations, rows, &BTreeSet::new());
+            factor(&mut model.arena, &kkt, strategy, &magnitude)?
+        }
+        result => result?,
+    };
     let mut rhs = BTreeMap::new();
-    for (at, &residual) in model.symbols.feedback.iter().enumerate() {
-        rhs.insert(Unknown::Row(at), model.arena.variable(residual));
+    for &at in &rows.basis {
+        rhs.insert(Unknown::Row(at), model.arena.variable(model.symbols.feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots: Vec<Expr> = (0..model.coordinates.len())
@@ -327,15 +374,21 @@ fn correction(
 /// as long as the constraints can be met by moving the others. Judged at the
 /// declared start, where x² + y² = l² cannot be met by moving y if y = 0; or,
 /// should the start be singular as it is declared, at random positions.
-fn held(model: &Model, equations: &Equations, samples: &Samples, of_velocities: bool) -> BTreeSet<usize> {
-    let nothing = BTreeSet::new();
-    let generic = samples.rank(model, equations, &nothing);
-    let is_regular = samples.rank_at_start(model, equations, &nothing) == generic;
+fn held(
+    model: &Model,
+    equations: &Equations,
+    rows: &Rows,
+    samples: &Samples,
+    of_velocities: bool,
+) -> BTreeSet<usize> {
+    let (nothing, rows) = (BTreeSet::new(), &rows.basis);
+    let generic = samples.rank(model, equations, rows, &nothing);
+    let is_regular = samples.rank_at_start(model, equations, rows, &nothing) == generic;
     let rank = |held: &BTreeSet<usize>| {
         if is_regular {
-            samples.rank_at_start(model, equations, held)
+            samples.rank_at_start(model, equations, rows, held)
         } else {
-            samples.rank(model, equations, held)
+            samples.rank(model, equations, rows, held)
         }
     };
     let mut held = nothing;

@@ -8,7 +8,8 @@
 //!   [`Settings`] and gives a [`Recording`].
 //! - [`quantity`] reads values with units; [`Table`] and [`number`] print them.
 //! - [`sweep`] runs a computation over a grid on all cores.
-//! - [`figure`] draws curves and heat maps to SVG and PNG; [`report`] makes one
+//! - [`picture`] finds what a mechanism looks like from its sketch and a run.
+//! - [`figure`] draws curves, heat maps and mechanisms to SVG and PNG; [`report`] makes one
 //!   offline HTML page of figures, tables and moving pictures.
 //!
 //! # Example
@@ -44,6 +45,7 @@ pub mod figure;
 pub mod model;
 mod names;
 pub mod number;
+pub mod picture;
 pub mod quantity;
 mod recording;
 pub mod report;
@@ -55,6 +57,7 @@ pub use app::{App, Models, app};
 pub use console::say;
 pub use error::Error;
 pub use model::Model;
+pub use picture::{Motion, Picture};
 pub use recording::{Column, Recording, Summary, write_csv};
 pub use settings::{FeedbackKind, Settings, StartKind};
 pub use table::Table;

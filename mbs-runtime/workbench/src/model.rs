@@ -9,7 +9,7 @@ use mbs_runtime::{
 
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
-use crate::{Error, quantity};
+use crate::{Error, Motion, picture, quantity};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;
@@ -37,6 +37,13 @@ pub trait Model: Send + Sync {
     /// # Errors
     /// Settings that the mechanism does not have or refuses.
     fn simulate(&self, settings: &Settings, progress: &mut dyn FnMut(u64, u64)) -> Result<Recording, Error>;
+
+    /// Where the points of the mechanism were during a run with these settings,
+    /// at some of the recorded instants.
+    ///
+    /// # Errors
+    /// Settings that the mechanism does not have or refuses.
+    fn motion(&self, settings: &Settings, recording: &Recording) -> Result<Motion, Error>;
 }
 
 /// The mechanism `M` as a [`Model`].
@@ -73,6 +80,28 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
             FeedbackKind::Held => run::<M, Held>(settings, progress),
             FeedbackKind::PerStage => run::<M, PerStage>(settings, progress),
         }
+    }
+
+    fn motion(&self, settings: &Settings, recording: &Recording) -> Result<Motion, Error> {
+        let parameters = assign("parameter", M::Parameters::default(), &settings.parameters)?;
+        let mechanism = M::new(parameters)?;
+        let mut columns = recording.columns.iter().map(|column| column.values.as_slice());
+        let time = columns.next().unwrap_or_default();
+        let coordinates: Vec<&[f64]> = columns.take(recording.coordinates).collect();
+        let mut motion = Motion { sketch: M::SKETCH, times: Vec::new(), places: Vec::new() };
+        for row in picture::kept(time.len(), M::SKETCH.points.len()) {
+            let mut q = M::Coordinates::splat(f64::NAN).into_array();
+            for (value, column) in q.as_mut().iter_mut().zip(&coordinates) {
+                *value = column.get(row).copied().unwrap_or(f64::NAN);
+            }
+            let t = time.get(row).copied().unwrap_or(f64::NAN);
+            let places = mechanism.points(t, &M::Coordinates::from_array(q)).as_ref().to_vec();
+            if places.iter().flatten().all(|x| x.is_finite()) {
+                motion.times.push(t);
+                motion.places.push(places);
+            }
+        }
+        Ok(motion)
     }
 }
 

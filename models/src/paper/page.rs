@@ -1,6 +1,7 @@
 //! The report of the reproduction: `index.html`.
 
 use mbs_workbench::Table;
+use mbs_workbench::picture::{self, Shape};
 use mbs_workbench::report::{Animation, Block, Readout, Report, Section};
 
 use super::figures::Picture;
@@ -97,21 +98,39 @@ fn animation(title: &str, run: &Trace) -> Animation {
     let place = |&k: &usize| {
         let [a, b] = ends(x1[k], y1[k], theta1[k], p.l1);
         let [c, d] = ends(x2[k], y2[k], theta2[k], p.l2);
-        vec![[0.0, 0.0], a, b, c, d, [x3[k], 0.0], [x2[k], y2[k]]]
+        vec![[0.0, 0.0], a, b, c, d, [x3[k], 0.0], [x2[k], y2[k]], [1.0, 0.0]]
     };
     let readout = |name: &str, unit: &str, values: &[f64]| Readout {
         name: name.into(),
         unit: unit.into(),
         values: frames.iter().map(|&k| values[k]).collect(),
     };
+    let bar = |between: [usize; 2], colour| Shape::Bar { between, colour };
+    let label =
+        |text: &str, near: &[usize], colour| Shape::Label { text: text.into(), near: near.into(), colour };
+    let shapes = vec![
+        Shape::Rail { from: 0, ahead: 7, reach: [0.0, 1.15 * (p.l1 + p.l2)] },
+        Shape::Ground { at: 0 },
+        bar([1, 2], 0),
+        bar([3, 4], 1),
+        Shape::Block { at: 5, from: 0, ahead: 7, colour: 2 },
+        Shape::Pin { at: 1 },
+        Shape::Pin { at: 2 },
+        Shape::Pin { at: 3 },
+        Shape::Pin { at: 4 },
+        label("crank", &[1, 2], 0),
+        label("rod", &[3, 4], 1),
+        label("slider", &[5], 2),
+    ];
     Animation {
         title: title.into(),
-        times: frames.iter().map(|&k| run.t[k]).collect(),
-        points: frames.iter().map(place).collect(),
-        bars: vec![(1, 2), (3, 4)],
-        blocks: vec![5],
-        fixed: vec![0],
-        traced: vec![6],
+        picture: picture::Picture {
+            times: frames.iter().map(|&k| run.t[k]).collect(),
+            points: frames.iter().map(place).collect(),
+            shapes,
+            traced: vec![(6, 1)],
+            weight: 1.0,
+        },
         readouts: vec![
             readout("x₃", "m", x3),
             readout("drive torque", "N·m", &run.clean_torque),

@@ -33,14 +33,25 @@ pub fn reactions<M: Model>(case: &Case<M>) {
 
         let forces = mechanism.forces(at, inputs);
         let mut motion = Balance::default();
+        // accelerations by each force alone: where forces nearly cancel, and no
+        // γ is left beside, the accelerations have the rounding of these
+        let mut singly = vec![0.0; a.len()];
         for (i, row) in mechanism.mass(&at.q).iter().enumerate() {
             let inertia = row.iter().zip(a).map(|(m, a)| m * a);
             let reaction = jacobian.iter().zip(lambda).map(|(row, l)| row[i] * l);
+            if row[i] > 0.0 {
+                let sum: f64 = reaction.clone().map(f64::abs).sum();
+                singly[i] = (sum + forces[i].abs()) / row[i];
+            }
             motion.add(inertia.chain(reaction).chain([-forces[i]]));
         }
         let mut constraints = Balance::default();
         for (row, gamma) in jacobian.iter().zip(mechanism.gamma(at)) {
             constraints.add(row.iter().zip(a).map(|(j, a)| j * a).chain([-gamma]));
+            if gamma == 0.0 {
+                let size = row.iter().zip(&singly).map(|(j, a)| (j * a).abs()).sum();
+                constraints.size = constraints.size.max(size);
+            }
         }
         worst[0] = worst[0].max(motion.roundings());
         worst[1] = worst[1].max(constraints.roundings() / solved.growth.max(1.0));

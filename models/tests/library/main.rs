@@ -12,10 +12,11 @@ mod random;
 
 use mbs_runtime::{Components, Mechanism, State};
 use models::{
-    AndrewsSqueezer, CartPendulum, Chebyshev, DoublePendulum, Excavator, FourBar, FourBarFree, GenevaPinSlot,
-    HartInversor, Jansen, Klann, Metronome, Pantograph, Peaucellier, Pendulum, QuickReturn, ScotchYoke,
-    SliderCrank, SliderCrankFree, SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
-    WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DoublePendulum, Excavator,
+    FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
+    NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
+    Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree,
+    SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use crate::dual::Dual;
@@ -79,14 +80,30 @@ library! {
     SliderCrankFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta1;
     Pendulum: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DoublePendulum: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NPendulum1: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NPendulum2: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NPendulum10: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NPendulum40: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     CartPendulum: 0.5e-3, 10.0, [], |_, at, u| u.push*at.v.x;
     SpringMassDamper: 0.5e-3, 10.0, ["damping"], |p, at, u| (u.push - p.damping*at.v.x)*at.v.x;
     Metronome: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    BlockOnIncline: 0.5e-3, 10.0, ["coefficient"], |p, at, u| {
+        let (s, c) = p.slope.sin_cos();
+        let v = at.v.x*c + at.v.y*s;
+        (u.push - p.coefficient*p.mass*9.81*c*(v/p.transition).tanh())*v
+    };
     FourBar: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     FourBarFree: 0.5e-3, 10.0, [], |_, at, u| u.crank_torque*at.v.theta2;
+    NFourBar1: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NFourBar2: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NFourBar10: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    NFourBar40: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     QuickReturn: 0.5e-3, 10.0, [], |_, at, u| u.cutting_force*at.v.x3;
     ScotchYoke: 0.5e-3, 10.0, [], |_, at, u| -u.load*at.v.x;
     GenevaPinSlot: 0.5e-3, 10.0, [], |p, at, _| -p.friction*at.v.phi.powi(2);
+    // ten steps from point to point of its profile, so that the jumps of the
+    // spline's third derivative are not inside a step
+    CamFollower: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     TogglePress: 0.5e-3, 10.0, [], |_, at, u| u.work*at.v.y3;
     VEngine: 0.5e-3, 10.0, [], |p, at, u| {
         let (s, c) = (p.v_angle/2.0).sin_cos();
@@ -97,6 +114,10 @@ library! {
     };
     Tipper: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     AndrewsSqueezer: 1e-5, 1.0, [], |_, at, u| u.motor_torque*at.v.angle1;
+    PlanetaryGear: 0.5e-3, 10.0, [], |_, at, u| u.sun_torque*at.v.alpha + u.load*at.v.beta;
+    GearedMotor: 0.5e-3, 10.0, ["stall", "viscous"], |p, at, u| {
+        p.stall*(1.0 - at.v.phi1/p.no_load)*at.v.phi1 + (u.load - p.viscous*at.v.phi2)*at.v.phi2
+    };
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;
@@ -104,6 +125,7 @@ library! {
     TrammelOfArchimedes: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Pantograph: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Jansen: 0.5e-3, 10.0, [], |_, at, u| u.beach*at.v.yf;
+    JansenWalker: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Klann: 0.5e-3, 10.0, [], |_, at, u| u.support*at.v.yf;
 }
 
@@ -130,7 +152,15 @@ fn drift_falls_with_the_step() {
 /// A mechanism that is added to the library has to be added here.
 #[test]
 fn no_mechanism_is_left_out() {
+    let command = include_str!("../../src/main.rs");
+    let known: Vec<_> =
+        command.split("::<models::").skip(1).filter_map(|rest| rest.split('>').next()).collect();
+    assert_eq!(NAMES, known, "rows here, then the library of the command");
     let library = include_str!("../../src/lib.rs");
-    let mechanisms = library.lines().filter(|line| line.starts_with("pub mod ")).count();
-    assert_eq!(NAMES.len(), mechanisms, "{NAMES:?}");
+    for file in library.lines().filter_map(|line| line.strip_prefix("pub mod ")) {
+        let file = file.trim_end_matches(';').replace('_', "-");
+        let is_known =
+            command.contains(&format!("(\"{file}\"")) || command.contains(&format!("(\"{file}-1\""));
+        assert!(is_known, "the command does not know `{file}`");
+    }
 }

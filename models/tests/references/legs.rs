@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use models::{Jansen, Klann};
+use mbs_runtime::Kinematics;
+use models::{Jansen, JansenWalker, Klann};
 
 use crate::{EXACT, along, intersection, near};
 
@@ -80,6 +81,35 @@ fn klann_is_a_chain_of_circles() {
                     near(what, ours[axis], patent[axis], EXACT);
                 }
             }
+        }
+    });
+}
+
+#[test]
+fn walker_has_three_legs_out_of_phase() {
+    let walker = JansenWalker::declared();
+    let omega = walker.parameters().omega;
+    let mut legs = [0.0, 1.0, 2.0].map(|third| {
+        let mut leg = Kinematics::new(Jansen::declared()).unwrap();
+        let lead = third / 3.0 * TAU / omega;
+        // in steps, to stay on the branch
+        for k in 0..=100 {
+            leg.at(lead * f64::from(k) / 100.0).unwrap();
+        }
+        (lead, leg)
+    });
+    along(walker, Default::default(), TAU / omega, 360, |at| {
+        let q = at.motion.state.q;
+        let feet = [
+            (q.first_xf, q.first_yf, at.outputs.foot1),
+            (q.second_xf, q.second_yf, at.outputs.foot2),
+            (q.third_xf, q.third_yf, at.outputs.foot3),
+        ];
+        for ((lead, leg), (x, y, height)) in legs.iter_mut().zip(feet) {
+            let single = leg.at(at.t + *lead).unwrap().state.q;
+            near("x", x, single.xf, EXACT);
+            near("y", y, single.yf, EXACT);
+            near("output", height, single.yf, EXACT);
         }
     });
 }

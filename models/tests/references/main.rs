@@ -8,13 +8,17 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
+mod cams;
+mod chains;
 mod excavator;
 mod four_bars;
+mod friction;
 mod legs;
 mod paths;
 mod sliders;
 mod squeezer;
 mod swings;
+mod transmissions;
 
 use mbs_runtime::{Components, Kinematics, Mechanism, Motion};
 

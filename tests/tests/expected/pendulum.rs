@@ -361,6 +361,23 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         &self.parameters
     }
 }
+impl<T: ::mbs_runtime::Real> Pendulum<T> {
+    /// Operations of one evaluation of the right-hand side, the watch over
+    /// the pivots included; a step takes two, or less.
+    pub const OPERATIONS: ::core::primitive::u32 = 32u32;
+    /// The size of a state (time, positions, velocities) in bytes.
+    pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
+        ::mbs_runtime::State<PendulumCoordinates<T>>,
+    >();
+    /// A bound of the stack that a step takes, in bytes, in optimized code:
+    /// every value of both evaluations of the right-hand side once, eight
+    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    pub const STACK_BYTES: ::core::primitive::usize = 64usize
+        * ::core::mem::size_of::<T>()
+        + 8
+            * (Self::STATE_BYTES + ::core::mem::size_of::<PendulumConstraints<T>>()
+                + ::core::mem::size_of::<::mbs_runtime::NoComponents<T>>()) + 1024;
+}
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /**Constraints Φ(q, t): 0 where the mechanism is assembled.
@@ -585,6 +602,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Coordinates = PendulumCoordinates<T>;
     type Constraints = PendulumConstraints<T>;
     type Outputs = PendulumOutputs<T>;
+    type Points = [[T; 2]; 2];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "Pendulum",
         "A point mass on a massless rod.",
@@ -681,6 +699,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "",
@@ -1019,6 +1038,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
         ],
     };
+    const SKETCH: &'static ::mbs_runtime::Sketch = &::mbs_runtime::Sketch {
+        points: &["bob", "ground"],
+        bodies: &[
+            ::mbs_runtime::sketch::Body {
+                name: "bob",
+                points: &[0],
+            },
+        ],
+        ground: &[1],
+        joints: &[],
+        springs: &[],
+    };
     fn new(
         parameters: PendulumParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
@@ -1282,5 +1313,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             tension: v5,
             angle: v7,
         }
+    }
+    fn points(&self, t: T, q: &PendulumCoordinates<T>) -> [[T; 2]; 2] {
+        [[q.x, q.y], [T::from_f64(0.0), T::from_f64(0.0)]]
     }
 }

@@ -576,6 +576,23 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         &self.parameters
     }
 }
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    /// Operations of one evaluation of the right-hand side, the watch over
+    /// the pivots included; a step takes two, or less.
+    pub const OPERATIONS: ::core::primitive::u32 = 98u32;
+    /// The size of a state (time, positions, velocities) in bytes.
+    pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
+        ::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    >();
+    /// A bound of the stack that a step takes, in bytes, in optimized code:
+    /// every value of both evaluations of the right-hand side once, eight
+    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    pub const STACK_BYTES: ::core::primitive::usize = 200usize
+        * ::core::mem::size_of::<T>()
+        + 8
+            * (Self::STATE_BYTES + ::core::mem::size_of::<SliderCrankConstraints<T>>()
+                + ::core::mem::size_of::<::mbs_runtime::NoComponents<T>>()) + 1024;
+}
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /**Constraints Φ(q, t): 0 where the mechanism is assembled.
@@ -1150,6 +1167,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Coordinates = SliderCrankCoordinates<T>;
     type Constraints = SliderCrankConstraints<T>;
     type Outputs = SliderCrankOutputs<T>;
+    type Points = [[T; 2]; 9];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "SliderCrank",
         "Slider-crank driven at constant speed.",
@@ -1420,6 +1438,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 },
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "guide",
@@ -2067,6 +2086,44 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             },
         ],
     };
+    const SKETCH: &'static ::mbs_runtime::Sketch = &::mbs_runtime::Sketch {
+        points: &[
+            "crank",
+            "crank.base",
+            "crank.tip",
+            "rod",
+            "rod.base",
+            "rod.tip",
+            "slider",
+            "ground",
+            "slider.ahead",
+        ],
+        bodies: &[
+            ::mbs_runtime::sketch::Body {
+                name: "crank",
+                points: &[0, 1, 2],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "rod",
+                points: &[3, 4, 5],
+            },
+            ::mbs_runtime::sketch::Body {
+                name: "slider",
+                points: &[6],
+            },
+        ],
+        ground: &[7],
+        joints: &[
+            ::mbs_runtime::sketch::Joint {
+                name: "slider",
+                kind: "prismatic",
+                first: 6,
+                second: 7,
+                ahead: ::core::option::Option::Some(8),
+            },
+        ],
+        springs: &[],
+    };
     fn new(
         parameters: SliderCrankParameters<T>,
     ) -> ::core::result::Result<Self, ::mbs_runtime::Error> {
@@ -2566,5 +2623,34 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         SliderCrankOutputs {
             drive_torque: v0,
         }
+    }
+    fn points(&self, t: T, q: &SliderCrankCoordinates<T>) -> [[T; 2]; 9] {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let v4 = T::from_f64(0.5) * self.parameters.l1;
+        let v5 = v4 * cos_theta1;
+        let phi_crank_x = q.x1 - v5;
+        let v7 = v4 * sin_theta1;
+        let phi_crank_y = q.y1 - v7;
+        let v9 = q.x1 + v5;
+        let v10 = q.y1 + v7;
+        let v11 = self.parameters.l2 * T::from_f64(0.5);
+        let v12 = v11 * cos_theta2;
+        let v13 = q.x2 - v12;
+        let v14 = v11 * sin_theta2;
+        let v15 = q.y2 - v14;
+        let v16 = q.x2 + v12;
+        let v17 = q.y2 + v14;
+        [
+            [q.x1, q.y1],
+            [phi_crank_x, phi_crank_y],
+            [v9, v10],
+            [q.x2, q.y2],
+            [v13, v15],
+            [v16, v17],
+            [q.x3, T::from_f64(0.0)],
+            [T::from_f64(0.0), T::from_f64(0.0)],
+            [T::from_f64(1.0), T::from_f64(0.0)],
+        ]
     }
 }

@@ -11,6 +11,7 @@ mod names;
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use self::names::Mention;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
@@ -19,13 +20,54 @@ use crate::syntax::{Declaration, FormulaKind, Item, ItemKind, Property};
 /// Assemblies within assemblies may nest this deep.
 const DEEPEST: usize = 16;
 
+/// More instances than this, within each other too, are a slip.
+const MOST_INSTANCES: usize = 10_000;
+
+/// The way to the level that is being flattened.
+#[derive(Default)]
+struct Way {
+    /// The assemblies that it leads through.
+    assemblies: Vec<String>,
+    /// All instances so far.
+    instances: usize,
+}
+
+impl Way {
+    /// Counts an instance.
+    fn enter(&mut self, assembly: &Ident) -> Result<(), Diagnostic> {
+        let error = |message: String, help: &str| Err(Diagnostic::new(assembly.span(), message).help(help));
+        self.instances += 1;
+        let text = assembly.to_string();
+        if self.assemblies.contains(&text) {
+            return error(
+                format!("assembly `{assembly}` contains itself"),
+                "an assembly can only use other assemblies",
+            );
+        }
+        if self.assemblies.len() >= DEEPEST {
+            return error(
+                format!("assemblies are nested more than {DEEPEST} deep here"),
+                "declare some of them side by side",
+            );
+        }
+        if self.instances > MOST_INSTANCES {
+            return error(
+                format!("there are more than {MOST_INSTANCES} instances here"),
+                "check how many instances the assemblies have in each other",
+            );
+        }
+        self.assemblies.push(text);
+        Ok(())
+    }
+}
+
 /// Replaces all instances.
 ///
 /// # Errors
 /// Unknown assemblies, parameters and instances.
 pub fn compose(mut declaration: Declaration) -> Result<Declaration, Diagnostics> {
     let mut errors = Diagnostics::default();
-    declaration.items = flatten(declaration.items, &BTreeMap::new(), 0, &mut errors).0;
+    declaration.items = flatten(declaration.items, &BTreeMap::new(), &mut Way::default(), &mut errors).0;
     for item in &mut declaration.items {
         names::visit(item, &mut |mention| check(&mention, &mut errors));
     }
@@ -39,7 +81,7 @@ type Assemblies = BTreeMap<String, (Ident, Vec<Item>)>;
 fn flatten(
     items: Vec<Item>,
     outer: &Assemblies,
-    depth: usize,
+    way: &mut Way,
     errors: &mut Diagnostics,
 ) -> (Vec<Item>, BTreeSet<String>) {
     let mut assemblies = outer.clone();
@@ -62,14 +104,11 @@ fn flatten(
     let mut placed = Vec::new();
     for (at, name, assembly, bindings) in to_place {
         let Some((_, items)) = errors.take(find(&assembly, &assemblies)) else { continue };
-        if depth >= DEEPEST {
-            errors.push(
-                Diagnostic::new(assembly.span(), format!("assembly `{assembly}` contains itself"))
-                    .help("an assembly can only use other assemblies"),
-            );
+        if way.instances > MOST_INSTANCES || errors.take(way.enter(&assembly)).is_none() {
             continue;
         }
-        let (inner, nested) = flatten(items.clone(), &assemblies, depth + 1, errors);
+        let (inner, nested) = flatten(items.clone(), &assemblies, way, errors);
+        way.assemblies.pop();
         instances.extend(nested.iter().map(|nested| format!("{name}_{nested}")));
         let inner = instantiate(inner, &name, &assembly, bindings, errors);
         placed.push((at, inner));
@@ -249,5 +288,5 @@ fn check(mention: &Mention<'_>, errors: &mut Diagnostics) {
 }
 
 fn prefixed(instance: &Ident, name: &Ident) -> Ident {
-    Ident::new(&format!("{instance}_{name}"), name.span())
+    Ident::new(&format!("{instance}_{}", name.unraw()), name.span())
 }

@@ -47,6 +47,10 @@ pub fn declared(item: &Item) -> Vec<String> {
         }
         ItemKind::Dof { .. }
         | ItemKind::Crate { .. }
+        | ItemKind::Redundant { .. }
+        | ItemKind::Limit { .. }
+        | ItemKind::Step { .. }
+        | ItemKind::Feedback { .. }
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
         | ItemKind::Start { .. }
@@ -84,6 +88,8 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_condition(condition, visit);
         }
         ItemKind::Gravity { value, .. } => in_vector(value, visit),
+        ItemKind::Step { value, .. } => in_formula(value, visit),
+        ItemKind::Feedback { gains, .. } => gains.iter_mut().for_each(|gain| in_formula(gain, visit)),
         ItemKind::Body { name, coordinates, properties } => {
             visit(Mention::Name(name));
             coordinates.iter_mut().for_each(|coordinate| visit(Mention::Name(&mut coordinate.name)));
@@ -141,7 +147,11 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         ItemKind::Instance { bindings, .. } => {
             bindings.iter_mut().for_each(|binding| in_formula(&mut binding.value, visit));
         }
-        ItemKind::Dof { .. } | ItemKind::Crate { .. } | ItemKind::Assembly { .. } => {}
+        ItemKind::Dof { .. }
+        | ItemKind::Crate { .. }
+        | ItemKind::Redundant { .. }
+        | ItemKind::Limit { .. }
+        | ItemKind::Assembly { .. } => {}
     }
 }
 

@@ -16,10 +16,14 @@ const LONGEST_LISTING: usize = 48;
 pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
     let mut text = model.doc.clone();
     let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let redundant = match plan.rows.redundant.len() {
+        0 => String::new(),
+        count => format!(" ({count} of them redundant)"),
+    };
     let _ = write!(
         text,
-        "\n\n# Equations\n\n{n} coordinates, {m} constraints, {} degrees of freedom. Φ(q, t) = 0 is\n",
-        n as i64 - m as i64
+        "\n\n# Equations\n\n{n} coordinates, {m} constraints{redundant}, {} degrees of freedom. Φ(q, t) = 0 is\n",
+        n as i64 - plan.rows.basis.len() as i64
     );
     let rows = model.constraints.iter().zip(&equations.phi);
     let lines: Vec<_> = rows

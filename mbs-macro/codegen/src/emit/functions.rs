@@ -10,6 +10,7 @@ use super::docs;
 use super::info;
 use super::names::{Names, field};
 use super::program::{Body, body};
+use super::sketch;
 use super::splines::splines;
 use crate::derive::Equations;
 use crate::model::{Check, Direction, Model};
@@ -317,6 +318,9 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let inline = inlining(model);
     let info = info::emit(model, plan, names);
     let derivation = derivation::emit(model, equations, plan);
+    let sketch = sketch::emit(&model.sketch, names);
+    let points = Literal::usize_unsuffixed(model.sketch.points.len());
+    let places = sketch::places(body(model, names, &plan.points, &Access::of_position()));
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
@@ -337,8 +341,10 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
             type Coordinates = #q;
             type Constraints = #rows;
             type Outputs = #outputs;
+            type Points = [[T; 2]; #points];
             const INFO: &'static #runtime::Info = &#info;
             const DERIVATION: &'static #runtime::Derivation = &#derivation;
+            const SKETCH: &'static #runtime::Sketch = &#sketch;
 
             fn new(parameters: #parameters<T>) -> ::core::result::Result<Self, #runtime::Error> {
                 Self::new(parameters)
@@ -368,6 +374,7 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
             }
             #inline
             fn outputs(&self, at: &#state, inputs: &#inputs, reactions: &#reactions) -> #outputs { #output_values }
+            fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
     }
 }

@@ -12,7 +12,8 @@ use crate::plan::Plan;
 pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
     let (name, doc) = (names.mechanism.to_string(), model.doc.as_str());
-    let dof = Literal::i32_unsuffixed((model.coordinates.len() as i32) - (model.constraints.len() as i32));
+    let dof = Literal::i32_unsuffixed((model.coordinates.len() as i32) - (plan.rows.basis.len() as i32));
+    let redundant = plan.rows.redundant.iter().map(|&row| Literal::usize_unsuffixed(row));
     let parameters = model.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
     let inputs = model.inputs.iter().map(|input| quantity(input, 0.0, runtime));
     let start = plan.start.evaluate(&model.values(|_| 0.0), &[]);
@@ -42,7 +43,7 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
         #runtime::Info::from_parts(
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
-            &[#(#constraints),*], #pivots, #start_pivots, &[#(#functions),*],
+            &[#(#constraints),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
         )
     }
 }

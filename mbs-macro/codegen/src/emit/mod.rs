@@ -8,6 +8,8 @@ mod info;
 mod names;
 mod parts;
 mod program;
+mod sketch;
+mod solver;
 mod splines;
 mod types;
 
@@ -24,11 +26,13 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let names = Names::new(model);
     let types = types::emit(model, plan, equations, &names);
     let construction = functions::construction(model, plan, &names);
+    let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
     let mechanism = functions::mechanism(model, equations, plan, &names);
     quote! {
         #types
         #construction
+        #solver
         #functions
         #mechanism
     }

@@ -81,11 +81,48 @@ impl Scope<'_> {
                             described(found)
                         ),
                     )
-                    .help(unit_help(formula, dimension)),
+                    .help(self.unit_help(formula, (found, dimension))),
                 );
                 None
             }
             _ => Some(typed.expr),
+        }
+    }
+
+    fn unit_help(&self, formula: &Formula, (found, wanted): (Dimension, Dimension)) -> String {
+        if matches!(formula.kind, FormulaKind::Number { unit: None, .. }) {
+            return format!("give the number its unit: {wanted}");
+        }
+        if let Some(help) = unit_help_for_products(formula) {
+            return help;
+        }
+        let bare = self.bare_parameters(formula);
+        match &bare[..] {
+            [name] if found == Dimension::NONE => {
+                format!("`{name}` is declared without a unit; give its value one: {wanted}")
+            }
+            _ => "check the units and factors of this formula".to_owned(),
+        }
+    }
+
+    /// The parameters in a sum or product that are declared without a unit.
+    fn bare_parameters(&self, formula: &Formula) -> Vec<String> {
+        match &formula.kind {
+            FormulaKind::Name(name) => match self.values.get(&name.to_string()) {
+                Some(Value::Symbol { symbol, dimension: Dimension::NONE, .. })
+                    if matches!(self.meaning(*symbol), Meaning::Parameter(_)) =>
+                {
+                    vec![name.to_string()]
+                }
+                _ => Vec::new(),
+            },
+            FormulaKind::Negative(inner) => self.bare_parameters(inner),
+            FormulaKind::Binary { left, right, .. } => {
+                let mut bare = self.bare_parameters(left);
+                bare.extend(self.bare_parameters(right));
+                bare
+            }
+            _ => Vec::new(),
         }
     }
 
@@ -313,14 +350,6 @@ impl Scope<'_> {
 
 fn product(l: Typed, r: Typed) -> Option<Dimension> {
     Some(l.dimension?.times(r.dimension?))
-}
-
-fn unit_help(formula: &Formula, dimension: Dimension) -> String {
-    match (&formula.kind, unit_help_for_products(formula)) {
-        (FormulaKind::Number { unit: None, .. }, _) => format!("give the number its unit: {dimension}"),
-        (_, Some(help)) => help,
-        _ => "check the units and factors of this formula".to_owned(),
-    }
 }
 
 /// `0.052/3 [kg]` divides by 3 kg: a unit belongs to the number before it.

@@ -19,6 +19,8 @@ mod places;
 mod profiles;
 mod reactions;
 mod resolver;
+mod sketch;
+mod solver;
 mod statements;
 
 use mbs_symbolic::units::Dimension;
@@ -26,6 +28,8 @@ use mbs_symbolic::{Arena, Expr, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
+pub use sketch::{Link, Sketch};
+pub use solver::{Feedback, Solver};
 
 use crate::syntax::Comparison;
 
@@ -41,6 +45,9 @@ pub struct Model {
     /// Where the runtime is found; `::mbs_runtime` by default.
     pub runtime: TokenStream,
     pub dof: (i64, Span),
+    /// Where redundant constraints are allowed, if they are.
+    pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     pub requirements: Vec<Requirement>,
     pub inputs: Vec<Quantity>,
@@ -57,6 +64,7 @@ pub struct Model {
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
+    pub sketch: Sketch,
 }
 
 /// What a symbol stands for.

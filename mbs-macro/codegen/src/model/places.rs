@@ -36,6 +36,11 @@ impl Frame {
     pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
         Self { coordinates, origin, angle, points: BTreeMap::new() }
     }
+
+    /// The place on the body of the point called `name`, if there is one.
+    pub fn local(&self, name: &str) -> Option<[Expr; 2]> {
+        self.points.get(name)?.local
+    }
 }
 
 impl Scope<'_> {
@@ -103,6 +108,15 @@ impl Scope<'_> {
 
     fn unknown_point(&self, body: &Ident, name: &Ident, frame: &Frame) -> Diagnostic {
         let error = Diagnostic::new(name.span(), format!("body `{body}` has no point `{name}`"));
+        let text = name.to_string();
+        let others = self.bodies.iter().filter_map(|(other, frame)| Some((other, frame.points.get(&text)?)));
+        let others: Vec<_> = others.collect();
+        if let [(_, point), ..] = others.as_slice() {
+            let owners = listing(others.iter().map(|(owner, _)| owner));
+            return error.note(point.span, format!("`{name}` is declared here")).help(format!(
+                "`{name}` is a point of {owners}; name that body, or correct on which body the point is declared"
+            ));
+        }
         match nearest(&name.to_string(), frame.points.keys().map(String::as_str)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(format!("declare it: `point {name} on {body} = (…, …);`")),

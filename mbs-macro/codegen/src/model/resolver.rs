@@ -11,7 +11,7 @@ use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
     Body, Check, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
-    Start, Symbols, Work,
+    Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -25,6 +25,7 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     // Names first, so that statements may stand in any order.
     resolver.each(declaration, Resolver::declare);
     resolver.each(declaration, Resolver::declare_rows);
+    resolver.each(declaration, Resolver::resolve_value);
     resolver.each(declaration, |resolver, item| {
         if let ItemKind::Profile(profile) = &item.kind {
             resolver.resolve_profile(profile);
@@ -46,6 +47,8 @@ pub(super) struct Resolver<'a> {
     pub mechanism: Span,
     pub runtime: Option<(TokenStream, Span)>,
     pub dof: Option<(i64, Span)>,
+    pub minimum_norm: Option<Span>,
+    pub solver: Solver,
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
@@ -76,6 +79,8 @@ impl<'a> Resolver<'a> {
             mechanism: declaration.name.span(),
             runtime: None,
             dof: None,
+            minimum_norm: None,
+            solver: Solver::default(),
             parameters: Vec::new(),
             resolved_parameters: 0,
             requirements: Vec::new(),
@@ -146,6 +151,7 @@ impl<'a> Resolver<'a> {
                     .help("give it a longer name"),
             );
         }
+        self.check_solver();
         if self.dof.is_none() {
             let left = self.coordinates.len() as i64 - self.row_count as i64;
             self.errors.push(
@@ -160,6 +166,7 @@ impl<'a> Resolver<'a> {
                 )),
             );
         }
+        let sketch = self.sketch(declaration);
         let zero = self.scope.arena.zero();
         let symbols = self.generated_symbols();
         let model = Model {
@@ -171,6 +178,8 @@ impl<'a> Resolver<'a> {
             name: declaration.name.clone(),
             runtime: self.runtime.map_or_else(|| quote!(::mbs_runtime), |(path, _)| path),
             dof: self.dof.unwrap_or((0, self.mechanism)),
+            minimum_norm: self.minimum_norm,
+            solver: self.solver,
             parameters: self.parameters,
             requirements: self.requirements,
             inputs: self.inputs,
@@ -184,6 +193,7 @@ impl<'a> Resolver<'a> {
             potentials: self.potentials,
             start: self.starts,
             outputs: self.outputs,
+            sketch,
         };
         self.errors.finish(model)
     }

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
 use super::formula::unit_help_for_products;
-use super::names::{Place, Typed, duplicate};
+use super::names::{Definition, Place, State, Typed, Value, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
@@ -55,7 +55,7 @@ impl<'a> Resolver<'a> {
                 equals,
                 format!("the left side is {}, the right side {}", described(a), described(b)),
             )
-            .help("both sides of an equation need the same dimension; check units and factors")));
+            .help(equation_help(a, b))));
         }
         let phi = self.scope.arena.sub(left.expr, right.expr);
         let coordinates = self.coordinates_in(phi);
@@ -82,12 +82,21 @@ impl<'a> Resolver<'a> {
                 Some((_, earlier)) => self.repeated("`dof`", *keyword, earlier),
                 None => self.dof = Some((*value, *keyword)),
             },
+            ItemKind::Redundant { keyword } => match self.minimum_norm {
+                Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
+                None => self.minimum_norm = Some(*keyword),
+            },
+            ItemKind::Limit { keyword, is_stack, value } => self.resolve_limit(*keyword, *is_stack, *value),
+            ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
+            ItemKind::Feedback { keyword, is_held, gains } => {
+                self.resolve_feedback(*keyword, *is_held, gains);
+            }
             ItemKind::Crate { keyword, path } => match self.runtime {
                 Some((_, earlier)) => self.repeated("`crate`", *keyword, earlier),
                 None => self.runtime = Some((path.clone(), *keyword)),
             },
-            ItemKind::Parameter { name, value, condition } => {
-                self.resolve_parameter(name, value, condition.as_ref());
+            ItemKind::Parameter { name, condition: Some(condition), .. } => {
+                self.require(condition, Some(name));
             }
             ItemKind::Gravity { keyword, value } => {
                 if let Some((_, earlier)) = self.gravity {
@@ -128,7 +137,18 @@ impl<'a> Resolver<'a> {
         );
     }
 
-    fn resolve_parameter(&mut self, name: &Ident, formula: &Formula, condition: Option<&syntax::Condition>) {
+    /// The value of a parameter. If it has an error, what uses it has none of its own.
+    pub(super) fn resolve_value(&mut self, item: &'a Item) {
+        let ItemKind::Parameter { name, value: formula, .. } = &item.kind else { return };
+        let before = self.errors.len();
+        self.resolve_parameter(name, formula);
+        if self.errors.len() > before {
+            let failed = Definition { formula, is_constant: true, span: name.span(), state: State::Failed };
+            self.scope.values.insert(name.to_string(), Value::Definition(failed));
+        }
+    }
+
+    fn resolve_parameter(&mut self, name: &Ident, formula: &Formula) {
         let text = name.to_string();
         // Statements are resolved in the order in which they were declared.
         let at = self.resolved_parameters;
@@ -153,9 +173,6 @@ impl<'a> Resolver<'a> {
                         .help("check its divisors and functions"),
                 ),
             }
-        }
-        if let Some(condition) = condition {
-            self.require(condition, Some(name));
         }
     }
 
@@ -336,4 +353,16 @@ fn si_unit(dimension: Dimension) -> String {
     let text = dimension.to_string();
     let unit = text.split_once('[').and_then(|(_, rest)| rest.strip_suffix(']'));
     unit.unwrap_or_default().to_owned()
+}
+
+/// How to mend an equation between different dimensions.
+fn equation_help(left: Dimension, right: Dimension) -> &'static str {
+    // a rate times t, where the rate is a bare number
+    if right == Dimension::TIME && left == Dimension::NONE {
+        return "a speed has a unit too: `200 [rpm]` or `20 [rad/s]`, times `t`";
+    }
+    if right == Dimension::TIME && left == Dimension::LENGTH {
+        return "a speed has a unit too: `0.2 [m/s]`, times `t`";
+    }
+    "both sides of an equation need the same dimension; check units and factors"
 }

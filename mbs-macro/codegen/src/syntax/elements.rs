@@ -5,8 +5,8 @@ use syn::parse::ParseStream;
 use syn::{Result, braced};
 
 use super::formula::is_vector;
-use super::items::{block, equals, expect_word, name, semicolon};
 use super::joints::two_places;
+use super::words::{block, equals, expect_word, name, semicolon};
 use super::{Element, ElementKind, ElementProperty, ItemKind, Load};
 
 /// How an element is written.

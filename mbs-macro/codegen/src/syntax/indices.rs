@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use mbs_symbolic::units;
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
+use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Error, Result, Token, parenthesized, token};
 
@@ -228,7 +229,7 @@ impl Parse for UnitLike {
 
 /// `link_3`, where `link` stands.
 fn indexed(name: &Ident, values: &[i64]) -> TokenTree {
-    let text = values.iter().fold(name.to_string(), |text, value| format!("{text}_{value}"));
+    let text = values.iter().fold(name.unraw().to_string(), |text, value| format!("{text}_{value}"));
     Ident::new(&text, name.span()).into()
 }
 

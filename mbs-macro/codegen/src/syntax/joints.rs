@@ -9,14 +9,14 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::items::{equals, name, semicolon};
+use super::words::{equals, name, semicolon};
 use super::{Attachment, Clause, ClauseKind, ItemKind, Joint, JointKind};
 use crate::diagnostics::nearest;
 
 /// A kind of joint: the word that declares it, and its clauses.
 pub struct Shape {
     pub word: &'static str,
-    kind: JointKind,
+    pub kind: JointKind,
     /// Of each of these groups, one clause is needed and no other is taken.
     needs: &'static [&'static [ClauseKind]],
     takes: &'static [ClauseKind],

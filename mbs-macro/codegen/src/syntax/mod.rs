@@ -6,13 +6,16 @@ mod indices;
 mod items;
 mod joints;
 mod profiles;
+mod solver;
 mod statements;
+mod words;
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
+pub use joints::JOINTS;
 
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
@@ -35,6 +38,14 @@ pub struct Item {
 pub enum ItemKind {
     /// `dof = 0;`
     Dof { keyword: Span, value: i64 },
+    /// `redundant = minimum_norm;`
+    Redundant { keyword: Span },
+    /// `limit operations = 200;` or `limit stack = 4096;`
+    Limit { keyword: Span, is_stack: bool, value: u32 },
+    /// `step = 0.5 [ms];`
+    Step { keyword: Span, value: Formula },
+    /// `feedback = held(alpha, beta);`
+    Feedback { keyword: Span, is_held: bool, gains: [Formula; 2] },
     /// `crate = path;`
     Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`

@@ -5,7 +5,7 @@ use syn::parse::ParseStream;
 use syn::punctuated::Punctuated;
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::items::{equals, name, semicolon};
+use super::words::{equals, name, semicolon};
 use super::{ItemKind, Profile, Vector};
 
 const EXAMPLE: &str =

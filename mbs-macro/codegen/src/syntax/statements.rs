@@ -1,19 +1,23 @@
 //! The statements of a block, one after the other: loops are unrolled and
 //! conditions decided here, so that what follows sees plain statements.
 
-use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
 use syn::{Error, Result, Token, braced};
 
 use super::indices::{Indices, regrouped};
-use super::items::{block, doc, item, name};
+use super::items::item;
+use super::words::{block, doc, name};
 use super::{Item, ItemKind};
 use crate::diagnostics::Diagnostics;
 
 /// More statements than this are not a mechanism but a slip in a range.
 const MOST_STATEMENTS: usize = 100_000;
+
+/// Blocks within blocks may nest this deep: each level is read anew.
+const DEEPEST: usize = 64;
 
 /// Reads statements; after an error it goes on behind the next `;` or `{ … }`,
 /// so that all errors of a declaration are shown at once.
@@ -22,13 +26,15 @@ pub(super) struct Reader<'a> {
     /// Statements so far, as they stand in the source: the copies that a loop
     /// makes of one share its number.
     position: usize,
-    /// Statements so far, copies included.
+    /// Statements so far, copies and rounds of loops included.
     count: usize,
+    /// Blocks around the statement.
+    depth: usize,
 }
 
 impl<'a> Reader<'a> {
     pub fn new(errors: &'a mut Diagnostics) -> Self {
-        Self { errors, position: 0, count: 0 }
+        Self { errors, position: 0, count: 0, depth: 0 }
     }
 
     /// The statements of a block.
@@ -66,10 +72,7 @@ impl<'a> Reader<'a> {
         items: &mut Vec<Item>,
     ) -> Result<()> {
         self.position += 1;
-        self.count += 1;
-        if self.count > MOST_STATEMENTS {
-            return Err(content.error(format!("loops make more than {MOST_STATEMENTS} statements here")));
-        }
+        self.count_one(content.span())?;
         let (doc, kind) = match indices.resolve(tokens.clone()) {
             Some(resolved) => {
                 let item = (|input: ParseStream<'_>| {
@@ -94,6 +97,15 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Counts a statement, or a round of a loop.
+    fn count_one(&mut self, at: Span) -> Result<()> {
+        self.count += 1;
+        if self.count > MOST_STATEMENTS {
+            return Err(Error::new(at, format!("loops make more than {MOST_STATEMENTS} statements here")));
+        }
+        Ok(())
+    }
+
     /// `for i in 1..=N { … }`
     fn repeat(&mut self, content: ParseStream<'_>, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
         const EXAMPLE: &str = "for i in 1..=N { … }";
@@ -114,6 +126,8 @@ impl<'a> Reader<'a> {
         let errors_before = self.errors.len();
         for value in first..if is_closed { last.saturating_add(1) } else { last } {
             self.position = start;
+            // a round without statements counts too, or it would have no end
+            self.count_one(variable.span())?;
             self.inner(&body, &indices.with(&variable, value)?, items)?;
             // the copies would have the same errors, and a runaway loop no end
             if self.errors.len() > errors_before {
@@ -176,6 +190,11 @@ impl<'a> Reader<'a> {
     }
 
     fn inner(&mut self, body: &Group, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
+        if self.depth >= DEEPEST {
+            let message = format!("blocks are nested more than {DEEPEST} deep here");
+            return Err(Error::new(body.span_open(), message));
+        }
+        self.depth += 1;
         let tokens = TokenStream::from(TokenTree::from(regrouped(body, body.stream())));
         let parser = |input: ParseStream<'_>| {
             let content;
@@ -183,7 +202,9 @@ impl<'a> Reader<'a> {
             items.extend(self.statements(&content, indices));
             Ok(())
         };
-        parser.parse2(tokens)
+        let result = parser.parse2(tokens);
+        self.depth -= 1;
+        result
     }
 }
 
@@ -215,10 +236,11 @@ fn whole(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result<i64
     indices.evaluate(tokens)
 }
 
-type Compare = fn(&i64, &i64) -> bool;
+/// A comparison: how it is written, whether it comes next, what it says.
+type Comparison = (&'static str, fn(ParseStream<'_>) -> bool, fn(&i64, &i64) -> bool);
 
 /// Longer ones first, so that `<=` is not read as `<`.
-const COMPARISONS: &[(&str, fn(ParseStream<'_>) -> bool, Compare)] = &[
+const COMPARISONS: &[Comparison] = &[
     ("<=", |input| input.peek(Token![<=]), i64::le),
     (">=", |input| input.peek(Token![>=]), i64::ge),
     ("==", |input| input.peek(Token![==]), i64::eq),

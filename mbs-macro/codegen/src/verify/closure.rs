@@ -2,7 +2,9 @@
 
 use mbs_symbolic::units::Dimension;
 
-use super::rank::row_echelon;
+use super::assembly::CLOSED;
+use super::echelon::row_echelon;
+use super::redundancy::does_not_fit;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
@@ -29,7 +31,7 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
             return Err(dependent(&assembly, &q, largest(&phi).0).into());
         }
         if size <= 1e-12 * (1.0 + largest(&q).1) {
-            return Ok(());
+            return check_redundant(model, plan, &q, &phi);
         }
         let mut length = 1.0;
         for _ in 0..=HALVINGS {
@@ -45,7 +47,7 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     }
     // The iteration wanders where there is nothing to find: its best is said.
     let (row, violation) = largest(&best);
-    if violation.is_finite() && violation <= 1e-10 * (1.0 + largest(&q).1) {
+    if violation.is_finite() && violation <= CLOSED * (1.0 + largest(&q).1) {
         return Ok(());
     }
     let Some(constraint) = model.constraints.get(row) else { return Ok(()) };
@@ -61,6 +63,18 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     .into())
 }
 
+/// Redundant constraints are met with the others, also on the branch on which
+/// the programs close.
+fn check_redundant(model: &Model, plan: &Plan, q: &[f64], phi: &[f64]) -> Result<(), Diagnostics> {
+    let sizes = plan.rows.redundant.iter().map(|&row| (row, phi[row].abs()));
+    match sizes.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((row, violation)) if violation > CLOSED * (1.0 + largest(q).1) => {
+            Err(does_not_fit(model, row, violation, 0.0).into())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The error where the equations for a correction are singular at `q`: some
 /// constraint repeats others there, if not everywhere.
 fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
@@ -74,7 +88,10 @@ fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
         (&constraint.name, others.iter().map(|&other| model.constraints[other].name.as_str()));
     let what = match found {
         Some((_, others)) if others.is_empty() => format!("`{name}` restricts no motion"),
-        Some(_) => format!("`{name}` repeats what {} already say", listing(others)),
+        Some((_, found)) => {
+            let say = if found.len() == 1 { "says" } else { "say" };
+            format!("`{name}` repeats what {} already {say}", listing(others))
+        }
         None => format!("`{name}` and others are not independent"),
     };
     Diagnostic::new(constraint.span, format!("near the declared start, {what}"))
@@ -82,7 +99,7 @@ fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
 }
 
 /// The SI unit of a violation, where it is that of a length.
-fn unit(dimension: Dimension) -> &'static str {
+pub fn unit(dimension: Dimension) -> &'static str {
     if dimension == Dimension::LENGTH { " m" } else { "" }
 }
 

@@ -1,31 +1,43 @@
 //! What must hold before code is emitted: the degrees of freedom of the
 //! contract, independent constraints, an assembly at the declared dimensions.
 
+mod assembly;
 mod closure;
+mod echelon;
+mod floating;
+mod generic;
+mod jets;
+mod manifold;
+mod prime_field;
 mod rank;
+mod redundancy;
+mod rounding;
 mod samples;
+mod validation;
 
 use mbs_symbolic::{Undetermined, Unknown};
 
 pub use closure::check_closure;
+pub use rank::Rows;
 pub use samples::Samples;
+pub use validation::check_programs;
 
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
-use crate::plan::Unsolvable;
+use crate::plan::{Plan, Unsolvable};
 use crate::reactive::Circular;
 
-/// Checks the equations before they are planned.
+/// Checks the equations before they are planned, and gives the constraints to
+/// solve for.
 ///
 /// # Errors
 /// All violations, in mechanism words.
-pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<(), Diagnostics> {
+pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<Rows, Diagnostics> {
     let mut errors = Diagnostics::default();
     check_declared_values(model, &mut errors);
-    let independent = rank::check_independence(model, equations, samples, &mut errors);
-    rank::check_contract(model, equations, samples, independent, &mut errors);
-    errors.finish(())
+    let rows = rank::check_independence(model, equations, samples, &mut errors);
+    errors.finish(rows)
 }
 
 /// Declared parameters satisfy their own conditions; no mass is negative.
@@ -65,13 +77,21 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     for body in &model.bodies {
         let found = model.arena.evaluate(&[body.mass, body.inertia], &values);
         for (value, what, unit) in [(found[0], "mass", "kg"), (found[1], "inertia", "kg*m^2")] {
-            if value < 0.0 || !value.is_finite() {
+            // what is denormal has no reciprocal
+            if value < 0.0 || !value.is_finite() || value.is_subnormal() {
                 errors.push(
                     Diagnostic::new(
                         body.span,
-                        format!("the {what} of `{}` is {value} {unit} at the declared parameters", body.name),
+                        format!(
+                            "the {what} of `{}` is {value:?} {unit} at the declared parameters",
+                            body.name
+                        ),
                     )
-                    .help("it has to be finite and not negative"),
+                    .help(if value.is_subnormal() {
+                        "it is too small to compute with; leave out what has no mass, or write 0"
+                    } else {
+                        "it has to be finite and not negative"
+                    }),
                 );
             }
         }
@@ -82,12 +102,41 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
 pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
     match error {
         Unsolvable::Unknowns(unknowns) => undetermined(model, unknowns),
+        Unsolvable::Shared => {
+            let span = model.reactive_loads.first().map_or(model.name.span(), |load| load.span);
+            Diagnostic::new(
+                span,
+                "this load depends on reactions, which redundant constraints share in more than one way",
+            )
+            .help("remove the spare constraints, or give the load a force that is known")
+            .into()
+        }
         Unsolvable::Load(Circular(at)) => {
             let span = model.reactive_loads.get(*at).map_or(model.name.span(), |load| load.span);
             Diagnostic::new(span, "this load changes the reaction that it depends on by its own size or more, so nothing determines it")
                 .help("let it follow a smaller part of the reaction, or another one")
                 .into()
         }
+    }
+}
+
+/// The code is as cheap as its declaration promises.
+///
+/// # Errors
+/// By how much it is not.
+pub fn check_limit(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
+    let operations = plan.operations();
+    match model.solver.operations {
+        Some((limit, span)) if operations > limit => Err(Diagnostic::new(
+            span,
+            format!(
+                "a right-hand side of `{}` takes {operations} operations, {limit} are allowed",
+                model.name
+            ),
+        )
+        .help("use fewer coordinates (a body needs those only that something acts along), or raise the limit")
+        .into()),
+        _ => Ok(()),
     }
 }
 

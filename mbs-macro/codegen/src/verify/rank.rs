@@ -3,151 +3,170 @@
 use std::collections::BTreeSet;
 
 use super::Samples;
-use super::samples::RANK_TOLERANCE;
+use super::assembly::Assembly;
+use super::generic;
+use super::manifold::Manifold;
+use super::redundancy;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
 
-/// Every constraint adds something that the ones before it do not say. Gives
-/// how many of them do.
+/// A row that is a combination of earlier ones, and of which.
+pub type Dependent = (usize, Vec<usize>);
+
+/// The constraints that are solved for, and those that are met with them.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    pub basis: Vec<usize>,
+    pub redundant: Vec<usize>,
+}
+
+impl Rows {
+    /// All of `count` rows but those that are redundant.
+    pub fn without(count: usize, redundant: Vec<usize>) -> Self {
+        Self { basis: (0..count).filter(|row| !redundant.contains(row)).collect(), redundant }
+    }
+}
+
+/// Every constraint adds something that the ones before it do not say, in
+/// general and wherever the mechanism is assembled at its declared dimensions,
+/// unless it may be redundant; and the degrees of freedom that are left are
+/// what the declaration promises.
 pub fn check_independence(
     model: &Model,
     equations: &Equations,
     samples: &Samples,
     errors: &mut Diagnostics,
-) -> usize {
-    let echelons: Vec<Echelon> = samples
-        .positions()
-        .map(|position| row_echelon(samples.jacobian(model, equations, position)))
-        .collect();
-    let Some(generic) = echelons.iter().max_by_key(|echelon| echelon.rank()) else { return 0 };
-    for (row, combination) in &generic.dependent {
+) -> Rows {
+    let count = equations.phi.len();
+    let assembly = Assembly::new(model, equations);
+    let all = Rows::without(count, Vec::new());
+    let manifold = Manifold::explore(&assembly, samples, model, &all.basis);
+    if let Some(statement) = model.minimum_norm {
+        let chosen = redundancy::choose(model, &assembly, samples, manifold.as_ref(), statement);
+        let Some(rows) = errors.take(chosen) else { return all };
+        check_contract(model, equations, samples, &rows, errors);
+        return rows;
+    }
+    let generic = generic_dependence(model, equations, samples);
+    let at_dimensions = manifold.as_ref().map_or(&[][..], Manifold::redundant);
+    if generic.is_empty() {
+        report(model, at_dimensions, " in every position at its declared dimensions", errors);
+    } else {
+        report(model, &generic, "", errors);
+    }
+    let dependent = if at_dimensions.len() > generic.len() { at_dimensions } else { &generic };
+    let independent = Rows::without(count, dependent.iter().map(|(row, _)| *row).collect());
+    check_contract(model, equations, samples, &independent, errors);
+    all
+}
+
+/// The rows that depend on others whatever the dimensions and the position.
+fn generic_dependence(model: &Model, equations: &Equations, samples: &Samples) -> Vec<Dependent> {
+    let exact = generic::judge(&model.arena, equations);
+    if let Some(verdict) = &exact
+        && verdict.is_exact
+    {
+        return verdict.dependent.clone();
+    }
+    let known = exact.map_or_else(Vec::new, |verdict| verdict.dependent);
+    let echelons = samples.positions().map(|position| samples.echelon(model, equations, position));
+    let sampled =
+        echelons.max_by_key(|echelon| echelon.rank()).map_or_else(Vec::new, |echelon| echelon.dependent);
+    if sampled.len() > known.len() { sampled } else { known }
+}
+
+/// One error for each constraint that is too many.
+fn report(model: &Model, dependent: &[Dependent], whenever: &str, errors: &mut Diagnostics) {
+    for (row, combination) in dependent {
         let constraint = &model.constraints[*row];
-        let others: Vec<_> =
-            combination.iter().map(|&other| model.constraints[other].name.as_str()).collect();
+        let others = || combination.iter().map(|&other| &model.constraints[other]);
+        let names: Vec<_> = others().map(|other| other.name.as_str()).collect();
         let what = if constraint.is_drive { "drive" } else { "constraint" };
-        let say = if others.len() == 1 { "says" } else { "say" };
-        let mut error = if others.is_empty() {
-            Diagnostic::new(
-                constraint.span,
-                format!("{what} `{}` does not restrict any motion", constraint.name),
-            )
+        let say = if names.len() == 1 { "says" } else { "say" };
+        let message = if names.is_empty() {
+            format!("{what} `{}` does not restrict any motion{whenever}", constraint.name)
         } else {
-            Diagnostic::new(
-                constraint.span,
-                format!("{what} `{}` repeats what {} already {say}", constraint.name, listing(&others)),
-            )
+            let others = listing(&names);
+            format!("{what} `{}` repeats what {others} already {say}{whenever}", constraint.name)
         };
-        for &other in combination {
-            let other = &model.constraints[other];
+        let mut error = Diagnostic::new(constraint.span, message);
+        for other in others() {
             error = error.note(other.span, format!("`{}` is one of them", other.name));
         }
-        let which = if others.is_empty() { "it" } else { "one of them" };
-        errors.push(
-            error.help(format!(
-                "remove {which}, or correct the equation that was meant to say something else"
-            )),
-        );
+        let remove = if names.is_empty() { "remove it" } else { "remove one of them" };
+        let on_purpose = if names.is_empty() || constraint.is_drive {
+            ""
+        } else {
+            "; if it is there on purpose, as a spare link is, add `redundant = minimum_norm;`"
+        };
+        errors.push(error.help(format!(
+            "{remove}, or correct the equation that was meant to say something else{on_purpose}"
+        )));
     }
-    generic.rank()
 }
 
 /// The degrees of freedom that the independent constraints leave are what the
 /// declaration promises; the others are reported for themselves.
-pub fn check_contract(
+fn check_contract(
     model: &Model,
     equations: &Equations,
     samples: &Samples,
-    independent: usize,
+    rows: &Rows,
     errors: &mut Diagnostics,
 ) {
     let (declared, span) = model.dof;
-    let (n, m) = (model.coordinates.len() as i64, independent as i64);
+    let (n, m) = (model.coordinates.len() as i64, rows.basis.len() as i64);
     if n - m == declared {
         return;
     }
+    let independent = if rows.redundant.is_empty() { "" } else { "independent " };
     let message = format!(
-        "`{}` declares dof = {declared}, but {n} coordinates − {m} constraints leave {}",
+        "`{}` declares dof = {declared}, but {n} coordinates − {m} {independent}constraints leave {}",
         model.name,
         n - m
     );
     let help = if n - m > declared {
-        let free = free_coordinates(model, equations, samples);
+        let free = free_coordinates(model, equations, samples, &rows.basis);
         let missing = n - m - declared;
         let s = if missing == 1 { "" } else { "s" };
-        format!("{missing} constraint{s} or drive{s} missing; free to move are {}", listing(free))
+        let pins = if missing == 1 { "" } else { " (a `revolute` is two constraints)" };
+        let floating = super::floating::floating_bodies(model);
+        let help =
+            format!("{missing} constraint{s} or drive{s} missing{pins}; free to move are {}", listing(free));
+        match floating.as_slice() {
+            [] => help,
+            _ => format!("{help}; no joint leads from {} to the ground", listing(floating)),
+        }
     } else {
         let surplus = declared - (n - m);
         let s = if surplus == 1 { "" } else { "s" };
-        format!("{surplus} constraint{s} too many for that; remove or correct, or declare dof = {}", n - m)
+        let drives = match model.constraints.iter().any(|constraint| constraint.is_drive) {
+            true => "; a drive is a constraint too",
+            false => "",
+        };
+        let left = n - m;
+        format!(
+            "{surplus} constraint{s} too many for that; remove or correct, or declare dof = {left}{drives}"
+        )
     };
     errors.push(Diagnostic::new(span, message).help(help));
 }
 
 /// Coordinates that move in some motion that the constraints allow.
-fn free_coordinates<'a>(model: &'a Model, equations: &Equations, samples: &Samples) -> Vec<&'a str> {
-    let nothing = BTreeSet::new();
-    let full = samples.rank(model, equations, &nothing);
+fn free_coordinates<'a>(
+    model: &'a Model,
+    equations: &Equations,
+    samples: &Samples,
+    rows: &[usize],
+) -> Vec<&'a str> {
+    let full = samples.rank(model, equations, rows, &BTreeSet::new());
     let is_free = |at: &usize| {
         // A column that the rank does not need belongs to a free motion.
-        samples.rank(model, equations, &BTreeSet::from([*at])) == full
+        samples.rank(model, equations, rows, &BTreeSet::from([*at])) == full
     };
     (0..model.coordinates.len())
         .filter(is_free)
         .map(|at| model.coordinates[at].quantity.name.as_str())
         .collect()
-}
-
-/// Rows brought to echelon form.
-pub struct Echelon {
-    rank: usize,
-    /// Rows that are combinations of earlier ones, and of which.
-    pub dependent: Vec<(usize, Vec<usize>)>,
-}
-
-impl Echelon {
-    pub fn rank(&self) -> usize {
-        self.rank
-    }
-}
-
-/// Gaussian elimination, row by row with the largest entry of each as pivot,
-/// so that a dependent row is the one declared last.
-pub fn row_echelon(rows: Vec<Vec<f64>>) -> Echelon {
-    /// A reduced row, its pivot column, and how it came from the given rows.
-    struct Reduced {
-        entries: Vec<f64>,
-        pivot: usize,
-        history: Vec<f64>,
-    }
-    let count = rows.len();
-    let mut basis: Vec<Reduced> = Vec::new();
-    let mut dependent = Vec::new();
-    for (at, mut entries) in rows.into_iter().enumerate() {
-        let mut history = vec![0.0; count];
-        history[at] = 1.0;
-        for earlier in &basis {
-            let factor = entries[earlier.pivot] / earlier.entries[earlier.pivot];
-            subtract(&mut entries, factor, &earlier.entries);
-            subtract(&mut history, factor, &earlier.history);
-        }
-        let largest = |row: &[f64]| {
-            row.iter().map(|x| x.abs()).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
-        };
-        let scale = largest(&history).1;
-        match largest(&entries) {
-            (pivot, size) if size > RANK_TOLERANCE * scale => basis.push(Reduced { entries, pivot, history }),
-            _ => {
-                let used = (0..at).filter(|&other| history[other].abs() > RANK_TOLERANCE * scale).collect();
-                dependent.push((at, used));
-            }
-        }
-    }
-    Echelon { rank: basis.len(), dependent }
-}
-
-fn subtract(row: &mut [f64], factor: f64, other: &[f64]) {
-    for (x, y) in row.iter_mut().zip(other) {
-        *x -= factor * y;
-    }
 }

@@ -4,16 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{Arena, Expr, Symbol};
 
+use super::assembly::Position;
+use super::echelon::{Echelon, row_echelon};
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
 
 /// How many positions are looked at.
 const POSITIONS: usize = 5;
-
-/// A singular value of a normalised Jacobian below this counts as 0: far above
-/// rounding (1e-16 times a few hundred operations), far below what random
-/// positions of a regular mechanism give.
-pub const RANK_TOLERANCE: f64 = 1e-9;
 
 /// Symbol values at a few random positions. The sequence is fixed, so that the
 /// same declaration always compiles to the same code.
@@ -26,7 +23,7 @@ pub struct Samples {
 impl Samples {
     /// Random coordinates, velocities and times; declared parameters.
     pub fn new(model: &Model) -> Self {
-        let mut generator = Generator(0x9e37_79b9_7f4a_7c15);
+        let mut generator = Generator::new();
         let length = typical_length(model);
         let values = (0..POSITIONS)
             .map(|_| {
@@ -50,9 +47,20 @@ impl Samples {
         Self { values, start: declared_start(model) }
     }
 
+    /// Coordinates at the declared start, t = 0.
+    pub fn start_position(&self, model: &Model) -> Position {
+        let q = model.coordinates.iter().map(|coordinate| self.start[coordinate.position.index()]).collect();
+        Position { q, t: 0.0 }
+    }
+
     /// The values of expressions at one of the positions.
     pub fn evaluate(&self, arena: &Arena, roots: &[Expr], position: usize) -> Vec<f64> {
         evaluate_at(arena, roots, &self.values[position])
+    }
+
+    /// The value of a symbol at one of the positions.
+    pub fn value(&self, symbol: Symbol, position: usize) -> f64 {
+        self.values[position].get(symbol.index()).copied().unwrap_or(0.0)
     }
 
     /// The number of positions.
@@ -69,35 +77,56 @@ impl Samples {
         self.positions().map(magnitude).fold(f64::INFINITY, f64::min)
     }
 
-    /// The rank of Φ_q without the columns in `held`: the largest over the
-    /// positions, which is the generic one.
-    pub fn rank(&self, model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> usize {
-        let rank = |sample: &Vec<f64>| rank_at(model, equations, held, sample);
+    /// The rank of these rows of Φ_q without the columns in `held`: the largest
+    /// over the positions, which is the generic one.
+    pub fn rank(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        rows: &[usize],
+        held: &BTreeSet<usize>,
+    ) -> usize {
+        let rank = |sample: &Vec<f64>| rank_at(model, equations, rows, held, sample);
         self.values.iter().map(rank).max().unwrap_or(0)
     }
 
-    /// The rank of Φ_q without the columns in `held` at the declared start.
-    pub fn rank_at_start(&self, model: &Model, equations: &Equations, held: &BTreeSet<usize>) -> usize {
-        rank_at(model, equations, held, &self.start)
+    /// The same at the declared start.
+    pub fn rank_at_start(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        rows: &[usize],
+        held: &BTreeSet<usize>,
+    ) -> usize {
+        rank_at(model, equations, rows, held, &self.start)
     }
 
-    /// Φ_q at a position, each row scaled to a largest entry of 1.
-    pub fn jacobian(&self, model: &Model, equations: &Equations, position: usize) -> Vec<Vec<f64>> {
-        jacobian_at(model, equations, &BTreeSet::new(), &self.values[position])
+    /// All of Φ_q at a position, in echelon form.
+    pub fn echelon(&self, model: &Model, equations: &Equations, position: usize) -> Echelon {
+        let rows: Vec<usize> = (0..equations.phi.len()).collect();
+        row_echelon(jacobian_at(model, equations, &rows, &BTreeSet::new(), &self.values[position]))
     }
 }
 
-fn rank_at(model: &Model, equations: &Equations, held: &BTreeSet<usize>, sample: &[f64]) -> usize {
-    super::rank::row_echelon(jacobian_at(model, equations, held, sample)).rank()
+fn rank_at(
+    model: &Model,
+    equations: &Equations,
+    rows: &[usize],
+    held: &BTreeSet<usize>,
+    sample: &[f64],
+) -> usize {
+    row_echelon(jacobian_at(model, equations, rows, held, sample)).rank()
 }
 
 fn evaluate_at(arena: &Arena, roots: &[Expr], sample: &[f64]) -> Vec<f64> {
     arena.evaluate(roots, &|symbol: Symbol| sample.get(symbol.index()).copied().unwrap_or(0.0))
 }
 
+/// Rows of Φ_q, each scaled to a largest entry of 1.
 fn jacobian_at(
     model: &Model,
     equations: &Equations,
+    rows: &[usize],
     held: &BTreeSet<usize>,
     sample: &[f64],
 ) -> Vec<Vec<f64>> {
@@ -112,7 +141,7 @@ fn jacobian_at(
         let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         if largest > 0.0 { row.iter().map(|x| x / largest).collect() } else { row }
     };
-    equations.phi_q.iter().map(row).collect()
+    rows.iter().map(|&at| row(&equations.phi_q[at])).collect()
 }
 
 /// Symbol values at the declared start.
@@ -131,7 +160,7 @@ fn declared_start(model: &Model) -> Vec<f64> {
 }
 
 /// The size of the mechanism: the largest parameter that is a length, or 1 m.
-fn typical_length(model: &Model) -> f64 {
+pub fn typical_length(model: &Model) -> f64 {
     let lengths =
         model.parameters.iter().filter(|p| p.quantity.dimension == mbs_symbolic::units::Dimension::LENGTH);
     let largest = lengths.map(|p| p.value.abs()).fold(0.0, f64::max);
@@ -139,16 +168,24 @@ fn typical_length(model: &Model) -> f64 {
 }
 
 /// A small fixed generator (SplitMix64, Steele et al. 2014).
-struct Generator(u64);
+pub struct Generator(u64);
 
 impl Generator {
-    /// Uniform in −1 … 1.
-    fn symmetric(&mut self) -> f64 {
+    /// Always the same sequence.
+    pub fn new() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in −1 … 1.
+    pub fn symmetric(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }

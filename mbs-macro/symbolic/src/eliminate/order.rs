@@ -61,6 +61,9 @@ enum Class {
     Mass,
 }
 
+/// How much larger another constant of a row may be than its pivot.
+const LARGEST_WEIGHT: f64 = 1e3;
+
 struct Candidate {
     class: Class,
     /// A massless coordinate has to find its row before rows lose their zero
@@ -162,11 +165,15 @@ fn is_massless(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> bool {
 
 fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown, candidates: &mut Vec<Candidate>) {
     let neighbours: Vec<_> = matrix.neighbours(row).collect();
+    let size = |entry| arena.as_number(entry).map(|number| number.abs().to_f64());
+    let largest = neighbours.iter().filter_map(|&(_, entry)| size(entry)).fold(0.0, f64::max);
     for &(coordinate, entry) in &neighbours {
         if !matches!(coordinate, Unknown::Coordinate(_)) {
             continue;
         }
-        let class = match arena.as_number(entry) {
+        let class = match size(entry) {
+            // a small one beside a large one would cost digits
+            Some(size) if size * LARGEST_WEIGHT < largest => continue,
             Some(_) => Class::ConstantPair,
             None if neighbours.len() == 1 => Class::LastPair,
             None => continue,

@@ -3,4 +3,5 @@
 pub(crate) mod explain;
 pub(crate) mod list;
 pub(crate) mod new;
+mod page;
 pub(crate) mod simulate;

@@ -1,17 +1,16 @@
 //! `mbs simulate`: one run of one mechanism.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
-use mbs_runtime::{Dimension, Info, Quantity};
+use mbs_runtime::{Dimension, Quantity};
 
+use super::page;
 use crate::app::Models;
-use crate::figure::{Axis, Figure, Panel, Series};
-use crate::model::coordinate_unit;
-use crate::number::significant;
-use crate::{Error, FeedbackKind, Model, Recording, Settings, StartKind, Table, quantity, say};
+use crate::figure::Figure;
+use crate::{Error, FeedbackKind, Model, Picture, Settings, StartKind, quantity, say};
 
 const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -64,6 +63,14 @@ pub(crate) fn command() -> Command {
             option("plot", "FILE.svg|.png", "Draw coordinates, outputs and violation")
                 .value_parser(value_parser!(PathBuf)),
         )
+        .arg(
+            option("sketch", "FILE.svg|.png", "Draw the mechanism, its later poses and its paths")
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            option("report", "FILE.html", "Write a page with the mechanism in motion and all curves")
+                .value_parser(value_parser!(PathBuf)),
+        )
 }
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
@@ -71,16 +78,32 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let name = text("model").unwrap_or_default();
     let model = models.get(name)?;
     let settings = settings(model, matches)?;
-    let path = |name: &str| matches.get_one::<PathBuf>(name).map(PathBuf::as_path);
-    carry_out(name, model, &settings, path("out"), path("plot"))
+    let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
+    let files =
+        Files { csv: path("out"), plot: path("plot"), sketch: path("sketch"), report: path("report") };
+    carry_out(name, model, &settings, &files)
 }
 
 /// What the program does without a command: the mechanism as it is declared,
-/// recorded to `NAME.csv` and drawn to `NAME.svg` and `NAME.png`.
+/// recorded to `NAME.csv`, drawn to `NAME.svg` and `NAME-mechanism.svg`, and
+/// shown in motion in `NAME.html`.
 pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<(), Error> {
-    let path = |ending: &str| PathBuf::from(format!("{name}.{ending}"));
-    let (csv, svg) = (path("csv"), path("svg"));
-    carry_out(name, model, &model.defaults(), Some(&csv), Some(&svg))
+    let path = |ending: &str| Some(PathBuf::from(format!("{name}{ending}")));
+    let files = Files {
+        csv: path(".csv"),
+        plot: path(".svg"),
+        sketch: path("-mechanism.svg"),
+        report: path(".html"),
+    };
+    carry_out(name, model, &model.defaults(), &files)
+}
+
+/// What a run is to be written to.
+struct Files {
+    csv: Option<PathBuf>,
+    plot: Option<PathBuf>,
+    sketch: Option<PathBuf>,
+    report: Option<PathBuf>,
 }
 
 fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
@@ -121,13 +144,8 @@ fn assignments(
     matches.get_many::<String>(option).unwrap_or_default().map(assignment).collect()
 }
 
-fn carry_out(
-    name: &str,
-    model: &dyn Model,
-    settings: &Settings,
-    csv: Option<&Path>,
-    plot: Option<&Path>,
-) -> Result<(), Error> {
+fn carry_out(name: &str, model: &dyn Model, settings: &Settings, files: &Files) -> Result<(), Error> {
+    let Files { csv, plot, sketch, report } = files;
     let bar = ProgressBar::new(0).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
@@ -144,57 +162,23 @@ fn carry_out(
         kept = format!("; the motion up to there is in {}", path.display());
     }
     if let Some(path) = plot {
-        picture(name, model.info(), &recording).save(path)?;
+        page::curves(name, model.info(), &recording).save(path)?;
+    }
+    if sketch.is_some() || report.is_some() {
+        let picture = Picture::of(&model.motion(settings, &recording)?);
+        if let Some(path) = report {
+            page::page(name, model.info(), &recording, &picture).save(path)?;
+        }
+        if let Some(path) = sketch {
+            Figure::mechanism(name, picture).save(path)?;
+        }
     }
     if let Some(cause) = recording.ended {
         return Err(Error::EndedEarly { cause, kept });
     }
-    say(report(name, &recording).trim_end());
-    for path in [csv, plot].into_iter().flatten() {
+    say(page::summary(name, &recording).to_string().trim_end());
+    for path in [csv, plot, sketch, report].into_iter().flatten() {
         say(format_args!("written: {}", path.display()));
     }
     Ok(())
-}
-
-fn report(name: &str, recording: &Recording) -> String {
-    let summary = &recording.summary;
-    let mut table = Table::new([name, "", ""]);
-    let mut row = |what: &str, value: String, unit: &str| table.row([what, &value, unit]);
-    row("steps", summary.steps.to_string(), "");
-    row("max ‖Φ‖", significant(summary.max_phi, 4), "");
-    row("max ‖Φ̇‖", significant(summary.max_phi_dot, 4), "1/s");
-    row("energy change", significant(summary.energy_end - summary.energy_start, 6), "J");
-    for column in &recording.columns {
-        let shown = column.name != "violation" && !column.name.starts_with("lambda(");
-        if let Some(last) = column.values.last().filter(|_| shown) {
-            row(&format!("{} at the end", column.name), significant(*last, 7), &column.unit);
-        }
-    }
-    table.to_string()
-}
-
-/// Coordinates by kind, each output, and the violation.
-fn picture(name: &str, info: &Info, recording: &Recording) -> Figure {
-    let time = recording.columns.first().map_or(&[][..], |c| &c.values);
-    let axis = || Axis::new("time", "s");
-    let series = |name: &str| {
-        let values = recording.column(name).map_or(&[][..], |c| &c.values);
-        Series::xy(name, time, values)
-    };
-    let mut figure = Figure::new(name).panel_height(300);
-    for (label, unit) in [("position", "m"), ("angle", "rad")] {
-        let of_kind: Vec<_> =
-            info.coordinates.iter().filter(|q| coordinate_unit(q) == unit).map(|q| series(q.name)).collect();
-        if !of_kind.is_empty() {
-            figure = figure.panel(Panel::lines(axis(), Axis::new(label, unit), of_kind));
-        }
-    }
-    for output in info.outputs {
-        let unit = quantity::si_unit(output.dimension).replace('*', "·");
-        let unit = if unit == "1" { String::new() } else { unit };
-        let shown = Series { name: String::new(), ..series(output.name) };
-        figure = figure.panel(Panel::lines(axis(), Axis::new(output.name.replace('_', " "), unit), [shown]));
-    }
-    let violation = Series { name: String::new(), ..series("violation") };
-    figure.panel(Panel::lines(axis(), Axis::new("violation ‖Φ‖", ""), [violation]))
 }

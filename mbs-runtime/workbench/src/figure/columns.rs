@@ -13,6 +13,8 @@ impl Figure {
             match &panel.content {
                 Content::Lines(_) => add_curves(panel, &mut columns),
                 Content::Map(map) => add_cells(panel, map, &mut columns),
+                // Its points are those of the recording.
+                Content::Mechanism(_) => {}
             }
         }
         columns

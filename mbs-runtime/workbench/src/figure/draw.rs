@@ -4,9 +4,10 @@ use plotters::prelude::{DrawingArea, DrawingBackend, IntoFont, PathElement, Rect
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
-use super::layout::{Area, SCALE, Span, ranges};
-use super::{Axis, Content, Figure, Panel, Series, Stroke, colour, lines, map};
+use super::layout::{Area, SCALE, Span, ranges, with_equal_scales};
+use super::{Axis, Content, Figure, Panel, Series, Stroke, colour, lines, map, mechanism};
 use crate::number::superscript;
+use crate::picture::Picture;
 
 pub(super) const WIDTH: i32 = 900;
 const TITLE: i32 = 44;
@@ -16,7 +17,7 @@ const MARGINS: (i32, i32, i32, i32) = (84, 28, 20, 62);
 /// The right margin where a colour bar stands in it.
 const BAR_MARGIN: i32 = 140;
 
-const INK: RGBColor = RGBColor(30, 30, 30);
+pub(super) const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const TEXT: i32 = 16;
 /// Width of a curve.
@@ -25,6 +26,14 @@ const CURVE: f64 = 2.0;
 /// Height of a figure in pixels of the description.
 pub(super) fn height(figure: &Figure) -> i32 {
     TITLE + figure.panels.len() as i32 * figure.panel_height as i32
+}
+
+/// The height of a panel in which a mechanism fills the width, within bounds.
+pub(super) fn mechanism_height(picture: &Picture) -> u32 {
+    let (left, right, above, below) = MARGINS;
+    let [width, height] = picture.extent().size();
+    let drawn = f64::from(WIDTH - left - right) * height / width;
+    (drawn.clamp(240.0, 640.0) as i32 + above + below).unsigned_abs()
 }
 
 /// How a text is placed relative to its point.
@@ -57,13 +66,29 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         self.surface.draw(&Rectangle::new(corners, colour.filled())).map_err(|e| e.to_string())
     }
 
-    fn dot(&self, at: (i32, i32), radius: f64, colour: RGBColor) -> Drawn {
+    pub(super) fn polygon(&self, corners: Vec<(i32, i32)>, colour: RGBColor) -> Drawn {
+        let polygon = plotters::element::Polygon::new(corners, colour.filled());
+        self.surface.draw(&polygon).map_err(|e| e.to_string())
+    }
+
+    pub(super) fn dot(&self, at: (i32, i32), radius: f64, colour: RGBColor) -> Drawn {
         let radius = (radius * f64::from(SCALE)) as i32;
         let dot = plotters::element::Circle::new(at, radius, colour.filled());
         self.surface.draw(&dot).map_err(|e| e.to_string())
     }
 
     pub(super) fn text(&self, text: &str, at: (i32, i32), place: Place, size: i32) -> Drawn {
+        self.coloured_text(text, at, place, size, INK)
+    }
+
+    pub(super) fn coloured_text(
+        &self,
+        text: &str,
+        at: (i32, i32),
+        place: Place,
+        size: i32,
+        colour: RGBColor,
+    ) -> Drawn {
         let sideways = matches!(place, Place::Left | Place::Right);
         let drop = if sideways { (self.lowered * f64::from(size * SCALE)) as i32 } else { 0 };
         let at = (at.0, at.1 + drop);
@@ -77,7 +102,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         if let Place::Upwards = place {
             font = font.transform(FontTransform::Rotate270);
         }
-        let style = TextStyle::from(font).color(&INK).pos(Pos::new(h, v));
+        let style = TextStyle::from(font).color(&colour).pos(Pos::new(h, v));
         self.surface.draw(&Text::new(text.to_owned(), at, style)).map_err(|e| e.to_string())
     }
 
@@ -114,6 +139,7 @@ fn panel<B: DrawingBackend>(canvas: &Canvas<'_, B>, panel: &Panel, top: i32, bot
     let mut legend_height = 0;
     match &panel.content {
         Content::Map(_) => right = BAR_MARGIN,
+        Content::Mechanism(_) => {}
         Content::Lines(series) => {
             let named: Vec<_> = series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()).collect();
             legend_height = LEGEND_ROW * legend(canvas, &named, SCALE * left, SCALE * (top + 8))?;
@@ -125,7 +151,10 @@ fn panel<B: DrawingBackend>(canvas: &Canvas<'_, B>, panel: &Panel, top: i32, bot
         right: SCALE * (WIDTH - right),
         bottom: SCALE * (bottom - below),
     };
-    let (x_range, y_range) = ranges(panel);
+    let (x_range, y_range) = match &panel.content {
+        Content::Mechanism(_) => with_equal_scales(ranges(panel), area),
+        _ => ranges(panel),
+    };
     let x = Span::new(&panel.x, x_range, area.left, area.right);
     let y = Span::new(&panel.y, y_range, area.bottom, area.top);
     if let Content::Map(heat) = &panel.content {
@@ -133,6 +162,9 @@ fn panel<B: DrawingBackend>(canvas: &Canvas<'_, B>, panel: &Panel, top: i32, bot
         map::bar(canvas, heat, area)?;
     } else {
         grid(canvas, &x, &y, area)?;
+    }
+    if let Content::Mechanism(picture) = &panel.content {
+        mechanism::draw(canvas, picture, (&x, &y), area)?;
     }
     if let Content::Lines(series) = &panel.content {
         for (at, shown) in series.iter().enumerate() {

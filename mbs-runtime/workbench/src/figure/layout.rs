@@ -1,6 +1,7 @@
 //! Where things are: rectangles, and data to pixels.
 
 use super::{Axis, Content, Panel, ticks};
+use crate::picture::Extent;
 use ticks::Ticks;
 
 /// Pixels per unit of length of the description: both SVG and PNG are drawn
@@ -86,6 +87,19 @@ pub(super) fn range(axis: &Axis, values: impl Iterator<Item = f64>, air: bool) -
     if high > low { (low, high) } else { (low - 0.5, high + 0.5) }
 }
 
+/// Ranges around the same middle that give both axes the scale of the one that
+/// needs more room.
+pub(super) fn with_equal_scales(ranges: ((f64, f64), (f64, f64)), area: Area) -> ((f64, f64), (f64, f64)) {
+    let [(x0, x1), (y0, y1)] = [ranges.0, ranges.1];
+    let (width, height) = (f64::from(area.right - area.left), f64::from(area.bottom - area.top));
+    let half_pixel = 0.5 * ((x1 - x0) / width).max((y1 - y0) / height);
+    let around = |low: f64, high: f64, pixels: f64| {
+        let middle = 0.5 * (low + high);
+        (middle - half_pixel * pixels, middle + half_pixel * pixels)
+    };
+    (around(x0, x1, width), around(y0, y1, height))
+}
+
 /// The ranges of both axes of a panel.
 pub(super) fn ranges(panel: &Panel) -> ((f64, f64), (f64, f64)) {
     match &panel.content {
@@ -97,6 +111,10 @@ pub(super) fn ranges(panel: &Panel) -> ((f64, f64), (f64, f64)) {
             let x = range(&panel.x, points().map(|p| p[0]), false);
             let visible = points().filter(|p| p[0] >= x.0 && p[0] <= x.1).map(|p| p[1]);
             (x, range(&panel.y, visible, true))
+        }
+        Content::Mechanism(picture) => {
+            let Extent { low, high } = picture.extent();
+            ((low[0], high[0]), (low[1], high[1]))
         }
     }
 }

@@ -8,13 +8,17 @@ mod colour;
 mod columns;
 mod contour;
 mod draw;
+mod labels;
 mod layout;
 mod lines;
 mod map;
+mod mechanism;
 mod output;
 mod ticks;
 
 pub use colour::{SERIES_COLOURS, colour_map};
+
+use crate::picture::Picture;
 
 /// A picture of one or more panels.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +42,12 @@ impl Figure {
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
+    }
+
+    /// A figure of one mechanism, as high as its shape asks for.
+    pub fn mechanism(title: impl Into<String>, picture: Picture) -> Self {
+        let height = draw::mechanism_height(&picture);
+        Self::new(title).panel(Panel::mechanism(picture)).panel_height(height)
     }
 
     /// With this height of every panel, in pixels.
@@ -66,12 +76,21 @@ pub enum Content {
     Lines(Vec<Series>),
     /// A quantity over a plane, as colours and contour lines.
     Map(HeatMap),
+    /// A mechanism at the start of its motion, with later poses behind it; both
+    /// axes have the same scale.
+    Mechanism(Picture),
 }
 
 impl Panel {
     /// A panel of curves.
     pub fn lines(x: Axis, y: Axis, series: impl IntoIterator<Item = Series>) -> Self {
         Self { x, y, content: Content::Lines(series.into_iter().collect()) }
+    }
+
+    /// A panel with a mechanism.
+    pub fn mechanism(picture: Picture) -> Self {
+        let axis = |label: &str| Axis::new(label, "m");
+        Self { x: axis("x"), y: axis("y"), content: Content::Mechanism(picture) }
     }
 
     /// A panel with a heat map.

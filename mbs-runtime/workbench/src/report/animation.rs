@@ -3,25 +3,15 @@
 use serde_json::{Value, json};
 
 use super::data::number;
+use crate::picture::{Picture, Shape};
 
-/// A moving picture: points whose places are known at every instant, and what
-/// is drawn between them.
+/// A moving picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
     /// The caption.
     pub title: String,
-    /// The instants, ascending, in s.
-    pub times: Vec<f64>,
-    /// For every instant the points, in m.
-    pub points: Vec<Vec<[f64; 2]>>,
-    /// Pairs of points that a bar joins.
-    pub bars: Vec<(usize, usize)>,
-    /// Points at which a sliding block is drawn.
-    pub blocks: Vec<usize>,
-    /// Points that are fixed to the ground.
-    pub fixed: Vec<usize>,
-    /// Points whose path is drawn.
-    pub traced: Vec<usize>,
+    /// What moves.
+    pub picture: Picture,
     /// Values shown beside the picture.
     pub readouts: Vec<Readout>,
 }
@@ -40,19 +30,48 @@ pub struct Readout {
 impl Animation {
     pub(super) fn data(&self) -> Value {
         let numbers = |values: &[f64]| values.iter().map(|x| number(*x)).collect::<Vec<_>>();
-        // A tenth of a millimetre is finer than any screen; it keeps the page small.
-        let place = |p: &[f64; 2]| p.map(|x| (x * 1e5).round() / 1e5);
+        let picture = &self.picture;
+        let extent = picture.extent();
+        // The fourth digit is finer than any screen; the fifth would make the page longer.
+        let unit = 10_f64.powf((extent.span() / 5000.0).log10().floor());
+        let place = |p: &[f64; 2]| p.map(|x| (x / unit).round() as i64);
         let frames: Vec<Vec<_>> =
-            self.points.iter().map(|points| points.iter().map(place).collect()).collect();
+            picture.points.iter().map(|points| points.iter().map(place).collect()).collect();
         let readouts: Vec<_> = self
             .readouts
             .iter()
             .map(|r| json!({ "name": r.name, "unit": r.unit, "values": numbers(&r.values) }))
             .collect();
         json!({
-            "kind": "animation", "title": self.title, "times": numbers(&self.times), "frames": frames,
-            "bars": self.bars, "blocks": self.blocks, "fixed": self.fixed, "traced": self.traced,
-            "readouts": readouts,
+            "kind": "animation", "title": self.title, "times": numbers(&picture.times),
+            "unit": unit, "frames": frames, "low": extent.low, "high": extent.high,
+            "shapes": picture.shapes.iter().map(shape).collect::<Vec<_>>(),
+            "traced": picture.traced, "weight": picture.weight, "readouts": readouts,
         })
+    }
+}
+
+fn shape(shape: &Shape) -> Value {
+    match shape {
+        Shape::Rail { from, ahead, reach } => {
+            json!({ "kind": "rail", "from": from, "ahead": ahead, "reach": reach })
+        }
+        Shape::Ground { at } => json!({ "kind": "ground", "at": at }),
+        Shape::Link { between } => json!({ "kind": "link", "points": between }),
+        Shape::Spring { between } => json!({ "kind": "spring", "points": between }),
+        Shape::Bar { between, colour } => json!({ "kind": "bar", "points": between, "colour": colour }),
+        Shape::Plate { corners, colour } => json!({ "kind": "plate", "points": corners, "colour": colour }),
+        Shape::Dot { at, colour } => json!({ "kind": "dot", "at": at, "colour": colour }),
+        Shape::Block { at, from, ahead, colour } => {
+            json!({ "kind": "block", "at": at, "from": from, "ahead": ahead, "colour": colour })
+        }
+        Shape::Coil { at } => json!({ "kind": "coil", "at": at }),
+        Shape::Pin { at } => json!({ "kind": "pin", "at": at }),
+        Shape::Weld { at } => json!({ "kind": "weld", "at": at }),
+        Shape::Centre { at } => json!({ "kind": "centre", "at": at }),
+        Shape::Mark { between, text } => json!({ "kind": "mark", "points": between, "text": text }),
+        Shape::Label { text, near, colour } => {
+            json!({ "kind": "label", "points": near, "text": text, "colour": colour })
+        }
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn panel(panel: &Panel) -> Value {
     let shown = panel.x.range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let curves = match &panel.content {
         Content::Lines(curves) => curves.iter().map(|curve| series(curve, shown)).collect::<Vec<_>>(),
-        Content::Map(_) => Vec::new(),
+        Content::Map(_) | Content::Mechanism(_) => Vec::new(),
     };
     json!({ "kind": "lines", "x": axis(&panel.x), "y": axis(&panel.y), "series": curves })
 }

@@ -13,6 +13,7 @@ use crate::{Error, Table};
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
+const SHAPES_SCRIPT: &str = include_str!("mechanism.js");
 const UPLOT_STYLE: &str = include_str!("../../assets/uplot/uPlot.min.css");
 const UPLOT_SCRIPT: &str = include_str!("../../assets/uplot/uPlot.iife.min.js");
 
@@ -103,7 +104,7 @@ impl Report {
             .replace("@LEAD@", &escaped(&self.lead))
             .replace("@CONTENTS@", &contents.collect::<String>())
             .replace("@STYLE@", &format!("{UPLOT_STYLE}\n{STYLE}"))
-            .replace("@SCRIPT@", &format!("{UPLOT_SCRIPT}\n{SCRIPT}"));
+            .replace("@SCRIPT@", &format!("{UPLOT_SCRIPT}\n{SHAPES_SCRIPT}\n{SCRIPT}"));
         Ok(page.replace("@BODY@", &body).replace("@DATA@", &data))
     }
 
@@ -135,7 +136,7 @@ fn html_figure(
     plots: &mut Vec<serde_json::Value>,
 ) -> Result<String, Error> {
     let mut html = String::from("<figure>\n");
-    if figure.panels.iter().any(|panel| matches!(panel.content, Content::Map(_))) {
+    if figure.panels.iter().any(|panel| !matches!(panel.content, Content::Lines(_))) {
         let svg = figure.svg()?;
         // Only the element itself: an XML declaration has no place inside a page.
         html += svg.find("<svg").map_or("", |at| &svg[at..]);

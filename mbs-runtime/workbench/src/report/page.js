@@ -67,80 +67,54 @@
     element.innerHTML = `<h3></h3><canvas></canvas>
       <div class="controls"><button type="button"></button>
       <input type="range" min="0" max="1000" value="0" aria-label="time">
-      <label>speed <select><option>1</option><option>0.5</option><option>0.2</option>
-      <option selected>0.1</option><option>0.05</option></select></label></div>
+      <label>speed <select></select></label></div>
       <div class="readouts"></div>`;
     const find = (selector) => element.querySelector(selector);
     const [canvas, button, slider, speed] = ["canvas", "button", "input", "select"].map(find);
     find("h3").textContent = picture.title;
-    const times = picture.times, start = times[0], span = times[times.length - 1] - start;
+    if (!picture.times.length) return;
+    const times = picture.times, start = times[0], span = times[times.length - 1] - start || 1;
+    // Whatever lasts, is shown in about eight seconds.
+    const speeds = [10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
+    const off = (rate) => Math.abs(Math.log(span / rate / 8));
+    const usual = speeds.reduce((best, rate) => (off(rate) < off(best) ? rate : best));
+    speed.replaceChildren(...speeds.map((rate) => new Option(rate, rate, rate === usual, rate === usual)));
 
-    const all = picture.frames.flat();
-    const bound = (at, f) => f(...all.map((p) => p[at]));
-    const margin = 0.12 * (bound(0, Math.max) - bound(0, Math.min) || 1);
-    const box = { left: bound(0, Math.min) - margin, right: bound(0, Math.max) + margin,
-                  low: bound(1, Math.min) - margin, high: bound(1, Math.max) + margin };
+    const frames = picture.frames.map((places) => places.map((p) => p.map((x) => x * picture.unit)));
+    const [left, low] = picture.low, [right, high] = picture.high;
 
     function draw(now) {
       const at = Math.min(times.length - 1, Math.round((now - start) / span * (times.length - 1)));
       const ratio = devicePixelRatio || 1;
-      const width = element.clientWidth, unit = width / (box.right - box.left);
-      const height = Math.min(420, (box.high - box.low) * unit);
+      const width = element.clientWidth;
+      const zoom = Math.min(width / (right - left), 460 / (high - low));
+      const height = (high - low) * zoom;
       canvas.width = width * ratio;
       canvas.height = height * ratio;
       canvas.style.height = height + "px";
       const c = canvas.getContext("2d");
       c.scale(ratio, ratio);
-      const zoom = Math.min(unit, height / (box.high - box.low));
-      const place = ([x, y]) => [width / 2 + (x - (box.left + box.right) / 2) * zoom,
-                                 height / 2 - (y - (box.low + box.high) / 2) * zoom];
-      const points = picture.frames[at].map(place);
+      const place = ([x, y]) => [width / 2 + (x - (left + right) / 2) * zoom, height / 2 - (y - (low + high) / 2) * zoom];
+      const points = frames[at].map(place);
       c.lineCap = c.lineJoin = "round";
 
-      c.strokeStyle = "#b8c0c8";
-      c.lineWidth = 1.2;
-      for (const traced of picture.traced) {
+      for (const [traced, colour] of picture.traced) {
+        c.strokeStyle = COLOURS[colour % COLOURS.length] + "70";
+        c.lineWidth = 1.2;
         c.beginPath();
-        picture.frames.forEach((frame) => c.lineTo(...place(frame[traced])));
+        frames.forEach((frame) => c.lineTo(...place(frame[traced])));
         c.stroke();
       }
-      for (const ground of picture.fixed) {
-        const [x, y] = points[ground];
-        c.fillStyle = "#8a929a";
-        c.beginPath();
-        c.moveTo(x, y);
-        c.lineTo(x - 13, y + 22);
-        c.lineTo(x + 13, y + 22);
-        c.fill();
-      }
-      for (const block of picture.blocks) {
-        const [x, y] = points[block];
-        c.fillStyle = "#009e73";
-        c.fillRect(x - 24, y - 15, 48, 30);
-        c.strokeStyle = "#8a929a";
-        c.lineWidth = 1.5;
-        c.beginPath();
-        c.moveTo(0, y + 16);
-        c.lineTo(width, y + 16);
-        c.stroke();
-      }
-      picture.bars.forEach(([from, to], number) => {
-        c.strokeStyle = COLOURS[number % COLOURS.length];
-        c.lineWidth = 9;
-        c.beginPath();
-        c.moveTo(...points[from]);
-        c.lineTo(...points[to]);
-        c.stroke();
-      });
-      for (const joint of new Set(picture.bars.flat())) {
-        c.fillStyle = "#fff";
-        c.strokeStyle = "#1e1e1e";
-        c.lineWidth = 1.5;
-        c.beginPath();
-        c.arc(...points[joint], 5, 0, 7);
-        c.fill();
-        c.stroke();
-      }
+      const view = {
+        zoom, size: picture.weight,
+        at: (point) => points[point],
+        colour: (at) => COLOURS[at % COLOURS.length],
+        direction: (from, to) => {
+          const [a, b] = [points[from], points[to]], length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+          return length ? [(b[0] - a[0]) / length, (b[1] - a[1]) / length] : [1, 0];
+        },
+      };
+      picture.shapes.forEach((shape) => drawShape(c, shape, view));
       const values = [`t = ${times[at].toFixed(4)} s`, ...picture.readouts.map(
         (r) => `${r.name} = ${format(r.values[at], 4)} ${r.unit}`)];
       find(".readouts").replaceChildren(...values.map((text) => {

@@ -93,4 +93,15 @@ mechanism! {
     }
 }
 
+mechanism! {
+    Multiplied {
+        dof = 1;
+        assembly A { let a = 1; }
+        assembly B { for i in 1..=30 { instance a[i]: A; } }
+        assembly C { for i in 1..=30 { instance b[i]: B; } }
+        assembly D { for i in 1..=30 { instance c[i]: C; } }
+        instance d: D;
+    }
+}
+
 fn main() {}

@@ -50,6 +50,8 @@ mechanism! {
         dof = 1;
         for i in 1..=1000 { for j in 1..=1000 { let a[i, j] = 1; } }
         for i in 1..=1000 { for j in 1..=1000 { let b[i][j] = 1; } }
+        for i in 1..=2147483647 { }
+        for i in 1..=2147483647 { for j in 1..=0 { let c[i][j] = 1; } }
     }
 }
 

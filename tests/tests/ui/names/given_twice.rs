@@ -10,7 +10,17 @@ mechanism! {
         gravity = (0, 9.81) [m/s^2];
         body bob (x, y) { mass = 1 [kg]; }
         start { x = 1 [m]; }
-        start { x = 2 [m]; }
+        start { y = 1 [m]; }
+        redundant = minimum_norm;
+        redundant = minimum_norm;
+        limit operations = 100;
+        limit operations = 200;
+        limit stack = 4096;
+        limit stack = 8192;
+        step = 1 [ms];
+        step = 2 [ms];
+        feedback = held(1 [1/s], 1 [1/s]);
+        feedback = held(2 [1/s], 2 [1/s]);
     }
 }
 

@@ -8,4 +8,12 @@ mechanism! {
     }
 }
 
+mechanism! {
+    Blocks {
+        dof = 1;
+        body bob (x) { mass = 1 [kg]; }
+        if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { if 1 > 0 { let b = 1; }}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}}
+    }
+}
+
 fn main() {}

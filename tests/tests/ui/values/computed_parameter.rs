@@ -8,8 +8,9 @@ mechanism! {
         const r = 60 [mm];
         param l1 = 2*r;
         param l2 = 60 [mm] + 3 [mm];
-        param l3 = 2*l1;
-        const c = 2*l1;
+        param l0 = 60 [mm];
+        param l3 = 2*l0;
+        const c = 2*l0;
         body slider (x3) { mass = 1 [kg]; }
     }
 }

@@ -1,0 +1,55 @@
+//! The constant and the function that pictures are made from.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::names::Names;
+use super::program::Body;
+use crate::model::{Link, Sketch};
+
+/// The value of `SKETCH`.
+pub fn emit(sketch: &Sketch, names: &Names) -> TokenStream {
+    let runtime = &names.runtime;
+    let points = sketch.points.iter().map(|point| &point.name);
+    let bodies = sketch.bodies.iter().map(|(name, points)| {
+        let points = positions(points);
+        quote!(#runtime::sketch::Body { name: #name, points: #points })
+    });
+    let ground = positions(&sketch.ground);
+    let joints = sketch.joints.iter().map(|joint| {
+        let Link { name, kind, first, second, ahead } = joint;
+        let (first, second) = (Literal::usize_unsuffixed(*first), Literal::usize_unsuffixed(*second));
+        let ahead = match ahead.map(Literal::usize_unsuffixed) {
+            Some(ahead) => quote!(::core::option::Option::Some(#ahead)),
+            None => quote!(::core::option::Option::None),
+        };
+        quote! {
+            #runtime::sketch::Joint { name: #name, kind: #kind, first: #first, second: #second, ahead: #ahead }
+        }
+    });
+    let springs = sketch.springs.iter().map(|spring| {
+        let Link { name, kind, first, second, .. } = spring;
+        let (first, second) = (Literal::usize_unsuffixed(*first), Literal::usize_unsuffixed(*second));
+        quote!(#runtime::sketch::Spring { name: #name, kind: #kind, first: #first, second: #second })
+    });
+    quote! {
+        #runtime::Sketch {
+            points: &[#(#points),*],
+            bodies: &[#(#bodies),*],
+            ground: #ground,
+            joints: &[#(#joints),*],
+            springs: &[#(#springs),*],
+        }
+    }
+}
+
+fn positions(positions: &[usize]) -> TokenStream {
+    let positions = positions.iter().map(|&at| Literal::usize_unsuffixed(at));
+    quote!(&[#(#positions),*])
+}
+
+/// The places from a program that gives x and y of each in turn.
+pub fn places(Body { statements, outputs }: Body) -> TokenStream {
+    let places = outputs.chunks(2);
+    quote!(#statements [#([#(#places),*]),*])
+}

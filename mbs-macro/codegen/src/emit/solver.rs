@@ -1,0 +1,72 @@
+//! What a step costs, and the declared step and feedback, as constants; whether
+//! these are stable is decided by the runtime's own condition.
+
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+
+use super::names::Names;
+use crate::model::{Feedback, Model};
+use crate::plan::Plan;
+
+pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+    let Names { mechanism, runtime, state, .. } = names;
+    let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
+    let operations = plan.operations();
+    let values = 2 * plan.stabilized.instructions.len().max(plan.constrained.instructions.len());
+    let mut tokens = quote! {
+        impl<T: #runtime::Real> #mechanism<T> {
+            /// Operations of one evaluation of the right-hand side, the watch over
+            /// the pivots included; a step takes two, or less.
+            pub const OPERATIONS: ::core::primitive::u32 = #operations;
+            /// The size of a state (time, positions, velocities) in bytes.
+            pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#state>();
+            /// A bound of the stack that a step takes, in bytes, in optimized code:
+            /// every value of both evaluations of the right-hand side once, eight
+            /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+            pub const STACK_BYTES: ::core::primitive::usize = #values * ::core::mem::size_of::<T>()
+                + 8 * (Self::STATE_BYTES + ::core::mem::size_of::<#rows>() + ::core::mem::size_of::<#inputs>())
+                + 1024;
+        }
+    };
+    if let Some((limit, span)) = model.solver.stack {
+        let limit = limit as usize;
+        let message =
+            format!("a step of `{mechanism}` may take more stack than the {limit} bytes that are allowed");
+        tokens.extend(quote_spanned! {span=>
+            const _: () = ::core::assert!(#mechanism::<::core::primitive::f64>::STACK_BYTES <= #limit, #message);
+        });
+    }
+    let Some((step, _)) = model.solver.step else { return tokens };
+    tokens.extend(quote! {
+        impl #mechanism<::core::primitive::f64> {
+            /// The declared step in s.
+            pub const STEP: ::core::primitive::f64 = #step;
+        }
+    });
+    let Some(Feedback { is_held, alpha, beta, span }) = model.solver.feedback else { return tokens };
+    let (kind, word) = if is_held { (quote!(Held), "held") } else { (quote!(PerStage), "per-stage") };
+    let message = format!(
+        "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \
+         the constraint violation would grow; reduce them or the step"
+    );
+    tokens.extend(quote! {
+        impl #mechanism<::core::primitive::f64> {
+            /// The declared feedback of the constraint violation, stable with
+            /// steps of [`STEP`](Self::STEP).
+            pub const FEEDBACK: #runtime::Baumgarte<#runtime::#kind> =
+                match #runtime::Baumgarte::new(#alpha, #beta) {
+                    ::core::result::Result::Ok(feedback) => feedback,
+                    ::core::result::Result::Err(_) => #runtime::Baumgarte::NONE,
+                };
+        }
+    });
+    // At the statement itself, so that this is where the compiler points.
+    tokens.extend(quote_spanned! {span=>
+        const _: () = ::core::assert!(
+            #mechanism::<::core::primitive::f64>::FEEDBACK
+                .is_stable(#mechanism::<::core::primitive::f64>::STEP),
+            #message
+        );
+    });
+    tokens
+}

@@ -1,0 +1,182 @@
+//! What a picture of the mechanism needs: the points of bodies, and what joins
+//! them. Read once everything else is, so that it cannot change the equations.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::{Arena, Expr};
+use proc_macro2::Ident;
+
+use super::names::Place;
+use super::places::GROUND;
+use super::resolver::Resolver;
+use super::{Direction, joints};
+use crate::diagnostics::Diagnostics;
+use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind, JOINTS, JointKind};
+
+/// Points of bodies and pairs of them.
+#[derive(Default)]
+pub struct Sketch {
+    pub points: Vec<Point>,
+    /// Name and points of every body, its centre first.
+    pub bodies: Vec<(String, Vec<usize>)>,
+    /// The points of the ground, the origin first.
+    pub ground: Vec<usize>,
+    pub joints: Vec<Link>,
+    pub springs: Vec<Link>,
+}
+
+/// A point with its place on a body.
+pub struct Point {
+    pub name: String,
+    pub origin: [Expr; 2],
+    pub angle: Expr,
+    /// Its place on the body; `None` for the origin of the body itself.
+    pub local: Option<[Expr; 2]>,
+}
+
+/// A joint or a spring between two points.
+pub struct Link {
+    pub name: String,
+    /// The word that declares it.
+    pub kind: &'static str,
+    pub first: usize,
+    pub second: usize,
+    /// A point ahead of the second one in the direction of a joint.
+    pub ahead: Option<usize>,
+}
+
+impl Sketch {
+    /// x and y of every point, in the ground frame.
+    pub fn places(&self, arena: &mut Arena) -> Vec<Expr> {
+        let place = |point: &Point| match point.local {
+            None => point.origin,
+            Some(local) => joints::place(arena, point.origin, point.angle, local).position,
+        };
+        self.points.iter().flat_map(place).collect()
+    }
+}
+
+/// Positions of points by body and name, that of a centre by its body alone.
+type Known = BTreeMap<(String, Option<String>), usize>;
+
+impl Resolver<'_> {
+    /// The sketch of a declaration without errors; of one with errors, a part of it.
+    pub(super) fn sketch(&mut self, declaration: &Declaration) -> Sketch {
+        let mut sketch = Sketch::default();
+        let mut known = Known::new();
+        let mut declared: BTreeMap<String, Vec<&Ident>> = BTreeMap::new();
+        for item in &declaration.items {
+            if let ItemKind::Point { name, body, .. } = &item.kind {
+                declared.entry(body.to_string()).or_default().push(name);
+            }
+        }
+        let bodies: Vec<String> = self.bodies.iter().map(|body| body.name.clone()).collect();
+        for body in bodies {
+            let points = self.sketch_points(&body, &declared, &mut sketch, &mut known);
+            sketch.bodies.push((body, points));
+        }
+        sketch.ground = self.sketch_points(GROUND, &declared, &mut sketch, &mut known);
+        for at in 0..self.bodies.len() {
+            self.sketch_guide(at, &mut sketch);
+        }
+        for item in &declaration.items {
+            self.sketch_link(item, &known, &mut sketch);
+        }
+        sketch
+    }
+
+    /// A body that lacks coordinates is guided by the ground: one that has x
+    /// alone slides on the x axis, one that has an angle alone turns about the
+    /// origin.
+    fn sketch_guide(&self, body: usize, sketch: &mut Sketch) {
+        let Some(body) = self.bodies.get(body) else { return };
+        let has = |direction| body.coordinates.iter().any(|&at| self.coordinates[at].direction == direction);
+        let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
+        let (kind, along) = match [Direction::X, Direction::Y, Direction::Angle].map(has) {
+            [true, false, false] => ("prismatic", Some([one, zero])),
+            [false, true, false] => ("prismatic", Some([zero, one])),
+            [true, false, true] => ("point_on_line", Some([one, zero])),
+            [false, true, true] => ("point_on_line", Some([zero, one])),
+            [false, false, true] => ("revolute", None),
+            _ => return,
+        };
+        let centre = sketch.bodies.iter().find(|(name, _)| *name == body.name);
+        let first = centre.and_then(|(_, points)| points.first().copied());
+        let (Some(first), Some(&second)) = (first, sketch.ground.first()) else { return };
+        let ahead = along.map(|origin| {
+            let name = format!("{}.ahead", body.name);
+            sketch.points.push(Point { name, origin, angle: zero, local: None });
+            sketch.points.len() - 1
+        });
+        sketch.joints.push(Link { name: body.name.clone(), kind, first, second, ahead });
+    }
+
+    /// Adds the points of a body and gives their positions.
+    fn sketch_points(
+        &self,
+        body: &str,
+        declared: &BTreeMap<String, Vec<&Ident>>,
+        sketch: &mut Sketch,
+        known: &mut Known,
+    ) -> Vec<usize> {
+        let Some(frame) = self.scope.bodies.get(body) else { return Vec::new() };
+        let named = declared.get(body).into_iter().flatten().map(|name| Some(name.to_string()));
+        let mut positions = Vec::new();
+        for name in [None].into_iter().chain(named) {
+            let local = name.as_ref().and_then(|name| frame.local(name));
+            let text = name.as_ref().map_or_else(|| body.to_owned(), |name| format!("{body}.{name}"));
+            known.insert((body.to_owned(), name), sketch.points.len());
+            positions.push(sketch.points.len());
+            sketch.points.push(Point { name: text, origin: frame.origin, angle: frame.angle, local });
+        }
+        positions
+    }
+
+    /// Adds a joint or a spring; of other statements, nothing.
+    fn sketch_link(&mut self, item: &Item, known: &Known, sketch: &mut Sketch) {
+        let (name, kind, first, second, along) = match &item.kind {
+            ItemKind::Joint(joint) => {
+                let along = joint.clauses.iter().find_map(|clause| match clause {
+                    Clause::Along(vector) => Some(vector),
+                    _ => None,
+                });
+                (&joint.name, word(joint.kind), &joint.first, &joint.second, along)
+            }
+            ItemKind::Element(element) => {
+                let Some(second) = &element.second else { return };
+                (&element.name, element.kind.word(), &element.first, second, None)
+            }
+            _ => return,
+        };
+        let position = |place: &Attachment| {
+            let point = place.point.as_ref().map(Ident::to_string);
+            known.get(&(place.body.to_string(), point)).copied()
+        };
+        let (Some(first), Some(second)) = (position(first), position(second)) else { return };
+        // What is wrong with a direction has been said already.
+        let errors = &mut Diagnostics::default();
+        let along = along.and_then(|vector| {
+            let x = self.scope.formula(&vector.x, Place::Property, errors)?;
+            let y = self.scope.formula(&vector.y, Place::Property, errors)?;
+            Some([x.expr, y.expr])
+        });
+        let ahead = along.map(|along| {
+            let Point { origin, angle, local, .. } = sketch.points[second];
+            let local = local.unwrap_or([self.scope.arena.zero(); 2]);
+            let arena = &mut self.scope.arena;
+            let local = [arena.add(local[0], along[0]), arena.add(local[1], along[1])];
+            sketch.points.push(Point { name: format!("{name}.ahead"), origin, angle, local: Some(local) });
+            sketch.points.len() - 1
+        });
+        let link = Link { name: name.to_string(), kind, first, second, ahead };
+        match &item.kind {
+            ItemKind::Element(_) => sketch.springs.push(link),
+            _ => sketch.joints.push(link),
+        }
+    }
+}
+
+/// The word that declares joints of a kind: the first, where there are several.
+fn word(kind: JointKind) -> &'static str {
+    JOINTS.iter().find(|shape| shape.kind == kind).map_or("", |shape| shape.word)
+}

@@ -1,0 +1,98 @@
+//! `step = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
+//! integrated, and what that may cost.
+
+use mbs_symbolic::Number;
+use mbs_symbolic::units::Dimension;
+use proc_macro2::Span;
+
+use super::names::Place;
+use super::resolver::Resolver;
+use crate::diagnostics::Diagnostic;
+use crate::syntax::Formula;
+
+/// The declared choices, in SI units.
+#[derive(Default)]
+pub struct Solver {
+    /// Operations that one evaluation of the right-hand side may take.
+    pub operations: Option<(u32, Span)>,
+    /// Bytes of stack that a step in `f64` may take.
+    pub stack: Option<(u32, Span)>,
+    pub step: Option<(f64, Span)>,
+    pub feedback: Option<Feedback>,
+}
+
+pub struct Feedback {
+    pub is_held: bool,
+    pub alpha: f64,
+    pub beta: f64,
+    pub span: Span,
+}
+
+impl Resolver<'_> {
+    pub(super) fn resolve_limit(&mut self, keyword: Span, is_stack: bool, value: u32) {
+        let solver = &mut self.solver;
+        let (limit, what) = match is_stack {
+            true => (&mut solver.stack, "`limit stack`"),
+            false => (&mut solver.operations, "`limit operations`"),
+        };
+        match *limit {
+            Some((_, earlier)) => self.repeated(what, keyword, earlier),
+            None => *limit = Some((value, keyword)),
+        }
+    }
+
+    pub(super) fn resolve_step(&mut self, keyword: Span, value: &Formula) {
+        if let Some((_, earlier)) = self.solver.step {
+            return self.repeated("`step`", keyword, earlier);
+        }
+        let Some(step) = self.number(value, ("the step", Dimension::of(0, 0, 1))) else { return };
+        if step <= 0.0 {
+            let message = format!("the step is {step} s, but it has to be positive");
+            self.errors.push(Diagnostic::new(value.span, message).help("as in `step = 0.5 [ms];`"));
+        }
+        self.solver.step = Some((step, keyword));
+    }
+
+    pub(super) fn resolve_feedback(&mut self, keyword: Span, is_held: bool, gains: &[Formula; 2]) {
+        if let Some(earlier) = &self.solver.feedback {
+            let earlier = earlier.span;
+            return self.repeated("`feedback`", keyword, earlier);
+        }
+        let [alpha, beta] = gains;
+        let values = [("alpha", alpha), ("beta", beta)].map(|(name, formula)| {
+            let gain = self.number(formula, (&format!("the gain {name}"), Dimension::of(0, 0, -1)))?;
+            if gain < 0.0 {
+                let message = format!("the gain {name} is {gain} 1/s, but it must not be negative");
+                self.errors.push(Diagnostic::new(formula.span, message).help("0 switches a term off"));
+            }
+            Some(gain)
+        });
+        if let [Some(alpha), Some(beta)] = values {
+            self.solver.feedback = Some(Feedback { is_held, alpha, beta, span: keyword });
+        }
+    }
+
+    /// A finite number of constants alone.
+    fn number(&mut self, formula: &Formula, what: (&str, Dimension)) -> Option<f64> {
+        let expr = self.scope.formula_of(formula, Place::Constant, what, &mut self.errors)?;
+        let value = self.scope.arena.as_number(expr).map(Number::to_f64).filter(|value| value.is_finite());
+        if value.is_none() {
+            let message = format!("{} is not a finite number", what.0);
+            self.errors.push(Diagnostic::new(formula.span, message).help("check its divisors and functions"));
+        }
+        value
+    }
+
+    /// Whether gains are stable depends on the step.
+    pub(super) fn check_solver(&mut self) {
+        if let Solver { step: None, feedback: Some(feedback), .. } = &self.solver {
+            self.errors.push(
+                Diagnostic::new(
+                    feedback.span,
+                    "`feedback` is stable or not for a certain step, and there is none",
+                )
+                .help("add one, as in `step = 0.5 [ms];`"),
+            );
+        }
+    }
+}

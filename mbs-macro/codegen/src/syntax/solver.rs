@@ -1,0 +1,60 @@
+//! How a mechanism is to be solved: `redundant = …;`, `limit …;`, `step = …;`,
+//! `feedback = …;`.
+
+use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::{Error, Result};
+
+use super::words::{equals, semicolon};
+use super::{Formula, FormulaKind, ItemKind};
+
+pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let expected = "`minimum_norm` is expected here: redundant constraints then share the force, with \
+                    multipliers of least norm";
+    let choice = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    if choice != "minimum_norm" {
+        return Err(Error::new(choice.span(), expected));
+    }
+    semicolon(input)?;
+    Ok(ItemKind::Redundant { keyword })
+}
+
+pub fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    let expected = "`operations` or `stack` is expected here, as in `limit operations = 200;`";
+    let what = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    let is_stack = what == "stack";
+    if !is_stack && what != "operations" {
+        return Err(Error::new(what.span(), expected));
+    }
+    equals(input)?;
+    let whole = |span| Error::new(span, "a whole number, 0 or larger, is expected here");
+    let value: syn::LitInt = input.parse().map_err(|error| whole(error.span()))?;
+    let value = value.base10_parse().map_err(|_| whole(value.span()))?;
+    semicolon(input)?;
+    Ok(ItemKind::Limit { keyword, is_stack, value })
+}
+
+pub fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Step { keyword, value })
+}
+
+pub fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let value: Formula = input.parse()?;
+    let expected = "`held(alpha, beta)` or `per_stage(alpha, beta)` is expected here";
+    let error = Error::new(value.span, expected);
+    let FormulaKind::Call { function, arguments } = value.kind else { return Err(error) };
+    let is_held = match function.to_string().as_str() {
+        "held" => true,
+        "per_stage" => false,
+        _ => return Err(Error::new(function.span(), expected)),
+    };
+    let gains = <[Formula; 2]>::try_from(arguments).map_err(|_| error)?;
+    semicolon(input)?;
+    Ok(ItemKind::Feedback { keyword, is_held, gains })
+}

@@ -1,0 +1,107 @@
+//! What all statements are made of: names, paths, signs and blocks.
+
+use mbs_symbolic::units;
+use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::spanned::Spanned;
+use syn::{Attribute, Error, Result, Token, token};
+
+use super::Formula;
+use super::formula::bracket_after_name;
+
+/// The text of doc comments; other attributes are refused.
+pub(super) fn doc(input: ParseStream<'_>) -> Result<String> {
+    let mut lines = Vec::new();
+    for attribute in input.call(Attribute::parse_outer)? {
+        let line = match &attribute.meta {
+            syn::Meta::NameValue(pair) if pair.path.is_ident("doc") => match &pair.value {
+                syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let line = line.ok_or_else(|| Error::new(attribute.span(), "only doc comments can stand here"))?;
+        lines.push(line.strip_prefix(' ').unwrap_or(&line).to_owned());
+    }
+    Ok(lines.join("\n"))
+}
+
+pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
+    let name = name_before_unit(input)?;
+    if input.peek(token::Bracket) {
+        return Err(bracket_after_name(input, &name));
+    }
+    Ok(name)
+}
+
+/// A name behind which a bracket may stand.
+pub(super) fn name_before_unit(input: ParseStream<'_>) -> Result<Ident> {
+    let name =
+        Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
+    // `gen` is one since the edition of 2024, which syn does not ask for
+    let text = name.to_string();
+    if text == "gen" || text.starts_with("r#") || syn::parse_str::<Ident>(&text).is_err() {
+        return Err(Error::new(name.span(), format!("`{name}` is a word of Rust and cannot be a name here")));
+    }
+    Ok(name)
+}
+
+/// `crank`, or `leg.crank.tip`.
+pub(super) fn path(input: ParseStream<'_>) -> Result<Vec<Ident>> {
+    let mut path = vec![name(input)?];
+    while input.parse::<Option<Token![.]>>()?.is_some() {
+        path.push(name(input)?);
+    }
+    Ok(path)
+}
+
+pub(super) fn equals(input: ParseStream<'_>) -> Result<Span> {
+    let equals: Token![=] =
+        input.parse().map_err(|error| Error::new(error.span(), "`=` is expected here"))?;
+    Ok(equals.span())
+}
+
+pub(super) fn semicolon(input: ParseStream<'_>) -> Result<()> {
+    match input.parse::<Token![;]>() {
+        Ok(_) => Ok(()),
+        Err(error) => Err(unexpected(input, error.span())),
+    }
+}
+
+/// The error for what follows a complete formula.
+fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
+    let message = "an operator or `;` is expected before this";
+    match input.fork().call(Ident::parse_any) {
+        Ok(word) if units::lookup(&word.to_string()).is_some() => {
+            Error::new(span, format!("{message}\n\nhelp: units stand in brackets: `[{word}]`"))
+        }
+        _ => Error::new(span, message),
+    }
+}
+
+/// What follows has to be this word.
+pub(super) fn expect_word(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
+    let span = input.span();
+    if Ident::parse_any(input).is_ok_and(|word| word == expected) {
+        return Ok(());
+    }
+    Err(Error::new(span, format!("`{expected}` is expected before this, as in `{example}`")))
+}
+
+/// What follows has to be `{ … }`.
+pub(super) fn block(input: ParseStream<'_>, example: &str) -> Result<()> {
+    if input.peek(token::Brace) {
+        return Ok(());
+    }
+    Err(Error::new(input.span(), format!("`{{ … }}` is expected here, as in `{example}`")))
+}
+
+/// `name = formula;`
+pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
+    let name = name(input)?;
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok((name, value))
+}

@@ -1,0 +1,219 @@
+//! Positions on Φ = 0 found numerically, also where Φ_q is singular there.
+//!
+//! The programs that are emitted cannot do this: their elimination needs
+//! independent constraints, and which ones are is what is to be found out.
+
+use mbs_symbolic::Tape;
+
+use super::samples::typical_length;
+use crate::derive::Equations;
+use crate::model::{Meaning, Model};
+
+const ITERATIONS: usize = 100;
+
+/// The least damping, relative to the squares of the scaled rows: above the
+/// rounding of the products, so that the damped matrix stays positive definite.
+const LEAST_DAMPING: f64 = 1e-13;
+
+/// Violations below this, relative to the size of the position, are closed:
+/// what the emitted programs are held to as well.
+pub const CLOSED: f64 = 1e-10;
+
+/// Coordinates and time.
+#[derive(Clone, Debug)]
+pub struct Position {
+    pub q: Vec<f64>,
+    pub t: f64,
+}
+
+/// Where an assembly ended.
+pub struct Closing {
+    pub at: Position,
+    /// Φ there, all rows.
+    pub phi: Vec<f64>,
+    /// Whether the rows that were asked for are met.
+    pub is_closed: bool,
+}
+
+/// Φ and Φ_q as functions of numbers.
+pub struct Assembly<'a> {
+    model: &'a Model,
+    phi: Tape,
+    /// The entries of Φ_q that are not 0, and where they stand.
+    phi_q: Tape,
+    pattern: Vec<Vec<usize>>,
+    phi_t: Tape,
+    depends_on_time: bool,
+    /// What counts as 1 in each coordinate: a typical length, a radian.
+    pub units: Vec<f64>,
+}
+
+impl<'a> Assembly<'a> {
+    pub fn new(model: &'a Model, equations: &Equations) -> Self {
+        let length = typical_length(model);
+        let entries: Vec<_> = equations.phi_q.iter().flat_map(|row| row.values().copied()).collect();
+        let is_angle = |at: usize| model.coordinates[at].quantity.dimension == Default::default();
+        Self {
+            model,
+            phi: Tape::new(&model.arena, &equations.phi),
+            phi_q: Tape::new(&model.arena, &entries),
+            pattern: equations.phi_q.iter().map(|row| row.keys().copied().collect()).collect(),
+            phi_t: Tape::new(&model.arena, &equations.phi_t),
+            depends_on_time: equations.phi_t.iter().any(|&rate| !model.arena.is_zero(rate)),
+            units: (0..model.coordinates.len()).map(|at| if is_angle(at) { 1.0 } else { length }).collect(),
+        }
+    }
+
+    fn evaluate(&self, tape: &Tape, at: &Position) -> Vec<f64> {
+        let values = self.model.values(|meaning| match meaning {
+            Meaning::Time => at.t,
+            Meaning::Coordinate(coordinate) => at.q[coordinate],
+            _ => f64::NAN,
+        });
+        tape.evaluate(&self.model.arena, &values)
+    }
+
+    fn phi(&self, at: &Position) -> Vec<f64> {
+        self.evaluate(&self.phi, at)
+    }
+
+    /// Φ_q in the units of the coordinates, each row divided by its largest
+    /// entry, and these divisors.
+    pub fn jacobian(&self, at: &Position) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let mut entries = self.evaluate(&self.phi_q, at).into_iter();
+        let mut scales = Vec::new();
+        let mut rows = Vec::new();
+        for columns in &self.pattern {
+            let mut row = vec![0.0; self.units.len()];
+            for (&column, entry) in columns.iter().zip(entries.by_ref()) {
+                row[column] = if entry.is_finite() { entry * self.units[column] } else { 0.0 };
+            }
+            let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            let scale = if largest > 0.0 { largest } else { 1.0 };
+            row.iter_mut().for_each(|x| *x /= scale);
+            scales.push(scale);
+            rows.push(row);
+        }
+        (rows, scales)
+    }
+
+    /// Whether a constraint changes with time.
+    pub fn depends_on_time(&self) -> bool {
+        self.depends_on_time
+    }
+
+    /// How fast the drives move the mechanism, in units of the coordinates.
+    pub fn drive_speed(&self, at: &Position) -> f64 {
+        let phi_t = self.evaluate(&self.phi_t, at);
+        let (jacobian, scales) = self.jacobian(at);
+        let rate: Vec<f64> = phi_t.iter().zip(&scales).map(|(rate, scale)| rate / scale).collect();
+        let jacobian: Vec<&[f64]> = jacobian.iter().map(Vec::as_slice).collect();
+        largest(&least_correction(&jacobian, &rate, LEAST_DAMPING))
+    }
+
+    /// The size of a position, in units of its coordinates.
+    fn size(&self, at: &Position) -> f64 {
+        at.q.iter().zip(&self.units).fold(0.0, |size: f64, (q, unit)| size.max((q / unit).abs()))
+    }
+
+    /// How far two positions are apart, in units of their coordinates.
+    pub fn distance(&self, a: &Position, b: &Position) -> f64 {
+        let apart = a.q.iter().zip(&b.q).zip(&self.units).map(|((a, b), unit)| ((a - b) / unit).abs());
+        apart.fold(0.0, f64::max)
+    }
+
+    /// Whether a row is met where others were assembled.
+    pub fn is_met(&self, row: usize, closing: &Closing) -> bool {
+        let scale = self.jacobian(&closing.at).1[row];
+        (closing.phi[row] / scale).abs() <= CLOSED * (1.0 + self.size(&closing.at))
+    }
+
+    /// A position near `guess` at its time where `rows` are met, by the method
+    /// of Levenberg and Marquardt: the damping, of the order of the violation,
+    /// keeps the convergence quadratic where the rows depend on each other
+    /// (Yamashita and Fukushima 2001).
+    pub fn close(&self, rows: &[usize], guess: &Position) -> Closing {
+        let mut at = guess.clone();
+        let mut phi = self.phi(&at);
+        let mut damping = 1e-2;
+        let mut violation = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let (jacobian, scales) = self.jacobian(&at);
+            let scaled = |phi: &[f64]| rows.iter().map(|&row| phi[row] / scales[row]).collect::<Vec<_>>();
+            let residual = scaled(&phi);
+            violation = largest(&residual);
+            let chosen: Vec<&[f64]> = rows.iter().map(|&row| jacobian[row].as_slice()).collect();
+            let size = norm(&residual);
+            let mu = (damping * size).max(LEAST_DAMPING);
+            let step = least_correction(&chosen, &residual, mu);
+            let next = Position {
+                q: at.q.iter().zip(step).zip(&self.units).map(|((q, d), unit)| q - d * unit).collect(),
+                t: at.t,
+            };
+            let next_phi = self.phi(&next);
+            if norm(&scaled(&next_phi)) < size {
+                (at, phi) = (next, next_phi);
+                damping *= 0.1;
+            } else if damping * size <= LEAST_DAMPING || damping > 1e12 || violation == 0.0 {
+                break;
+            } else if violation <= 1e-14 {
+                // rounding decides from here on
+                damping = 0.0;
+            } else {
+                damping *= 10.0;
+            }
+        }
+        let is_closed = violation <= CLOSED * (1.0 + self.size(&at));
+        Closing { at, phi, is_closed }
+    }
+}
+
+/// Jᵀ (J Jᵀ + μ)⁻¹ r, the shortest correction as far as μ allows; by Cholesky's
+/// method within the envelope of the matrix, which is narrow for chains.
+fn least_correction(rows: &[&[f64]], residual: &[f64], mu: f64) -> Vec<f64> {
+    let sparse: Vec<Vec<(usize, f64)>> = rows
+        .iter()
+        .map(|row| row.iter().copied().enumerate().filter(|(_, entry)| *entry != 0.0).collect())
+        .collect();
+    let product = |i: usize, j: usize| sparse[i].iter().map(|&(column, x)| x * rows[j][column]).sum::<f64>();
+    let mut factor: Vec<(usize, Vec<f64>)> = Vec::new();
+    let mut y: Vec<f64> = Vec::new();
+    for i in 0..rows.len() {
+        let first = (0..i).find(|&j| product(i, j) != 0.0).unwrap_or(i);
+        let mut line: Vec<f64> = Vec::with_capacity(i + 1 - first);
+        for j in first..=i {
+            let (begin, other) = if j == i { (first, &line) } else { (factor[j].0, &factor[j].1) };
+            let from = first.max(begin);
+            let sum: f64 = (from..j).map(|k| line[k - first] * other[k - begin]).sum();
+            let entry = product(i, j) - sum;
+            let value = if j == i { (entry + mu).max(mu * 1e-3).sqrt() } else { entry / other[j - begin] };
+            line.push(value);
+        }
+        let known: f64 = (first..i).map(|k| line[k - first] * y[k]).sum();
+        y.push((residual[i] - known) / line[i - first]);
+        factor.push((first, line));
+    }
+    for i in (0..rows.len()).rev() {
+        let (first, line) = &factor[i];
+        y[i] /= line[i - first];
+        for k in *first..i {
+            y[k] -= line[k - first] * y[i];
+        }
+    }
+    let mut correction = vec![0.0; rows.first().map_or(0, |row| row.len())];
+    for (row, y) in sparse.iter().zip(y) {
+        for &(column, entry) in row {
+            correction[column] += entry * y;
+        }
+    }
+    correction
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The largest magnitude, infinite where a value is no number.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().map(|x| if x.is_nan() { f64::INFINITY } else { x.abs() }).fold(0.0, f64::max)
+}

@@ -1,0 +1,116 @@
+//! Constraints that are redundant on purpose: which ones are solved for, and
+//! whether the others are met with them.
+
+use proc_macro2::Span;
+
+use super::Samples;
+use super::assembly::{Assembly, Closing};
+use super::closure::unit;
+use super::echelon::row_echelon;
+use super::manifold::Manifold;
+use super::rank::Rows;
+use crate::diagnostics::Diagnostic;
+use crate::model::Model;
+
+/// The rows to solve for, in the order of declaration as long as each adds
+/// something, judged where the mechanism is assembled.
+///
+/// # Errors
+/// A redundant constraint that is violated where the others are met, or none
+/// that is redundant.
+pub fn choose(
+    model: &Model,
+    assembly: &Assembly<'_>,
+    samples: &Samples,
+    manifold: Option<&Manifold>,
+    statement: Span,
+) -> Result<Rows, Diagnostic> {
+    let count = model.constraints.len();
+    // As many rows as the contract asks for; all if it asks for more.
+    let wanted = usize::try_from(model.coordinates.len() as i64 - model.dof.0).unwrap_or(0).min(count);
+    if let Some(manifold) = manifold {
+        let redundant: Vec<usize> = manifold.redundant().iter().map(|(row, _)| *row).collect();
+        if count - redundant.len() <= wanted {
+            if redundant.is_empty() {
+                return Err(nothing_redundant(model, statement));
+            }
+            let rows = Rows::without(count, redundant);
+            return fits_in_time(model, assembly, &rows, manifold).map(|()| rows);
+        }
+    }
+    // All together they do not close, or leave less motion than promised: the
+    // ones that add least are the ones that were meant to be redundant.
+    let all: Vec<usize> = (0..count).collect();
+    let near = assembly.close(&all, &samples.start_position(model)).at;
+    let independence = row_echelon(assembly.jacobian(&near).0).independence;
+    let mut by_weakness = all;
+    by_weakness.sort_by(|&a, &b| independence[a].total_cmp(&independence[b]));
+    let mut spare: Vec<usize> = by_weakness.into_iter().take(count - wanted).collect();
+    spare.sort_unstable();
+    let rows = Rows::without(count, spare);
+    let closing = assembly.close(&rows.basis, &samples.start_position(model));
+    match largest_violation(assembly, &rows.redundant, &closing) {
+        Some((row, violation)) if closing.is_closed => Err(does_not_fit(model, row, violation, 0.0)),
+        // What does not close even so is found with the programs themselves;
+        // what closes is told by the contract.
+        _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
+        _ => Ok(rows),
+    }
+}
+
+/// Redundant drives keep in step with the others: what closes at t = 0 also
+/// closes later.
+fn fits_in_time(
+    model: &Model,
+    assembly: &Assembly<'_>,
+    rows: &Rows,
+    manifold: &Manifold,
+) -> Result<(), Diagnostic> {
+    let mut from = manifold.start.clone();
+    for t in manifold.instants(assembly) {
+        from.t = t;
+        let closing = assembly.close(&rows.basis, &from);
+        match largest_violation(assembly, &rows.redundant, &closing) {
+            Some((row, violation)) if closing.is_closed => {
+                return Err(does_not_fit(model, row, violation, t));
+            }
+            _ => from = closing.at,
+        }
+    }
+    Ok(())
+}
+
+/// The redundant row that is violated most, if one does not close.
+fn largest_violation(
+    assembly: &Assembly<'_>,
+    redundant: &[usize],
+    closing: &Closing,
+) -> Option<(usize, f64)> {
+    let sizes = redundant.iter().map(|&row| (row, closing.phi[row].abs()));
+    let (row, violation) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (!assembly.is_met(row, closing)).then_some((row, violation))
+}
+
+/// The error for a redundant constraint that stays violated where the others
+/// are met, at the time `t`.
+pub fn does_not_fit(model: &Model, row: usize, violation: f64, t: f64) -> Diagnostic {
+    let constraint = &model.constraints[row];
+    let (name, unit) = (&constraint.name, unit(constraint.dimension));
+    let when = if t == 0.0 { String::new() } else { format!(" at t = {t:.2e} s") };
+    Diagnostic::new(
+        constraint.span,
+        format!(
+            "redundant constraint `{name}` does not fit: it stays violated by {violation:.1e}{unit}{when} where \
+             the others are met"
+        ),
+    )
+    .help(
+        "a redundant constraint has to hold wherever the others do; correct its dimensions, best by a formula \
+         of the parameters that the others use",
+    )
+}
+
+fn nothing_redundant(model: &Model, statement: Span) -> Diagnostic {
+    Diagnostic::new(statement, format!("no constraint of `{}` is redundant", model.name))
+        .help("remove `redundant = minimum_norm;`")
+}

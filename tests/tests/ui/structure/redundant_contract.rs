@@ -1,0 +1,17 @@
+//! Redundant constraints count once in the contract.
+
+use mbs_runtime::mechanism;
+
+mechanism! {
+    pub Pendulum {
+        dof = 0;
+        redundant = minimum_norm;
+        param l = 1 [m];
+        body arm (x, y, theta) { mass = 1 [kg]; inertia = 1 [kg*m^2]; }
+        point base on arm = (-l/2, 0);
+        revolute pin (arm.base, ground);
+        revolute hinge (arm.base, ground);
+    }
+}
+
+fn main() {}
