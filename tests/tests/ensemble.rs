@@ -58,10 +58,10 @@ fn alone<M: Mechanism<Real = f64>, F: Feedback>(mut run: Simulation<M, F>) -> Ve
         let outputs = run.outputs().expect("a regular position").into_array();
         let t = run.time();
         for (&value, [low, low_t, high, high_t]) in outputs.as_ref().iter().zip(&mut extremes) {
-            if t >= 0.1 && !(value >= *low) {
+            if t >= 0.1 && (value < *low || low.is_nan()) {
                 (*low, *low_t) = (value, t);
             }
-            if t >= 0.1 && !(value <= *high) {
+            if t >= 0.1 && (value > *high || high.is_nan()) {
                 (*high, *high_t) = (value, t);
             }
         }

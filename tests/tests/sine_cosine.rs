@@ -3,6 +3,8 @@
 //! multiples of π/2, up to 10⁵ rad; special arguments included; NaN beyond for
 //! lanes, the library's for the scalar.
 
+#![allow(clippy::needless_range_loop, reason = "lanes are counted through several arrays")]
+
 use mbs_runtime::{Lanes, Real};
 
 /// hi + lo, of about 106 bits.
