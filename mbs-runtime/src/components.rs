@@ -59,6 +59,7 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     }
 
     /// Euclidean norm, √(Σ xᵢ²).
+    #[inline(always)]
     fn norm(self) -> Self::Real {
         let zero = Self::Real::default();
         let array = self.into_array();

@@ -25,6 +25,35 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
     h: M::Real,
     t_next: M::Real,
 ) -> Result<State<M::Coordinates>, Error> {
+    let trial = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
+    let Trial { predicted, next, here, there } = trial;
+    // One test per step; written so that a NaN fails it.
+    let healthy = here.1 + there.1 < growth_limit() && next.q.is_finite() && next.v.is_finite();
+    if healthy { Ok(next) } else { Err(diagnose(mechanism, [at, &predicted], [here, there])) }
+}
+
+/// A step that nobody has looked at yet.
+pub(crate) struct Trial<M: Mechanism> {
+    /// q*, v*
+    pub predicted: State<M::Coordinates>,
+    /// q⁺, v⁺
+    pub next: State<M::Coordinates>,
+    /// q̈ and growth of the first stage,
+    pub here: (M::Coordinates, M::Real),
+    /// and of the second.
+    pub there: (M::Coordinates, M::Real),
+}
+
+/// The step itself, without a branch.
+#[inline(always)]
+pub(crate) fn trial<M: Mechanism, F: Feedback>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    gains: &Gains<M::Real>,
+    h: M::Real,
+    t_next: M::Real,
+) -> Trial<M> {
     let half_h = M::Real::from_f64(0.5) * h;
     let here = mechanism.stabilized(at, inputs, gains);
 
@@ -33,7 +62,7 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
         q: at.q.zip_map(at.v, |q, v| q + h * v),
         v: at.v.zip_map(here.acceleration, |v, a| v + h * a),
     };
-    let (there, there_growth) = if F::IS_HELD {
+    let there = if F::IS_HELD {
         let solved = mechanism.constrained(&predicted, inputs, &here.feedback);
         (solved.acceleration, solved.growth)
     } else {
@@ -41,19 +70,13 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
         (solved.acceleration, solved.growth)
     };
 
-    let mean = here.acceleration.zip_map(there, |a, b| a + b);
+    let mean = here.acceleration.zip_map(there.0, |a, b| a + b);
     let next = State {
         t: t_next,
         q: at.q.zip_map(at.v.zip_map(predicted.v, |v, w| v + w), |q, sum| q + half_h * sum),
         v: at.v.zip_map(mean, |v, sum| v + half_h * sum),
     };
-    // One test per step; written so that a NaN fails it.
-    let healthy = here.growth + there_growth < growth_limit() && next.q.is_finite() && next.v.is_finite();
-    if healthy {
-        Ok(next)
-    } else {
-        Err(diagnose(mechanism, [at, &predicted], [(here.acceleration, here.growth), (there, there_growth)]))
-    }
+    Trial { predicted, next, here: (here.acceleration, here.growth), there }
 }
 
 /// Names what went wrong in a step that failed its test: a pivot in one of its

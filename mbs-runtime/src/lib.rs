@@ -92,13 +92,16 @@ mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
 mod kinematics;
+pub mod lanes;
 mod mechanism;
+mod pack;
 mod real;
 mod simulation;
 mod sincos;
 pub mod sketch;
 mod spline;
 pub mod start;
+mod straight;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
 pub use components::{Components, NoComponents};
@@ -106,8 +109,10 @@ pub use derivation::{Derivation, Elimination, Formula};
 pub use error::Error;
 pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
+pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
+pub use pack::Pack;
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

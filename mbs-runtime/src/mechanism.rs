@@ -73,6 +73,8 @@ pub struct Reactions<C: Components, R> {
 pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The scalar of the computation.
     type Real: Real;
+    /// The same mechanism over another scalar.
+    type Over<Scalar: Real>: Mechanism<Real = Scalar>;
     /// The parameters, named fields in SI units.
     type Parameters: Components<Real = Self::Real> + Default;
     /// The inputs that the embedding program sets, named fields in SI units.

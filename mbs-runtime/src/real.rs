@@ -3,12 +3,15 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::spline::Spline;
+
 /// A real scalar: what a generated solver needs to know of its number type.
 ///
 /// Implemented for `f32` and `f64`. With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
-/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place.
+/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place up to
+/// 10³ rad, and within 2.5 beyond.
 pub trait Real:
     Copy
     + Debug
@@ -71,6 +74,13 @@ pub trait Real:
     fn max(self, other: Self) -> Self;
     /// 1 if `self > other`, else 0: the slope of `max`.
     fn greater(self, other: Self) -> Self;
+
+    /// A spline's derivative of this order at `self`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn interpolate(self, spline: &Spline, order: u8) -> Self {
+        spline.derivative_at(order, self)
+    }
 }
 
 /// Inlined within its range, which few mechanisms leave.

@@ -126,6 +126,16 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.step
     }
 
+    /// The time of the start in s.
+    pub(crate) fn start_time(&self) -> M::Real {
+        self.start_time
+    }
+
+    /// The same run, that many steps after its start.
+    pub(crate) fn moved_to(self, state: State<M::Coordinates>, steps: u64) -> Self {
+        Self { state, steps, ..self }
+    }
+
     /// Steps taken since the start.
     pub fn steps(&self) -> u64 {
         self.steps

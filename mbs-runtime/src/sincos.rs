@@ -32,7 +32,8 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// (sin x, cos x) for |x| ≤ [`RANGE`], within 2 units in the last place.
+/// (sin x, cos x) for |x| ≤ [`RANGE`], within 2 units in the last place up to 10³
+/// rad, and within 2.5 beside larger multiples of π/2.
 ///
 /// With n the integer nearest to 2x/π, r = x − n π/2 by Cody and Waite's
 /// reduction, polynomials in r, and a quarter turn per unit of n.

@@ -23,10 +23,16 @@ pub struct Spline {
 impl Spline {
     /// The derivative of this order at `x`, the function itself for 0.
     ///
+    /// Of lanes one after the other: each may lie in another segment.
+    #[inline(always)]
+    pub fn derivative<T: Real>(&self, order: u8, x: T) -> T {
+        x.interpolate(self, order)
+    }
+
     /// Where the argument lies is decided in `f64`; what a scalar carries beside
     /// its value (x minus its value) goes through the cubic.
     #[inline]
-    pub fn derivative<T: Real>(&self, order: u8, x: T) -> T {
+    pub(crate) fn derivative_at<T: Real>(&self, order: u8, x: T) -> T {
         let value = x.to_f64();
         let beside = x - T::from_f64(value);
         let distance = value - self.origin;

@@ -388,7 +388,7 @@ rod: 1/2*(x^2 + y^2)/length - 1/2*length
 
 
 Cost: 3 mul + 2 add + 0 div + 0 sincos.*/
-    #[inline]
+    #[inline(always)]
     pub fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
         let v0 = q.x * q.x;
         let v1 = q.y * q.y;
@@ -438,7 +438,7 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
         }
     }
     /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
-    #[inline]
+    #[inline(always)]
     pub fn phi_dot(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -571,7 +571,7 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
         ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
     }
     /// Kinetic energy ½ vᵀMv in J.
-    #[inline]
+    #[inline(always)]
     pub fn kinetic_energy(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -584,7 +584,7 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
         v4
     }
     /// Potential energy of gravity (0 at the origin) and springs in J.
-    #[inline]
+    #[inline(always)]
     pub fn potential_energy(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -596,6 +596,7 @@ Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Real = T;
+    type Over<Scalar: ::mbs_runtime::Real> = Pendulum<Scalar>;
     type Parameters = PendulumParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = PendulumCoordinates<T>;
@@ -1070,11 +1071,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
         }
     }
-    #[inline]
+    #[inline(always)]
     fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {
         Self::phi(self, t, q)
     }
-    #[inline]
+    #[inline(always)]
     fn phi_dot(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -1166,7 +1167,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             growth: T::from_f64(0.0),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn reactions(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -1282,15 +1283,15 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             &[abs_v2, self.hoisted[8], self.hoisted[8], abs_v10],
         )
     }
-    #[inline]
+    #[inline(always)]
     fn kinetic_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {
         Self::kinetic_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn potential_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {
         Self::potential_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn outputs(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,

@@ -609,7 +609,7 @@ slider: x3 - l1*cos(theta1) - l2*cos(theta2)
 
 
 Cost: 9 mul + 10 add + 0 div + 2 sincos.*/
-    #[inline]
+    #[inline(always)]
     pub fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
         let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
         let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
@@ -784,7 +784,7 @@ Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
         }
     }
     /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
-    #[inline]
+    #[inline(always)]
     pub fn phi_dot(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -1119,7 +1119,7 @@ Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
         ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
     }
     /// Kinetic energy ½ vᵀMv in J.
-    #[inline]
+    #[inline(always)]
     pub fn kinetic_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -1147,7 +1147,7 @@ Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
         v19
     }
     /// Potential energy of gravity (0 at the origin) and springs in J.
-    #[inline]
+    #[inline(always)]
     pub fn potential_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -1161,6 +1161,7 @@ Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Real = T;
+    type Over<Scalar: ::mbs_runtime::Real> = SliderCrank<Scalar>;
     type Parameters = SliderCrankParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = SliderCrankCoordinates<T>;
@@ -2158,11 +2159,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             },
         }
     }
-    #[inline]
+    #[inline(always)]
     fn phi(&self, t: T, q: &SliderCrankCoordinates<T>) -> SliderCrankConstraints<T> {
         Self::phi(self, t, q)
     }
-    #[inline]
+    #[inline(always)]
     fn phi_dot(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -2367,7 +2368,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             growth: abs_v48,
         }
     }
-    #[inline]
+    #[inline(always)]
     fn reactions(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
@@ -2597,18 +2598,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let abs_v2 = v2.abs();
         ::mbs_runtime::__private::worst(&[abs_v2])
     }
-    #[inline]
+    #[inline(always)]
     fn kinetic_energy(&self, at: &::mbs_runtime::State<SliderCrankCoordinates<T>>) -> T {
         Self::kinetic_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn potential_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> T {
         Self::potential_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn outputs(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,

@@ -682,7 +682,7 @@ slider: x3 - l1*cos(theta1) - l2*cos(theta2)
 
 
 Cost: 8 mul + 9 add + 0 div + 2 sincos.*/
-    #[inline]
+    #[inline(always)]
     pub fn phi(
         &self,
         t: T,
@@ -847,7 +847,7 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
         }
     }
     /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
-    #[inline]
+    #[inline(always)]
     pub fn phi_dot(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
@@ -1174,7 +1174,7 @@ Cost: 76 mul + 51 add + 2 div + 2 sincos.*/
         ::mbs_runtime::Mechanism::reactions(self, at, inputs, &none)
     }
     /// Kinetic energy ½ vᵀMv in J.
-    #[inline]
+    #[inline(always)]
     pub fn kinetic_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
@@ -1202,7 +1202,7 @@ Cost: 76 mul + 51 add + 2 div + 2 sincos.*/
         v19
     }
     /// Potential energy of gravity (0 at the origin) and springs in J.
-    #[inline]
+    #[inline(always)]
     pub fn potential_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
@@ -1216,6 +1216,7 @@ Cost: 76 mul + 51 add + 2 div + 2 sincos.*/
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Real = T;
+    type Over<Scalar: ::mbs_runtime::Real> = SliderCrankFree<Scalar>;
     type Parameters = SliderCrankFreeParameters<T>;
     type Inputs = SliderCrankFreeInputs<T>;
     type Coordinates = SliderCrankFreeCoordinates<T>;
@@ -2196,7 +2197,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             },
         }
     }
-    #[inline]
+    #[inline(always)]
     fn phi(
         &self,
         t: T,
@@ -2204,7 +2205,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     ) -> SliderCrankFreeConstraints<T> {
         Self::phi(self, t, q)
     }
-    #[inline]
+    #[inline(always)]
     fn phi_dot(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
@@ -2526,7 +2527,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             growth: sqrt_abs_v109,
         }
     }
-    #[inline]
+    #[inline(always)]
     fn reactions(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
@@ -2783,21 +2784,21 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let abs_v2 = v2.abs();
         ::mbs_runtime::__private::worst(&[abs_v2])
     }
-    #[inline]
+    #[inline(always)]
     fn kinetic_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> T {
         Self::kinetic_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn potential_energy(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> T {
         Self::potential_energy(self, at)
     }
-    #[inline]
+    #[inline(always)]
     fn outputs(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,

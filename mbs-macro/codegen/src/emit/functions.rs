@@ -193,6 +193,16 @@ impl Fields {
     }
 }
 
+/// Whether what runs at every step is forced into it.
+///
+/// There, what the step does not use disappears, and both stages are scheduled
+/// together; and it is compiled for the vector instructions that an ensemble's
+/// step is compiled for. Large systems are left to the compiler.
+fn inlining(model: &Model) -> TokenStream {
+    let unknowns = model.coordinates.len() + model.constraints.len();
+    if unknowns <= LARGEST_INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) }
+}
+
 /// The public functions that compute one thing each.
 pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, nalgebra, state, reactions, .. } = names;
@@ -237,6 +247,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
         quote!(#statements #(#outputs)*)
     };
     let (kinetic, potential) = (scalar(&plan.kinetic_energy), scalar(&plan.potential_energy));
+    let inline = inlining(model);
     let d = docs::Functions::new(model, equations, plan);
     let (phi_doc, phi_q_doc, phi_t_doc, gamma_doc) = (d.phi(), d.phi_q(), d.phi_t(), d.gamma());
     let (rhs_doc, mass_doc, forces_doc, accelerations_doc) =
@@ -245,7 +256,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> {
             #[doc = #phi_doc]
-            #[inline]
+            #inline
             pub fn phi(&self, t: T, q: &#q) -> #rows { #phi }
 
             #[doc = #phi_q_doc]
@@ -257,7 +268,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
             pub fn phi_t(&self, t: T, q: &#q) -> #rows { #phi_t }
 
             /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
-            #[inline]
+            #inline
             pub fn phi_dot(&self, at: &#state) -> #rows { #phi_dot }
 
             #[doc = #gamma_doc]
@@ -288,11 +299,11 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
             }
 
             /// Kinetic energy ½ vᵀMv in J.
-            #[inline]
+            #inline
             pub fn kinetic_energy(&self, at: &#state) -> T { #kinetic }
 
             /// Potential energy of gravity (0 at the origin) and springs in J.
-            #[inline]
+            #inline
             pub fn potential_energy(&self, at: &#state) -> T { #potential }
         }
     }
@@ -304,6 +315,7 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
     let fields = Fields::new(model);
+    let inline = inlining(model);
     let info = info::emit(model, plan, names);
     let derivation = derivation::emit(model, equations, plan);
     let sketch = sketch::emit(&model.sketch, names);
@@ -323,6 +335,7 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #runtime::Mechanism for #mechanism<T> {
             type Real = T;
+            type Over<Scalar: #runtime::Real> = #mechanism<Scalar>;
             type Parameters = #parameters<T>;
             type Inputs = #inputs;
             type Coordinates = #q;
@@ -340,26 +353,26 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
                 &self.parameters
             }
             fn declared_start(&self) -> #state { #start }
-            #[inline]
+            #inline
             fn phi(&self, t: T, q: &#q) -> #rows {
                 Self::phi(self, t, q)
             }
-            #[inline]
+            #inline
             fn phi_dot(&self, at: &#state) -> #rows {
                 Self::phi_dot(self, at)
             }
             #kernels
             fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
             fn worst_start_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_start_pivot }
-            #[inline]
+            #inline
             fn kinetic_energy(&self, at: &#state) -> T {
                 Self::kinetic_energy(self, at)
             }
-            #[inline]
+            #inline
             fn potential_energy(&self, at: &#state) -> T {
                 Self::potential_energy(self, at)
             }
-            #[inline]
+            #inline
             fn outputs(&self, at: &#state, inputs: &#inputs, reactions: &#reactions) -> #outputs { #output_values }
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
@@ -394,16 +407,14 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
         let multipliers = vector(rows, &fields.rows, &outputs[n..n + m]);
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
-    // Inlined into the step, what the step does not use of them disappears, and
-    // both stages are scheduled together; large systems are left to the compiler.
-    let inline = if n + m <= LARGEST_INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) };
+    let inline = inlining(model);
     // Corrections call what they solve for a residual; programs know it as feedback.
     quote! {
         #inline
         fn stabilized(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>) -> #runtime::Stabilized<#q, #rows> { #stabilized }
         #inline
         fn constrained(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #runtime::Accelerations<#q> { #constrained }
-        #[inline]
+        #inline
         fn reactions(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #reactions { #reactions_body }
         fn position_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #position_correction }
         fn velocity_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #velocity_correction }

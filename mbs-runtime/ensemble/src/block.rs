@@ -1,0 +1,221 @@
+//! One block: as many members as there are lanes.
+#![allow(clippy::needless_range_loop, reason = "lanes are counted through several arrays")]
+#![allow(clippy::type_complexity, reason = "an outcome per lane, where there is one, unless cancelled")]
+
+use std::ops::Range;
+
+use mbs_runtime::lanes::{Lane, Pack};
+use mbs_runtime::{Error, Feedback, Mechanism, Real, Simulation};
+
+use crate::{Observe, Outcome, Run};
+
+/// Steps between two looks at the cancelling flag.
+const STEPS_AT_ONCE: u64 = 4096;
+
+/// The outcomes of these members, at most `N`, in order; `None` if cancelled.
+pub fn run<M, F, O, const N: usize>(
+    indices: Range<usize>,
+    member: &(impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync),
+    observer: &O,
+    end: f64,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Option<Vec<Outcome<M, O::Result>>>
+where
+    M: Mechanism<Real: Lane>,
+    F: Feedback,
+    O: Observe<M>,
+{
+    let ready = |index| {
+        let simulation = member(index)?;
+        Ok((simulation, simulation.steps_to(end)?))
+    };
+    let members: Vec<Result<_, Error>> = indices.map(ready).collect();
+    let started = |lane: usize| members.get(lane).and_then(|member| member.as_ref().ok());
+    let filler = members.iter().flatten().next();
+    let in_lane = |lane: usize| started(lane).or(filler);
+    let mut runs = match filler {
+        Some((filler, _)) => {
+            let simulations =
+                std::array::from_fn(|lane| in_lane(lane).map_or(*filler, |(simulation, _)| *simulation));
+            let left = std::array::from_fn(|lane| started(lane).map(|(_, steps)| *steps));
+            Block::<M, F, O, N>::together(simulations, left, observer, is_cancelled)?
+        }
+        None => [const { None }; N],
+    };
+    let outcomes = members.into_iter().zip(&mut runs).map(|(member, run)| match (member, run.take()) {
+        (Err(error), _) => Some(Err(error)),
+        (Ok(_), Some(run)) => Some(run),
+        (Ok((simulation, steps)), None) => alone(simulation, steps, observer, is_cancelled),
+    });
+    outcomes.collect()
+}
+
+/// A member that left the range of the lanes, by itself from its start on.
+fn alone<M, F, O>(
+    simulation: Simulation<M, F>,
+    steps: u64,
+    observer: &O,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Option<Outcome<M, O::Result>>
+where
+    M: Mechanism<Real: Lane>,
+    F: Feedback,
+    O: Observe<M>,
+{
+    let [run] = Block::<M, F, O, 1>::together([simulation], [Some(steps)], observer, is_cancelled)?;
+    Some(run.unwrap_or_else(|| Err(not_computable(&simulation))))
+}
+
+struct Block<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> {
+    pack: Pack<M, F, N>,
+    observer: &'a O,
+    notes: O::Notes<N>,
+    /// The steps to go; `None` where nobody is running any more.
+    left: [Option<u64>; N],
+    runs: [Option<Outcome<M, O::Result>>; N],
+}
+
+impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block<'_, M, F, O, N> {
+    /// Runs lanes with steps to go to their ends. Without an outcome are those that
+    /// had none, and those that have to be run alone.
+    fn together(
+        simulations: [Simulation<M, F>; N],
+        left: [Option<u64>; N],
+        observer: &O,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Option<[Option<Outcome<M, O::Result>>; N]> {
+        let runs = [const { None }; N];
+        let pack = match Pack::new(simulations) {
+            Ok(pack) => pack,
+            Err(error) => return Some(left.map(|left| left.map(|_| Err(error)))),
+        };
+        let mut block = Block { pack, observer, notes: observer.begin(), left, runs };
+        block.look();
+        while let Some(steps) = block.steps_in_common() {
+            if is_cancelled() {
+                return None;
+            }
+            block.advance(steps.min(STEPS_AT_ONCE));
+        }
+        Some(block.runs)
+    }
+
+    /// How far all that are running can go together; ends those that are there.
+    fn steps_in_common(&mut self) -> Option<u64> {
+        for lane in 0..N {
+            if self.left[lane] == Some(0) {
+                self.end(lane, None);
+            }
+        }
+        self.left.into_iter().flatten().min()
+    }
+
+    fn advance(&mut self, steps: u64) {
+        let idle = self.left.map(|left| left.is_none());
+        let (taken, stop) = advance(&mut self.pack, self.observer, &mut self.notes, idle, steps);
+        for left in self.left.iter_mut().flatten() {
+            *left = left.saturating_sub(taken);
+        }
+        match stop {
+            Stop::AllTaken => {}
+            Stop::Stuck { moved } => {
+                self.end_where_not(moved, |pack, lane| pack.simulation(lane).step().err());
+                self.look();
+            }
+            Stop::Unseen { seen } => self.end_unseen(seen),
+        }
+    }
+
+    /// Looks at the present states.
+    fn look(&mut self) {
+        let seen = self.observer.observe(&mut self.notes, &self.pack.snapshot());
+        self.end_unseen(seen);
+    }
+
+    fn end_unseen(&mut self, seen: [bool; N]) {
+        self.end_where_not(seen, |pack, lane| pack.simulation(lane).outputs().err());
+    }
+
+    /// Ends lanes that are not in a mask, with what the scalar says is the cause. If
+    /// it finds none, it can compute what lanes cannot.
+    fn end_where_not(&mut self, mask: [bool; N], cause: impl Fn(&Pack<M, F, N>, usize) -> Option<Error>) {
+        for lane in 0..N {
+            if mask[lane] || self.left[lane].is_none() {
+                continue;
+            }
+            match cause(&self.pack, lane) {
+                Some(error) => self.end(lane, Some(error)),
+                None if N == 1 => self.end(lane, Some(not_computable(&self.pack.simulation(lane)))),
+                None => self.left[lane] = None,
+            }
+        }
+    }
+
+    fn end(&mut self, lane: usize, ended: Option<Error>) {
+        let simulation = self.pack.simulation(lane);
+        let observed = self.observer.finish(&self.notes, lane);
+        let run = Run { state: *simulation.state(), steps: simulation.steps(), ended, observed };
+        self.left[lane] = None;
+        self.runs[lane] = Some(Ok(run));
+    }
+}
+
+/// What an observer found no number for in a healthy state.
+fn not_computable<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> Error {
+    Error::NonFinite { t: simulation.time().to_f64(), coordinate: "what is observed" }
+}
+
+/// Why steps came to an end.
+enum Stop<const N: usize> {
+    AllTaken,
+    /// Not every lane could make the last step; nobody has looked at it.
+    Stuck {
+        moved: [bool; N],
+    },
+    /// Not every lane could be looked at after it.
+    Unseen {
+        seen: [bool; N],
+    },
+}
+
+/// Steps, each looked at, until one goes wrong in a lane that is not idle; and how
+/// many were taken.
+///
+/// All that it calls is inlined, so that it is compiled for these targets too.
+/// AVX-512 comes as a processor of any server has it, and without fused operations,
+/// which nobody writes here: results do not depend on the target.
+#[multiversion::multiversion(targets(
+    "x86_64+avx+avx2+fma+avx512f+avx512dq+avx512vl+avx512bw+avx512cd",
+    "x86_64+avx+avx2+fma",
+))]
+fn advance<M, F, O, const N: usize>(
+    pack: &mut Pack<M, F, N>,
+    observer: &O,
+    notes: &mut O::Notes<N>,
+    idle: [bool; N],
+    steps: u64,
+) -> (u64, Stop<N>)
+where
+    M: Mechanism<Real: Lane>,
+    F: Feedback,
+    O: Observe<M>,
+{
+    let all = |mask: [bool; N]| {
+        let mut all = true;
+        for lane in 0..N {
+            all &= mask[lane] | idle[lane];
+        }
+        all
+    };
+    for taken in 1..=steps {
+        let moved = pack.step();
+        if !all(moved) {
+            return (taken, Stop::Stuck { moved });
+        }
+        let seen = observer.observe(notes, &pack.snapshot());
+        if !all(seen) {
+            return (taken, Stop::Unseen { seen });
+        }
+    }
+    (steps, Stop::AllTaken)
+}

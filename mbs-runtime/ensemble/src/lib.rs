@@ -1,0 +1,233 @@
+//! Many parameter sets or initial states of one mechanism at once.
+//!
+//! The code that `mechanism!` generates is generic in its scalar. An
+//! [`Ensemble`] runs it with [`Lanes`](mbs_runtime::Lanes): a block of eight members
+//! takes a step with the instructions of one, blocks are spread over the cores,
+//! and what is asked for is reduced while they run.
+//!
+//! # Example
+//! ```
+//! use mbs_ensemble::{Ensemble, Extremes};
+//! use mbs_runtime::{Simulation, mechanism};
+//!
+//! mechanism! {
+//!     /// A weight on a massless rod.
+//!     pub Pendulum {
+//!         dof = 1;
+//!         param length = 1 [m] where length > 0;
+//!         gravity = (0, -9.81) [m/s^2];
+//!         body bob (x, y) { mass = 2 [kg]; }
+//!         constraint rod: x^2 + y^2 = length^2;
+//!         start { x = length; guess y = 0; }
+//!         output tension [N] = 2*lambda(rod)*sqrt(x^2 + y^2);
+//!     }
+//! }
+//!
+//! // A member is a simulation that is ready to start, or why there is none.
+//! let member = |index: usize| {
+//!     let length = 0.5 + 0.001 * index as f64;
+//!     Simulation::new(Pendulum::new(PendulumParameters { length })?, 1e-3)
+//! };
+//! let runs = Ensemble::new(1.0).run(1000, member, &Extremes::default())?;
+//! for run in &runs {
+//!     let run = run.as_ref().expect("a start");
+//!     assert_eq!((run.steps, run.ended), (1000, None));
+//!     // dropped from the height of the hook: 3 m g at the bottom
+//!     assert!((run.observed.high.tension - 2.0 * 3.0 * 9.81).abs() < 1e-2);
+//! }
+//! # Ok::<(), mbs_ensemble::Cancelled>(())
+//! ```
+//!
+//! # What comes out
+//!
+//! Per member its final state, its steps, the error that ended it early if one
+//! did, and what an [`Observe`]r made of its states: [`Extremes`] of outputs,
+//! the largest [`Violation`]s, [`Samples`] of the states, a pair of these, `()` for
+//! nothing, or an observer of your own.
+//!
+//! # Errors
+//!
+//! Members do not touch each other. One that cannot start, meets a singular
+//! position or ceases to be finite ends with the [`Error`](mbs_runtime::Error) that
+//! its [`Simulation`](mbs_runtime::Simulation) gives alone; its final state is that
+//! of the last good step. The others go on.
+//!
+//! # Same digits
+//!
+//! In `f64` every member comes out bit for bit as its `Simulation` alone does,
+//! whoever its neighbours are, whatever the number of threads, and on every
+//! processor for which elementary functions other than sine and cosine come out
+//! the same: vectors of any width round as scalars do, and no multiplication is
+//! fused with an addition. A member with an angle beyond 10⁵ rad is run again by
+//! itself, since lanes do not compute that. In `f32` lanes, sines and cosines may
+//! differ from those of the scalar in the last place.
+//!
+//! # Memory
+//!
+//! A block lives on the stack of its thread. What remains is a
+//! [`Run`] per member: nothing grows with the number of steps, but for
+//! [`Samples`]. [`Ensemble::for_each`] hands over members as they are finished, in
+//! order, and so needs memory for a bounded number of them, however many there are.
+//!
+//! # Processors
+//!
+//! Which vector instructions there are is found out at run time, once a block: the
+//! step is compiled for AVX-512, AVX2 and the baseline of the target. Systems with
+//! more than 64 unknowns are too large to be inlined into a step; they are
+//! compiled for the baseline alone.
+#![deny(unsafe_code)]
+
+mod block;
+mod extremes;
+mod observe;
+mod samples;
+mod violation;
+
+pub use extremes::{Extremes, OfOutputs};
+pub use observe::Observe;
+pub use samples::Samples;
+pub use violation::{OfConstraints, Violation};
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use mbs_runtime::lanes::Lane;
+use mbs_runtime::{Error, Feedback, Mechanism, Simulation, State};
+use rayon::prelude::*;
+
+/// Blocks that are computed before their members are handed over.
+const BLOCKS_PER_THREAD: usize = 64;
+
+/// How an ensemble is run: until when, and what happens meanwhile. `N` is the number
+/// of lanes, 8 if nothing is said.
+#[derive(Clone, Copy)]
+pub struct Ensemble<'a, const N: usize = 8> {
+    end: f64,
+    cancel: Option<&'a AtomicBool>,
+    progress: Option<&'a (dyn Fn(usize, usize) + Sync)>,
+}
+
+/// How a member has run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run<M: Mechanism, R> {
+    /// The last good state.
+    pub state: State<M::Coordinates>,
+    /// The steps that led to it.
+    pub steps: u64,
+    /// Why it is not at the end.
+    pub ended: Option<Error>,
+    /// What was observed.
+    pub observed: R,
+}
+
+/// A run, or why it could not start.
+pub type Outcome<M, R> = Result<Run<M, R>, Error>;
+
+/// The ensemble was stopped from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled {
+    /// The members that were handed over before.
+    pub finished: usize,
+}
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "cancelled after {} members", self.finished)
+    }
+}
+
+impl std::error::Error for Cancelled {}
+
+impl Ensemble<'_> {
+    /// Runs members to `end` seconds.
+    pub fn new(end: f64) -> Self {
+        Self { end, cancel: None, progress: None }
+    }
+}
+
+impl<'a, const N: usize> Ensemble<'a, N> {
+    const HAS_LANES: () = assert!(N > 0, "an ensemble needs a lane");
+
+    /// Runs blocks of as many members at once: 8 suits `f64`, 16 `f32`.
+    #[must_use]
+    pub fn lanes<const LANES: usize>(self) -> Ensemble<'a, LANES> {
+        Ensemble { end: self.end, cancel: self.cancel, progress: self.progress }
+    }
+
+    /// Stops soon after the flag is set, from another thread or a signal.
+    #[must_use]
+    pub fn cancelled_by(self, flag: &'a AtomicBool) -> Self {
+        Self { cancel: Some(flag), ..self }
+    }
+
+    /// Called with the members done and the members in all, on any thread and
+    /// in no certain order.
+    #[must_use]
+    pub fn progress(self, report: &'a (dyn Fn(usize, usize) + Sync)) -> Self {
+        Self { progress: Some(report), ..self }
+    }
+
+    /// Runs members 0 … `count` − 1 on the threads of the current `rayon` pool.
+    ///
+    /// # Errors
+    /// [`Cancelled`]. What happens to members is in their [`Outcome`].
+    pub fn run<M, F, O>(
+        &self,
+        count: usize,
+        member: impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync,
+        observer: &O,
+    ) -> Result<Vec<Outcome<M, O::Result>>, Cancelled>
+    where
+        M: Mechanism<Real: Lane>,
+        F: Feedback,
+        O: Observe<M>,
+    {
+        let mut outcomes = Vec::with_capacity(count);
+        self.for_each(count, member, observer, |_, outcome| outcomes.push(outcome))?;
+        Ok(outcomes)
+    }
+
+    /// The same, and hands members over instead of keeping them, with their
+    /// indices, in ascending order.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn for_each<M, F, O>(
+        &self,
+        count: usize,
+        member: impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync,
+        observer: &O,
+        mut take: impl FnMut(usize, Outcome<M, O::Result>),
+    ) -> Result<(), Cancelled>
+    where
+        M: Mechanism<Real: Lane>,
+        F: Feedback,
+        O: Observe<M>,
+    {
+        let () = Self::HAS_LANES;
+        let done = AtomicUsize::new(0);
+        let is_cancelled = || self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let run_block = |block: usize| {
+            let members = block * N..count.min((block + 1) * N);
+            let length = members.len();
+            let outcomes = block::run::<M, F, O, N>(members, &member, observer, self.end, &is_cancelled)?;
+            if let Some(report) = self.progress {
+                report(done.fetch_add(length, Ordering::Relaxed) + length, count);
+            }
+            Some(outcomes)
+        };
+        let blocks = count.div_ceil(N);
+        let at_once = BLOCKS_PER_THREAD * rayon::current_num_threads();
+        let mut index = 0;
+        for first in (0..blocks).step_by(at_once) {
+            let last = blocks.min(first + at_once);
+            let outcomes: Option<Vec<_>> = (first..last).into_par_iter().map(run_block).collect();
+            let outcomes = outcomes.ok_or(Cancelled { finished: index })?;
+            for outcome in outcomes.into_iter().flatten() {
+                take(index, outcome);
+                index += 1;
+            }
+        }
+        Ok(())
+    }
+}

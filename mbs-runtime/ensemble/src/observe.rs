@@ -1,0 +1,104 @@
+//! What is looked at while members run.
+
+use mbs_runtime::Mechanism;
+use mbs_runtime::lanes::{Lane, Snapshot, and};
+
+/// Reduces the states of every member while it runs: at its start, and after every step.
+///
+/// An observer is shared by all blocks. What it remembers of the `N` members of a block
+/// is a [`Notes`](Self::Notes), with a [`Lanes`](mbs_runtime::Lanes) for each number, so that
+/// looking at eight members costs what looking at one does.
+///
+/// # Example
+/// The impulse of the tension: its sum over all steps, times the step.
+/// ```
+/// use mbs_ensemble::{Ensemble, Observe};
+/// use mbs_runtime::{Lanes, Simulation, lanes::Snapshot, mechanism};
+/// # mechanism! {
+/// #     /// A weight on a massless rod.
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m] where length > 0;
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #         output tension [N] = 2*lambda(rod)*sqrt(x^2 + y^2);
+/// #     }
+/// # }
+///
+/// struct Impulse;
+///
+/// impl Observe<Pendulum> for Impulse {
+///     type Notes<const N: usize> = Lanes<f64, N>;
+///     type Result = f64;
+///
+///     fn begin<const N: usize>(&self) -> Lanes<f64, N> {
+///         Lanes::default()
+///     }
+///     #[inline(always)]
+///     fn observe<const N: usize>(&self, sum: &mut Lanes<f64, N>, at: &Snapshot<'_, Pendulum, N>) -> [bool; N] {
+///         let (outputs, healthy) = at.outputs();
+///         *sum = (*sum + outputs.tension).select(healthy, *sum);
+///         healthy
+///     }
+///     fn finish<const N: usize>(&self, sum: &Lanes<f64, N>, lane: usize) -> f64 {
+///         1e-3 * sum.0[lane]
+///     }
+/// }
+///
+/// let member = |_| Simulation::new(Pendulum::declared(), 1e-3);
+/// let runs = Ensemble::new(0.5).run(3, member, &Impulse)?;
+/// assert!(runs.iter().flatten().all(|run| run.observed > 0.0));
+/// # Ok::<(), mbs_ensemble::Cancelled>(())
+/// ```
+pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
+    /// What is remembered of the members of a block.
+    type Notes<const N: usize>;
+    /// What comes out for a member.
+    type Result: Send;
+
+    /// The notes before anything was seen.
+    fn begin<const N: usize>(&self) -> Self::Notes<N>;
+
+    /// Looks at a state of every member, and says in which lanes that could be
+    /// done. The notes of the others stay as they are; their members end with the
+    /// error that their outputs have.
+    ///
+    /// Mark it `#[inline(always)]`: then it is compiled for the vector instructions of
+    /// the step.
+    fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N];
+
+    /// What comes out for the member in a lane below `N`.
+    fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result;
+}
+
+/// Nothing is looked at.
+impl<M: Mechanism<Real: Lane>> Observe<M> for () {
+    type Notes<const N: usize> = ();
+    type Result = ();
+
+    fn begin<const N: usize>(&self) {}
+    #[inline(always)]
+    fn observe<const N: usize>(&self, (): &mut (), _: &Snapshot<'_, M, N>) -> [bool; N] {
+        [true; N]
+    }
+    fn finish<const N: usize>(&self, (): &(), _: usize) {}
+}
+
+/// One after the other.
+impl<M: Mechanism<Real: Lane>, A: Observe<M>, B: Observe<M>> Observe<M> for (A, B) {
+    type Notes<const N: usize> = (A::Notes<N>, B::Notes<N>);
+    type Result = (A::Result, B::Result);
+
+    fn begin<const N: usize>(&self) -> Self::Notes<N> {
+        (self.0.begin(), self.1.begin())
+    }
+    #[inline(always)]
+    fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
+        and(self.0.observe(&mut notes.0, at), self.1.observe(&mut notes.1, at))
+    }
+    fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result {
+        (self.0.finish(&notes.0, lane), self.1.finish(&notes.1, lane))
+    }
+}

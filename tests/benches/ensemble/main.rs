@@ -1,0 +1,188 @@
+//! What a Heun step of a member of an ensemble costs: by lanes, against one
+//! simulation after the other and against lanes that a person has eliminated, in the same
+//! run, and on two threads; and a million members.
+
+mod by_hand;
+
+use std::fs;
+use std::hint::black_box;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use by_hand::{Hand, N};
+use mbs_ensemble::Ensemble;
+use mbs_runtime::{Baumgarte, Components, Error, Held, Lanes, Mechanism, Simulation};
+use models::{SliderCrank, SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+const H: f64 = 0.5e-3;
+const STEPS: u64 = 600;
+const END: f64 = 0.3;
+const MEMBERS: usize = 1024;
+const REPETITIONS: usize = 21;
+
+/// A tenth heavier from first to last.
+fn mass(index: usize) -> f64 {
+    2.0 + 0.2 * index as f64 / MEMBERS as f64
+}
+
+fn driven(index: usize) -> Result<Simulation<SliderCrank>, Error> {
+    let parameters = models::SliderCrankParameters { m3: mass(index), ..Default::default() };
+    Simulation::new(SliderCrank::new(parameters)?, H)
+}
+
+fn free(index: usize) -> Result<Simulation<SliderCrankFree>, Error> {
+    let parameters = SliderCrankFreeParameters { m3: mass(index), ..Default::default() };
+    let inputs = SliderCrankFreeInputs { crank_torque: 0.5 };
+    Simulation::builder(SliderCrankFree::new(parameters)?, H).inputs(inputs).build()
+}
+
+/// Eight slider-cranks from the given one on, with the start of simulations.
+fn hand<M: Mechanism<Real = f64>>(
+    runs: &[Simulation<M>],
+    first: usize,
+) -> (Hand, [Lanes<f64, N>; 7], [Lanes<f64, N>; 7]) {
+    let c = |x: f64| Lanes([x; N]);
+    let best = Baumgarte::<Held>::deadbeat(H);
+    let hand = Hand {
+        l1: c(0.06),
+        l2: c(0.18),
+        m: [c(0.5), c(1.2), Lanes(std::array::from_fn(|lane| mass(first + lane)))],
+        j: [c(0.5 * 0.06 * 0.06 / 12.0), c(1.2 * 0.18 * 0.18 / 12.0)],
+        omega: c(200.0 * std::f64::consts::TAU / 60.0),
+        torque: c(0.5),
+        minus_two_alpha: c(-2.0 * best.alpha()),
+        minus_beta_squared: c(-best.beta() * best.beta()),
+    };
+    let of = |what: &dyn Fn(&Simulation<M>) -> M::Coordinates, i: usize| {
+        Lanes(std::array::from_fn(|lane| what(&runs[first + lane]).into_array().as_ref()[i]))
+    };
+    (
+        hand,
+        std::array::from_fn(|i| of(&|run| run.state().q, i)),
+        std::array::from_fn(|i| of(&|run| run.state().v, i)),
+    )
+}
+
+/// Seconds of one, and what the crank's angles add up to.
+fn timed(work: impl FnOnce() -> f64) -> (f64, f64) {
+    let start = Instant::now();
+    let sum = black_box(work());
+    (start.elapsed().as_secs_f64(), sum)
+}
+
+fn alone<M: Mechanism<Real = f64>>(runs: &[Simulation<M>]) -> f64 {
+    let angles = runs.iter().map(|run| {
+        let mut run = black_box(*run);
+        let outcome = run.advance_to(END);
+        if outcome.is_ok() { angle(run.state().q) } else { f64::NAN }
+    });
+    angles.sum()
+}
+
+fn together<M: Mechanism<Real = f64>>(runs: &[Simulation<M>], pool: &ThreadPool) -> f64 {
+    let outcomes =
+        pool.install(|| Ensemble::new(END).run(runs.len(), |index| Ok(black_box(runs[index])), &()));
+    outcomes.into_iter().flatten().flatten().map(|run| angle(run.state.q)).sum()
+}
+
+fn by_hand<M: Mechanism<Real = f64>, const DRIVEN: bool>(runs: &[Simulation<M>]) -> f64 {
+    let mut sum = 0.0;
+    for first in (0..runs.len()).step_by(N) {
+        let (hand, mut q, mut v) = black_box(hand(runs, first));
+        by_hand::advance::<DRIVEN>(&hand, &mut q, &mut v, H, STEPS);
+        sum += q[2].0.into_iter().sum::<f64>();
+    }
+    sum
+}
+
+fn angle<C: Components<Real = f64>>(q: C) -> f64 {
+    q.get("theta1").unwrap_or(f64::NAN)
+}
+
+/// Compares the programs; `false` if they do not agree.
+fn compare<M: Mechanism<Real = f64>, const DRIVEN: bool>(
+    name: &str,
+    member: impl Fn(usize) -> Result<Simulation<M>, Error>,
+    repetitions: usize,
+) -> Result<bool, Box<dyn std::error::Error>> {
+    let runs = (0..MEMBERS).map(member).collect::<Result<Vec<_>, _>>()?;
+    let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
+    let (one, two) = (pool(1)?, pool(2)?);
+    let mut times = [const { Vec::new() }; 4];
+    let mut sums = [0.0; 4];
+    for _ in 0..repetitions {
+        let results = [
+            timed(|| alone(&runs)),
+            timed(|| together(&runs, &one)),
+            timed(|| by_hand::<M, DRIVEN>(&runs)),
+            timed(|| together(&runs, &two)),
+        ];
+        for ((times, sum), (time, result)) in times.iter_mut().zip(&mut sums).zip(results) {
+            times.push(time * 1e9 / (STEPS as f64 * MEMBERS as f64));
+            *sum = result;
+        }
+    }
+    let [alone, lanes, hand, threads] = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        (times[0], times[times.len() / 2])
+    });
+    println!(
+        "{name:8} alone {:5.1} / {:5.1}   lanes {:5.1} / {:5.1}   by hand {:5.1} / {:5.1}   two threads {:5.1} / {:5.1}",
+        alone.0, alone.1, lanes.0, lanes.1, hand.0, hand.1, threads.0, threads.1
+    );
+    println!(
+        "{:8} alone/lanes {:.1}x   lanes/by hand {:.2}x   one/two threads {:.2}x",
+        "",
+        alone.1 / lanes.1,
+        lanes.1 / hand.1,
+        lanes.1 / threads.1
+    );
+    // the same to the bit, and as the benchmark of one step compares by hand
+    let agree =
+        sums[0] == sums[1] && sums[1] == sums[3] && (sums[2] - sums[0]).abs() < 1e-10 * MEMBERS as f64;
+    if !agree {
+        println!("{name}: the sums of the angles differ: {sums:?}");
+    }
+    Ok(agree)
+}
+
+/// Peak memory of this process in MB, where the system tells.
+fn peak() -> Option<f64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().trim_end_matches(" kB").parse::<f64>().ok()? / 1000.0)
+}
+
+fn million() {
+    let mut sum = 0.0;
+    let start = Instant::now();
+    let before = peak();
+    let outcome = Ensemble::new(END).for_each(
+        1_000_000,
+        |index| free(index % MEMBERS),
+        &(),
+        |_, outcome| {
+            sum += outcome.map_or(f64::NAN, |run| angle(run.state.q));
+        },
+    );
+    let seconds = start.elapsed().as_secs_f64();
+    println!("a million free members, {STEPS} steps, with their starts: {seconds:.1} s {outcome:?} {sum:.3}");
+    println!("peak memory: {before:?} MB before, {:?} MB after", peak());
+}
+
+fn main() -> ExitCode {
+    // `cargo test --benches` runs this without the flag: the comparison is the test
+    let is_bench = std::env::args().any(|argument| argument == "--bench");
+    let repetitions = if is_bench { REPETITIONS } else { 1 };
+    println!("ns per step and member, minimum / median of {repetitions}, ensembles of {MEMBERS}");
+    let good = [
+        compare::<SliderCrank, true>("driven", driven, repetitions),
+        compare::<SliderCrankFree, false>("free", free, repetitions),
+    ];
+    if is_bench {
+        million();
+    }
+    let good = good.iter().all(|result| matches!(result, Ok(true)));
+    if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
