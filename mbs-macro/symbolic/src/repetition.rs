@@ -135,11 +135,7 @@ impl Program {
         }
         let mut blocks = Vec::new();
         let mut done = 0;
-        for run in taken.values() {
-            let repetition = self.cut(run);
-            if repetition.count < FEWEST_COPIES {
-                continue;
-            }
+        for repetition in taken.values().flat_map(|run| self.alike(self.cut(run))) {
             if done < repetition.start {
                 blocks.push(Block::Straight(done..repetition.start));
             }
@@ -170,11 +166,35 @@ impl Program {
         let mut numbers: HashMap<(Operation, Kind, Kind), usize> = HashMap::new();
         let number = self.instructions.iter().map(|instruction| {
             let next = numbers.len();
-            *numbers
-                .entry((instruction.operation, kind(instruction.a), kind(instruction.b)))
-                .or_insert(next)
+            *numbers.entry((instruction.operation, kind(instruction.a), kind(instruction.b))).or_insert(next)
         });
         number.collect()
+    }
+
+    /// The copies in which the same operands are results of the same copy.
+    fn alike(&self, repetition: Repetition) -> Vec<Repetition> {
+        let Repetition { start, length, count } = repetition;
+        let own = |copy: usize, at: usize| {
+            let first = start + copy * length;
+            let instruction = &self.instructions[first + at];
+            [instruction.a, instruction.b].map(|operand| match operand {
+                Operand::Value(value) => value.checked_sub(first),
+                _ => None,
+            })
+        };
+        let mut found = Vec::new();
+        let mut from = 0;
+        for copy in 1..=count {
+            if copy < count && (0..length).all(|at| own(copy, at) == own(copy - 1, at)) {
+                continue;
+            }
+            let count = copy - from;
+            if count >= FEWEST_COPIES && (count - 1) * length >= LEAST_SAVED {
+                found.push(Repetition { start: start + from * length, length, count });
+            }
+            from = copy;
+        }
+        found
     }
 
     /// Cuts a run into copies where the fewest operands come from another copy.
