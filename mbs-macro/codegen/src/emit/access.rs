@@ -64,6 +64,11 @@ impl Access {
         Self { parameters: quote!(parameters), kind: Kind::Parameters, ..Self::of_position() }
     }
 
+    /// Whether positions are a reference to the vector.
+    pub fn is_borrowed(&self) -> bool {
+        self.kind == Kind::Position
+    }
+
     /// The same in a function with the [`arguments`](Self::arguments).
     pub fn in_part(&self, names: &Names) -> Self {
         let mechanism = &names.mechanism;

@@ -69,12 +69,13 @@ impl Array {
         let Access { parameters, positions, velocities, .. } = access;
         match self {
             Self::Parameters => quote!(#parameters),
-            Self::Inputs => quote!(inputs),
+            Self::Inputs => quote!(*inputs),
+            Self::Positions if access.is_borrowed() => quote!(*#positions),
             Self::Positions => quote!(#positions),
             Self::Velocities => quote!(#velocities),
             Self::Accelerations => quote!(reactions.acceleration),
             Self::Multipliers => quote!(reactions.multipliers),
-            Self::Feedback => quote!(feedback),
+            Self::Feedback => quote!(*feedback),
         }
     }
 }
@@ -92,7 +93,7 @@ impl Arrays {
         let runtime = &names.runtime;
         let declaration = |array: &Array| {
             let (ident, place) = (array.ident(), array.place(access));
-            quote!(let #ident = #runtime::Components::into_array(#place.clone());)
+            quote!(let #ident = #runtime::Components::into_array(#place);)
         };
         self.lengths.keys().map(declaration).collect()
     }
