@@ -44,3 +44,14 @@ pub fn write<T: Real>(values: &mut [T], at: usize, value: T) {
         *place = value;
     }
 }
+
+/// The values at these places of an array; see [`read`].
+#[inline]
+pub fn gather<T: Real, const N: usize>(values: &[T], places: &[u32; N]) -> [T; N] {
+    places.map(|place| read(values, place as usize))
+}
+
+/// x and y in turn as points.
+pub fn pairs<T: Real, const N: usize>(values: &[T]) -> [[T; 2]; N] {
+    core::array::from_fn(|at| [read(values, 2 * at), read(values, 2 * at + 1)])
+}

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Program, Stage};
+use mbs_symbolic::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -13,144 +13,12 @@ use super::info;
 use super::names::{Names, field};
 use super::program::{Body, body};
 use super::sketch;
-use super::splines::splines;
 use crate::derive::Equations;
-use crate::model::{Check, Direction, Model};
+use crate::model::Model;
 use crate::plan::Plan;
-use crate::syntax::Comparison;
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
-
-/// `new`, `declared`, `prepare` and access to the parameters.
-pub fn construction(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
-    let Names { mechanism, parameters, runtime, .. } = names;
-    let checks = parameter_checks(model, plan, names);
-    let splines = splines(model, names);
-    let Body { statements, outputs } = body(model, names, &plan.prepare, &Access::of_parameters());
-    quote! {
-        impl #mechanism<::core::primitive::f64> {
-            /// The mechanism with its declared parameters, in `f64`.
-            ///
-            /// For another scalar type, use `default`.
-            pub fn declared() -> Self {
-                ::core::default::Default::default()
-            }
-        }
-
-        impl<T: #runtime::Real> #mechanism<T> {
-            #(#splines)*
-
-            /// The mechanism with these parameters.
-            ///
-            /// # Errors
-            /// If a parameter is not finite, a mass or an inertia comes out
-            /// negative, or a declared condition does not hold.
-            pub fn new(parameters: #parameters<T>) -> ::core::result::Result<Self, #runtime::Error> {
-                #runtime::__private::check_finite(&parameters)?;
-                #checks
-                ::core::result::Result::Ok(Self::prepare(parameters))
-            }
-
-            /// Computes what depends on parameters alone.
-            #[allow(unused_variables, clippy::all)]
-            fn prepare(parameters: #parameters<T>) -> Self {
-                #statements
-                Self { parameters, hoisted: [#(#outputs),*] }
-            }
-
-            /// The parameters.
-            pub fn parameters(&self) -> &#parameters<T> {
-                &self.parameters
-            }
-        }
-    }
-}
-
-fn parameter_checks(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
-    let runtime = &names.runtime;
-    let Body { statements, outputs } = body(model, names, &plan.requirements, &Access::of_parameters());
-    let mut outputs = outputs.into_iter();
-    let mut checks = TokenStream::new();
-    for requirement in &model.requirements {
-        let (difference, value) = (outputs.next(), outputs.next());
-        let comparison = match requirement.comparison {
-            Comparison::Less => quote!(<),
-            Comparison::LessOrEqual => quote!(<=),
-            Comparison::Greater => quote!(>),
-            Comparison::GreaterOrEqual => quote!(>=),
-        };
-        let (name, text) = (&requirement.name, &requirement.text);
-        checks.extend(quote! {
-            if !(#difference #comparison T::from_f64(0.0)) {
-                return ::core::result::Result::Err(#runtime::Error::Parameter {
-                    name: #name,
-                    value: (#value).to_f64(),
-                    requirement: #text,
-                });
-            }
-        });
-    }
-    for (coordinate, mass) in model.coordinates.iter().zip(outputs.by_ref()) {
-        let body = &model.bodies[coordinate.body];
-        let what = if coordinate.direction == Direction::Angle { "inertia" } else { "mass" };
-        let name = format!("{what} of {}", body.name);
-        let is_repeated =
-            coordinate.direction == Direction::Y && model.coordinate_of(body, Direction::X).is_some();
-        if is_repeated {
-            continue;
-        }
-        checks.extend(quote! {
-            if !(#mass >= T::from_f64(0.0)) {
-                return ::core::result::Result::Err(#runtime::Error::Parameter {
-                    name: #name,
-                    value: (#mass).to_f64(),
-                    requirement: "it must not be negative",
-                });
-            }
-        });
-    }
-    let is_known = |check: &&Check| model.arena.stage(check.value) == Stage::Parameter;
-    for (check, value) in model.checks.iter().filter(is_known).zip(outputs) {
-        let (comparison, requirement) = match check.is_strict {
-            true => (quote!(>), "it has to be positive"),
-            false => (quote!(>=), "it must not be negative"),
-        };
-        let name = format!("{} of {}", check.property, check.element);
-        checks.extend(quote! {
-            if !(#value #comparison T::from_f64(0.0)) {
-                return ::core::result::Result::Err(#runtime::Error::Parameter {
-                    name: #name,
-                    value: (#value).to_f64(),
-                    requirement: #requirement,
-                });
-            }
-        });
-    }
-    quote! {
-        #[allow(unused_variables)]
-        #[allow(clippy::all)]
-        {
-            #statements
-            #checks
-        }
-    }
-}
-
-/// A vector of named components from the outputs of a program.
-fn vector(name: &TokenStream, fields: &[Ident], values: &[TokenStream]) -> TokenStream {
-    if fields.is_empty() {
-        return quote!(::core::default::Default::default());
-    }
-    let name = turbofish(name);
-    quote!(#name { #(#fields: #values),* })
-}
-
-/// `Name<T>` as it stands in expressions.
-fn turbofish(of_t: &TokenStream) -> TokenStream {
-    let name = of_t.clone().into_iter().next();
-    quote!(#name)
-}
 
 /// A matrix: written out, or if it is large and so mostly zeros, by its entries.
 fn matrix(
@@ -214,8 +82,8 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     let at_state = Access::of_state();
 
     let rows_of = |program: &Program, access: &Access| {
-        let Body { statements, outputs } = body(model, names, program, access);
-        let value = vector(rows, &fields.rows, &outputs);
+        let body = body(model, names, program, access);
+        let (statements, value) = (&body.statements, body.vector(rows, &fields.rows, 0..m));
         quote!(#statements #value)
     };
     let phi = rows_of(&plan.phi, &position);
@@ -224,24 +92,24 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     let gamma = rows_of(&plan.gamma, &at_state);
     let baumgarte_rhs = rows_of(&plan.baumgarte_rhs, &at_state);
     let forces = {
-        let Body { statements, outputs } = body(model, names, &plan.forces, &at_state);
-        let value = vector(q, &fields.coordinates, &outputs);
+        let body = body(model, names, &plan.forces, &at_state);
+        let (statements, value) = (&body.statements, body.vector(q, &fields.coordinates, 0..n));
         quote!(#statements #value)
     };
     let phi_q = {
-        let Body { statements, outputs } = body(model, names, &plan.phi_q, &position);
+        let Body { statements, outputs, .. } = body(model, names, &plan.phi_q, &position);
         let entries = plan.phi_q_places.iter().copied().zip(outputs).collect();
         let matrix = matrix(nalgebra, (m, n), &entries);
         quote!(#statements #matrix)
     };
     let mass = {
-        let Body { statements, outputs } = body(model, names, &plan.mass, &position);
+        let Body { statements, outputs, .. } = body(model, names, &plan.mass, &position);
         let diagonal = outputs.into_iter().enumerate().map(|(at, mass)| ((at, at), mass)).collect();
         let matrix = matrix(nalgebra, (n, n), &diagonal);
         quote!(#statements #matrix)
     };
     let scalar = |program: &Program| {
-        let Body { statements, outputs } = body(model, names, program, &at_state);
+        let Body { statements, outputs, .. } = body(model, names, program, &at_state);
         quote!(#statements #(#outputs)*)
     };
     let (kinetic, potential) = (scalar(&plan.kinetic_energy), scalar(&plan.potential_energy));
@@ -318,15 +186,15 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let derivation = derivation::emit(model, equations, plan);
     let sketch = sketch::emit(&model.sketch, names);
     let points = Literal::usize_unsuffixed(model.sketch.points.len());
-    let places = sketch::places(body(model, names, &plan.points, &Access::of_position()));
+    let places = sketch::places(&body(model, names, &plan.points, &Access::of_position()));
     let kernels = kernels(model, plan, names, &fields);
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
     let worst_pivot = worst_pivot(model, names, &plan.pivots);
     let output_values = {
-        let Body { statements, outputs: values } = body(model, names, &plan.outputs, &Access::of_state());
-        let output_fields: Vec<_> = model.outputs.iter().map(|output| field(&output.quantity.name)).collect();
-        let value = vector(outputs, &output_fields, &values);
+        let body = body(model, names, &plan.outputs, &Access::of_state());
+        let fields: Vec<_> = model.outputs.iter().map(|output| field(&output.quantity.name)).collect();
+        let (statements, value) = (&body.statements, body.vector(outputs, &fields, 0..fields.len()));
         quote!(#statements #value)
     };
     quote! {
@@ -382,27 +250,26 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
     let Names { runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
-    let split = |program: &Program, access: Access| {
-        let Body { statements, outputs } = body(model, names, program, &access);
-        let acceleration = vector(q, &fields.coordinates, &outputs[..n]);
-        let growth = outputs.last().cloned();
-        (statements, outputs, acceleration, growth)
-    };
+    let acceleration = |body: &Body| body.vector(q, &fields.coordinates, 0..n);
+    let of_rows = |body: &Body| body.vector(rows, &fields.rows, n..n + m);
     let stabilized = {
-        let (statements, outputs, acceleration, growth) = split(&plan.stabilized, Access::of_state());
-        let feedback = vector(rows, &fields.rows, &outputs[n..n + m]);
+        let body = body(model, names, &plan.stabilized, &Access::of_state());
+        let (statements, growth) = (&body.statements, body.outputs.last());
+        let (acceleration, feedback) = (acceleration(&body), of_rows(&body));
         quote!(#statements #runtime::Stabilized { acceleration: #acceleration, feedback: #feedback, growth: #growth })
     };
     let accelerations = |program: &Program, access: Access| {
-        let (statements, _, acceleration, growth) = split(program, access);
+        let body = body(model, names, program, &access);
+        let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), acceleration(&body));
         quote!(#statements #runtime::Accelerations { acceleration: #acceleration, growth: #growth })
     };
     let constrained = accelerations(&plan.constrained, Access::of_state());
     let position_correction = accelerations(&plan.position_correction, Access::of_position());
     let velocity_correction = accelerations(&plan.velocity_correction, Access::of_position());
     let reactions_body = {
-        let (statements, outputs, acceleration, growth) = split(&plan.reactions, Access::of_state());
-        let multipliers = vector(rows, &fields.rows, &outputs[n..n + m]);
+        let body = body(model, names, &plan.reactions, &Access::of_state());
+        let (statements, growth) = (&body.statements, body.outputs.last());
+        let (acceleration, multipliers) = (acceleration(&body), of_rows(&body));
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
     let inline = inlining(model);
@@ -422,10 +289,11 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
 fn declared_start(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenStream {
     let runtime = &names.runtime;
     let q = &names.coordinates.of_t;
-    let Body { statements, outputs } = body(model, names, &plan.start, &Access::of_position());
-    let (positions, velocities) = outputs.split_at(fields.coordinates.len());
+    let n = fields.coordinates.len();
+    let body = body(model, names, &plan.start, &Access::of_position());
     let (positions, velocities) =
-        (vector(q, &fields.coordinates, positions), vector(q, &fields.coordinates, velocities));
+        (body.vector(q, &fields.coordinates, 0..n), body.vector(q, &fields.coordinates, n..2 * n));
+    let statements = &body.statements;
     quote!(#statements #runtime::State { t: T::from_f64(0.0), q: #positions, v: #velocities })
 }
 
@@ -434,6 +302,7 @@ fn worst_pivot(model: &Model, names: &Names, pivots: &Program) -> TokenStream {
     if pivots.outputs.is_empty() {
         return quote!(::core::option::Option::None);
     }
-    let Body { statements, outputs } = body(model, names, pivots, &Access::of_position());
-    quote!(#statements #runtime::__private::worst(&[#(#outputs),*]))
+    let body = body(model, names, pivots, &Access::of_position());
+    let (statements, growths) = (&body.statements, body.array(0..pivots.outputs.len()));
+    quote!(#statements #runtime::__private::worst(&#growths))
 }

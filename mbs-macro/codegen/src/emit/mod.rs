@@ -1,6 +1,7 @@
 //! Programs to Rust. Cannot fail: whatever could go wrong has been refused.
 
 mod access;
+mod construction;
 mod derivation;
 mod docs;
 mod functions;
@@ -25,7 +26,7 @@ use names::Names;
 pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let names = Names::new(model);
     let types = types::emit(model, plan, equations, &names);
-    let construction = functions::construction(model, plan, &names);
+    let construction = construction::emit(model, plan, &names);
     let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
     let mechanism = functions::mechanism(model, equations, plan, &names);

@@ -13,10 +13,45 @@ use super::names::{Names, field};
 use super::splines::spline_name;
 use crate::model::{Meaning, Model};
 
-/// Statements that run a program, and its outputs as expressions.
+/// Statements that run a program, and its outputs.
 pub struct Body {
     pub statements: TokenStream,
+    /// As expressions.
     pub outputs: Vec<TokenStream>,
+    /// Of a long program, the slots that hold them.
+    pub places: Option<Vec<usize>>,
+    pub runtime: TokenStream,
+}
+
+impl Body {
+    /// Some of the outputs as an array.
+    pub fn array(&self, range: Range<usize>) -> TokenStream {
+        let Some(places) = &self.places else {
+            let outputs = &self.outputs[range];
+            return quote!([#(#outputs),*]);
+        };
+        let (runtime, count) = (&self.runtime, Literal::usize_unsuffixed(range.len()));
+        let places = places[range].iter().map(|&place| Literal::usize_unsuffixed(place));
+        quote! {{
+            const PLACES: [::core::primitive::u32; #count] = [#(#places),*];
+            #runtime::__private::gather(&slots, &PLACES)
+        }}
+    }
+
+    /// Some of the outputs as a vector with named components.
+    pub fn vector(&self, of_t: &TokenStream, fields: &[Ident], range: Range<usize>) -> TokenStream {
+        if fields.is_empty() {
+            return quote!(::core::default::Default::default());
+        }
+        if self.places.is_some() {
+            let (runtime, array) = (&self.runtime, self.array(range));
+            return quote!(<#of_t as #runtime::Components>::from_array(#array));
+        }
+        // `Name<T>` as it stands in expressions
+        let name = of_t.clone().into_iter().next();
+        let values = &self.outputs[range];
+        quote!(#name { #(#fields: #values),* })
+    }
 }
 
 /// A program as one list of statements, or if it is long, as loops and
@@ -32,7 +67,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) ->
     let mut writer = Writer::new(model, program, access, &pairs, range.clone());
     range.for_each(|at| writer.instruction(at));
     let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
-    Body { statements: writer.statements, outputs }
+    Body { statements: writer.statements, outputs, places: None, runtime: names.runtime.clone() }
 }
 
 /// Sine instruction ↔ cosine instruction of the same angle.

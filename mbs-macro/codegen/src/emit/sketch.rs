@@ -49,7 +49,12 @@ fn positions(positions: &[usize]) -> TokenStream {
 }
 
 /// The places from a program that gives x and y of each in turn.
-pub fn places(Body { statements, outputs }: Body) -> TokenStream {
+pub fn places(body: &Body) -> TokenStream {
+    let Body { statements, outputs, runtime, .. } = body;
+    if body.places.is_some() {
+        let values = body.array(0..outputs.len());
+        return quote!(#statements #runtime::__private::pairs(&#values));
+    }
     let places = outputs.chunks(2);
     quote!(#statements [#([#(#places),*]),*])
 }

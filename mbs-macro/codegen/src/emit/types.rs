@@ -10,6 +10,9 @@ use crate::derive::Equations;
 use crate::model::Model;
 use crate::plan::Plan;
 
+/// Vectors with more components are converted by calls.
+const LARGEST_INLINED: usize = 64;
+
 /// A field of a generated struct: name, documentation, declared value.
 struct Field {
     name: Ident,
@@ -147,6 +150,12 @@ fn components(
     } else {
         (TokenStream::new(), TokenStream::new())
     };
+    // Thousands of moves, inlined wherever a vector is looped over, are most of
+    // what the compiler would have to do.
+    let inline = match fields.len() <= LARGEST_INLINED {
+        true => quote!(#[inline(always)]),
+        false => quote!(#[inline(never)]),
+    };
     let (array, value) =
         if fields.is_empty() { (quote!(_), quote!(_)) } else { (quote!(array), quote!(value)) };
     quote! {
@@ -169,15 +178,15 @@ fn components(
             type Array = [T; #length];
             const NAMES: &'static [&'static ::core::primitive::str] = &[#(#texts),*];
 
-            #[inline(always)]
+            #inline
             fn into_array(self) -> [T; #length] {
                 [#(self.#idents),*]
             }
-            #[inline(always)]
+            #inline
             fn from_array(#array: [T; #length]) -> Self {
                 Self { #(#idents: array[#positions],)* #marker_value }
             }
-            #[inline(always)]
+            #inline
             fn splat(#value: T) -> Self {
                 Self { #(#idents: value,)* #marker_value }
             }

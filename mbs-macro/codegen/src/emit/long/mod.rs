@@ -8,6 +8,7 @@ mod arrays;
 mod repeated;
 mod slots;
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use mbs_symbolic::{Block, Operand, Program};
@@ -110,8 +111,24 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     }
     // outside the functions, symbols are read as the function around them reads them
     let outside = Writer::new(model, program, access, &pairs, 0..0).with_slots(&slots);
-    let outputs = program.outputs.iter().map(|&output| outside.operand(output)).collect();
-    let length = Literal::usize_unsuffixed(slots.len());
+    let outputs: Vec<_> = program.outputs.iter().map(|&output| outside.operand(output)).collect();
+    let mut length = slots.len();
+    let mut places = Vec::with_capacity(outputs.len());
+    let mut others: HashMap<Operand, usize> = HashMap::new();
+    for (&output, value) in program.outputs.iter().zip(&outputs) {
+        let place = match output {
+            Operand::Value(at) => slots.of(at),
+            other => others.get(&other).copied(),
+        };
+        places.push(place.unwrap_or_else(|| {
+            let place = Literal::usize_unsuffixed(length);
+            calls.extend(quote!(slots[#place] = #value;));
+            others.insert(output, length);
+            length += 1;
+            length - 1
+        }));
+    }
+    let length = Literal::usize_unsuffixed(length);
     let arrays = arrays.declarations(names, access);
     let statements = quote! {
         const SLOTS: ::core::primitive::usize = #length;
@@ -120,7 +137,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
         let mut slots = [T::from_f64(0.0); SLOTS];
         #calls
     };
-    Body { statements, outputs }
+    Body { statements, outputs, places: Some(places), runtime: names.runtime.clone() }
 }
 
 /// Instructions that are written once.
