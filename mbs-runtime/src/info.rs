@@ -90,9 +90,14 @@ pub struct Function {
     pub name: &'static str,
     /// Its operations per call.
     pub operations: Operations,
+    /// Instructions in its text. Straight lines have one per operation; a loop
+    /// has those of one pass.
+    pub written: u32,
+    /// Loops over repeated parts, of which long functions consist.
+    pub loops: u32,
 }
 
-/// Floating-point operations of straight-line code.
+/// Floating-point operations, loops counted in full.
 ///
 /// A negation, a subtraction and an addition each count as one addition.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

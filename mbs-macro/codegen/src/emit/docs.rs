@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use mbs_symbolic::{Elimination, Expr, Strategy, Unknown};
 
-use super::info::function_counts;
+use super::info::{FunctionCount, function_counts};
 use crate::derive::Equations;
 use crate::model::{Model, Quantity};
 use crate::plan::Plan;
@@ -38,7 +38,7 @@ pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
         text,
         "Operations per call:\n\n| function | mul | add | div | sincos | other | pivot watch |\n|---|---|---|---|---|---|---|"
     );
-    for (name, operations, watch) in function_counts(plan) {
+    for FunctionCount { name, operations, watch, .. } in function_counts(plan) {
         let mbs_symbolic::Operations { mul, add, div, sin_cos, other } = operations;
         let _ = writeln!(text, "| `{name}` | {mul} | {add} | {div} | {sin_cos} | {other} | {watch} |");
     }
@@ -111,11 +111,11 @@ pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
 pub struct Functions<'a> {
     model: &'a Model,
     equations: &'a Equations,
-    counts: Vec<(&'static str, mbs_symbolic::Operations, u32)>,
+    counts: Vec<FunctionCount<'a>>,
 }
 
 impl<'a> Functions<'a> {
-    pub fn new(model: &'a Model, equations: &'a Equations, plan: &Plan) -> Self {
+    pub fn new(model: &'a Model, equations: &'a Equations, plan: &'a Plan) -> Self {
         Self { model, equations, counts: function_counts(plan) }
     }
 
@@ -190,8 +190,8 @@ impl<'a> Functions<'a> {
             text.push_str("\n\n");
             text.push_str(&listing(lines));
         }
-        if let Some((_, operations, _)) = self.counts.iter().find(|(name, ..)| *name == function) {
-            let _ = write!(text, "\n\nCost: {operations}.");
+        if let Some(count) = self.counts.iter().find(|count| count.name == function) {
+            let _ = write!(text, "\n\nCost: {}.", count.operations);
         }
         text
     }

@@ -1,10 +1,11 @@
 //! The constant that describes a mechanism to tools.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Operations, Program};
+use mbs_symbolic::{Block, Operations, Program};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::long;
 use super::names::Names;
 use crate::model::{Model, Quantity};
 use crate::plan::Plan;
@@ -28,14 +29,20 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     });
     let start_pivots = pivots(model, &plan.start_pivot_names, runtime);
     let pivots = pivots(model, &plan.pivot_names, runtime);
-    let functions = function_counts(plan).into_iter().map(|(name, operations, watch)| {
+    let functions = function_counts(plan).into_iter().map(|function| {
+        let FunctionCount { name, operations, watch, program } = function;
         let Operations { mul, add, div, sin_cos, other } = operations;
+        let blocks = long::blocks(model, program);
+        let written = blocks.iter().map(|block| block.written() as u32).sum::<u32>();
+        let loops = blocks.iter().filter(|block| matches!(block, Block::Repeated(_))).count() as u32;
         quote! {
             #runtime::Function {
                 name: #name,
                 operations: #runtime::Operations {
                     mul: #mul, add: #add, div: #div, sin_cos: #sin_cos, other: #other, watch: #watch,
                 },
+                written: #written,
+                loops: #loops,
             }
         }
     });
@@ -58,16 +65,25 @@ fn pivots(model: &Model, names: &[(Option<usize>, Option<usize>)], runtime: &Tok
     quote!(&[#(#pivots),*])
 }
 
-/// Name, operations, and the operations that watch pivots, of every function.
-pub fn function_counts(plan: &Plan) -> Vec<(&'static str, Operations, u32)> {
-    let whole = |name, program: &Program| (name, program.operations(), 0);
+/// A generated function, and what it takes.
+pub struct FunctionCount<'a> {
+    pub name: &'static str,
+    pub operations: Operations,
+    /// Operations that watch pivots, counted in none of the others.
+    pub watch: u32,
+    pub program: &'a Program,
+}
+
+pub fn function_counts(plan: &Plan) -> Vec<FunctionCount<'_>> {
+    fn whole<'a>(name: &'static str, program: &'a Program) -> FunctionCount<'a> {
+        FunctionCount { name, operations: program.operations(), watch: 0, program }
+    }
     // The last output of a solving function is the pivot growth.
-    let watched = |name, program: &Program, outputs: usize| {
-        let operations = program.operations_for(outputs);
+    fn solved<'a>(name: &'static str, program: &'a Program) -> FunctionCount<'a> {
+        let operations = program.operations_for(program.outputs.len().saturating_sub(1));
         let watch = program.operations_for(program.outputs.len()).total() - operations.total();
-        (name, operations, watch)
-    };
-    let solved = |name, program: &Program| watched(name, program, program.outputs.len().saturating_sub(1));
+        FunctionCount { name, operations, watch, program }
+    }
     vec![
         whole("new", &plan.prepare),
         whole("phi", &plan.phi),

@@ -107,13 +107,14 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         table.row([&(at + 1).to_string(), &step.unknowns.join(", "), step.pivot, watched]);
     }
     section(&mut text, &format!("Elimination: {}", derivation.strategy), &table);
-    let mut table = Table::new(["function", "mul", "add", "div", "sincos", "other", "watch"]);
+    let mut table = Table::new(["function", "mul", "add", "div", "sincos", "other", "watch", "written", "loops"]);
     for function in info.functions {
         let o = function.operations;
-        let counts = [o.mul, o.add, o.div, o.sin_cos, o.other, o.watch].map(|count| count.to_string());
+        let counts = [o.mul, o.add, o.div, o.sin_cos, o.other, o.watch, function.written, function.loops]
+            .map(|count| count.to_string());
         table.row(std::iter::once(function.name).chain(counts.iter().map(String::as_str)));
     }
-    section(&mut text, "Operations per call", &table);
+    section(&mut text, "Operations per call, instructions as written, and loops over repeated parts", &table);
     text
 }
 

@@ -1,0 +1,111 @@
+//! Chains as loops and as straight lines are the same program: every operation
+//! is done on the same operands, so that results agree to the bit.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
+use mbs_runtime::{Components, Mechanism, Simulation, State, mechanism};
+
+/// The same declaration with loops wherever they pay, and without any.
+macro_rules! both {
+    ($loops:ident, $straight:ident; $($body:tt)*) => {
+        mechanism! { pub $loops { limit unrolled = 0; $($body)* } }
+        mechanism! { pub $straight { limit unrolled = 1_000_000; $($body)* } }
+    };
+}
+
+both! { PendulumLoops, PendulumStraight;
+    dof = 12;
+    const N = 12;
+    param l = 0.4 [m] where l > 0;
+    param c = 0.02 [N*m*s];
+    input torque [N*m];
+    gravity = (0, -9.81) [m/s^2];
+    for i in 1..=N {
+        // every rod has a mass of its own
+        body rod[i] (x[i], y[i], theta[i]) { mass = (1 + i/10) [kg]; inertia = (1 + i/10)*(l^2/12)*1 [kg]; }
+        point base on rod[i] = (-l/2, 0);
+        point tip on rod[i] = (l/2, 0);
+        if i == 1 { revolute pin[i] (rod[i].base, ground); }
+        if i > 1 { revolute pin[i] (rod[i-1].tip, rod[i].base); }
+        torsion_friction bearing[i] (rod[i], ground) { torque = 0.1 [N*m]; transition = 0.5 [rad/s]; }
+        start { theta[i] = (i*17) [deg]; der(theta[i]) = i*0.3 [rad/s]; }
+        output height[i] = rod[i].tip.y;
+        output pull[i] = lambda(pin[i].x);
+    }
+    torque motor on rod[N] = torque;
+}
+
+both! { FourBarLoops, FourBarStraight;
+    dof = 1;
+    const N = 12;
+    param l = 1 [m] where l > 0;
+    param m = 1 [kg] where m > 0;
+    gravity = (0, -9.81) [m/s^2];
+    for i in 0..=N {
+        body rocker[i] (x[i], y[i], theta[i]) { mass = m; inertia = m*l^2/12; }
+        point foot on rocker[i] = (-l/2, 0);
+        point head on rocker[i] = (l/2, 0);
+        point pivot[i] on ground = (i*l, 0);
+        revolute foot[i] (rocker[i].foot, ground.pivot[i]);
+        start { theta[i] = 60 [deg]; guess x[i] = i*l + l/4; guess y[i] = 0.433*l; }
+    }
+    for i in 1..=N {
+        body coupler[i] (xc[i], yc[i], phi[i]) { mass = m; inertia = m*l^2/12; }
+        point left on coupler[i] = (-l/2, 0);
+        point right on coupler[i] = (l/2, 0);
+        revolute left[i] (rocker[i-1].head, coupler[i].left);
+        revolute right[i] (rocker[i].head, coupler[i].right);
+        start { guess xc[i] = i*l; guess yc[i] = 0.866*l; }
+    }
+    output speed = der(theta[0]);
+}
+
+/// Everything that generated code computes, along a run.
+fn run<M: Mechanism<Real = f64>>(steps: usize) -> Vec<u64> {
+    let mechanism = M::new(M::Parameters::default()).expect("declared values are valid");
+    let mut simulation = Simulation::builder(mechanism, 1e-3).build().expect("the start is consistent");
+    let mut values = Vec::new();
+    for step in 0..steps {
+        if step % 16 == 0 {
+            let State { t, q, v } = *simulation.state();
+            let at = *simulation.state();
+            let reactions = simulation.reactions().expect("the position is regular");
+            let outputs = simulation.outputs().expect("the position is regular");
+            values.extend_from_slice(q.into_array().as_ref());
+            values.extend_from_slice(v.into_array().as_ref());
+            values.extend_from_slice(reactions.acceleration.into_array().as_ref());
+            values.extend_from_slice(reactions.multipliers.into_array().as_ref());
+            values.extend_from_slice(outputs.into_array().as_ref());
+            let mechanism = simulation.mechanism();
+            values.extend_from_slice(mechanism.phi(t, &q).into_array().as_ref());
+            values.extend_from_slice(mechanism.phi_dot(&at).into_array().as_ref());
+            values.extend(mechanism.points(t, &q).as_ref().iter().flatten());
+            values.push(mechanism.kinetic_energy(&at));
+            values.push(mechanism.potential_energy(&at));
+            values.extend(mechanism.worst_pivot(t, &q).map(|(_, growth)| growth));
+        }
+        simulation.step().expect("no step ends in a singular position");
+    }
+    values.into_iter().map(f64::to_bits).collect()
+}
+
+#[test]
+fn loops_are_the_straight_lines_of_a_pendulum() {
+    assert_eq!(run::<PendulumLoops>(200), run::<PendulumStraight>(200));
+}
+
+#[test]
+fn loops_are_the_straight_lines_of_four_bars() {
+    // through the change points of these parallelograms, where bars are aligned
+    assert_eq!(run::<FourBarLoops>(1200), run::<FourBarStraight>(1200));
+    let mut simulation = Simulation::builder(FourBarLoops::declared(), 1e-3).build().expect("consistent");
+    simulation.advance_to(1.2).expect("no step ends in a singular position");
+    assert!(simulation.state().q.theta_0 < -1.0, "it has gone through θ = 0");
+}
+
+/// What was chosen can be read.
+#[test]
+fn the_description_tells_loops_from_straight_lines() {
+    let loops = |info: &mbs_runtime::Info| info.functions.iter().any(|function| function.loops > 0);
+    assert!(loops(<PendulumLoops>::INFO) && loops(<FourBarLoops>::INFO));
+    assert!(!loops(<PendulumStraight>::INFO) && !loops(<FourBarStraight>::INFO));
+}
