@@ -29,3 +29,18 @@ pub fn worst<T: Real>(values: &[T]) -> Option<(usize, T)> {
     }
     worst
 }
+
+/// A value of an array. Generated code reads at places that exist only; should
+/// one not, the result is no number, and no panic.
+#[inline(always)]
+pub fn read<T: Real>(values: &[T], at: usize) -> T {
+    values.get(at).copied().unwrap_or_else(|| T::from_f64(f64::NAN))
+}
+
+/// Keeps a value in an array, at a place that exists.
+#[inline(always)]
+pub fn write<T: Real>(values: &mut [T], at: usize, value: T) {
+    if let Some(place) = values.get_mut(at) {
+        *place = value;
+    }
+}

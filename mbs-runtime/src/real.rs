@@ -89,8 +89,11 @@ fn sin_cos_f64(x: f64) -> (f64, f64) {
     if x.abs() <= crate::sincos::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
 }
 
-/// The library's, for angles of more than 15 000 turns, infinities and NaN.
+/// The library's, for angles of more than 15 000 turns, infinities and NaN. A
+/// compiler that sees through it calls it for every angle in a loop, to choose
+/// afterwards.
 #[cold]
+#[inline(never)]
 fn far_sin_cos(x: f64) -> (f64, f64) {
     #[cfg(feature = "std")]
     return x.sin_cos();

@@ -215,3 +215,34 @@ fn a_long_chain_agrees_with_a_dense_solution() {
         assert!((ours - dense).abs() < 1e4 * f64::EPSILON * largest, "{ours} {dense}");
     }
 }
+
+mechanism! {
+    /// Two pendulums from one assembly, each on a post of its own on the ground.
+    pub Posts {
+        dof = 2;
+        gravity = (0, -9.81) [m/s^2];
+        assembly Arm {
+            param base = 0 [m];
+            param l = 0.5 [m];
+            point post on ground = (base, 0);
+            body rod (x, y, theta) { mass = 1 [kg]; inertia = 0.02 [kg*m^2]; }
+            point top on rod = (-l/2, 0);
+            revolute pin (rod.top, ground.post);
+            output reach [mm] = rod.x - ground.post.x;
+        }
+        instance left: Arm { base = -1 [m]; }
+        instance right: Arm { base = 2 [m]; }
+    }
+}
+
+/// A point on an outer body belongs to the instance, not to the body: it was
+/// declared twice by the second instance.
+#[test]
+fn instances_have_points_on_bodies_around_them() {
+    let mechanism: Posts = Posts::new(Default::default()).expect("declared values are valid");
+    let simulation = Simulation::builder(mechanism, 1e-3).build().expect("the start is consistent");
+    let q = &simulation.state().q;
+    assert!((q.left_x - (-1.0 + 0.25)).abs() < 1e-12 && (q.right_x - (2.0 + 0.25)).abs() < 1e-12);
+    let outputs = simulation.outputs().expect("the start is regular");
+    assert!((outputs.left_reach - 0.25).abs() < 1e-12 && (outputs.right_reach - 0.25).abs() < 1e-12);
+}

@@ -36,8 +36,10 @@ pub struct Plan {
     pub start: Program,
     pub phi: Program,
     pub phi_dot: Program,
-    /// Row by row, zeros included.
+    /// The entries of Φ_q that are not 0, row by row.
     pub phi_q: Program,
+    /// Row and column of each.
+    pub phi_q_places: Vec<(usize, usize)>,
     pub phi_t: Program,
     pub gamma: Program,
     pub baumgarte_rhs: Program,
@@ -126,12 +128,10 @@ pub fn plan(
     );
 
     let mut hoisted = Hoisted::default();
-    let n = model.coordinates.len();
-    let dense: Vec<Expr> = equations
-        .phi_q
-        .iter()
-        .flat_map(|row| (0..n).map(|column| row.get(&column).copied().unwrap_or(model.arena.zero())))
-        .collect();
+    let entries = || {
+        let rows = equations.phi_q.iter().enumerate();
+        rows.flat_map(|(row, entries)| entries.iter().map(move |(&column, &entry)| ((row, column), entry)))
+    };
     let rhs: Vec<Expr> = equations
         .gamma
         .iter()
@@ -151,7 +151,8 @@ pub fn plan(
         rows: rows.clone(),
         phi: program(&equations.phi),
         phi_dot: program(&equations.phi_dot),
-        phi_q: program(&dense),
+        phi_q: program(&entries().map(|(_, entry)| entry).collect::<Vec<_>>()),
+        phi_q_places: entries().map(|(place, _)| place).collect(),
         phi_t: program(&equations.phi_t),
         gamma: program(&equations.gamma),
         baumgarte_rhs: program(&rhs),
@@ -373,7 +374,7 @@ fn correction(
 /// The coordinates that keep their start values: in the order of declaration,
 /// as long as the constraints can be met by moving the others. Judged at the
 /// declared start, where x² + y² = l² cannot be met by moving y if y = 0; or,
-/// should the start be singular as it is declared, at random positions.
+/// should the start be singular as it is declared, at a random position.
 fn held(
     model: &Model,
     equations: &Equations,
@@ -381,24 +382,9 @@ fn held(
     samples: &Samples,
     of_velocities: bool,
 ) -> BTreeSet<usize> {
-    let (nothing, rows) = (BTreeSet::new(), &rows.basis);
-    let generic = samples.rank(model, equations, rows, &nothing);
-    let is_regular = samples.rank_at_start(model, equations, rows, &nothing) == generic;
-    let rank = |held: &BTreeSet<usize>| {
-        if is_regular {
-            samples.rank_at_start(model, equations, rows, held)
-        } else {
-            samples.rank(model, equations, rows, held)
-        }
-    };
-    let mut held = nothing;
-    for start in model.start.iter().filter(|start| start.is_rate == of_velocities && !start.is_guess) {
-        held.insert(start.coordinate);
-        if rank(&held) < generic {
-            held.remove(&start.coordinate);
-        }
-    }
-    held
+    let declared = model.start.iter().filter(|start| start.is_rate == of_velocities && !start.is_guess);
+    let coordinates: Vec<usize> = declared.map(|start| start.coordinate).collect();
+    samples.holdable(model, equations, &rows.basis, &coordinates)
 }
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {

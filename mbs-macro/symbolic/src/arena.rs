@@ -233,7 +233,8 @@ impl Arena {
     /// Every expression that `roots` are made of, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
         let mut order = Vec::new();
-        let mut seen = vec![false; self.nodes.len()];
+        // operands have smaller indices than their users
+        let mut seen = vec![false; roots.iter().map(|root| root.index() + 1).max().unwrap_or(0)];
         let mut stack: Vec<(Expr, bool)> = roots.iter().rev().map(|&root| (root, false)).collect();
         while let Some((expr, operands_done)) = stack.pop() {
             if operands_done {

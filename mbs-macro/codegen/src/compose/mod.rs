@@ -152,7 +152,7 @@ fn instantiate(
     bindings: Vec<Property>,
     errors: &mut Diagnostics,
 ) -> Vec<Item> {
-    let declared: BTreeSet<String> = items.iter().flat_map(names::declared).collect();
+    let declared = Declared::new(&items);
     for item in &mut items {
         if let ItemKind::Dof { keyword, .. }
         | ItemKind::Crate { keyword, .. }
@@ -210,19 +210,61 @@ fn unknown_parameter(name: &Ident, instance: &Ident, assembly: &Ident, items: &[
     }
 }
 
+/// What the statements of an assembly declare.
+struct Declared {
+    names: BTreeSet<String>,
+    /// Points on bodies around the assembly: body and point. Other points go
+    /// with their bodies.
+    points: BTreeSet<(String, String)>,
+}
+
+impl Declared {
+    fn new(items: &[Item]) -> Self {
+        let names: BTreeSet<String> = items.iter().flat_map(names::declared).collect();
+        let points = items
+            .iter()
+            .filter_map(|item| match &item.kind {
+                ItemKind::Point { name, body, .. } => Some((body.to_string(), name.to_string())),
+                _ => None,
+            })
+            .filter(|(body, _)| !names.contains(body))
+            .collect();
+        Self { names, points }
+    }
+}
+
 /// Names that the assembly declares get the instance's name before them.
-fn prefix(mention: Mention<'_>, instance: &Ident, declared: &BTreeSet<String>) {
+fn prefix(mention: Mention<'_>, instance: &Ident, declared: &Declared) {
     let rename = |name: &mut Ident| {
-        if declared.contains(&name.to_string()) {
+        if declared.names.contains(&name.to_string()) {
             *name = prefixed(instance, name);
         }
     };
+    let rename_point = |body: &Ident, point: &mut Ident| {
+        if declared.points.contains(&(body.to_string(), point.to_string())) {
+            *point = prefixed(instance, point);
+        }
+    };
     match mention {
+        Mention::Point(body, point) => {
+            rename_point(body, point);
+            rename(body);
+        }
         Mention::Name(name) | Mention::Formula(FormulaKind::Name(name)) => rename(name),
-        Mention::Place(place) => rename(place.prefix.first_mut().unwrap_or(&mut place.body)),
+        Mention::Place(place) => {
+            if let (true, Some(point)) = (place.prefix.is_empty(), &mut place.point) {
+                rename_point(&place.body, point);
+            }
+            rename(place.prefix.first_mut().unwrap_or(&mut place.body));
+        }
         Mention::Coordinate(path, name) => rename(path.first_mut().unwrap_or(name)),
-        Mention::Formula(FormulaKind::Member(path)) => path.iter_mut().take(1).for_each(rename),
-        Mention::Function(name) if declared.contains(&format!("{name}()")) => {
+        Mention::Formula(FormulaKind::Member(path)) => {
+            if let [body, point, ..] = &mut path[..] {
+                rename_point(body, point);
+            }
+            path.iter_mut().take(1).for_each(rename);
+        }
+        Mention::Function(name) if declared.names.contains(&format!("{name}()")) => {
             *name = prefixed(instance, name);
         }
         Mention::Formula(_) | Mention::Function(_) => {}
@@ -268,7 +310,7 @@ fn shorten(mention: Mention<'_>, instances: &BTreeSet<String>) {
                 }
             }
         }
-        Mention::Name(_) | Mention::Function(_) => {}
+        Mention::Name(_) | Mention::Point(..) | Mention::Function(_) => {}
     }
 }
 

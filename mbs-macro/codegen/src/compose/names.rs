@@ -14,6 +14,8 @@ pub enum Mention<'a> {
     Name(&'a mut Ident),
     /// What is called: a function of the language, or a profile.
     Function(&'a mut Ident),
+    /// The body that a point is declared on, and the point.
+    Point(&'a mut Ident, &'a mut Ident),
     /// The path of a place; its body, and what leads to it.
     Place(&'a mut Attachment),
     /// A path in a formula, which may turn out to be a plain name.
@@ -106,8 +108,8 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             frame.iter_mut().for_each(|body| visit(Mention::Name(body)));
             in_load(value, visit);
         }
-        ItemKind::Point { body, value, .. } => {
-            visit(Mention::Name(body));
+        ItemKind::Point { name, body, value } => {
+            visit(Mention::Point(body, name));
             in_vector(value, visit);
         }
         ItemKind::Joint(joint) => {

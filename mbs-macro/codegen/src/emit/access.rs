@@ -1,6 +1,6 @@
 //! How generated code reads what a program depends on.
 
-use mbs_symbolic::{Operand, Program};
+use mbs_symbolic::Operand;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -64,6 +64,11 @@ impl Access {
         Self { parameters: quote!(parameters), kind: Kind::Parameters, ..Self::of_position() }
     }
 
+    /// Whether positions are a reference to the vector.
+    pub fn is_borrowed(&self) -> bool {
+        self.kind == Kind::Position
+    }
+
     /// The same in a function with the [`arguments`](Self::arguments).
     pub fn in_part(&self, names: &Names) -> Self {
         let mechanism = &names.mechanism;
@@ -77,22 +82,11 @@ impl Access {
         Self { this: quote!(this), mechanism, parameters, time, positions, velocities, kind: self.kind }
     }
 
-    /// What a function needs that runs some instructions of `program`.
-    pub fn arguments(
-        &self,
-        model: &Model,
-        names: &Names,
-        program: &Program,
-        instructions: &[usize],
-    ) -> Vec<Argument> {
+    /// What a function needs that reads these operands.
+    pub fn arguments(&self, model: &Model, names: &Names, operands: &[Operand]) -> Vec<Argument> {
         let Names { mechanism, parameters, runtime, state, reactions, .. } = names;
         let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
-        let uses = |wanted: &dyn Fn(Operand) -> bool| {
-            instructions.iter().any(|&at| {
-                let instruction = &program.instructions[at];
-                wanted(instruction.a) || wanted(instruction.b)
-            })
-        };
+        let uses = |wanted: &dyn Fn(Operand) -> bool| operands.iter().any(|&operand| wanted(operand));
         let means = |wanted: fn(Meaning) -> bool| {
             uses(
                 &|operand| matches!(operand, Operand::Symbol(symbol) if wanted(model.meanings[symbol.index()])),

@@ -1,6 +1,8 @@
 //! The generated functions.
 
-use mbs_symbolic::{Operand, Program, Stage};
+use std::collections::BTreeMap;
+
+use mbs_symbolic::{Program, Stage};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -154,26 +156,25 @@ fn turbofish(of_t: &TokenStream) -> TokenStream {
 fn matrix(
     nalgebra: &TokenStream,
     (rows, columns): (usize, usize),
-    entry: impl Fn(usize, usize) -> Option<TokenStream>,
+    entries: &BTreeMap<(usize, usize), TokenStream>,
 ) -> TokenStream {
     const LARGEST_WRITTEN_OUT: usize = 400;
     if rows * columns <= LARGEST_WRITTEN_OUT {
         let columns = (0..columns).map(|column| {
-            let entries = (0..rows).map(|row| entry(row, column).unwrap_or_else(|| quote!(T::from_f64(0.0))));
+            let entry =
+                |row| entries.get(&(row, column)).cloned().unwrap_or_else(|| quote!(T::from_f64(0.0)));
+            let entries = (0..rows).map(entry);
             quote!([#(#entries),*])
         });
         return quote!(#nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([#(#columns),*])));
     }
-    let mut entries = TokenStream::new();
-    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
-        if let Some(value) = entry(row, column) {
-            let (row, column) = (Literal::usize_unsuffixed(row), Literal::usize_unsuffixed(column));
-            entries.extend(quote!(matrix.data.0[#column][#row] = #value;));
-        }
-    }
+    let assignments = entries.iter().map(|(&(row, column), value)| {
+        let (row, column) = (Literal::usize_unsuffixed(row), Literal::usize_unsuffixed(column));
+        quote!(matrix.data.0[#column][#row] = #value;)
+    });
     quote! {
         let mut matrix = #nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([[T::from_f64(0.0); #rows]; #columns]));
-        #entries
+        #(#assignments)*
         matrix
     }
 }
@@ -229,17 +230,14 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     };
     let phi_q = {
         let Body { statements, outputs } = body(model, names, &plan.phi_q, &position);
-        let is_zero =
-            |at: usize| matches!(plan.phi_q.outputs[at], Operand::Number(number) if number.is_zero());
-        let matrix = matrix(nalgebra, (m, n), |row, column| {
-            let at = row * n + column;
-            (!is_zero(at)).then(|| outputs[at].clone())
-        });
+        let entries = plan.phi_q_places.iter().copied().zip(outputs).collect();
+        let matrix = matrix(nalgebra, (m, n), &entries);
         quote!(#statements #matrix)
     };
     let mass = {
         let Body { statements, outputs } = body(model, names, &plan.mass, &position);
-        let matrix = matrix(nalgebra, (n, n), |row, column| (row == column).then(|| outputs[row].clone()));
+        let diagonal = outputs.into_iter().enumerate().map(|(at, mass)| ((at, at), mass)).collect();
+        let matrix = matrix(nalgebra, (n, n), &diagonal);
         quote!(#statements #matrix)
     };
     let scalar = |program: &Program| {

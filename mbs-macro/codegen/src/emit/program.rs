@@ -1,14 +1,15 @@
 //! Instructions as `let` statements.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::ops::Range;
 
-use mbs_symbolic::{Function, Number, Operand, Operation, Program, Symbol};
+use mbs_symbolic::{Block, Function, Instruction, Number, Operand, Operation, Program, Symbol};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
+use super::long::{self, Slots};
 use super::names::{Names, field};
-use super::parts;
 use super::splines::spline_name;
 use crate::model::{Meaning, Model};
 
@@ -18,63 +19,126 @@ pub struct Body {
     pub outputs: Vec<TokenStream>,
 }
 
-/// A program as one list of statements, or as calls of functions of bounded
-/// size if it is long.
+/// A program as one list of statements, or if it is long, as loops and
+/// functions of bounded size.
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) -> Body {
-    if program.instructions.len() > parts::LONGEST {
-        return parts::body(model, names, program, access);
-    }
-    let mut writer = Writer::new(model, program, access);
-    for at in 0..program.instructions.len() {
-        writer.instruction(at);
-    }
+    let blocks = long::blocks(model, program);
+    let range = match &blocks[..] {
+        [] => 0..0,
+        [Block::Straight(range)] => range.clone(),
+        _ => return long::body(model, names, program, access, &blocks),
+    };
+    let pairs = Pairs::new(program);
+    let mut writer = Writer::new(model, program, access, &pairs, range.clone());
+    range.for_each(|at| writer.instruction(at));
     let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
     Body { statements: writer.statements, outputs }
 }
 
+/// Sine instruction ↔ cosine instruction of the same angle.
+pub struct Pairs(HashMap<usize, usize>);
+
+impl Pairs {
+    pub fn new(program: &Program) -> Self {
+        let calls = |wanted: Function| {
+            let of_angle = move |(at, instruction): (usize, &Instruction)| {
+                (instruction.operation == Operation::Call(wanted)).then_some((instruction.a, at))
+            };
+            program.instructions.iter().enumerate().filter_map(of_angle)
+        };
+        let cosines: HashMap<Operand, usize> = calls(Function::Cos).collect();
+        let mut pairs = HashMap::new();
+        for (angle, sine) in calls(Function::Sin) {
+            if let Some(&cosine) = cosines.get(&angle) {
+                pairs.insert(sine, cosine);
+                pairs.insert(cosine, sine);
+            }
+        }
+        Self(pairs)
+    }
+
+    /// The cosine that goes with a sine, or the other way round.
+    pub fn partner(&self, at: usize) -> Option<usize> {
+        self.0.get(&at).copied()
+    }
+}
+
+/// Writes some instructions of a program, one after the other.
 pub(super) struct Writer<'a> {
     model: &'a Model,
     program: &'a Program,
     access: &'a Access,
-    /// How a result is referred to; a partner of a sine–cosine pair is named early.
-    pub references: Vec<Option<TokenStream>>,
-    names: Vec<Option<Ident>>,
+    pairs: &'a Pairs,
+    /// What is written; results of other instructions are in slots.
+    range: Range<usize>,
+    slots: Option<&'a Slots>,
+    /// Sines and cosines that are not of one angle in every copy.
+    apart: HashSet<usize>,
+    /// The variables that hold results; a partner of a sine–cosine pair is
+    /// named early.
+    results: HashMap<usize, Ident>,
     taken: BTreeSet<String>,
     pub statements: TokenStream,
-    /// Sine instruction ↔ cosine instruction of the same angle.
-    pairs: HashMap<usize, usize>,
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(model: &'a Model, program: &'a Program, access: &'a Access) -> Self {
-        let length = program.instructions.len();
+    pub fn new(
+        model: &'a Model,
+        program: &'a Program,
+        access: &'a Access,
+        pairs: &'a Pairs,
+        range: Range<usize>,
+    ) -> Self {
         Self {
             model,
             program,
             access,
-            references: vec![None; length],
-            names: vec![None; length],
+            pairs,
+            range,
+            slots: None,
+            apart: HashSet::new(),
+            results: HashMap::new(),
             taken: BTreeSet::new(),
             statements: TokenStream::new(),
-            pairs: sine_cosine_pairs(program),
         }
+    }
+
+    /// Results that are not written here are read from slots.
+    pub fn with_slots(self, slots: &'a Slots) -> Self {
+        Self { slots: Some(slots), ..self }
+    }
+
+    /// Does not take the result of an instruction from that of its partner.
+    pub fn set_apart(&mut self, at: usize) {
+        self.apart.insert(at);
     }
 
     /// The statement of an instruction, unless a partner has brought it.
     pub fn instruction(&mut self, at: usize) {
-        if self.references[at].is_some() {
+        self.instruction_of(at, [None, None]);
+    }
+
+    /// The same with other operands, where there are any.
+    pub fn instruction_of(&mut self, at: usize, operands: [Option<TokenStream>; 2]) {
+        if self.results.contains_key(&at) {
             return;
         }
-        let instruction = &self.program.instructions[at];
-        let a = self.operand(instruction.a);
-        let statement = match (instruction.operation, self.pairs.get(&at).copied()) {
+        let program = self.program;
+        let instruction = &program.instructions[at];
+        let [a, b] = operands;
+        let a = a.unwrap_or_else(|| self.operand(instruction.a));
+        let statement = match (instruction.operation, self.pairs.partner(at)) {
             (Operation::Call(function), Some(partner)) => {
-                let (sine, cosine) = if function == Function::Sin { (at, partner) } else { (partner, at) };
-                let (sine, cosine) = (self.name(sine), self.name(cosine));
+                let is_sine = function == Function::Sin;
+                let (sine, cosine) = if is_sine { (at, partner) } else { (partner, at) };
+                // one that stands elsewhere computes the same pair once more
+                let is_joined = self.range.contains(&partner) && !self.apart.contains(&at);
+                let mut name = |it| if it == at || is_joined { self.name(it) } else { format_ident!("_") };
+                let (sine, cosine) = (name(sine), name(cosine));
                 quote!(let (#sine, #cosine) = #a.sin_cos();)
             }
             (operation, _) => {
-                let b = self.operand(instruction.b);
+                let b = b.unwrap_or_else(|| self.operand(instruction.b));
                 let name = self.name(at);
                 let value = operation_tokens(operation, &a, &b, &self.access.mechanism);
                 quote!(let #name = #value;)
@@ -91,17 +155,17 @@ impl<'a> Writer<'a> {
                 let (this, at) = (&self.access.this, Literal::usize_unsuffixed(at));
                 quote!(#this.hoisted[#at])
             }
-            // Instructions refer to earlier ones only.
-            Operand::Value(at) => self.references.get(at).cloned().flatten().unwrap_or_default(),
+            // Instructions refer to earlier ones only: written here, or kept.
+            Operand::Value(at) => match self.results.get(&at) {
+                Some(name) => quote!(#name),
+                None => self.slots.and_then(|slots| slots.token(at)).unwrap_or_default(),
+            },
         }
     }
 
-    /// The instructions whose results stand in the statements so far, and the
-    /// names that they have there.
-    pub fn take_names(&mut self) -> Vec<(usize, Ident)> {
-        self.taken.clear();
-        let names = self.names.iter_mut().enumerate();
-        names.filter_map(|(at, name)| name.take().map(|name| (at, name))).collect()
+    /// The variable that holds a result.
+    pub fn result(&self, at: usize) -> Option<&Ident> {
+        self.results.get(&at)
     }
 
     fn symbol(&self, symbol: Symbol) -> TokenStream {
@@ -149,7 +213,7 @@ impl<'a> Writer<'a> {
         let of_call = |function: Function| {
             let argument = match instruction.a {
                 Operand::Symbol(symbol) => self.model.arena.name(symbol).to_owned(),
-                Operand::Value(value) => self.names.get(value)?.as_ref()?.to_string(),
+                Operand::Value(value) => self.results.get(&value)?.to_string(),
                 _ => return None,
             };
             let is_plain = argument.chars().all(|c| c.is_alphanumeric() || c == '_');
@@ -165,8 +229,7 @@ impl<'a> Writer<'a> {
             }
             _ => format_ident!("v{at}"),
         };
-        self.references[at] = Some(quote!(#name));
-        self.names[at] = Some(name.clone());
+        self.results.insert(at, name.clone());
         name
     }
 }
@@ -214,23 +277,4 @@ pub fn float_tokens(value: f64) -> TokenStream {
     }
     let literal = Literal::f64_unsuffixed(value);
     quote!(T::from_f64(#literal))
-}
-
-/// Sine and cosine instructions of the same angle, both ways.
-fn sine_cosine_pairs(program: &Program) -> HashMap<usize, usize> {
-    let calls = |wanted: Function| {
-        let of_angle = move |(at, instruction): (usize, &mbs_symbolic::Instruction)| {
-            (instruction.operation == Operation::Call(wanted)).then_some((instruction.a, at))
-        };
-        program.instructions.iter().enumerate().filter_map(of_angle)
-    };
-    let cosines: HashMap<Operand, usize> = calls(Function::Cos).collect();
-    let mut pairs = HashMap::new();
-    for (angle, sine) in calls(Function::Sin) {
-        if let Some(&cosine) = cosines.get(&angle) {
-            pairs.insert(sine, cosine);
-            pairs.insert(cosine, sine);
-        }
-    }
-    pairs
 }

@@ -8,7 +8,12 @@ use proc_macro2::Span;
 use super::names::Place;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
-use crate::syntax::Formula;
+use crate::syntax::{Formula, Limited};
+
+/// Longer programs are emitted with loops, unless declared otherwise: straight
+/// lines are as fast up to about this length, and slower and slower to compile
+/// behind it.
+const UNROLLED: u32 = 1024;
 
 /// The declared choices, in SI units.
 #[derive(Default)]
@@ -17,6 +22,9 @@ pub struct Solver {
     pub operations: Option<(u32, Span)>,
     /// Bytes of stack that a step in `f64` may take.
     pub stack: Option<(u32, Span)>,
+    /// Instructions that a program may have before its repeated parts become
+    /// loops.
+    pub unrolled: Option<(u32, Span)>,
     pub step: Option<(f64, Span)>,
     pub feedback: Option<Feedback>,
 }
@@ -28,12 +36,21 @@ pub struct Feedback {
     pub span: Span,
 }
 
+impl Solver {
+    /// Instructions that a program may have before its repeated parts become
+    /// loops.
+    pub fn unrolled(&self) -> usize {
+        self.unrolled.map_or(UNROLLED, |(limit, _)| limit) as usize
+    }
+}
+
 impl Resolver<'_> {
-    pub(super) fn resolve_limit(&mut self, keyword: Span, is_stack: bool, value: u32) {
+    pub(super) fn resolve_limit(&mut self, keyword: Span, limited: Limited, value: u32) {
         let solver = &mut self.solver;
-        let (limit, what) = match is_stack {
-            true => (&mut solver.stack, "`limit stack`"),
-            false => (&mut solver.operations, "`limit operations`"),
+        let (limit, what) = match limited {
+            Limited::Operations => (&mut solver.operations, "`limit operations`"),
+            Limited::Stack => (&mut solver.stack, "`limit stack`"),
+            Limited::Unrolled => (&mut solver.unrolled, "`limit unrolled`"),
         };
         match *limit {
             Some((_, earlier)) => self.repeated(what, keyword, earlier),

@@ -86,7 +86,7 @@ impl<'a> Resolver<'a> {
                 Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
                 None => self.minimum_norm = Some(*keyword),
             },
-            ItemKind::Limit { keyword, is_stack, value } => self.resolve_limit(*keyword, *is_stack, *value),
+            ItemKind::Limit { keyword, limited, value } => self.resolve_limit(*keyword, *limited, *value),
             ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
             ItemKind::Feedback { keyword, is_held, gains } => {
                 self.resolve_feedback(*keyword, *is_held, gains);

@@ -40,8 +40,8 @@ pub enum ItemKind {
     Dof { keyword: Span, value: i64 },
     /// `redundant = minimum_norm;`
     Redundant { keyword: Span },
-    /// `limit operations = 200;` or `limit stack = 4096;`
-    Limit { keyword: Span, is_stack: bool, value: u32 },
+    /// `limit operations = 200;`
+    Limit { keyword: Span, limited: Limited, value: u32 },
     /// `step = 0.5 [ms];`
     Step { keyword: Span, value: Formula },
     /// `feedback = held(alpha, beta);`
@@ -107,6 +107,17 @@ pub struct Condition {
     /// As it was written.
     pub text: String,
     pub left_text: String,
+}
+
+/// What `limit` bounds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Limited {
+    /// Operations that one evaluation of the right-hand side may take.
+    Operations,
+    /// Bytes of stack that a step in `f64` may take.
+    Stack,
+    /// Instructions of a program before its repeated parts become loops.
+    Unrolled,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use syn::parse::ParseStream;
 use syn::{Error, Result};
 
 use super::words::{equals, semicolon};
-use super::{Formula, FormulaKind, ItemKind};
+use super::{Formula, FormulaKind, ItemKind, Limited};
 
 pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
@@ -22,18 +22,20 @@ pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
 }
 
 pub fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
-    let expected = "`operations` or `stack` is expected here, as in `limit operations = 200;`";
+    let expected = "`operations`, `stack` or `unrolled` is expected here, as in `limit operations = 200;`";
     let what = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
-    let is_stack = what == "stack";
-    if !is_stack && what != "operations" {
-        return Err(Error::new(what.span(), expected));
-    }
+    let limited = match what.to_string().as_str() {
+        "operations" => Limited::Operations,
+        "stack" => Limited::Stack,
+        "unrolled" => Limited::Unrolled,
+        _ => return Err(Error::new(what.span(), expected)),
+    };
     equals(input)?;
     let whole = |span| Error::new(span, "a whole number, 0 or larger, is expected here");
     let value: syn::LitInt = input.parse().map_err(|error| whole(error.span()))?;
     let value = value.base10_parse().map_err(|_| whole(value.span()))?;
     semicolon(input)?;
-    Ok(ItemKind::Limit { keyword, is_stack, value })
+    Ok(ItemKind::Limit { keyword, limited, value })
 }
 
 pub fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

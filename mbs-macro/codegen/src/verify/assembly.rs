@@ -5,7 +5,9 @@
 
 use mbs_symbolic::Tape;
 
+use super::correction::least_correction;
 use super::samples::typical_length;
+use super::sparse::{SparseRow, scale};
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
 
@@ -79,22 +81,16 @@ impl<'a> Assembly<'a> {
 
     /// Φ_q in the units of the coordinates, each row divided by its largest
     /// entry, and these divisors.
-    pub fn jacobian(&self, at: &Position) -> (Vec<Vec<f64>>, Vec<f64>) {
+    pub fn jacobian(&self, at: &Position) -> (Vec<SparseRow<f64>>, Vec<f64>) {
         let mut entries = self.evaluate(&self.phi_q, at).into_iter();
-        let mut scales = Vec::new();
-        let mut rows = Vec::new();
-        for columns in &self.pattern {
-            let mut row = vec![0.0; self.units.len()];
-            for (&column, entry) in columns.iter().zip(entries.by_ref()) {
-                row[column] = if entry.is_finite() { entry * self.units[column] } else { 0.0 };
-            }
-            let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            let scale = if largest > 0.0 { largest } else { 1.0 };
-            row.iter_mut().for_each(|x| *x /= scale);
-            scales.push(scale);
-            rows.push(row);
-        }
-        (rows, scales)
+        let scaled = |columns: &Vec<usize>| {
+            let entries = columns.iter().copied().zip(entries.by_ref());
+            let in_units = entries.map(|(column, entry)| (column, entry * self.units[column]));
+            let mut row: SparseRow<f64> = in_units.filter(|(_, entry)| entry.is_finite()).collect();
+            let divisor = scale(&mut row);
+            (row, divisor)
+        };
+        self.pattern.iter().map(scaled).unzip()
     }
 
     /// Whether a constraint changes with time.
@@ -107,8 +103,8 @@ impl<'a> Assembly<'a> {
         let phi_t = self.evaluate(&self.phi_t, at);
         let (jacobian, scales) = self.jacobian(at);
         let rate: Vec<f64> = phi_t.iter().zip(&scales).map(|(rate, scale)| rate / scale).collect();
-        let jacobian: Vec<&[f64]> = jacobian.iter().map(Vec::as_slice).collect();
-        largest(&least_correction(&jacobian, &rate, LEAST_DAMPING))
+        let jacobian: Vec<_> = jacobian.iter().collect();
+        largest(&least_correction(&jacobian, self.units.len(), &rate, LEAST_DAMPING))
     }
 
     /// The size of a position, in units of its coordinates.
@@ -142,10 +138,10 @@ impl<'a> Assembly<'a> {
             let scaled = |phi: &[f64]| rows.iter().map(|&row| phi[row] / scales[row]).collect::<Vec<_>>();
             let residual = scaled(&phi);
             violation = largest(&residual);
-            let chosen: Vec<&[f64]> = rows.iter().map(|&row| jacobian[row].as_slice()).collect();
+            let chosen: Vec<_> = rows.iter().map(|&row| &jacobian[row]).collect();
             let size = norm(&residual);
             let mu = (damping * size).max(LEAST_DAMPING);
-            let step = least_correction(&chosen, &residual, mu);
+            let step = least_correction(&chosen, self.units.len(), &residual, mu);
             let next = Position {
                 q: at.q.iter().zip(step).zip(&self.units).map(|((q, d), unit)| q - d * unit).collect(),
                 t: at.t,
@@ -166,47 +162,6 @@ impl<'a> Assembly<'a> {
         let is_closed = violation <= CLOSED * (1.0 + self.size(&at));
         Closing { at, phi, is_closed }
     }
-}
-
-/// Jᵀ (J Jᵀ + μ)⁻¹ r, the shortest correction as far as μ allows; by Cholesky's
-/// method within the envelope of the matrix, which is narrow for chains.
-fn least_correction(rows: &[&[f64]], residual: &[f64], mu: f64) -> Vec<f64> {
-    let sparse: Vec<Vec<(usize, f64)>> = rows
-        .iter()
-        .map(|row| row.iter().copied().enumerate().filter(|(_, entry)| *entry != 0.0).collect())
-        .collect();
-    let product = |i: usize, j: usize| sparse[i].iter().map(|&(column, x)| x * rows[j][column]).sum::<f64>();
-    let mut factor: Vec<(usize, Vec<f64>)> = Vec::new();
-    let mut y: Vec<f64> = Vec::new();
-    for i in 0..rows.len() {
-        let first = (0..i).find(|&j| product(i, j) != 0.0).unwrap_or(i);
-        let mut line: Vec<f64> = Vec::with_capacity(i + 1 - first);
-        for j in first..=i {
-            let (begin, other) = if j == i { (first, &line) } else { (factor[j].0, &factor[j].1) };
-            let from = first.max(begin);
-            let sum: f64 = (from..j).map(|k| line[k - first] * other[k - begin]).sum();
-            let entry = product(i, j) - sum;
-            let value = if j == i { (entry + mu).max(mu * 1e-3).sqrt() } else { entry / other[j - begin] };
-            line.push(value);
-        }
-        let known: f64 = (first..i).map(|k| line[k - first] * y[k]).sum();
-        y.push((residual[i] - known) / line[i - first]);
-        factor.push((first, line));
-    }
-    for i in (0..rows.len()).rev() {
-        let (first, line) = &factor[i];
-        y[i] /= line[i - first];
-        for k in *first..i {
-            y[k] -= line[k - first] * y[i];
-        }
-    }
-    let mut correction = vec![0.0; rows.first().map_or(0, |row| row.len())];
-    for (row, y) in sparse.iter().zip(y) {
-        for &(column, entry) in row {
-            correction[column] += entry * y;
-        }
-    }
-    correction
 }
 
 fn norm(values: &[f64]) -> f64 {

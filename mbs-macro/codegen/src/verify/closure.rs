@@ -5,6 +5,7 @@ use mbs_symbolic::units::Dimension;
 use super::assembly::CLOSED;
 use super::echelon::row_echelon;
 use super::redundancy::does_not_fit;
+use super::sparse::{SparseRow, scale};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
@@ -124,15 +125,17 @@ impl<'a> Assembly<'a> {
     }
 
     /// Φ_q, each row scaled to a largest entry of 1.
-    fn jacobian(&self, q: &[f64]) -> Vec<Vec<f64>> {
+    fn jacobian(&self, q: &[f64]) -> Vec<SparseRow<f64>> {
         let values = self.model.values(|meaning| at_position(meaning, q, &[]));
         let entries = self.plan.phi_q.evaluate(&values, &self.hoisted);
-        let scaled = |row: &[f64]| {
-            let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            let scale = if largest > 0.0 { largest } else { 1.0 };
-            row.iter().map(|x| x / scale).collect()
-        };
-        entries.chunks(q.len().max(1)).map(scaled).collect()
+        let mut rows = vec![SparseRow::new(); self.model.constraints.len()];
+        for (&(row, column), entry) in self.plan.phi_q_places.iter().zip(entries) {
+            rows[row].push((column, entry));
+        }
+        rows.iter_mut().for_each(|row| {
+            scale(row);
+        });
+        rows
     }
 
     fn correction(&self, q: &[f64], phi: &[f64]) -> Vec<f64> {

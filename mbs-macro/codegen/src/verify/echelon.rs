@@ -1,5 +1,7 @@
 //! Rows of numbers brought to echelon form.
 
+use super::sparse::{Pivots, SparseRow, subtract};
+
 /// The part of a row that earlier rows do not explain counts as 0 below this,
 /// measured against the row's largest entry and the largest factor that went
 /// into it: far above rounding (1e-16 times a few hundred operations), far
@@ -24,48 +26,46 @@ impl Echelon {
 
 /// Gaussian elimination, row by row with the largest entry of each as pivot,
 /// so that a dependent row is the one declared last.
-pub fn row_echelon(rows: Vec<Vec<f64>>) -> Echelon {
-    /// A reduced row, its pivot column, and how it came from the given rows.
+pub fn row_echelon(rows: Vec<SparseRow<f64>>) -> Echelon {
+    /// A reduced row, its pivot, and how it came from the given rows.
     struct Reduced {
-        entries: Vec<f64>,
-        pivot: usize,
-        history: Vec<f64>,
+        entries: SparseRow<f64>,
+        pivot: f64,
+        history: SparseRow<f64>,
     }
-    let count = rows.len();
     let mut basis: Vec<Reduced> = Vec::new();
+    let mut pivots = Pivots::default();
     let mut echelon = Echelon { rank: 0, dependent: Vec::new(), independence: Vec::new() };
     for (at, mut entries) in rows.into_iter().enumerate() {
-        let mut history = vec![0.0; count];
-        history[at] = 1.0;
-        for earlier in &basis {
-            let factor = entries[earlier.pivot] / earlier.entries[earlier.pivot];
-            subtract(&mut entries, factor, &earlier.entries);
-            subtract(&mut history, factor, &earlier.history);
+        let mut history = vec![(at, 1.0)];
+        let mut next = 0;
+        while let Some((earlier, column, entry)) = pivots.first(&entries, next) {
+            let Reduced { entries: others, pivot, history: past } = &basis[earlier];
+            let factor = entry / pivot;
+            entries = subtract(&entries, factor, others);
+            // exactly, whatever rounding left
+            entries.retain(|(other, _)| *other != column);
+            history = subtract(&history, factor, past);
+            next = earlier + 1;
         }
-        let scale = largest(&history).1;
-        let (pivot, size) = largest(&entries);
-        echelon.independence.push(size / scale);
-        if size > RANK_TOLERANCE * scale {
+        let scale = largest(&history).1.abs();
+        let (column, pivot) = largest(&entries);
+        echelon.independence.push(pivot.abs() / scale);
+        if pivot.abs() > RANK_TOLERANCE * scale {
+            pivots.insert(column, basis.len());
             basis.push(Reduced { entries, pivot, history });
         } else {
-            let used = (0..at).filter(|&other| history[other].abs() > RANK_TOLERANCE * scale).collect();
-            echelon.dependent.push((at, used));
+            let is_used =
+                |(other, factor): &(usize, f64)| *other != at && factor.abs() > RANK_TOLERANCE * scale;
+            echelon
+                .dependent
+                .push((at, history.into_iter().filter(is_used).map(|(other, _)| other).collect()));
         }
     }
     echelon.rank = basis.len();
     echelon
 }
 
-fn largest(row: &[f64]) -> (usize, f64) {
-    row.iter().map(|x| x.abs()).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
-}
-
-/// Most factors are 0 in a large mechanism, whose rows are sparse.
-fn subtract(row: &mut [f64], factor: f64, other: &[f64]) {
-    if factor == 0.0 {
-        return;
-    }
-    for (x, y) in row.iter_mut().zip(other) {
-        *x -= factor * y;
-    }
+fn largest(row: &SparseRow<f64>) -> (usize, f64) {
+    row.iter().copied().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or((0, 0.0))
 }

@@ -15,9 +15,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use mbs_symbolic::{Arena, Expr, Function, Node, Number, Symbol, Tape, Values};
 
-use super::prime_field::{Residue, SparseRow, Turn, dependent_rows};
+use super::prime_field::{Residue, Turn, dependent_rows};
 use super::rank::Dependent;
 use super::samples::Generator;
+use super::sparse::SparseRow;
 use crate::derive::Equations;
 
 /// What exact arithmetic says about the rows.
@@ -36,7 +37,7 @@ pub fn judge(arena: &Arena, equations: &Equations) -> Option<Verdict> {
     let values = tape.run(arena, |node, values| point.value(node, values));
     let is_exact = values.iter().all(|value| value.is_exact);
     let mut residues = values.iter().map(|value| value.residue);
-    let rows: Vec<SparseRow> =
+    let rows: Vec<SparseRow<Residue>> =
         equations.phi_q.iter().map(|row| row.keys().copied().zip(residues.by_ref()).collect()).collect();
     (!point.is_broken).then(|| Verdict { dependent: dependent_rows(rows), is_exact })
 }

@@ -3,6 +3,7 @@
 
 mod assembly;
 mod closure;
+mod correction;
 mod echelon;
 mod floating;
 mod generic;
@@ -13,6 +14,7 @@ mod rank;
 mod redundancy;
 mod rounding;
 mod samples;
+mod sparse;
 mod validation;
 
 use mbs_symbolic::{Undetermined, Unknown};

@@ -4,8 +4,9 @@
 //! hold shows at a random point, but for a chance of its degree over 2⁶¹
 //! (Schwartz, Zippel), below 1e-12 for anything a person writes.
 
-use std::collections::BTreeMap;
 use std::ops::{Add, Mul, Neg, Sub};
+
+use super::sparse::{Pivots, SparseRow, subtract};
 
 /// 2⁶¹ − 1
 const PRIME: u64 = (1 << 61) - 1;
@@ -117,49 +118,37 @@ impl Turn {
     }
 }
 
-/// A row of which most entries are 0.
-pub type SparseRow = BTreeMap<usize, Residue>;
-
 /// The rows that are combinations of earlier ones, and of which: exact.
-pub fn dependent_rows(rows: Vec<SparseRow>) -> Vec<(usize, Vec<usize>)> {
+pub fn dependent_rows(rows: Vec<SparseRow<Residue>>) -> Vec<(usize, Vec<usize>)> {
     /// Divided by its pivot, with how it came from the given rows.
     struct Reduced {
-        entries: SparseRow,
-        pivot: usize,
-        history: SparseRow,
+        entries: SparseRow<Residue>,
+        history: SparseRow<Residue>,
     }
     let mut basis: Vec<Reduced> = Vec::new();
+    let mut pivots = Pivots::default();
     let mut dependent = Vec::new();
     for (at, mut entries) in rows.into_iter().enumerate() {
-        entries.retain(|_, entry| *entry != Residue::ZERO);
-        let mut history = SparseRow::from([(at, Residue::ONE)]);
-        for earlier in &basis {
-            let Some(&factor) = entries.get(&earlier.pivot) else { continue };
-            subtract(&mut entries, factor, &earlier.entries);
-            subtract(&mut history, factor, &earlier.history);
+        entries.retain(|(_, entry)| *entry != Residue::ZERO);
+        let mut history = vec![(at, Residue::ONE)];
+        let mut next = 0;
+        while let Some((earlier, _, factor)) = pivots.first(&entries, next) {
+            entries = subtract(&entries, factor, &basis[earlier].entries);
+            history = subtract(&history, factor, &basis[earlier].history);
+            next = earlier + 1;
         }
-        let first = entries.iter().find_map(|(&pivot, entry)| Some((pivot, entry.inverse()?)));
+        let first = entries.first().and_then(|(pivot, entry)| Some((*pivot, entry.inverse()?)));
         let Some((pivot, inverse)) = first else {
-            dependent.push((at, history.into_keys().filter(|&row| row != at).collect()));
+            dependent.push((at, history.into_iter().map(|(row, _)| row).filter(|&row| row != at).collect()));
             continue;
         };
-        for entry in entries.values_mut().chain(history.values_mut()) {
+        for (_, entry) in entries.iter_mut().chain(&mut history) {
             *entry = *entry * inverse;
         }
-        basis.push(Reduced { entries, pivot, history });
+        pivots.insert(pivot, basis.len());
+        basis.push(Reduced { entries, history });
     }
     dependent
-}
-
-fn subtract(row: &mut SparseRow, factor: Residue, other: &SparseRow) {
-    for (&column, &entry) in other {
-        let difference = row.get(&column).copied().unwrap_or_default() - factor * entry;
-        if difference == Residue::ZERO {
-            row.remove(&column);
-        } else {
-            row.insert(column, difference);
-        }
-    }
 }
 
 #[cfg(test)]
@@ -185,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_dependent_row_names_the_rows_it_is_made_of() {
-        let row = |entries: &[i64]| -> SparseRow {
+        let row = |entries: &[i64]| -> SparseRow<Residue> {
             entries.iter().enumerate().map(|(at, &x)| (at, Residue::integer(x))).collect()
         };
         let rows = vec![row(&[1, 2, 3]), row(&[0, 1, 1]), row(&[1, 0, 0]), row(&[2, 5, 7]), row(&[0, 0, 0])];

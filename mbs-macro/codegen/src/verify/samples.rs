@@ -1,11 +1,12 @@
 //! Random positions at the declared parameters, and what the equations are there.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use mbs_symbolic::{Arena, Expr, Symbol};
 
 use super::assembly::Position;
 use super::echelon::{Echelon, row_echelon};
+use super::sparse::{SparseRow, scale};
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
 
@@ -77,6 +78,33 @@ impl Samples {
         self.positions().map(magnitude).fold(f64::INFINITY, f64::min)
     }
 
+    /// Which of `coordinates` can be held, in this order, such that these rows of
+    /// Φ_q keep their rank without their columns: those whose unit vectors depend
+    /// neither on the rows nor on one another. Judged at the declared start, or,
+    /// should that be singular, where the rank is the generic one.
+    pub fn holdable(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        rows: &[usize],
+        coordinates: &[usize],
+    ) -> BTreeSet<usize> {
+        let units = coordinates.iter().map(|&at| vec![(at, 1.0)]);
+        let with_units = |sample: &Vec<f64>| {
+            let jacobian = jacobian_at(model, equations, rows, &BTreeSet::new(), sample);
+            row_echelon(jacobian.into_iter().chain(units.clone()).collect())
+        };
+        let rank = |echelon: &Echelon| {
+            rows.len() - echelon.dependent.iter().filter(|(row, _)| *row < rows.len()).count()
+        };
+        let generic = self.values.iter().map(with_units).max_by_key(rank);
+        let at_start = with_units(&self.start);
+        let echelon = generic.filter(|generic| rank(&at_start) < rank(generic)).unwrap_or(at_start);
+        let spare: BTreeSet<usize> = echelon.dependent.iter().map(|(row, _)| *row).collect();
+        let is_holdable = |(place, _): &(usize, &usize)| !spare.contains(&(rows.len() + place));
+        coordinates.iter().enumerate().filter(is_holdable).map(|(_, &at)| at).collect()
+    }
+
     /// The rank of these rows of Φ_q without the columns in `held`: the largest
     /// over the positions, which is the generic one.
     pub fn rank(
@@ -88,17 +116,6 @@ impl Samples {
     ) -> usize {
         let rank = |sample: &Vec<f64>| rank_at(model, equations, rows, held, sample);
         self.values.iter().map(rank).max().unwrap_or(0)
-    }
-
-    /// The same at the declared start.
-    pub fn rank_at_start(
-        &self,
-        model: &Model,
-        equations: &Equations,
-        rows: &[usize],
-        held: &BTreeSet<usize>,
-    ) -> usize {
-        rank_at(model, equations, rows, held, &self.start)
     }
 
     /// All of Φ_q at a position, in echelon form.
@@ -129,19 +146,17 @@ fn jacobian_at(
     rows: &[usize],
     held: &BTreeSet<usize>,
     sample: &[f64],
-) -> Vec<Vec<f64>> {
-    let n = model.coordinates.len();
-    let row = |entries: &BTreeMap<usize, Expr>| {
-        let (columns, exprs): (Vec<usize>, Vec<Expr>) =
-            entries.iter().filter(|(column, _)| !held.contains(column)).map(|(&c, &e)| (c, e)).unzip();
-        let mut row = vec![0.0; n];
-        for (column, value) in columns.into_iter().zip(evaluate_at(&model.arena, &exprs, sample)) {
-            row[column] = if value.is_finite() { value } else { 0.0 };
-        }
-        let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        if largest > 0.0 { row.iter().map(|x| x / largest).collect() } else { row }
+) -> Vec<SparseRow<f64>> {
+    let entries = rows.iter().flat_map(|&row| equations.phi_q[row].values().copied());
+    let mut values = evaluate_at(&model.arena, &entries.collect::<Vec<_>>(), sample).into_iter();
+    let mut row = |at: &usize| {
+        let entries = equations.phi_q[*at].keys().copied().zip(values.by_ref());
+        let is_kept = |(column, value): &(usize, f64)| value.is_finite() && !held.contains(column);
+        let mut row: SparseRow<f64> = entries.filter(is_kept).collect();
+        scale(&mut row);
+        row
     };
-    rows.iter().map(|&at| row(&equations.phi_q[at])).collect()
+    rows.iter().map(&mut row).collect()
 }
 
 /// Symbol values at the declared start.

@@ -84,13 +84,13 @@ impl<'a> Work<'a> {
     }
 
     pub fn eliminate(&mut self, pivot: Pivot) {
-        let (unknowns, at) = match pivot {
-            Pivot::Pair { row, coordinate } => (vec![row, coordinate], (row, coordinate)),
-            Pivot::Diagonal(unknown) => (vec![unknown], (unknown, unknown)),
-            Pivot::Loop { row, coordinates: [a, b] } => (vec![row, a, b], (row, a)),
+        let (row, column) = match pivot {
+            Pivot::Pair { row, coordinate } => (row, coordinate),
+            Pivot::Diagonal(unknown) => (unknown, unknown),
+            Pivot::Loop { row, coordinates } => (row, coordinates[0]),
         };
-        let pivot_entry = self.matrix.get(at.0, at.1).unwrap_or(self.arena.zero());
-        self.order.push(Elimination { unknowns, pivot: pivot_entry });
+        let pivot_entry = self.matrix.get(row, column).unwrap_or(self.arena.zero());
+        self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: pivot_entry });
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
             Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),

@@ -55,6 +55,11 @@ impl Kkt {
         self.couplings.get(&a)?.get(&b).copied()
     }
 
+    /// Whether this unknown is left.
+    pub(super) fn contains(&self, unknown: Unknown) -> bool {
+        self.couplings.contains_key(&unknown)
+    }
+
     /// The unknowns that are left, in order.
     pub fn unknowns(&self) -> impl Iterator<Item = Unknown> + '_ {
         self.couplings.keys().copied()
@@ -64,6 +69,12 @@ impl Kkt {
     pub fn neighbours(&self, unknown: Unknown) -> impl Iterator<Item = (Unknown, Expr)> + '_ {
         let couplings = self.couplings.get(&unknown).into_iter().flatten();
         couplings.map(|(&other, &entry)| (other, entry)).filter(move |(other, _)| *other != unknown)
+    }
+
+    /// The other unknowns that some of `taken` are coupled to.
+    pub(super) fn touched_by(&self, taken: &[Unknown]) -> BTreeSet<Unknown> {
+        let neighbours = taken.iter().flat_map(|&unknown| self.neighbours(unknown));
+        neighbours.map(|(other, _)| other).filter(|other| !taken.contains(other)).collect()
     }
 
     /// Whether the mass of this coordinate is positive by declaration.

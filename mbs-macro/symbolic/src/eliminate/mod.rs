@@ -43,8 +43,12 @@ pub fn factor(
     magnitude: &dyn Fn(&Arena, Expr) -> f64,
 ) -> Result<Factorization, Undetermined> {
     let mut work = factorization::Work::new(arena, kkt, strategy);
-    while let Some(pivot) = order::choose(work.arena, &work.matrix, strategy, magnitude)? {
+    let mut order = order::Order::new(work.arena, &work.matrix, strategy);
+    while let Some(pivot) = order.choose(work.arena, &work.matrix, magnitude)? {
+        let taken = pivot.unknowns();
+        let touched = work.matrix.touched_by(&taken);
         work.eliminate(pivot);
+        order.update(work.arena, &work.matrix, &taken, &touched);
     }
     Ok(work.finish())
 }

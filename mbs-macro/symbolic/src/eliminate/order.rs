@@ -1,6 +1,6 @@
 //! Which pivot comes next.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::matrix::{Kkt, Unknown};
@@ -29,6 +29,17 @@ pub(super) enum Pivot {
     Pair { row: Unknown, coordinate: Unknown },
     Diagonal(Unknown),
     Loop { row: Unknown, coordinates: [Unknown; 2] },
+}
+
+impl Pivot {
+    /// What it takes out.
+    pub fn unknowns(self) -> Vec<Unknown> {
+        match self {
+            Self::Pair { row, coordinate } => vec![row, coordinate],
+            Self::Diagonal(unknown) => vec![unknown],
+            Self::Loop { row, coordinates: [a, b] } => vec![row, a, b],
+        }
+    }
 }
 
 /// Unknowns that no pivot determines: rows that repeat others, or massless
@@ -64,6 +75,11 @@ enum Class {
 /// How much larger another constant of a row may be than its pivot.
 const LARGEST_WEIGHT: f64 = 1e3;
 
+/// What speaks for a pivot, the best one least: whether it is not urgent, its
+/// cost and class as the strategy weighs them, and its place in the mechanism.
+type Key = (bool, (usize, usize), Unknown);
+
+#[derive(Clone, Copy)]
 struct Candidate {
     class: Class,
     /// A massless coordinate has to find its row before rows lose their zero
@@ -73,41 +89,92 @@ struct Candidate {
     pivot: Pivot,
 }
 
-/// The next pivot; `None` when nothing is left.
-pub(super) fn choose(
-    arena: &Arena,
-    matrix: &Kkt,
-    strategy: Strategy,
-    magnitude: &dyn Fn(&Arena, Expr) -> f64,
-) -> Result<Option<Pivot>, Undetermined> {
-    let candidates = candidates(arena, matrix);
-    let best = candidates.into_iter().min_by_key(|candidate| {
-        let Candidate { class, is_urgent, cost, pivot } = candidate;
-        let key = match strategy {
-            Strategy::NullSpace => (*class as usize, *cost),
-            Strategy::Cheapest => (*cost, *class as usize),
+impl Candidate {
+    fn key(&self, strategy: Strategy) -> Key {
+        let class = self.class as usize;
+        let weighed = match strategy {
+            Strategy::NullSpace => (class, self.cost),
+            Strategy::Cheapest => (self.cost, class),
         };
-        (!is_urgent, key, first_unknown(*pivot))
-    });
-    let massless_left = matrix.unknowns().any(|u| is_massless(arena, matrix, u));
-    let is_pair = best.as_ref().is_some_and(|candidate| candidate.class <= Class::LastPair);
-    if let (false, Some(pivot)) = (is_pair, single_loop(matrix)) {
-        return Ok(Some(pivot));
+        (!self.is_urgent, weighed, first_unknown(self.pivot))
     }
-    match best {
-        Some(candidate) if candidate.class <= Class::LastPair || !massless_left => Ok(Some(candidate.pivot)),
-        best => {
-            if let Some(pivot) = largest_pair(arena, matrix, magnitude) {
-                return Ok(Some(pivot));
+}
+
+/// The best pivot of every unknown, kept up to date while the matrix changes.
+pub(super) struct Order {
+    strategy: Strategy,
+    candidates: BTreeMap<Unknown, Candidate>,
+    queue: BTreeSet<(Key, Unknown)>,
+    massless: BTreeSet<Unknown>,
+}
+
+impl Order {
+    pub fn new(arena: &Arena, matrix: &Kkt, strategy: Strategy) -> Self {
+        let (candidates, queue, massless) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
+        let mut order = Self { strategy, candidates, queue, massless };
+        for unknown in matrix.unknowns() {
+            order.judge(arena, matrix, unknown);
+        }
+        order
+    }
+
+    /// Judges again what a step may have changed: the unknowns that it took out,
+    /// those that it touched, and the rows that are coupled to these.
+    pub fn update(&mut self, arena: &Arena, matrix: &Kkt, taken: &[Unknown], touched: &BTreeSet<Unknown>) {
+        let coordinates = touched.iter().filter(|unknown| matches!(unknown, Unknown::Coordinate(_)));
+        let rows = coordinates.flat_map(|&unknown| matrix.neighbours(unknown)).map(|(other, _)| other);
+        let rows = rows.filter(|other| matches!(other, Unknown::Row(_)));
+        let changed: BTreeSet<Unknown> = rows.chain(touched.iter().copied()).collect();
+        for &unknown in taken.iter().chain(&changed) {
+            self.judge(arena, matrix, unknown);
+        }
+    }
+
+    fn judge(&mut self, arena: &Arena, matrix: &Kkt, unknown: Unknown) {
+        if let Some(known) = self.candidates.remove(&unknown) {
+            self.queue.remove(&(known.key(self.strategy), unknown));
+        }
+        self.massless.remove(&unknown);
+        if !matrix.contains(unknown) {
+            return;
+        }
+        if is_massless(arena, matrix, unknown) {
+            self.massless.insert(unknown);
+        }
+        let candidates = candidates(arena, matrix, unknown);
+        if let Some(best) = candidates.into_iter().min_by_key(|candidate| candidate.key(self.strategy)) {
+            self.queue.insert((best.key(self.strategy), unknown));
+            self.candidates.insert(unknown, best);
+        }
+    }
+
+    /// The next pivot; `None` when nothing is left.
+    pub fn choose(
+        &self,
+        arena: &Arena,
+        matrix: &Kkt,
+        magnitude: &dyn Fn(&Arena, Expr) -> f64,
+    ) -> Result<Option<Pivot>, Undetermined> {
+        let best = self.queue.first().and_then(|(_, unknown)| self.candidates.get(unknown));
+        let is_pair = best.is_some_and(|candidate| candidate.class <= Class::LastPair);
+        if let (false, Some(pivot)) = (is_pair, single_loop(matrix)) {
+            return Ok(Some(pivot));
+        }
+        match best {
+            Some(candidate) if is_pair || self.massless.is_empty() => Ok(Some(candidate.pivot)),
+            best => {
+                if let Some(pivot) = largest_pair(arena, matrix, magnitude) {
+                    return Ok(Some(pivot));
+                }
+                if let Some(candidate) = best {
+                    return Ok(Some(candidate.pivot));
+                }
+                if let Some(pivot) = largest_mass(arena, matrix, magnitude) {
+                    return Ok(Some(pivot));
+                }
+                let unknowns: Vec<_> = matrix.unknowns().collect();
+                if unknowns.is_empty() { Ok(None) } else { Err(Undetermined { unknowns }) }
             }
-            if let Some(candidate) = best {
-                return Ok(Some(candidate.pivot));
-            }
-            if let Some(pivot) = largest_mass(arena, matrix, magnitude) {
-                return Ok(Some(pivot));
-            }
-            let unknowns: Vec<_> = matrix.unknowns().collect();
-            if unknowns.is_empty() { Ok(None) } else { Err(Undetermined { unknowns }) }
         }
     }
 }
@@ -134,26 +201,19 @@ fn single_loop(matrix: &Kkt) -> Option<Pivot> {
     (fits && !is_set(row, row)).then_some(Pivot::Loop { row, coordinates: [first, second] })
 }
 
-fn candidates(arena: &Arena, matrix: &Kkt) -> Vec<Candidate> {
-    let mut candidates = Vec::new();
-    for unknown in matrix.unknowns() {
-        match unknown {
-            Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => {
-                pair_candidates(arena, matrix, unknown, &mut candidates);
-            }
-            Unknown::Row(_) => {
-                if !matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_))) {
-                    candidates.push(diagonal(matrix, unknown, Class::SchurRow));
-                }
-            }
-            Unknown::Coordinate(_) => {
-                if matrix.get(unknown, unknown).is_some() && !is_massless(arena, matrix, unknown) {
-                    candidates.push(diagonal(matrix, unknown, Class::Mass));
-                }
-            }
+fn candidates(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> Vec<Candidate> {
+    match unknown {
+        Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => pair_candidates(arena, matrix, unknown),
+        Unknown::Row(_) => {
+            let is_coupled =
+                matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_)));
+            if is_coupled { Vec::new() } else { vec![diagonal(matrix, unknown, Class::SchurRow)] }
+        }
+        Unknown::Coordinate(_) => {
+            let is_safe = matrix.get(unknown, unknown).is_some() && !is_massless(arena, matrix, unknown);
+            if is_safe { vec![diagonal(matrix, unknown, Class::Mass)] } else { Vec::new() }
         }
     }
-    candidates
 }
 
 /// A coordinate whose mass is not positive for certain.
@@ -163,7 +223,8 @@ fn is_massless(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> bool {
     matches!(unknown, Unknown::Coordinate(_)) && !matrix.is_massive(unknown) && !reduced_mass_is_constant()
 }
 
-fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown, candidates: &mut Vec<Candidate>) {
+fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
     let neighbours: Vec<_> = matrix.neighbours(row).collect();
     let size = |entry| arena.as_number(entry).map(|number| number.abs().to_f64());
     let largest = neighbours.iter().filter_map(|&(_, entry)| size(entry)).fold(0.0, f64::max);
@@ -186,6 +247,7 @@ fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown, candidates: &mut V
             pivot: Pivot::Pair { row, coordinate },
         });
     }
+    candidates
 }
 
 /// Entries that change when the pair is eliminated, each counted in one half.

@@ -5,7 +5,7 @@
 //! NP-hard; this is the usual heuristic, after Breuer 1969.)
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::collections::{BinaryHeap, HashMap};
 
 use super::flatten::{Definition, Flat, Signed, Value};
 
@@ -55,72 +55,125 @@ impl Rows for Sums {
 
 /// Rows under work, and which of them contain which pair.
 struct Work {
-    rows: BTreeMap<Value, Vec<Signed>>,
-    holders: BTreeMap<Pair, BTreeSet<Value>>,
-    /// Pairs by their rank; entries may be out of date.
+    /// Per value, its row, if it has one.
+    rows: Vec<Option<Vec<Signed>>>,
+    /// Per value, whether it can be in several rows: it is in two already, or is
+    /// a row, which may turn out to be what others have in common.
+    can_recur: Vec<bool>,
+    holders: HashMap<Pair, Holders>,
+    /// Pairs in two rows or more, by their rank; entries may be out of date.
     queue: BinaryHeap<(Rank, Reverse<Pair>)>,
 }
 
+/// The rows that hold a pair.
+#[derive(Default)]
+struct Holders {
+    rows: Vec<Value>,
+    /// How many of them are nothing else.
+    whole: usize,
+}
+
+impl Holders {
+    fn rank(&self) -> Rank {
+        (self.rows.len(), self.whole > 0)
+    }
+}
+
 fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
-    let mut work = Work { rows: BTreeMap::new(), holders: BTreeMap::new(), queue: BinaryHeap::new() };
-    for (value, definition) in flat.definitions.iter().enumerate() {
-        if let Some(row) = kind.row(definition) {
+    let rows: Vec<_> = flat.definitions.iter().map(|definition| kind.row(definition)).collect();
+    let mut work = Work {
+        can_recur: can_recur(&rows),
+        rows: vec![None; rows.len()],
+        holders: HashMap::new(),
+        queue: BinaryHeap::new(),
+    };
+    for (value, row) in rows.into_iter().enumerate() {
+        if let Some(row) = row {
             work.insert(value, row);
         }
     }
-    while let Some(pair) = work.most_frequent() {
+    while let Some((pair, holders)) = work.most_frequent() {
         let members =
             vec![Signed { value: pair.0, negative: false }, Signed { value: pair.1, negative: pair.2 }];
         let common = flat.define(kind.definition(members.clone()));
-        if !work.rows.contains_key(&common) {
-            work.insert(common, members);
-        }
-        for holder in work.holders[&pair].clone() {
+        work.rows.resize(flat.definitions.len(), None);
+        work.can_recur.resize(flat.definitions.len(), true);
+        for holder in holders {
             if holder != common {
                 work.replace(holder, pair, common);
             }
         }
+        // it holds the pair too, whether it was a row before or not
+        work.rows[common] = None;
+        work.insert(common, members);
     }
-    for (value, row) in work.rows {
-        flat.definitions[value] = kind.definition(row);
+    for (value, row) in work.rows.into_iter().enumerate() {
+        if let Some(row) = row {
+            flat.definitions[value] = kind.definition(row);
+        }
     }
+}
+
+fn can_recur(rows: &[Option<Vec<Signed>>]) -> Vec<bool> {
+    let mut last_holder = vec![None; rows.len()];
+    let mut can_recur: Vec<bool> = rows.iter().map(Option::is_some).collect();
+    for (at, row) in rows.iter().enumerate() {
+        for member in row.iter().flatten() {
+            let last = last_holder[member.value].replace(at);
+            can_recur[member.value] |= last.is_some_and(|last| last != at);
+        }
+    }
+    can_recur
 }
 
 impl Work {
     fn insert(&mut self, value: Value, row: Vec<Signed>) {
-        let pairs = pairs(&row);
-        self.rows.insert(value, row);
-        for pair in pairs {
-            self.holders.entry(pair).or_default().insert(value);
-            self.queue.push((self.rank(&pair), Reverse(pair)));
+        for pair in self.pairs(&row) {
+            let holders = self.holders.entry(pair).or_default();
+            holders.rows.push(value);
+            holders.whole += usize::from(row.len() == 2);
+            if holders.rows.len() >= 2 {
+                self.queue.push((holders.rank(), Reverse(pair)));
+            }
         }
-    }
-
-    fn rank(&self, pair: &Pair) -> Rank {
-        let Some(holders) = self.holders.get(pair) else { return (0, false) };
-        let is_whole = |holder: &Value| self.rows.get(holder).is_some_and(|row| row.len() == 2);
-        (holders.len(), holders.iter().any(is_whole))
+        self.rows[value] = Some(row);
     }
 
     fn remove(&mut self, value: Value) -> Vec<Signed> {
-        let row = self.rows.remove(&value).unwrap_or_default();
-        for pair in pairs(&row) {
-            if let Some(holders) = self.holders.get_mut(&pair) {
-                holders.remove(&value);
-                self.queue.push((self.rank(&pair), Reverse(pair)));
+        let row = self.rows[value].take().unwrap_or_default();
+        for pair in self.pairs(&row) {
+            let Some(holders) = self.holders.get_mut(&pair) else { continue };
+            let Some(at) = holders.rows.iter().position(|holder| *holder == value) else { continue };
+            holders.rows.swap_remove(at);
+            holders.whole -= usize::from(row.len() == 2);
+            if holders.rows.len() >= 2 {
+                self.queue.push((holders.rank(), Reverse(pair)));
             }
         }
         row
     }
 
-    /// The pair with the most holders, two at least.
-    fn most_frequent(&mut self) -> Option<Pair> {
+    /// The pair with the most holders, two at least, and these.
+    fn most_frequent(&mut self) -> Option<(Pair, Vec<Value>)> {
         while let Some((rank, Reverse(pair))) = self.queue.pop() {
-            if rank.0 >= 2 && self.rank(&pair) == rank {
-                return Some(pair);
+            if self.holders.get(&pair).is_some_and(|holders| holders.rank() == rank) {
+                let Holders { rows, .. } = self.holders.remove(&pair)?;
+                return Some((pair, rows));
             }
         }
         None
+    }
+
+    /// The distinct pairs of a row that can be in others.
+    fn pairs(&self, row: &[Signed]) -> Vec<Pair> {
+        let members: Vec<&Signed> = row.iter().filter(|member| self.can_recur[member.value]).collect();
+        let mut pairs = Vec::with_capacity(members.len() * members.len().saturating_sub(1) / 2);
+        for (at, a) in members.iter().enumerate() {
+            pairs.extend(members[at + 1..].iter().map(|b| (a.value, b.value, a.negative ^ b.negative)));
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
     }
 
     /// Puts `common` in the place of the pair in one row.
@@ -141,15 +194,4 @@ impl Work {
         row.sort_unstable();
         self.insert(holder, row);
     }
-}
-
-/// The distinct pairs of a row.
-fn pairs(row: &[Signed]) -> BTreeSet<Pair> {
-    let mut pairs = BTreeSet::new();
-    for (at, a) in row.iter().enumerate() {
-        for b in &row[at + 1..] {
-            pairs.insert((a.value, b.value, a.negative ^ b.negative));
-        }
-    }
-    pairs
 }

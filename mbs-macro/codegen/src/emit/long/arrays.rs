@@ -1,0 +1,100 @@
+//! Vectors with named components as arrays, for loops over them.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::emit::access::{Access, Argument};
+use crate::emit::names::Names;
+use crate::model::{Meaning, Model};
+
+/// The arrays that a program's loops read, and their lengths.
+#[derive(Default)]
+pub struct Arrays {
+    lengths: BTreeMap<Array, usize>,
+}
+
+/// A vector that programs depend on.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Array {
+    Parameters,
+    Inputs,
+    Positions,
+    Velocities,
+    Accelerations,
+    Multipliers,
+    Feedback,
+}
+
+impl Array {
+    /// The vector and the place of a symbol in it; `None` of a single quantity.
+    pub fn of(meaning: Meaning) -> Option<(Self, usize)> {
+        Some(match meaning {
+            Meaning::Parameter(at) => (Self::Parameters, at),
+            Meaning::Input(at) => (Self::Inputs, at),
+            Meaning::Coordinate(at) => (Self::Positions, at),
+            Meaning::Velocity(at) => (Self::Velocities, at),
+            Meaning::Acceleration(at) => (Self::Accelerations, at),
+            Meaning::Multiplier(at) => (Self::Multipliers, at),
+            Meaning::Feedback(at) => (Self::Feedback, at),
+            Meaning::Time | Meaning::MinusTwoAlpha | Meaning::MinusBetaSquared => return None,
+        })
+    }
+
+    pub fn ident(self) -> Ident {
+        let name = match self {
+            Self::Parameters => "parameter",
+            Self::Inputs => "input",
+            Self::Positions => "position",
+            Self::Velocities => "velocity",
+            Self::Accelerations => "acceleration",
+            Self::Multipliers => "multiplier",
+            Self::Feedback => "feedback",
+        };
+        format_ident!("{name}_array")
+    }
+
+    fn length(self, model: &Model) -> usize {
+        match self {
+            Self::Parameters => model.parameters.len(),
+            Self::Inputs => model.inputs.len(),
+            Self::Positions | Self::Velocities | Self::Accelerations => model.coordinates.len(),
+            Self::Multipliers | Self::Feedback => model.constraints.len(),
+        }
+    }
+
+    /// The vector in the function around the loops.
+    fn place(self, access: &Access) -> TokenStream {
+        let Access { parameters, positions, velocities, .. } = access;
+        match self {
+            Self::Parameters => quote!(#parameters),
+            Self::Inputs => quote!(*inputs),
+            Self::Positions if access.is_borrowed() => quote!(*#positions),
+            Self::Positions => quote!(#positions),
+            Self::Velocities => quote!(#velocities),
+            Self::Accelerations => quote!(reactions.acceleration),
+            Self::Multipliers => quote!(reactions.multipliers),
+            Self::Feedback => quote!(*feedback),
+        }
+    }
+}
+
+impl Arrays {
+    /// The array as an argument of a function.
+    pub fn argument(&mut self, array: Array, model: &Model) -> Argument {
+        let length = array.length(model);
+        self.lengths.insert(array, length);
+        let (ident, length) = (array.ident(), Literal::usize_unsuffixed(length));
+        Argument { declaration: quote!(#ident: &[T; #length]), value: quote!(&#ident) }
+    }
+
+    pub fn declarations(&self, names: &Names, access: &Access) -> TokenStream {
+        let runtime = &names.runtime;
+        let declaration = |array: &Array| {
+            let (ident, place) = (array.ident(), array.place(access));
+            quote!(let #ident = #runtime::Components::into_array(#place);)
+        };
+        self.lengths.keys().map(declaration).collect()
+    }
+}

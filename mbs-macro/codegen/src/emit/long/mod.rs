@@ -1,0 +1,140 @@
+//! Long programs: what repeats itself as loops, the rest as functions of bounded
+//! size, so that code and the compiler's time grow with the number of different
+//! parts of a chain.
+//!
+//! Results that a later block needs are kept in an array of slots.
+
+mod arrays;
+mod repeated;
+mod slots;
+
+use std::ops::Range;
+
+use mbs_symbolic::{Block, Operand, Program};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use self::arrays::Arrays;
+pub use self::slots::Slots;
+use super::access::{Access, Argument};
+use super::names::Names;
+use super::program::{Body, Pairs, Writer};
+use crate::model::{Meaning, Model};
+
+/// Instructions that a function holds, if they do not repeat.
+const LONGEST: usize = 1024;
+
+/// Longer sequences are written as functions of this many instructions.
+const PART: usize = 256;
+
+/// The program in the blocks that are emitted; one block is written in place.
+pub fn blocks(model: &Model, program: &Program) -> Vec<Block> {
+    let length = program.instructions.len();
+    if length <= model.solver.unrolled() {
+        return if length <= LONGEST { vec![Block::Straight(0..length)] } else { parts(0..length).collect() };
+    }
+    let blocks = program.blocks(&|symbol| class(model.meanings[symbol.index()]));
+    let split = |block| match block {
+        Block::Straight(range) => parts(range).collect(),
+        repeated => vec![repeated],
+    };
+    blocks.into_iter().flat_map(split).collect()
+}
+
+fn parts(range: Range<usize>) -> impl Iterator<Item = Block> {
+    range.clone().step_by(PART).map(move |start| Block::Straight(start..range.end.min(start + PART)))
+}
+
+/// Symbols with equal numbers are components of one vector.
+fn class(meaning: Meaning) -> usize {
+    match meaning {
+        Meaning::Time => 0,
+        Meaning::MinusTwoAlpha => 1,
+        Meaning::MinusBetaSquared => 2,
+        Meaning::Parameter(_) => 3,
+        Meaning::Input(_) => 4,
+        Meaning::Coordinate(_) => 5,
+        Meaning::Velocity(_) => 6,
+        Meaning::Acceleration(_) => 7,
+        Meaning::Multiplier(_) => 8,
+        Meaning::Feedback(_) => 9,
+    }
+}
+
+/// What the functions of a program share.
+struct Context<'a> {
+    model: &'a Model,
+    names: &'a Names,
+    program: &'a Program,
+    /// How symbols are read within the functions.
+    access: &'a Access,
+    pairs: &'a Pairs,
+    slots: &'a Slots,
+}
+
+/// The statements of a function, and what it takes.
+struct Part {
+    name: Ident,
+    doc: Option<String>,
+    statements: TokenStream,
+    arguments: Vec<Argument>,
+}
+
+/// Definitions and calls of the functions, and the outputs.
+pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
+    let slots = Slots::new(program, blocks);
+    let pairs = Pairs::new(program);
+    let inside = access.in_part(names);
+    let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };
+    let mut arrays = Arrays::default();
+    let (mut definitions, mut calls) = (TokenStream::new(), TokenStream::new());
+    for (at, block) in blocks.iter().enumerate() {
+        let number = at + 1;
+        let part = match block {
+            Block::Straight(range) => straight(&context, range.clone(), format_ident!("part_{number}")),
+            Block::Repeated(repetition) => {
+                repeated::part(&context, *repetition, &mut arrays, format_ident!("repeated_{number}"))
+            }
+        };
+        let Part { name, doc, statements, arguments } = part;
+        let doc = doc.map(|doc| quote!(#[doc = #doc]));
+        let declarations = arguments.iter().map(|argument| &argument.declaration);
+        let values = arguments.iter().map(|argument| &argument.value);
+        let runtime = &names.runtime;
+        definitions.extend(quote! {
+            #doc
+            #[inline(never)]
+            fn #name<T: #runtime::Real>(#(#declarations,)* slots: &mut [T; SLOTS]) { #statements }
+        });
+        calls.extend(quote!(#name(#(#values,)* &mut slots);));
+    }
+    // outside the functions, symbols are read as the function around them reads them
+    let outside = Writer::new(model, program, access, &pairs, 0..0).with_slots(&slots);
+    let outputs = program.outputs.iter().map(|&output| outside.operand(output)).collect();
+    let length = Literal::usize_unsuffixed(slots.len());
+    let arrays = arrays.declarations(names, access);
+    let statements = quote! {
+        const SLOTS: ::core::primitive::usize = #length;
+        #definitions
+        #arrays
+        let mut slots = [T::from_f64(0.0); SLOTS];
+        #calls
+    };
+    Body { statements, outputs }
+}
+
+/// Instructions that are written once.
+fn straight(context: &Context<'_>, range: Range<usize>, name: Ident) -> Part {
+    let Context { model, names, program, access, pairs, slots } = *context;
+    let mut writer = Writer::new(model, program, access, pairs, range.clone()).with_slots(slots);
+    range.clone().for_each(|at| writer.instruction(at));
+    for at in range.clone() {
+        if let (Some(slot), Some(value)) = (slots.token(at), writer.result(at)) {
+            writer.statements.extend(quote!(#slot = #value;));
+        }
+    }
+    let operands: Vec<Operand> =
+        program.instructions[range].iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
+    let arguments = access.arguments(model, names, &operands);
+    Part { name, doc: None, statements: writer.statements, arguments }
+}
