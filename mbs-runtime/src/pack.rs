@@ -359,7 +359,8 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
 #[inline(always)]
 fn sum_of<C: Components>(components: C) -> C::Real {
     let array = components.into_array();
-    array.as_ref().iter().fold(C::Real::default(), |sum, &x| sum + x)
+    let sum = array.as_ref().iter().copied().reduce(|sum, x| sum + x);
+    sum.unwrap_or_default()
 }
 
 /// Where both are set.

@@ -67,7 +67,8 @@ impl Vector {
         let shifted = c(SHIFT).plus::<FUSED>(self, c(std::f64::consts::FRAC_2_PI));
         let n = shifted - c(SHIFT);
         let r = if FUSED {
-            self.minus::<true>(n, c(std::f64::consts::FRAC_PI_2)).minus::<true>(n, c(6.123_233_995_736_766e-17))
+            self.minus::<true>(n, c(std::f64::consts::FRAC_PI_2))
+                .minus::<true>(n, c(6.123_233_995_736_766e-17))
         } else {
             self - n * c(1.570_796_326_734_125_6)
                 - n * c(6.077_100_506_303_966e-11)
