@@ -54,7 +54,7 @@ mod sealed {
 impl Lane for f64 {
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
-        crate::sincos::sin_cos(if self.abs() <= crate::sincos::RANGE { self } else { Self::NAN })
+        crate::sincos::straight_sin_cos(self)
     }
 }
 

@@ -108,6 +108,15 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The parameters it was made with.
     fn parameters(&self) -> &Self::Parameters;
 
+    /// What [`new`](Self::new) computed from the parameters.
+    #[doc(hidden)]
+    fn hoisted(&self) -> &[Self::Real];
+
+    /// A mechanism that exists already, from its parameters and from what `new`
+    /// computed from them, number by number.
+    #[doc(hidden)]
+    fn from_hoisted(parameters: Self::Parameters, hoisted: impl FnMut(usize) -> Self::Real) -> Self;
+
     /// The `start { … }` block as it was declared, at t = 0, nothing made consistent.
     fn declared_start(&self) -> State<Self::Coordinates>;
 

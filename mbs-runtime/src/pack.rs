@@ -4,11 +4,13 @@
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
 )]
 
+use core::array::from_fn;
+
 use crate::heun::trial;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
 use crate::straight::Straight;
-use crate::{Components, Error, Feedback, Gains, Mechanism, Real, Simulation, State};
+use crate::{Components, Feedback, Gains, Mechanism, Real, Simulation, State};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
 pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
@@ -53,7 +55,7 @@ pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 /// for (run, length) in alone.iter_mut().zip(lengths) {
 ///     *run = Simulation::new(Pendulum::new(PendulumParameters { length })?, 1e-3)?;
 /// }
-/// let mut pack = Pack::new(alone)?;
+/// let mut pack = Pack::new(alone);
 /// for _ in 0..500 {
 ///     assert_eq!(pack.step(), [true; 4]);
 /// }
@@ -63,177 +65,302 @@ pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 /// ```
 #[derive(Clone, Copy)]
 pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
-    /// As they were packed.
+    /// As they were packed, or put into their lanes.
     members: [Simulation<M, F>; N],
-    /// For steps.
-    each: [Each<M>; N],
-    /// For observers.
-    mechanism: Many<M, N>,
-    inputs: <<Many<M, N> as Mechanism>::Inputs as Components>::Array,
-    t: Lanes<M::Real, N>,
-    /// As arrays, which a loop over lanes reads in place.
-    q: Array<M, N>,
-    v: Array<M, N>,
-    gains: Gains<Lanes<M::Real, N>>,
-    step: Lanes<M::Real, N>,
-    start_time: Lanes<M::Real, N>,
-    /// Steps since the start; exact, and a number that vectors can compute with.
-    steps: Lanes<f64, N>,
+    instances: Instances<M, N>,
+    pace: Pace<M::Real, N>,
+    now: Moment<M, N>,
 }
 
 impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// The simulations, each from where it is.
-    ///
-    /// # Errors
-    /// None for mechanisms that their own constructor has accepted.
-    pub fn new(members: [Simulation<M, F>; N]) -> Result<Self, Error> {
-        let parameters: <Many<M, N> as Mechanism>::Parameters =
-            pack(|lane| *members[lane].mechanism().parameters());
-        let numbers = |f: &dyn Fn(&Simulation<M, F>) -> M::Real| Lanes(members.each_ref().map(f));
-        let gains = members.each_ref().map(|member| member.baumgarte().gains());
-        let of_lanes = parameters.into_array();
-        let mut each = [Each::<M>::new(take(&of_lanes, 0))?; N];
-        for lane in 1..N {
-            each[lane] = Each::<M>::new(take(&of_lanes, lane))?;
-        }
-        Ok(Self {
-            each,
-            mechanism: Many::<M, N>::new(parameters)?,
-            inputs: pack::<<Many<M, N> as Mechanism>::Inputs, _, _, N>(|lane| *members[lane].inputs())
-                .into_array(),
-            t: numbers(&|member| member.state().t),
-            q: pack::<ManyCoordinates<M, N>, _, _, N>(|lane| members[lane].state().q).into_array(),
-            v: pack::<ManyCoordinates<M, N>, _, _, N>(|lane| members[lane].state().v).into_array(),
-            gains: Gains {
-                minus_two_alpha: Lanes(gains.map(|gains: Gains<M::Real>| gains.minus_two_alpha)),
-                minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
-            },
-            step: numbers(&Simulation::step_size),
-            start_time: numbers(&Simulation::start_time),
-            steps: Lanes(members.each_ref().map(|member| member.steps() as f64)),
-            members,
-        })
+    pub fn new(members: [Simulation<M, F>; N]) -> Self {
+        let now = Moment::of(&members);
+        let (instances, pace) = (Instances::of(&members), Pace::of(&members));
+        Self { members, instances, pace, now }
     }
 
     /// Advances every lane by a step; those that did. What a step of
     /// [`simulation`](Self::simulation) says is why another did not.
-    #[inline(always)]
     pub fn step(&mut self) -> [bool; N] {
-        if N == 1 {
-            return self.step_alone();
+        if self.advance(1, |_| true) == 1 { [true; N] } else { self.step_each() }
+    }
+
+    /// Advances all lanes together by up to a number of steps, and says by how many: up
+    /// to one after which `look` does not want more, or before one that not every lane
+    /// can make, or not with what lanes can compute.
+    ///
+    /// In this loop the numbers are nobody else's, so they can stay in registers.
+    #[inline(always)]
+    pub fn advance(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
+        let Self { instances, pace, .. } = self;
+        let mut now = self.now;
+        let mut taken = 0;
+        while taken < steps {
+            let mut next = now;
+            if !trial_of_all::<M, F, N>(instances, pace, &now, &mut next) {
+                break;
+            }
+            now = next;
+            taken += 1;
+            if !look(&Snapshot { instances, moment: &now }) {
+                break;
+            }
         }
-        // The scalar's step in a loop over lanes: compilers make better vectors of that
-        // than of a step of which every operation is a loop.
-        let (mut q, mut v, mut t) = (self.q, self.v, self.t);
-        let (mut health, mut steps) = (t, self.steps);
-        for lane in 0..N {
-            let here = State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) };
-            let inputs = take(&self.inputs, lane);
-            let gains = Gains {
-                minus_two_alpha: Straight(self.gains.minus_two_alpha.0[lane]),
-                minus_beta_squared: Straight(self.gains.minus_beta_squared.0[lane]),
-            };
-            let step = Straight(self.step.0[lane]);
-            let taken = steps.0[lane] + 1.0;
-            let t_next = Straight(self.start_time.0[lane]) + Straight::from_f64(taken) * step;
-            let trial = trial::<Each<M>, F>(&self.each[lane], &here, &inputs, &gains, step, t_next);
-            // What is not finite makes the sum NaN, and NaN is below no limit.
-            let growth = trial.here.1 + trial.there.1;
-            let sum = growth + (trouble_of(trial.next.q) + trouble_of(trial.next.v));
-            put(&mut q, lane, trial.next.q);
-            put(&mut v, lane, trial.next.v);
-            t.0[lane] = t_next.0;
-            steps.0[lane] = taken;
-            health.0[lane] = sum.0;
-        }
-        if health < growth_limit() {
-            (self.t, self.q, self.v, self.steps) = (t, q, v, steps);
-            return [true; N];
-        }
-        let healthy = health.test(growth_limit(), |health, limit| health < limit);
-        self.t = t.select(healthy, self.t);
-        self.steps = steps.select(healthy, self.steps);
-        keep(&mut self.q, &q, healthy);
-        keep(&mut self.v, &v, healthy);
+        self.now = now;
+        taken
+    }
+
+    /// A step lane after lane, with all that a scalar can compute.
+    #[cold]
+    #[inline(never)]
+    fn step_each(&mut self) -> [bool; N] {
+        let mut members = from_fn(|lane| self.simulation(lane));
+        let healthy = members.each_mut().map(|member| member.step().is_ok());
+        self.now = Moment::of(&members);
         healthy
     }
 
-    /// A single lane is its simulation, with all that a scalar can compute.
-    fn step_alone(&mut self) -> [bool; N] {
-        let mut simulation = self.simulation(0);
-        let healthy = simulation.step().is_ok();
-        let State { t, q, v } = *simulation.state();
-        self.t = Lanes([t; N]);
-        self.q = pack::<ManyCoordinates<M, N>, _, _, N>(|_| q).into_array();
-        self.v = pack::<ManyCoordinates<M, N>, _, _, N>(|_| v).into_array();
-        self.steps = Lanes([simulation.steps() as f64; N]);
-        [healthy; N]
+    /// Puts a copy of what is in one lane into another.
+    pub fn copy(&mut self, from: usize, to: usize) {
+        *self = Self::new(from_fn(|lane| self.simulation(if lane == to { from } else { lane })));
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
     pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
         let lane = lane.min(N - 1);
-        let State { t, q, v } = self.snapshot().state;
+        let State { t, q, v } = self.snapshot().state();
         let state = State { t: t.0[lane], q: unpack(q, lane), v: unpack(v, lane) };
-        self.members[lane].moved_to(state, self.steps.0[lane] as u64)
+        self.members[lane].moved_to(state, self.now.steps.0[lane] as u64)
     }
 
     /// What can be observed of all lanes.
     #[inline(always)]
     pub fn snapshot(&self) -> Snapshot<'_, M, N> {
-        let (q, v) = (Components::from_array(self.q), Components::from_array(self.v));
-        Snapshot {
-            mechanism: &self.mechanism,
-            state: State { t: self.t, q, v },
-            inputs: Components::from_array(self.inputs),
+        Snapshot { instances: &self.instances, moment: &self.now }
+    }
+}
+
+/// A step of every lane; whether all of them are healthy.
+///
+/// The scalar's step in a loop over lanes: compilers make better vectors of that than
+/// of a step of which every operation is a loop.
+#[inline(always)]
+fn trial_of_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
+    instances: &Instances<M, N>,
+    pace: &Pace<M::Real, N>,
+    now: &Moment<M, N>,
+    next: &mut Moment<M, N>,
+) -> bool {
+    let mut sick = 0_u64;
+    for lane in 0..N {
+        let (gains, step, start_time) = pace.of_lane(lane);
+        let taken = now.steps.0[lane] + 1.0;
+        let t = start_time + Straight::from_f64(taken) * step;
+        let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
+        let trial = trial::<Each<M>, F>(&mechanism, &now.state_of(lane), &inputs, &gains, step, t);
+        // NaN if anything is not finite, and NaN is below no limit
+        let sum = sum_of(trial.next.q) + sum_of(trial.next.v);
+        let is_healthy = (trial.here.1 + trial.there.1) + (sum - sum) < growth_limit();
+        sick |= u64::from(!is_healthy);
+        next.steps.0[lane] = taken;
+        next.t.0[lane] = t.0;
+        put(&mut next.q, lane, trial.next.q);
+        put(&mut next.v, lane, trial.next.v);
+    }
+    sick == 0
+}
+
+/// What does not change while simulations advance: what they are,
+#[derive(Clone, Copy)]
+struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
+    mechanism: Many<M, N>,
+    // As arrays, which a loop over lanes reads in place.
+    parameters: <<Many<M, N> as Mechanism>::Parameters as Components>::Array,
+    inputs: <<Many<M, N> as Mechanism>::Inputs as Components>::Array,
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
+    fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let parameters: <Many<M, N> as Mechanism>::Parameters =
+            pack(|lane| *members[lane].mechanism().parameters());
+        let inputs: <Many<M, N> as Mechanism>::Inputs = pack(|lane| *members[lane].inputs());
+        let hoisted = members.each_ref().map(|member| member.mechanism().hoisted());
+        Self {
+            mechanism: Many::<M, N>::from_hoisted(parameters, |at| Lanes(hoisted.map(|hoisted| hoisted[at]))),
+            parameters: parameters.into_array(),
+            inputs: inputs.into_array(),
         }
+    }
+
+    #[inline(always)]
+    fn mechanism_of(&self, lane: usize) -> Each<M> {
+        let hoisted = self.mechanism.hoisted();
+        Each::<M>::from_hoisted(take(&self.parameters, lane), |at| Straight(hoisted[at].0[lane]))
+    }
+
+    #[inline(always)]
+    fn inputs_of(&self, lane: usize) -> <Each<M> as Mechanism>::Inputs {
+        take(&self.inputs, lane)
+    }
+}
+
+/// and how they advance.
+#[derive(Clone, Copy)]
+struct Pace<T, const N: usize> {
+    gains: Gains<Lanes<T, N>>,
+    step: Lanes<T, N>,
+    start_time: Lanes<T, N>,
+}
+
+impl<T: Lane, const N: usize> Pace<T, N> {
+    fn of<M: Mechanism<Real = T>, F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let gains = members.each_ref().map(|member| member.baumgarte().gains());
+        Self {
+            gains: Gains {
+                minus_two_alpha: Lanes(gains.map(|gains: Gains<T>| gains.minus_two_alpha)),
+                minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
+            },
+            step: Lanes(members.each_ref().map(Simulation::step_size)),
+            start_time: Lanes(members.each_ref().map(Simulation::start_time)),
+        }
+    }
+
+    #[inline(always)]
+    fn of_lane(&self, lane: usize) -> (Gains<Straight<T>>, Straight<T>, Straight<T>) {
+        let gains = Gains {
+            minus_two_alpha: Straight(self.gains.minus_two_alpha.0[lane]),
+            minus_beta_squared: Straight(self.gains.minus_beta_squared.0[lane]),
+        };
+        (gains, Straight(self.step.0[lane]), Straight(self.start_time.0[lane]))
+    }
+}
+
+/// Where simulations are.
+#[derive(Clone, Copy)]
+struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
+    t: Lanes<M::Real, N>,
+    q: Array<M, N>,
+    v: Array<M, N>,
+    /// Steps since the start; exact, and a number that vectors can compute with.
+    steps: Lanes<f64, N>,
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
+    fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let q: ManyCoordinates<M, N> = pack(|lane| members[lane].state().q);
+        let v: ManyCoordinates<M, N> = pack(|lane| members[lane].state().v);
+        Self {
+            t: Lanes(members.each_ref().map(|member| member.state().t)),
+            q: q.into_array(),
+            v: v.into_array(),
+            steps: Lanes(members.each_ref().map(|member| member.steps() as f64)),
+        }
+    }
+
+    #[inline(always)]
+    fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::Coordinates> {
+        State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }
     }
 }
 
 /// `N` instances at an instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Snapshot<'a, M: Mechanism<Real: Lane>, const N: usize> {
-    /// The mechanism.
-    pub mechanism: &'a Many<M, N>,
-    /// Time, positions and velocities.
-    pub state: State<ManyCoordinates<M, N>>,
-    /// The inputs.
-    pub inputs: <Many<M, N> as Mechanism>::Inputs,
+    instances: &'a Instances<M, N>,
+    moment: &'a Moment<M, N>,
 }
 
-impl<M: Mechanism<Real: Lane>, const N: usize> Snapshot<'_, M, N> {
+impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
+    /// The instances, in lanes.
+    pub fn mechanism(&self) -> &'a Many<M, N> {
+        &self.instances.mechanism
+    }
+
+    /// Time, positions and velocities.
+    #[inline(always)]
+    pub fn state(&self) -> State<ManyCoordinates<M, N>> {
+        let Moment { t, q, v, .. } = *self.moment;
+        State { t, q: Components::from_array(q), v: Components::from_array(v) }
+    }
+
+    /// The time in s.
+    #[inline(always)]
+    pub fn time(&self) -> Lanes<M::Real, N> {
+        self.moment.t
+    }
+
+    /// The inputs.
+    #[inline(always)]
+    pub fn inputs(&self) -> <Many<M, N> as Mechanism>::Inputs {
+        Components::from_array(self.instances.inputs)
+    }
+
     /// Constraint violations ‖Φ‖.
     #[inline(always)]
     pub fn violation(&self) -> Lanes<M::Real, N> {
-        self.mechanism.phi(self.state.t, &self.state.q).norm()
+        if N == 1 {
+            let State { t, q, .. } = self.state();
+            return self.mechanism().phi(t, &q).norm();
+        }
+        let mut norms = Lanes::default();
+        for lane in 0..N {
+            let State { t, q, .. } = self.moment.state_of(lane);
+            norms.0[lane] = self.instances.mechanism_of(lane).phi(t, &q).norm().0;
+        }
+        norms
     }
 
     /// Constraint violations in velocities ‖Φ̇‖.
     #[inline(always)]
     pub fn velocity_violation(&self) -> Lanes<M::Real, N> {
-        self.mechanism.phi_dot(&self.state).norm()
+        if N == 1 {
+            return self.mechanism().phi_dot(&self.state()).norm();
+        }
+        let mut norms = Lanes::default();
+        for lane in 0..N {
+            let at = self.moment.state_of(lane);
+            norms.0[lane] = self.instances.mechanism_of(lane).phi_dot(&at).norm().0;
+        }
+        norms
     }
 
     /// The declared outputs, and the lanes in which the position has any.
     #[inline(always)]
     pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
+        if N == 1 {
+            return self.outputs_of_one();
+        }
+        let mut outputs = ManyOutputs::<M, N>::splat(Lanes::default()).into_array();
+        let mut healthy = [false; N];
+        let none = <Each<M> as Mechanism>::Constraints::splat(Straight::default());
+        for lane in 0..N {
+            let (mechanism, inputs) = (self.instances.mechanism_of(lane), self.instances.inputs_of(lane));
+            let at = self.moment.state_of(lane);
+            let reactions = mechanism.reactions(&at, &inputs, &none);
+            put(&mut outputs, lane, mechanism.outputs(&at, &inputs, &reactions));
+            let sum = sum_of(reactions.acceleration);
+            healthy[lane] = reactions.growth + (sum - sum) < growth_limit();
+        }
+        (ManyOutputs::<M, N>::from_array(outputs), healthy)
+    }
+
+    /// A single lane may branch: it has all that a scalar can compute.
+    fn outputs_of_one(&self) -> (ManyOutputs<M, N>, [bool; N]) {
+        let (at, inputs) = (self.state(), self.inputs());
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
-        let reactions = self.mechanism.reactions(&self.state, &self.inputs, &none);
-        let health = reactions.growth + trouble_of(reactions.acceleration);
-        let healthy = health.test(growth_limit(), |health, limit| health < limit);
-        (self.mechanism.outputs(&self.state, &self.inputs, &reactions), healthy)
+        let reactions = self.mechanism().reactions(&at, &inputs, &none);
+        let is_healthy = reactions.growth < growth_limit() && reactions.acceleration.is_finite();
+        (self.mechanism().outputs(&at, &inputs, &reactions), [is_healthy; N])
     }
 }
 
-/// 0 if every component is finite, else NaN: lane by lane.
+/// Not finite if a component is not.
 #[inline(always)]
-fn trouble_of<C: Components>(components: C) -> C::Real {
-    let mut sum = C::Real::default();
-    #[allow(clippy::eq_op, reason = "infinity minus infinity is not 0")]
-    for x in components.into_array().as_ref() {
-        sum = sum + (*x - *x);
-    }
-    sum
+fn sum_of<C: Components>(components: C) -> C::Real {
+    let array = components.into_array();
+    let sum = array.as_ref().iter().copied().reduce(|sum, x| sum + x);
+    sum.unwrap_or_default()
 }
 
 /// Where both are set.
@@ -260,18 +387,6 @@ where
         }
     }
     C::from_array(packed)
-}
-
-/// Takes over what the lanes of a mask have computed.
-#[cold]
-fn keep<T: Lane, const N: usize>(
-    old: &mut impl AsMut<[Lanes<T, N>]>,
-    new: &impl AsRef<[Lanes<T, N>]>,
-    mask: [bool; N],
-) {
-    for (old, new) in old.as_mut().iter_mut().zip(new.as_ref()) {
-        *old = new.select(mask, *old);
-    }
 }
 
 /// The components of one lane, for a loop over lanes.

@@ -34,15 +34,27 @@ const COSINE: [f64; 6] = [
 
 /// (sin x, cos x) for |x| ≤ [`RANGE`], within 2 units in the last place up to 10³
 /// rad, and within 2.5 beside larger multiples of π/2.
-///
+#[inline(always)]
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    reduced(x, SHIFT)
+}
+
+/// The same without a branch for all x, NaN beyond [`RANGE`]: the sum below then has
+/// NaN subtracted from it, which is decided while the sum is computed.
+#[inline(always)]
+pub(crate) fn straight_sin_cos(x: f64) -> (f64, f64) {
+    reduced(x, if x.abs() <= RANGE { SHIFT } else { f64::NAN })
+}
+
+/// Adding 3·2⁵¹ leaves the nearest integer in the low bits of the mantissa.
+const SHIFT: f64 = 6_755_399_441_055_744.0;
+
 /// With n the integer nearest to 2x/π, r = x − n π/2 by Cody and Waite's
 /// reduction, polynomials in r, and a quarter turn per unit of n.
 #[inline(always)]
-pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    // Adding 3·2⁵¹ leaves the nearest integer in the low bits of the mantissa.
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
+fn reduced(x: f64, shift_back: f64) -> (f64, f64) {
     let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
-    let n = shifted - SHIFT;
+    let n = shifted - shift_back;
     let quadrant = shifted.to_bits();
     let r = ((x - n * HALF_PI[0]) - n * HALF_PI[1]) - n * HALF_PI[2];
 

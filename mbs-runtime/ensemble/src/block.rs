@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use mbs_runtime::lanes::{Lane, Pack};
-use mbs_runtime::{Error, Feedback, Mechanism, Real, Simulation};
+use mbs_runtime::{Error, Feedback, Lanes, Mechanism, Real, Simulation};
 
 use crate::{Observe, Outcome, Run};
 
@@ -85,10 +85,7 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
         is_cancelled: &dyn Fn() -> bool,
     ) -> Option<[Option<Outcome<M, O::Result>>; N]> {
         let runs = [const { None }; N];
-        let pack = match Pack::new(simulations) {
-            Ok(pack) => pack,
-            Err(error) => return Some(left.map(|left| left.map(|_| Err(error)))),
-        };
+        let pack = Pack::new(simulations);
         let mut block = Block { pack, observer, notes: observer.begin(), left, runs };
         block.look();
         while let Some(steps) = block.steps_in_common() {
@@ -111,18 +108,26 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
     }
 
     fn advance(&mut self, steps: u64) {
-        let idle = self.left.map(|left| left.is_none());
-        let (taken, stop) = advance(&mut self.pack, self.observer, &mut self.notes, idle, steps);
-        for left in self.left.iter_mut().flatten() {
-            *left = left.saturating_sub(taken);
-        }
+        let (taken, stop) = advance(&mut self.pack, self.observer, &mut self.notes, steps);
+        self.count(taken, [true; N]);
         match stop {
             Stop::AllTaken => {}
-            Stop::Stuck { moved } => {
+            Stop::Stuck => {
+                let moved = self.pack.step();
+                self.count(1, moved);
                 self.end_where_not(moved, |pack, lane| pack.simulation(lane).step().err());
                 self.look();
             }
             Stop::Unseen { seen } => self.end_unseen(seen),
+        }
+    }
+
+    /// Counts steps of the lanes that have taken them.
+    fn count(&mut self, steps: u64, moved: [bool; N]) {
+        for (left, moved) in self.left.iter_mut().zip(moved) {
+            if let (Some(left), true) = (left, moved) {
+                *left = left.saturating_sub(steps);
+            }
         }
     }
 
@@ -149,6 +154,7 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
                 None => self.left[lane] = None,
             }
         }
+        self.fill();
     }
 
     fn end(&mut self, lane: usize, ended: Option<Error>) {
@@ -157,6 +163,17 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
         let run = Run { state: *simulation.state(), steps: simulation.steps(), ended, observed };
         self.left[lane] = None;
         self.runs[lane] = Some(Ok(run));
+    }
+
+    /// Lanes that nobody needs any more do what one does that is still running, so
+    /// that they hold nobody up.
+    fn fill(&mut self) {
+        let Some(running) = self.left.iter().position(Option::is_some) else { return };
+        for lane in 0..N {
+            if self.left[lane].is_none() {
+                self.pack.copy(running, lane);
+            }
+        }
     }
 }
 
@@ -168,18 +185,15 @@ fn not_computable<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> E
 /// Why steps came to an end.
 enum Stop<const N: usize> {
     AllTaken,
-    /// Not every lane could make the last step; nobody has looked at it.
-    Stuck {
-        moved: [bool; N],
-    },
-    /// Not every lane could be looked at after it.
+    /// Not every lane can make the next one, or not as a lane.
+    Stuck,
+    /// Not every lane could be looked at after the last one.
     Unseen {
         seen: [bool; N],
     },
 }
 
-/// Steps, each looked at, until one goes wrong in a lane that is not idle; and how
-/// many were taken.
+/// Steps, each looked at, until one goes wrong; and how many were taken.
 ///
 /// All that it calls is inlined, so that it is compiled for these targets too.
 /// AVX-512 comes as a processor of any server has it, and without fused operations,
@@ -192,7 +206,6 @@ fn advance<M, F, O, const N: usize>(
     pack: &mut Pack<M, F, N>,
     observer: &O,
     notes: &mut O::Notes<N>,
-    idle: [bool; N],
     steps: u64,
 ) -> (u64, Stop<N>)
 where
@@ -200,22 +213,18 @@ where
     F: Feedback,
     O: Observe<M>,
 {
-    let all = |mask: [bool; N]| {
-        let mut all = true;
-        for lane in 0..N {
-            all &= mask[lane] | idle[lane];
-        }
-        all
+    // Makes the compiler align its stack to 64 bytes: numbers that find no register
+    // would lie across two lines of the cache.
+    std::hint::black_box(&mut Lanes([0.0_f64; 8]));
+    let mut seen = [true; N];
+    let taken = pack.advance(steps, |at| {
+        seen = observer.observe(notes, at);
+        seen == [true; N]
+    });
+    let stop = match seen == [true; N] {
+        false => Stop::Unseen { seen },
+        true if taken < steps => Stop::Stuck,
+        true => Stop::AllTaken,
     };
-    for taken in 1..=steps {
-        let moved = pack.step();
-        if !all(moved) {
-            return (taken, Stop::Stuck { moved });
-        }
-        let seen = observer.observe(notes, &pack.snapshot());
-        if !all(seen) {
-            return (taken, Stop::Unseen { seen });
-        }
-    }
-    (steps, Stop::AllTaken)
+    (taken, stop)
 }

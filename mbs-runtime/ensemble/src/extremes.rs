@@ -37,7 +37,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Extremes {
     #[inline(always)]
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
         let (outputs, healthy) = at.outputs();
-        let t = at.state.t;
+        let t = at.time();
         let counts = and(healthy, t.test(Lanes::from_f64(self.from), |t, from| t >= from));
         update(&mut notes.low, &mut notes.low_time, outputs, t, counts, |new, old| new < old);
         update(&mut notes.high, &mut notes.high_time, outputs, t, counts, |new, old| new > old);

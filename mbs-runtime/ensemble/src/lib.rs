@@ -83,6 +83,8 @@ mod observe;
 mod samples;
 mod violation;
 
+pub use mbs_runtime::lanes;
+
 pub use extremes::{Extremes, OfOutputs};
 pub use observe::Observe;
 pub use samples::Samples;

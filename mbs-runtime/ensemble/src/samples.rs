@@ -49,7 +49,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Samples {
 }
 
 fn keep<M: Mechanism<Real: Lane>, const N: usize>(notes: &mut Notes<M, N>, at: &Snapshot<'_, M, N>) {
-    let State { t, q, v } = at.state;
+    let State { t, q, v } = at.state();
     for (lane, samples) in notes.samples.iter_mut().enumerate() {
         samples.push(State { t: t.0[lane], q: unpack(q, lane), v: unpack(v, lane) });
     }

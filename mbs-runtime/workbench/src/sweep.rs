@@ -1,7 +1,15 @@
 //! Sweeps: one computation for every point of a grid, in parallel.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mbs_ensemble::lanes::Lane;
+use mbs_ensemble::{Cancelled, Ensemble, Observe, Outcome};
+use mbs_runtime::{Feedback, Mechanism, Simulation};
 use rayon::prelude::*;
+
+/// Whoever waits longer than this is told how long it will take.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// `count` values from `low` to `high`, both included.
 ///
@@ -25,18 +33,73 @@ pub fn grid<R: Send>(title: &str, x: &[f64], y: &[f64], f: impl Fn(f64, f64) -> 
 /// f of every item, in order. Runs on all cores and shows a progress bar
 /// under `title`.
 pub fn map<T: Sync, R: Send>(title: &str, items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let bar = ProgressBar::new(items.len() as u64).with_message(title.to_owned()).with_style(
-        ProgressStyle::with_template("{msg:24} {bar:40} {pos}/{len}, {eta} left")
-            .unwrap_or_else(|_| ProgressStyle::default_bar()),
-    );
+    let progress = Progress::new(title, items.len());
     let results = items.par_iter().map(|item| {
         let result = f(item);
-        bar.inc(1);
+        progress.one_more();
         result
     });
     let results = results.collect();
-    bar.finish_and_clear();
+    progress.finish();
     results
+}
+
+/// An ensemble of `count` members to `end` seconds, eight to a vector and on all
+/// cores, with a progress bar under `title`.
+pub fn ensemble<M, F, O>(
+    title: &str,
+    end: f64,
+    count: usize,
+    member: impl Fn(usize) -> Result<Simulation<M, F>, mbs_runtime::Error> + Sync,
+    observer: &O,
+) -> Vec<Outcome<M, O::Result>>
+where
+    M: Mechanism<Real: Lane>,
+    F: Feedback,
+    O: Observe<M>,
+{
+    let progress = Progress::new(title, count);
+    let report = |done: usize, _: usize| progress.reached(done);
+    let runs = Ensemble::new(end).progress(&report).run(count, member, observer);
+    progress.finish();
+    // without a flag nobody cancels
+    runs.unwrap_or_else(|Cancelled { .. }| Vec::new())
+}
+
+/// A progress bar that keeps out of sight for a second.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+}
+
+impl Progress {
+    pub fn new(title: &str, length: usize) -> Self {
+        let style = ProgressStyle::with_template("{msg:24} {bar:40} {pos}/{len}, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::hidden());
+        Self { bar: bar.with_message(title.to_owned()).with_style(style), start: Instant::now() }
+    }
+
+    fn one_more(&self) {
+        self.bar.inc(1);
+        self.show();
+    }
+
+    /// Threads report in no certain order, so the largest number counts.
+    pub fn reached(&self, done: usize) {
+        self.bar.set_position(self.bar.position().max(done as u64));
+        self.show();
+    }
+
+    fn show(&self) {
+        if self.bar.is_hidden() && self.start.elapsed() > PATIENCE {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mbs_runtime::{Error, PerStage};
 use serde_json::Value;
 
-use super::setup::{Inertia, SPEEDS, Setup, Trace};
+use super::setup::{Inertia, SPEEDS, Setup, Trace, max_violations};
 use super::study::Study;
 use super::torque;
 
@@ -92,14 +92,16 @@ fn time_of_largest(run: &Trace, column: &[f64]) -> Result<f64, Error> {
 
 /// Figures 11 and 12: max ‖Φ‖ over one turn from the paper's start.
 fn gains(s: &mut Scalars) {
-    let violation = |alpha: f64, beta: f64| Setup::gains(alpha, beta).max_violation::<PerStage>();
-    for alpha in [200, 500, 1000, 1500, 2000, 2100, 2200, 2500, 3000] {
-        s.set(format!("fig11.beta2000.alpha{alpha}"), violation(f64::from(alpha), 2000.0));
+    let along_alpha = [200, 500, 1000, 1500, 2000, 2100, 2200, 2500, 3000];
+    let along_beta = [200, 500, 1000, 1500, 1800, 2000];
+    let points = along_alpha.map(|alpha| (format!("fig11.beta2000.alpha{alpha}"), f64::from(alpha), 2000.0));
+    let mut points = points.to_vec();
+    points.extend(along_beta.map(|beta| (format!("fig12.alpha2000.beta{beta}"), 2000.0, f64::from(beta))));
+    points.push(("deadbeat.per_stage.max_phi".into(), 2000.0, 2000.0 * std::f64::consts::SQRT_2));
+    let gains: Vec<_> = points.iter().map(|(_, alpha, beta)| (*alpha, *beta)).collect();
+    for ((key, ..), violation) in points.into_iter().zip(max_violations::<PerStage>("gains", &gains)) {
+        s.set(key, violation);
     }
-    for beta in [200, 500, 1000, 1500, 1800, 2000] {
-        s.set(format!("fig12.alpha2000.beta{beta}"), violation(2000.0, f64::from(beta)));
-    }
-    s.set("deadbeat.per_stage.max_phi", violation(2000.0, 2000.0 * std::f64::consts::SQRT_2));
 }
 
 /// Figure 14 and Table 3.

@@ -1,6 +1,8 @@
 //! The runs of the paper: what they are made with, and what is recorded.
 
+use mbs_ensemble::Violation;
 use mbs_runtime::{Baumgarte, Components, Error, Feedback, Simulation};
+use mbs_workbench::sweep;
 use models::{SliderCrank, SliderCrankParameters};
 
 /// The paper's step, 0.5 ms.
@@ -92,20 +94,6 @@ impl Setup {
         if self.consistent { builder.build() } else { builder.as_declared().build() }
     }
 
-    /// max ‖Φ‖ over all steps, both ends included.
-    ///
-    /// # Errors
-    /// The error with which the run ended, if it did not reach its end.
-    pub fn max_violation<F: Feedback>(&self) -> Result<f64, Error> {
-        let mut simulation = self.simulation::<F>()?;
-        let mut largest = simulation.violation();
-        for _ in 0..simulation.steps_to(self.end)? {
-            simulation.step()?;
-            largest = largest.max(simulation.violation());
-        }
-        Ok(largest)
-    }
-
     /// Everything about the run, up to its end or to the error that ends it.
     ///
     /// # Errors
@@ -124,6 +112,18 @@ impl Setup {
         }
         Ok(trace)
     }
+}
+
+/// max ‖Φ‖ over all steps of one turn, both ends included, at 200 rpm from the paper's
+/// start with each of these gains; or the error with which the run ended, if it did not
+/// reach its end.
+pub fn max_violations<F: Feedback>(title: &str, gains: &[(f64, f64)]) -> Vec<Result<f64, Error>> {
+    let member = |at: usize| Setup::gains(gains[at].0, gains[at].1).simulation::<F>();
+    let runs = sweep::ensemble(title, TURN, gains.len(), member, &Violation);
+    let largest = |run: mbs_ensemble::Run<SliderCrank, mbs_ensemble::OfConstraints<f64>>| {
+        run.ended.map_or(Ok(run.observed.phi), Err)
+    };
+    runs.into_iter().map(|run| run.and_then(largest)).collect()
 }
 
 /// A recorded run.

@@ -3,7 +3,7 @@
 use mbs_runtime::{Error, Held, PerStage};
 use mbs_workbench::sweep;
 
-use super::setup::{Inertia, SPEEDS, STEP, Setup, TURN, Trace};
+use super::setup::{Inertia, SPEEDS, STEP, Setup, TURN, Trace, max_violations};
 
 /// Points of the sweep over α and over β.
 const SWEEP: usize = 73;
@@ -59,14 +59,15 @@ pub fn study() -> Result<Study, Error> {
     let deadbeat = Setup::gains(0.75 / STEP, 1.0 / STEP).consistent();
 
     let gains = sweep::evenly(200.0, 2000.0, SWEEP);
-    let violation = |alpha: f64, beta: f64| Setup::gains(alpha, beta).max_violation::<PerStage>();
-    let map = sweep::grid("Figure 11: α and β", &gains, &gains, violation);
+    let grid: Vec<_> = gains.iter().flat_map(|&beta| gains.iter().map(move |&alpha| (alpha, beta))).collect();
+    let map = max_violations::<PerStage>("Figure 11: α and β", &grid);
     let wide = sweep::evenly(200.0, 3000.0, 113);
-    let along = |title: &str, f: &(dyn Fn(f64) -> Result<f64, Error> + Sync)| {
-        sweep::map(title, &wide, |&gain| (gain, f(gain)))
+    let along = |title: &str, point: fn(f64) -> (f64, f64)| -> Vec<Point> {
+        let points: Vec<_> = wide.iter().copied().map(point).collect();
+        wide.iter().copied().zip(max_violations::<PerStage>(title, &points)).collect()
     };
-    let along_beta = along("Figure 12: β", &|beta| violation(2000.0, beta));
-    let along_alpha = along("α beyond 2000", &|alpha| violation(alpha, 2000.0));
+    let along_beta = along("Figure 12: β", |beta| (2000.0, beta));
+    let along_alpha = along("α beyond 2000", |alpha| (alpha, 2000.0));
 
     let torque = |setup: Setup, inertia: Inertia, held: bool| {
         let runs = sweep::map("torque", &SPEEDS, |&rpm| {

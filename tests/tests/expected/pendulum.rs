@@ -1058,6 +1058,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     fn parameters(&self) -> &PendulumParameters<T> {
         &self.parameters
     }
+    #[inline(always)]
+    fn hoisted(&self) -> &[T] {
+        &self.hoisted
+    }
+    #[inline(always)]
+    fn from_hoisted(
+        parameters: PendulumParameters<T>,
+        hoisted: impl ::core::ops::FnMut(::core::primitive::usize) -> T,
+    ) -> Self {
+        Self {
+            parameters,
+            hoisted: ::core::array::from_fn(hoisted),
+        }
+    }
     fn declared_start(&self) -> ::mbs_runtime::State<PendulumCoordinates<T>> {
         ::mbs_runtime::State {
             t: T::from_f64(0.0),

@@ -2132,6 +2132,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     fn parameters(&self) -> &SliderCrankParameters<T> {
         &self.parameters
     }
+    #[inline(always)]
+    fn hoisted(&self) -> &[T] {
+        &self.hoisted
+    }
+    #[inline(always)]
+    fn from_hoisted(
+        parameters: SliderCrankParameters<T>,
+        hoisted: impl ::core::ops::FnMut(::core::primitive::usize) -> T,
+    ) -> Self {
+        Self {
+            parameters,
+            hoisted: ::core::array::from_fn(hoisted),
+        }
+    }
     fn declared_start(&self) -> ::mbs_runtime::State<SliderCrankCoordinates<T>> {
         let v0 = T::from_f64(0.5) * self.parameters.l1;
         let v1 = T::from_f64(0.5) * self.parameters.l2;

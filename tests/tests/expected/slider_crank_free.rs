@@ -2170,6 +2170,20 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     fn parameters(&self) -> &SliderCrankFreeParameters<T> {
         &self.parameters
     }
+    #[inline(always)]
+    fn hoisted(&self) -> &[T] {
+        &self.hoisted
+    }
+    #[inline(always)]
+    fn from_hoisted(
+        parameters: SliderCrankFreeParameters<T>,
+        hoisted: impl ::core::ops::FnMut(::core::primitive::usize) -> T,
+    ) -> Self {
+        Self {
+            parameters,
+            hoisted: ::core::array::from_fn(hoisted),
+        }
+    }
     fn declared_start(&self) -> ::mbs_runtime::State<SliderCrankFreeCoordinates<T>> {
         let v0 = T::from_f64(0.5) * self.parameters.l1;
         let v1 = T::from_f64(0.5) * self.parameters.l2;

@@ -218,6 +218,14 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
             fn parameters(&self) -> &#parameters<T> {
                 &self.parameters
             }
+            #[inline(always)]
+            fn hoisted(&self) -> &[T] {
+                &self.hoisted
+            }
+            #[inline(always)]
+            fn from_hoisted(parameters: #parameters<T>, hoisted: impl ::core::ops::FnMut(::core::primitive::usize) -> T) -> Self {
+                Self { parameters, hoisted: ::core::array::from_fn(hoisted) }
+            }
             fn declared_start(&self) -> #state { #start }
             #inline
             fn phi(&self, t: T, q: &#q) -> #rows {
