@@ -107,7 +107,8 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         table.row([&(at + 1).to_string(), &step.unknowns.join(", "), step.pivot, watched]);
     }
     section(&mut text, &format!("Elimination: {}", derivation.strategy), &table);
-    let mut table = Table::new(["function", "mul", "add", "div", "sincos", "other", "watch", "written", "loops"]);
+    let mut table =
+        Table::new(["function", "mul", "add", "div", "sincos", "other", "watch", "written", "loops"]);
     for function in info.functions {
         let o = function.operations;
         let counts = [o.mul, o.add, o.div, o.sin_cos, o.other, o.watch, function.written, function.loops]

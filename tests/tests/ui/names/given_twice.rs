@@ -17,6 +17,8 @@ mechanism! {
         limit operations = 200;
         limit stack = 4096;
         limit stack = 8192;
+        limit unrolled = 0;
+        limit unrolled = 1;
         step = 1 [ms];
         step = 2 [ms];
         feedback = held(1 [1/s], 1 [1/s]);
