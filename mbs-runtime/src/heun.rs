@@ -57,11 +57,16 @@ pub(crate) fn trial<M: Mechanism, F: Feedback>(
     let half_h = M::Real::from_f64(0.5) * h;
     let here = mechanism.stabilized(at, inputs, gains);
 
-    let predicted = State {
-        t: t_next,
-        q: at.q.zip_map(at.v, |q, v| q + h * v),
-        v: at.v.zip_map(here.acceleration, |v, a| v + h * a),
-    };
+    // Each vector becomes an array once: of long chains these are calls.
+    let (q, v) = (at.q.into_array(), at.v.into_array());
+    let (q, v, a) = (q.as_ref(), v.as_ref(), here.acceleration.into_array());
+    let (mut q_next, mut v_next) = (at.q.into_array(), at.v.into_array());
+    for (((q_next, v_next), &v), &a) in q_next.as_mut().iter_mut().zip(v_next.as_mut()).zip(v).zip(a.as_ref())
+    {
+        *q_next = *q_next + h * v;
+        *v_next = v + h * a;
+    }
+    let predicted = State { t: t_next, q: Components::from_array(q_next), v: Components::from_array(v_next) };
     let there = if F::IS_HELD {
         let solved = mechanism.constrained(&predicted, inputs, &here.feedback);
         (solved.acceleration, solved.growth)
@@ -70,12 +75,14 @@ pub(crate) fn trial<M: Mechanism, F: Feedback>(
         (solved.acceleration, solved.growth)
     };
 
-    let mean = here.acceleration.zip_map(there.0, |a, b| a + b);
-    let next = State {
-        t: t_next,
-        q: at.q.zip_map(at.v.zip_map(predicted.v, |v, w| v + w), |q, sum| q + half_h * sum),
-        v: at.v.zip_map(mean, |v, sum| v + half_h * sum),
-    };
+    let b = there.0.into_array();
+    let rates = v.iter().zip(a.as_ref().iter().zip(b.as_ref()));
+    let next = q_next.as_mut().iter_mut().zip(v_next.as_mut());
+    for (((q_next, v_next), &q), (&v, (&a, &b))) in next.zip(q).zip(rates) {
+        *q_next = q + half_h * (v + *v_next);
+        *v_next = v + half_h * (a + b);
+    }
+    let next = State { t: t_next, q: Components::from_array(q_next), v: Components::from_array(v_next) };
     Trial { predicted, next, here: (here.acceleration, here.growth), there }
 }
 
