@@ -106,8 +106,14 @@ impl<'a> Work<'a> {
             Pivot::Diagonal(unknown) => (unknown, unknown),
             Pivot::Loop { row, coordinates } => (row, coordinates[0]),
         };
-        let pivot_entry = self.matrix.get(row, column).unwrap_or(self.arena.zero());
-        self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: pivot_entry });
+        let entry = self.matrix.get(row, column).unwrap_or(self.arena.zero());
+        // as it is without a unit of mass
+        let entry = match pivot {
+            Pivot::Diagonal(Unknown::Coordinate(_)) => self.arena.mul(entry, self.unit),
+            Pivot::Diagonal(Unknown::Row(_)) => self.arena.mul(entry, self.per_unit),
+            _ => entry,
+        };
+        self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: entry });
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
             Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),
