@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
     Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
-    WatchedPivot, factor, lower, lower_whole,
+    WatchedPivot, factor, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -15,9 +15,9 @@ use crate::model::Model;
 use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
 
-/// More unknowns than this, and only the order that keeps matrices sparse is
-/// tried.
-const LARGEST_NULL_SPACE: usize = 160;
+/// An order that changes more entries than this per unknown fills the matrix of a
+/// chain, and is given up.
+const LARGEST_FILL: usize = 24;
 
 /// The programs of all generated functions.
 pub struct Plan {
@@ -251,11 +251,13 @@ fn cheapest(
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<Solver> = None;
     for strategy in Strategy::ALL {
-        if strategy == Strategy::NullSpace && unknowns > LARGEST_NULL_SPACE {
-            continue;
-        }
+        let most = match strategy {
+            Strategy::NullSpace => LARGEST_FILL * unknowns,
+            Strategy::Cheapest => usize::MAX,
+        };
         let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
-        let factorization = factor(&mut model.arena, &kkt, strategy, &magnitude)?;
+        let factorization = factor_within(&mut model.arena, &kkt, strategy, &magnitude, most)?;
+        let Some(factorization) = factorization else { continue };
         let forces = reactive::forces(model, equations, &factorization)?;
         let roots = stabilized(model, equations, rows, &forces, &factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());

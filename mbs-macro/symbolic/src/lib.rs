@@ -50,7 +50,9 @@ mod substitute;
 pub mod units;
 
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
-pub use eliminate::{Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor};
+pub use eliminate::{
+    Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
+};
 pub use evaluate::{Tape, Values};
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};

@@ -14,7 +14,7 @@ Order: constraints first, then what motion they leave free (null space).
 ```text
 x: divided by mass
 y: divided by mass
-lambda(rod): divided by -(x/length)*((1/mass)*(x/length)) - (y/length)*((1/mass)*(y/length))
+lambda(rod): divided by -((x/length)^2 + (y/length)^2)/mass
 ```
 
 # Cost
@@ -23,7 +23,7 @@ Operations per call:
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
-| `new` | 6 | 2 | 2 | 0 | 1 | 0 |
+| `new` | 4 | 0 | 1 | 0 | 0 | 0 |
 | `phi` | 3 | 2 | 0 | 0 | 0 | 0 |
 | `phi_dot` | 5 | 1 | 0 | 0 | 0 | 0 |
 | `phi_q` | 2 | 0 | 0 | 0 | 0 | 0 |
@@ -34,11 +34,11 @@ Operations per call:
 | `forces` | 0 | 1 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 4 | 1 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 0 |
-| `stabilized` | 22 | 9 | 1 | 0 | 0 | 0 |
-| `constrained` | 14 | 5 | 1 | 0 | 0 | 0 |
-| `reactions` | 14 | 6 | 1 | 0 | 0 | 0 |
+| `stabilized` | 20 | 9 | 1 | 0 | 0 | 0 |
+| `constrained` | 12 | 5 | 1 | 0 | 0 | 0 |
+| `reactions` | 13 | 6 | 1 | 0 | 0 | 0 |
 | `position_correction` | 1 | 0 | 1 | 0 | 0 | 0 |
-| `velocity_correction` | 8 | 1 | 1 | 0 | 0 | 0 |
+| `velocity_correction` | 6 | 1 | 1 | 0 | 0 | 0 |
 | `outputs` | 4 | 2 | 0 | 0 | 2 | 0 |
 */
 #[derive(
@@ -57,13 +57,9 @@ pub struct Pendulum<T = ::core::primitive::f64> {
 2: 1/length
 3: 9.81*mass
 4: 1/2*mass
-5: 1/mass
-6: -9.81*mass
-7: (1/mass)*(-9.81*mass)
-8: abs(mass*(1/mass))
 ```
 */
-    hoisted: [T; 9usize],
+    hoisted: [T; 5usize],
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for Pendulum<T> {
     /// The mechanism with its declared parameters.
@@ -345,15 +341,9 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let v2 = T::from_f64(0.5) * v1;
         let v3 = T::from_f64(9.81) * parameters.mass;
         let v4 = T::from_f64(0.5) * parameters.mass;
-        let v5 = T::from_f64(1.0) / parameters.mass;
-        let v6 = -v3;
-        let v7 = v3 * v5;
-        let v8 = -v7;
-        let v9 = parameters.mass * v5;
-        let abs_v9 = v9.abs();
         Self {
             parameters,
-            hoisted: [v0, v2, v1, v3, v4, v5, v6, v8, abs_v9],
+            hoisted: [v0, v2, v1, v3, v4],
         }
     }
     /// The parameters.
@@ -364,7 +354,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
     /// the pivots included; a step takes two, or less.
-    pub const OPERATIONS: ::core::primitive::u32 = 32u32;
+    pub const OPERATIONS: ::core::primitive::u32 = 30u32;
     /// The size of a state (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
         ::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -372,7 +362,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /// A bound of the stack that a step takes, in bytes, in optimized code:
     /// every value of both evaluations of the right-hand side once, eight
     /// copies of the state, the inputs and the rows, and 1 KiB for calls.
-    pub const STACK_BYTES: ::core::primitive::usize = 64usize
+    pub const STACK_BYTES: ::core::primitive::usize = 60usize
         * ::core::mem::size_of::<T>()
         + 8
             * (Self::STATE_BYTES + ::core::mem::size_of::<PendulumConstraints<T>>()
@@ -558,7 +548,7 @@ Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 14 mul + 6 add + 1 div + 0 sincos.*/
+Cost: 13 mul + 6 add + 1 div + 0 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -702,14 +692,6 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         &[],
         &[
             ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "x",
-            },
-            ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "y",
-            },
-            ::mbs_runtime::Pivot {
                 constraint: "rod",
                 coordinate: "",
             },
@@ -718,14 +700,6 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Pivot {
                 constraint: "rod",
                 coordinate: "x",
-            },
-            ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "x",
-            },
-            ::mbs_runtime::Pivot {
-                constraint: "",
-                coordinate: "y",
             },
             ::mbs_runtime::Pivot {
                 constraint: "rod",
@@ -736,11 +710,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Function {
                 name: "new",
                 operations: ::mbs_runtime::Operations {
-                    mul: 6u32,
-                    add: 2u32,
-                    div: 2u32,
+                    mul: 4u32,
+                    add: 0u32,
+                    div: 1u32,
                     sin_cos: 0u32,
-                    other: 1u32,
+                    other: 0u32,
                     watch: 0u32,
                 },
             },
@@ -857,7 +831,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Function {
                 name: "stabilized",
                 operations: ::mbs_runtime::Operations {
-                    mul: 22u32,
+                    mul: 20u32,
                     add: 9u32,
                     div: 1u32,
                     sin_cos: 0u32,
@@ -868,7 +842,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Function {
                 name: "constrained",
                 operations: ::mbs_runtime::Operations {
-                    mul: 14u32,
+                    mul: 12u32,
                     add: 5u32,
                     div: 1u32,
                     sin_cos: 0u32,
@@ -879,7 +853,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Function {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
-                    mul: 14u32,
+                    mul: 13u32,
                     add: 6u32,
                     div: 1u32,
                     sin_cos: 0u32,
@@ -901,7 +875,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             ::mbs_runtime::Function {
                 name: "velocity_correction",
                 operations: ::mbs_runtime::Operations {
-                    mul: 8u32,
+                    mul: 6u32,
                     add: 1u32,
                     div: 1u32,
                     sin_cos: 0u32,
@@ -1022,18 +996,18 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 unknowns: &["x"],
                 pivot: "mass",
                 latex: "\\mathrm{mass}",
-                is_watched: true,
+                is_watched: false,
             },
             ::mbs_runtime::Elimination {
                 unknowns: &["y"],
                 pivot: "mass",
                 latex: "\\mathrm{mass}",
-                is_watched: true,
+                is_watched: false,
             },
             ::mbs_runtime::Elimination {
                 unknowns: &["lambda(rod)"],
-                pivot: "-(x/length)*((1/mass)*(x/length)) - (y/length)*((1/mass)*(y/length))",
-                latex: "-\\frac{x}{\\mathrm{length}} \\, \\frac{1}{\\mathrm{mass}} \\, \\frac{x}{\\mathrm{length}} - \\frac{y}{\\mathrm{length}} \\, \\frac{1}{\\mathrm{mass}} \\, \\frac{y}{\\mathrm{length}}",
+                pivot: "-((x/length)^2 + (y/length)^2)/mass",
+                latex: "-\\frac{\\frac{x}{\\mathrm{length}}^{2} + \\frac{y}{\\mathrm{length}}^{2}}{\\mathrm{mass}}",
                 is_watched: true,
             },
         ],
@@ -1104,37 +1078,35 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         gains: &::mbs_runtime::Gains<T>,
     ) -> ::mbs_runtime::Stabilized<PendulumCoordinates<T>, PendulumConstraints<T>> {
         let phi_q_rod_x = self.hoisted[2] * at.q.x;
-        let v1 = self.hoisted[5] * phi_q_rod_x;
-        let v2 = phi_q_rod_x * v1;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = at.q.y * self.hoisted[2];
-        let v4 = self.hoisted[5] * phi_q_rod_y;
-        let v5 = phi_q_rod_y * v4;
-        let v6 = v5 + v2;
-        let v7 = at.q.x * at.q.x;
-        let v8 = at.q.y * at.q.y;
-        let v9 = v8 + v7;
-        let v10 = self.hoisted[1] * v9;
-        let phi_rod = v10 - self.hoisted[0];
-        let v12 = gains.minus_beta_squared * phi_rod;
-        let v13 = T::from_f64(2.0) * at.v.x;
-        let v14 = at.q.x * v13;
-        let v15 = T::from_f64(2.0) * at.v.y;
-        let v16 = at.q.y * v15;
-        let v17 = v16 + v14;
-        let phi_dot_rod = self.hoisted[1] * v17;
-        let v19 = gains.minus_two_alpha * phi_dot_rod;
-        let feedback_rod = v19 + v12;
-        let v21 = at.v.x * v13;
-        let v22 = at.v.y * v15;
-        let v23 = v22 + v21;
-        let v24 = self.hoisted[1] * v23;
-        let v25 = self.hoisted[6] * v4;
-        let v26 = v25 + v24;
-        let v27 = feedback_rod - v26;
-        let v28 = v27 / v6;
-        let acc_x = v1 * v28;
-        let v30 = v4 * v28;
-        let acc_y = self.hoisted[7] + v30;
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = at.q.x * at.q.x;
+        let v6 = at.q.y * at.q.y;
+        let v7 = v6 + v5;
+        let v8 = self.hoisted[1] * v7;
+        let phi_rod = v8 - self.hoisted[0];
+        let v10 = gains.minus_beta_squared * phi_rod;
+        let v11 = T::from_f64(2.0) * at.v.x;
+        let v12 = at.q.x * v11;
+        let v13 = T::from_f64(2.0) * at.v.y;
+        let v14 = at.q.y * v13;
+        let v15 = v14 + v12;
+        let phi_dot_rod = self.hoisted[1] * v15;
+        let v17 = gains.minus_two_alpha * phi_dot_rod;
+        let feedback_rod = v17 + v10;
+        let v19 = at.v.x * v11;
+        let v20 = at.v.y * v13;
+        let v21 = v20 + v19;
+        let v22 = self.hoisted[1] * v21;
+        let v23 = T::from_f64(9.81) * phi_q_rod_y;
+        let v24 = v23 - v22;
+        let v25 = v24 + feedback_rod;
+        let v26 = v25 / v4;
+        let acc_x = phi_q_rod_x * v26;
+        let v28 = phi_q_rod_y * v26;
+        let acc_y = v28 - T::from_f64(9.81);
         ::mbs_runtime::Stabilized {
             acceleration: PendulumCoordinates {
                 x: acc_x,
@@ -1154,25 +1126,23 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
         let phi_q_rod_x = self.hoisted[2] * at.q.x;
-        let v1 = self.hoisted[5] * phi_q_rod_x;
-        let v2 = phi_q_rod_x * v1;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = at.q.y * self.hoisted[2];
-        let v4 = self.hoisted[5] * phi_q_rod_y;
-        let v5 = phi_q_rod_y * v4;
-        let v6 = v5 + v2;
-        let v7 = T::from_f64(2.0) * at.v.x;
-        let v8 = at.v.x * v7;
-        let v9 = T::from_f64(2.0) * at.v.y;
-        let v10 = at.v.y * v9;
-        let v11 = v10 + v8;
-        let v12 = self.hoisted[1] * v11;
-        let v13 = self.hoisted[6] * v4;
-        let v14 = feedback.rod - v13;
-        let v15 = v14 - v12;
-        let v16 = v15 / v6;
-        let acc_x = v1 * v16;
-        let v18 = v4 * v16;
-        let acc_y = self.hoisted[7] + v18;
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = T::from_f64(2.0) * at.v.x;
+        let v6 = at.v.x * v5;
+        let v7 = T::from_f64(2.0) * at.v.y;
+        let v8 = at.v.y * v7;
+        let v9 = v8 + v6;
+        let v10 = self.hoisted[1] * v9;
+        let v11 = T::from_f64(9.81) * phi_q_rod_y;
+        let v12 = feedback.rod + v11;
+        let v13 = v12 - v10;
+        let v14 = v13 / v4;
+        let acc_x = phi_q_rod_x * v14;
+        let v16 = phi_q_rod_y * v14;
+        let acc_y = v16 - T::from_f64(9.81);
         ::mbs_runtime::Accelerations {
             acceleration: PendulumCoordinates {
                 x: acc_x,
@@ -1189,26 +1159,25 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>> {
         let phi_q_rod_x = self.hoisted[2] * at.q.x;
-        let v1 = self.hoisted[5] * phi_q_rod_x;
-        let v2 = phi_q_rod_x * v1;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = at.q.y * self.hoisted[2];
-        let v4 = self.hoisted[5] * phi_q_rod_y;
-        let v5 = phi_q_rod_y * v4;
-        let v6 = v5 + v2;
-        let v7 = T::from_f64(2.0) * at.v.x;
-        let v8 = at.v.x * v7;
-        let v9 = T::from_f64(2.0) * at.v.y;
-        let v10 = at.v.y * v9;
-        let v11 = v10 + v8;
-        let v12 = self.hoisted[1] * v11;
-        let v13 = self.hoisted[6] * v4;
-        let v14 = feedback.rod - v13;
-        let v15 = v14 - v12;
-        let v16 = v15 / v6;
-        let acc_x = v1 * v16;
-        let v18 = v4 * v16;
-        let acc_y = self.hoisted[7] + v18;
-        let lambda_rod = -v16;
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = T::from_f64(2.0) * at.v.x;
+        let v6 = at.v.x * v5;
+        let v7 = T::from_f64(2.0) * at.v.y;
+        let v8 = at.v.y * v7;
+        let v9 = v8 + v6;
+        let v10 = self.hoisted[1] * v9;
+        let v11 = T::from_f64(9.81) * phi_q_rod_y;
+        let v12 = feedback.rod + v11;
+        let v13 = v12 - v10;
+        let v14 = v13 / v4;
+        let acc_x = phi_q_rod_x * v14;
+        let v16 = phi_q_rod_y * v14;
+        let acc_y = v16 - T::from_f64(9.81);
+        let v18 = self.parameters.mass * v14;
+        let lambda_rod = -v18;
         ::mbs_runtime::Reactions {
             acceleration: PendulumCoordinates {
                 x: acc_x,
@@ -1243,19 +1212,17 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
         let phi_q_rod_x = self.hoisted[2] * q.x;
-        let v1 = self.hoisted[5] * phi_q_rod_x;
-        let v2 = phi_q_rod_x * v1;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = q.y * self.hoisted[2];
-        let v4 = self.hoisted[5] * phi_q_rod_y;
-        let v5 = phi_q_rod_y * v4;
-        let v6 = v5 + v2;
-        let v7 = feedback.rod / v6;
-        let v8 = v1 * v7;
-        let v9 = v4 * v7;
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = feedback.rod / v4;
+        let v6 = phi_q_rod_x * v5;
+        let v7 = phi_q_rod_y * v5;
         ::mbs_runtime::Accelerations {
             acceleration: PendulumCoordinates {
-                x: v8,
-                y: v9,
+                x: v6,
+                y: v7,
             },
             growth: T::from_f64(0.0),
         }
@@ -1266,15 +1233,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         q: &PendulumCoordinates<T>,
     ) -> ::core::option::Option<(::core::primitive::usize, T)> {
         let phi_q_rod_x = self.hoisted[2] * q.x;
-        let v1 = self.hoisted[5] * phi_q_rod_x;
-        let v2 = phi_q_rod_x * v1;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = q.y * self.hoisted[2];
-        let v4 = self.hoisted[5] * phi_q_rod_y;
-        let v5 = phi_q_rod_y * v4;
-        let v6 = v5 + v2;
-        let v7 = v6 / v6;
-        let abs_v7 = v7.abs();
-        ::mbs_runtime::__private::worst(&[self.hoisted[8], self.hoisted[8], abs_v7])
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = v4 / v4;
+        let abs_v5 = v5.abs();
+        ::mbs_runtime::__private::worst(&[abs_v5])
     }
     fn worst_start_pivot(
         &self,
@@ -1285,17 +1250,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         let v1 = self.parameters.length / q.x;
         let v2 = phi_q_rod_x * v1;
         let abs_v2 = v2.abs();
-        let v4 = self.hoisted[5] * phi_q_rod_x;
-        let v5 = phi_q_rod_x * v4;
+        let v4 = phi_q_rod_x * phi_q_rod_x;
         let phi_q_rod_y = q.y * self.hoisted[2];
-        let v7 = self.hoisted[5] * phi_q_rod_y;
-        let v8 = phi_q_rod_y * v7;
-        let v9 = v8 + v5;
-        let v10 = v9 / v9;
-        let abs_v10 = v10.abs();
-        ::mbs_runtime::__private::worst(
-            &[abs_v2, self.hoisted[8], self.hoisted[8], abs_v10],
-        )
+        let v6 = phi_q_rod_y * phi_q_rod_y;
+        let v7 = v6 + v4;
+        let v8 = v7 / v7;
+        let abs_v8 = v8.abs();
+        ::mbs_runtime::__private::worst(&[abs_v2, abs_v8])
     }
     #[inline(always)]
     fn kinetic_energy(&self, at: &::mbs_runtime::State<PendulumCoordinates<T>>) -> T {

@@ -46,7 +46,7 @@ Operations per call:
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
 | `stabilized` | 49 | 44 | 1 | 2 | 0 | 2 |
 | `constrained` | 26 | 17 | 1 | 2 | 0 | 2 |
-| `reactions` | 48 | 36 | 1 | 2 | 0 | 2 |
+| `reactions` | 48 | 34 | 1 | 2 | 0 | 2 |
 | `position_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
 | `velocity_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
 | `outputs` | 0 | 1 | 0 | 0 | 0 | 0 |
@@ -1106,7 +1106,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 48 mul + 36 add + 1 div + 2 sincos.*/
+Cost: 48 mul + 34 add + 1 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1599,7 +1599,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
                     mul: 48u32,
-                    add: 36u32,
+                    add: 34u32,
                     div: 1u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -2425,10 +2425,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v35 = v34 * acc_theta2;
         let acc_x2 = v24 - v35;
         let v37 = v15 * v34;
-        let v38 = feedback.rod_y - v37;
-        let v39 = v38 + v30;
+        let v38 = v37 - feedback.rod_y;
+        let v39 = v38 - v30;
         let v40 = v16 * acc_theta2;
-        let acc_y2 = v39 + v40;
+        let acc_y2 = v40 - v39;
         let v42 = self.parameters.l2 * v15;
         let v43 = v42 * cos_theta2;
         let v44 = feedback.slider - v43;
@@ -2441,9 +2441,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v51 = self.hoisted[4] + v50;
         let lambda_crank_y = -v51;
         let v53 = self.hoisted[2] * feedback.crank_speed;
-        let v54 = v5 * v51;
+        let v54 = v5 * lambda_crank_y;
         let v55 = self.parameters.m2 * v39;
-        let v56 = self.hoisted[5] + v55;
+        let v56 = v55 - self.hoisted[5];
         let v57 = v16 * v56;
         let v58 = self.parameters.m2 * v24;
         let v59 = v34 * v58;
@@ -2455,12 +2455,12 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v65 = v64 * acc_theta2;
         let v66 = v61 - v65;
         let v67 = v59 + v66;
-        let v68 = v67 - v57;
+        let v68 = v57 + v67;
         let lambda_guide = v25 * v68;
         let v70 = v18 * lambda_guide;
         let v71 = self.parameters.m2 * v40;
-        let v72 = v56 + v71;
-        let v73 = v18 * v72;
+        let lambda_rod_y = v56 - v71;
+        let v73 = v18 * lambda_rod_y;
         let v74 = v7 * v48;
         let v75 = self.parameters.m3 * v46;
         let lambda_slider = v75 - v60;
@@ -2468,16 +2468,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         let v78 = self.parameters.m2 * v35;
         let lambda_rod_x = v78 - v58;
         let v80 = v20 * lambda_rod_x;
-        let v81 = v54 - v74;
-        let v82 = v81 + v80;
-        let v83 = v77 + v73;
+        let v81 = v74 + v54;
+        let v82 = v81 - v80;
+        let v83 = v73 - v77;
         let v84 = v83 + v82;
-        let v85 = v84 + v70;
-        let v86 = v53 + v85;
-        let lambda_crank_speed = -v86;
-        let lambda_rod_y = -v72;
-        let v89 = self.hoisted[12] * v25;
-        let abs_v89 = v89.abs();
+        let v85 = v84 - v70;
+        let lambda_crank_speed = v85 - v53;
+        let v87 = self.hoisted[12] * v25;
+        let abs_v87 = v87.abs();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankCoordinates {
                 x1: acc_x1,
@@ -2497,7 +2495,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: abs_v89,
+            growth: abs_v87,
         }
     }
     fn position_correction(

@@ -44,7 +44,7 @@ Operations per call:
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
 | `stabilized` | 84 | 63 | 2 | 2 | 0 | 3 |
 | `constrained` | 64 | 39 | 2 | 2 | 0 | 3 |
-| `reactions` | 76 | 51 | 2 | 2 | 0 | 3 |
+| `reactions` | 76 | 49 | 2 | 2 | 0 | 3 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
@@ -1158,7 +1158,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 76 mul + 51 add + 2 div + 2 sincos.*/
+Cost: 76 mul + 49 add + 2 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,
@@ -1668,7 +1668,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 name: "reactions",
                 operations: ::mbs_runtime::Operations {
                     mul: 76u32,
-                    add: 51u32,
+                    add: 49u32,
                     div: 2u32,
                     sin_cos: 2u32,
                     other: 0u32,
@@ -2594,10 +2594,10 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v42 = v34 - v41;
         let v43 = self.hoisted[1] * sin_theta2;
         let v44 = v16 * v43;
-        let v45 = feedback.rod_y - v44;
-        let v46 = v45 - v15;
+        let v45 = v44 - feedback.rod_y;
+        let v46 = v15 + v45;
         let v47 = self.parameters.m2 * v46;
-        let v48 = self.hoisted[5] + v47;
+        let v48 = v47 - self.hoisted[5];
         let v49 = self.hoisted[1] * cos_theta2;
         let v50 = v49 * v48;
         let v51 = v4 * phi_q_guide_theta1;
@@ -2612,13 +2612,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v60 = self.parameters.m3 * v59;
         let v61 = v17 * v60;
         let v62 = v61 + v56;
-        let v63 = v62 - v50;
+        let v63 = v62 + v50;
         let v64 = phi_q_guide_theta1 * v63;
         let v65 = self.hoisted[0] * sin_theta1;
         let v66 = v4 * v65;
-        let v67 = feedback.crank_y - v66;
+        let v67 = v66 - feedback.crank_y;
         let v68 = self.parameters.m1 * v67;
-        let v69 = self.hoisted[4] + v68;
+        let v69 = v68 - self.hoisted[4];
         let v70 = v5 * v69;
         let v71 = phi_q_guide_theta1 * v48;
         let v72 = self.parameters.m1 * v7;
@@ -2627,9 +2627,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v75 = v14 * v60;
         let v76 = inputs.crank_torque + v73;
         let v77 = v76 + v75;
-        let v78 = v74 - v70;
+        let v78 = v74 + v70;
         let v79 = v78 + v77;
-        let v80 = v79 - v71;
+        let v80 = v71 + v79;
         let v81 = phi_q_guide_theta2 * v80;
         let v82 = v64 - v81;
         let v83 = phi_q_guide_theta1 * v40;
@@ -2643,7 +2643,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v91 = v65 * acc_theta1;
         let acc_x1 = v7 - v91;
         let v93 = v5 * acc_theta1;
-        let acc_y1 = v67 + v93;
+        let acc_y1 = v93 - v67;
         let v95 = v14 * acc_theta1;
         let v96 = phi_q_guide_theta1 * v88;
         let v97 = phi_q_guide_theta2 * v21;
@@ -2654,37 +2654,35 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         let v102 = phi_q_guide_theta1 * acc_theta1;
         let v103 = v49 * acc_theta2;
         let v104 = v103 + v102;
-        let acc_y2 = v46 + v104;
+        let acc_y2 = v104 - v46;
         let v106 = v17 * acc_theta2;
         let v107 = v106 + v95;
         let acc_x3 = v59 - v107;
         let v109 = self.parameters.m1 * v91;
         let lambda_crank_x = v109 - v72;
         let v111 = self.parameters.m1 * v93;
-        let v112 = v69 + v111;
-        let lambda_crank_y = -v112;
-        let v114 = self.parameters.m2 * v100;
-        let lambda_rod_x = v114 - v55;
-        let v116 = self.parameters.m2 * v104;
-        let v117 = v48 + v116;
-        let lambda_rod_y = -v117;
-        let v119 = v38 * acc_theta1;
-        let v120 = v31 * acc_theta2;
-        let v121 = v120 + v119;
-        let v122 = v80 - v121;
-        let v123 = phi_q_guide_theta1 * v122;
-        let v124 = v31 * acc_theta1;
-        let v125 = v25 * acc_theta2;
-        let v126 = v125 + v124;
-        let v127 = v63 - v126;
-        let v128 = phi_q_guide_theta2 * v127;
-        let v129 = v128 + v123;
-        let lambda_guide = v13 * v129;
-        let v131 = self.parameters.m3 * v107;
-        let lambda_slider = v131 - v60;
-        let v133 = self.hoisted[17] * v13;
-        let abs_v133 = v133.abs();
-        let sqrt_abs_v133 = abs_v133.sqrt();
+        let lambda_crank_y = v69 - v111;
+        let v113 = self.parameters.m2 * v100;
+        let lambda_rod_x = v113 - v55;
+        let v115 = self.parameters.m2 * v104;
+        let lambda_rod_y = v48 - v115;
+        let v117 = v38 * acc_theta1;
+        let v118 = v31 * acc_theta2;
+        let v119 = v118 + v117;
+        let v120 = v80 - v119;
+        let v121 = phi_q_guide_theta1 * v120;
+        let v122 = v31 * acc_theta1;
+        let v123 = v25 * acc_theta2;
+        let v124 = v123 + v122;
+        let v125 = v63 - v124;
+        let v126 = phi_q_guide_theta2 * v125;
+        let v127 = v126 + v121;
+        let lambda_guide = v13 * v127;
+        let v129 = self.parameters.m3 * v107;
+        let lambda_slider = v129 - v60;
+        let v131 = self.hoisted[17] * v13;
+        let abs_v131 = v131.abs();
+        let sqrt_abs_v131 = abs_v131.sqrt();
         ::mbs_runtime::Reactions {
             acceleration: SliderCrankFreeCoordinates {
                 x1: acc_x1,
@@ -2703,7 +2701,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 guide: lambda_guide,
                 slider: lambda_slider,
             },
-            growth: sqrt_abs_v133,
+            growth: sqrt_abs_v131,
         }
     }
     fn position_correction(

@@ -8,10 +8,13 @@
 //! hundreds of unknowns; a wrong instruction leaves one of their own order.
 //! [`RESIDUAL`] lies between the two.
 
+mod bodies;
+
 use std::cell::Cell;
 
 use mbs_symbolic::{Expr, Operand, Program, Symbol, Tape};
 
+use self::bodies::{Bodies, evaluate};
 use super::Samples;
 use super::assembly::Assembly;
 use super::jets::{self, Jet};
@@ -65,7 +68,8 @@ pub fn check_programs(
             (Some(Meaning::Time), Some(assembled)) => assembled.t,
             _ => samples.value(symbol, position),
         };
-        let point = Point { model, plan, tape: &tape, hoisted: &hoisted, symbol: &symbol };
+        let bodies = Bodies::new(model, &symbol);
+        let point = Point { model, plan, tape: &tape, hoisted: &hoisted, bodies: &bodies, symbol: &symbol };
         let found = point.functions().and_then(|()| point.solutions());
         found.map_err(|wrong| Diagnostic::internal(model.name.span(), wrong))?;
     }
@@ -94,6 +98,7 @@ struct Point<'a> {
     plan: &'a Plan,
     tape: &'a Tape,
     hoisted: &'a [Rounded],
+    bodies: &'a Bodies,
     symbol: &'a dyn Fn(Symbol) -> f64,
 }
 
@@ -119,10 +124,7 @@ impl Point<'_> {
     }
 
     fn value(&self, expr: Expr) -> Rounded {
-        let tape = Tape::new(&self.model.arena, &[expr]);
-        let jets =
-            jets::evaluate(&tape, &self.model.arena, &|symbol| Jet::curve((self.symbol)(symbol), 0.0, 0.0));
-        jets.first().map_or(Rounded::default(), |jet| jet.value)
+        evaluate(self.model, &[expr], self.symbol).first().copied().unwrap_or_default()
     }
 
     fn gain(&self, meaning: Meaning) -> Rounded {
@@ -150,9 +152,8 @@ impl Point<'_> {
         let rhs: Vec<_> = motion.iter().zip(&feedback).map(|(row, &f)| f - row.second).collect();
         self.agree("baumgarte_rhs", &plan.baumgarte_rhs, &rhs)?;
         self.jacobian()?;
-        let (mass, forces): (Vec<_>, Vec<_>) =
-            (0..model.coordinates.len()).map(|at| (self.mass(at), self.force(at))).unzip();
-        self.agree("mass", &plan.mass, &mass)?;
+        let forces = self.known_forces();
+        self.agree("mass", &plan.mass, &self.bodies.masses)?;
         // what depends on reactions is judged by the balance that it keeps
         if model.reactive_loads.is_empty() {
             self.agree("forces", &plan.forces, &forces)?;
@@ -207,22 +208,25 @@ impl Point<'_> {
     }
 
     fn mass(&self, at: usize) -> Rounded {
-        let coordinate = &self.model.coordinates[at];
-        let body = &self.model.bodies[coordinate.body];
-        self.value(if coordinate.direction == Direction::Angle { body.inertia } else { body.mass })
+        self.bodies.masses[at]
     }
 
     fn gravity(&self, at: usize) -> Rounded {
         match self.model.coordinates[at].direction {
-            Direction::X => self.value(self.model.gravity[0]),
-            Direction::Y => self.value(self.model.gravity[1]),
+            Direction::X => self.bodies.gravity[0],
+            Direction::Y => self.bodies.gravity[1],
             Direction::Angle => Rounded::default(),
         }
     }
 
-    fn force(&self, at: usize) -> Rounded {
-        let loads = self.model.loads.iter().filter(|load| load.coordinate == at);
-        loads.fold(self.mass(at) * self.gravity(at), |sum, load| sum + self.value(load.value))
+    /// Q without the loads that depend on reactions.
+    fn known_forces(&self) -> Vec<Rounded> {
+        let weight = |at: usize| self.mass(at) * self.gravity(at);
+        let mut forces: Vec<_> = (0..self.model.coordinates.len()).map(weight).collect();
+        for load in &self.model.loads {
+            forces[load.coordinate] = forces[load.coordinate] + self.value(load.value);
+        }
+        forces
     }
 
     fn energies(&self) -> (Rounded, Rounded) {
@@ -249,7 +253,7 @@ impl Point<'_> {
         };
         let entries = range(&mut self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value));
         let masses = range(&mut (0..self.model.coordinates.len()).map(|at| self.mass(at).value));
-        let forces: Vec<_> = (0..self.model.coordinates.len()).map(|at| self.force(at)).collect();
+        let forces = self.known_forces();
         let largest = forces.iter().fold(0.0_f64, |largest, force| largest.max(force.value.abs()));
         let are_sharp = forces.iter().all(|force| force.error <= BLURRED * largest);
         // A pivot is at worst an entry, and masses are multiplied by its square.
@@ -342,13 +346,12 @@ impl Point<'_> {
 
     /// Q, with loads that depend on reactions taken at the reactions found.
     fn forces(&self, multipliers: &[f64]) -> Vec<Rounded> {
-        let mut forces: Vec<_> = (0..self.model.coordinates.len()).map(|at| self.force(at)).collect();
+        let mut forces = self.known_forces();
         let symbol = |symbol: Symbol| match self.model.meanings.get(symbol.index()) {
             Some(Meaning::Multiplier(row)) => multipliers[*row],
             _ => (self.symbol)(symbol),
         };
-        let Point { model, plan, tape, hoisted, .. } = *self;
-        let at_reactions = Point { model, plan, tape, hoisted, symbol: &symbol };
+        let at_reactions = Point { symbol: &symbol, ..*self };
         for load in &self.model.reactive_loads {
             let value = at_reactions.value(load.force);
             for &(coordinate, slope) in &load.along {

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
 use super::steps::Step;
-use crate::arena::{Arena, Expr, Node};
+use super::unit;
+use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
 use crate::operators::Function;
 
@@ -39,6 +40,9 @@ pub struct Elimination {
 /// An eliminated matrix.
 pub struct Factorization {
     steps: Vec<Step>,
+    /// 1/μ and μ, where masses are measured in units of μ.
+    per_unit: Expr,
+    unit: Expr,
     /// The steps, in order.
     pub order: Vec<Elimination>,
     /// The pivots that may vanish, in the order of elimination.
@@ -48,6 +52,8 @@ pub struct Factorization {
 pub(super) struct Work<'a> {
     pub arena: &'a mut Arena,
     pub matrix: Kkt,
+    unit: Expr,
+    per_unit: Expr,
     /// Σ of the contributions to a diagonal entry that enlarge it.
     gross: BTreeMap<Unknown, Expr>,
     /// Entries that were reduced by a later pivot of their own kind.
@@ -63,12 +69,22 @@ pub(super) struct Work<'a> {
 
 impl<'a> Work<'a> {
     pub fn new(arena: &'a mut Arena, kkt: &Kkt, strategy: Strategy) -> Self {
-        let matrix = kkt.clone();
+        let mut matrix = kkt.clone();
+        let unit = unit::of_masses(arena, &matrix);
+        let per_unit = arena.powi(unit, -1);
+        for unknown in kkt.unknowns() {
+            if let Some(mass) = matrix.get(unknown, unknown) {
+                let mass = arena.mul(mass, per_unit);
+                matrix.set(arena, unknown, unknown, mass);
+            }
+        }
         let gross = matrix.unknowns().filter_map(|u| Some((u, matrix.get(u, u)?))).collect();
         let is_open = strategy == Strategy::NullSpace;
         Self {
             arena,
             matrix,
+            unit,
+            per_unit,
             gross,
             reduced: BTreeSet::new(),
             scales: None,
@@ -80,7 +96,8 @@ impl<'a> Work<'a> {
     }
 
     pub fn finish(self) -> Factorization {
-        Factorization { steps: self.steps, order: self.order, pivots: self.pivots }
+        let Self { steps, order, pivots, unit, per_unit, .. } = self;
+        Factorization { steps, order, pivots, unit, per_unit }
     }
 
     pub fn eliminate(&mut self, pivot: Pivot) {
@@ -89,8 +106,14 @@ impl<'a> Work<'a> {
             Pivot::Diagonal(unknown) => (unknown, unknown),
             Pivot::Loop { row, coordinates } => (row, coordinates[0]),
         };
-        let pivot_entry = self.matrix.get(row, column).unwrap_or(self.arena.zero());
-        self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: pivot_entry });
+        let entry = self.matrix.get(row, column).unwrap_or(self.arena.zero());
+        // as it is without a unit of mass
+        let entry = match pivot {
+            Pivot::Diagonal(Unknown::Coordinate(_)) => self.arena.mul(entry, self.unit),
+            Pivot::Diagonal(Unknown::Row(_)) => self.arena.mul(entry, self.per_unit),
+            _ => entry,
+        };
+        self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: entry });
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
             Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),
@@ -161,20 +184,22 @@ impl<'a> Work<'a> {
         }
         let zero = self.arena.zero();
         let pivot = self.matrix.get(unknown, unknown).unwrap_or(zero);
-        let pivot = self.arena.share(pivot);
+        let pivot = self.close(unknown, unknown, pivot);
         let inverse = self.inverse(pivot);
         let couplings: BTreeMap<_, _> = self
             .matrix
             .neighbours(unknown)
             .collect::<Vec<_>>()
             .into_iter()
-            .map(|(other, entry)| (other, self.arena.share(entry)))
+            .map(|(other, entry)| (other, self.close(unknown, other, entry)))
             .collect();
+        // a factor that is hoisted costs nothing where others stand beside it
+        let is_constant = self.arena.stage(inverse) <= Stage::Parameter;
         let multipliers: BTreeMap<_, _> = couplings
             .iter()
             .map(|(&other, &entry)| {
                 let multiplier = self.arena.mul(entry, inverse);
-                (other, self.arena.share(multiplier))
+                (other, if is_constant { multiplier } else { self.arena.share(multiplier) })
             })
             .collect();
         for (&i, &multiplier) in &multipliers {
@@ -185,13 +210,24 @@ impl<'a> Work<'a> {
                 if i == j {
                     self.track(unknown, i, product);
                 }
-                let updated = self.arena.share(updated);
+                let updated = self.close(i, j, updated);
                 self.matrix.set(self.arena, i, j, updated);
             }
         }
         self.watch_diagonal(unknown, pivot, inverse);
         self.matrix.remove(unknown);
         self.steps.push(Step::Diagonal { unknown, inverse, multipliers });
+    }
+
+    /// The entry (i, j), computed once. That of a row with itself is made of
+    /// negative squares, and its negative is what is computed.
+    fn close(&mut self, i: Unknown, j: Unknown, entry: Expr) -> Expr {
+        if [i, j].iter().any(|unknown| matches!(unknown, Unknown::Coordinate(_))) {
+            return self.arena.share(entry);
+        }
+        let negative = self.arena.neg(entry);
+        let negative = self.arena.share(negative);
+        self.arena.neg(negative)
     }
 
     /// 1/p, computed once.
@@ -212,7 +248,7 @@ impl<'a> Work<'a> {
     fn enlarge(&mut self, unknown: Unknown, contribution: Expr) {
         let gross = self.gross.get(&unknown).copied().unwrap_or(self.arena.zero());
         let gross = self.arena.add(gross, contribution);
-        let gross = self.settle(gross);
+        let gross = if self.is_open { self.settle(gross) } else { self.close(unknown, unknown, gross) };
         self.gross.insert(unknown, gross);
     }
 
@@ -324,10 +360,20 @@ impl Factorization {
     /// The solution for the right-hand side `rhs`, 0 where it has no entry.
     pub fn solve(&self, arena: &mut Arena, rhs: &BTreeMap<Unknown, Expr>) -> BTreeMap<Unknown, Expr> {
         let mut b = rhs.clone();
+        for (unknown, force) in &mut b {
+            if matches!(unknown, Unknown::Coordinate(_)) {
+                *force = arena.mul(*force, self.per_unit);
+            }
+        }
         let halves: Vec<_> = self.steps.iter().map(|step| step.forward(arena, &mut b)).collect();
         let mut solution = BTreeMap::new();
         for (step, half) in self.steps.iter().zip(halves).rev() {
             step.backward(arena, half, &mut solution);
+        }
+        for (unknown, value) in &mut solution {
+            if matches!(unknown, Unknown::Row(_)) {
+                *value = arena.mul(*value, self.unit);
+            }
         }
         solution
     }

@@ -22,6 +22,7 @@ mod order;
 mod signs;
 mod single_loop;
 mod steps;
+mod unit;
 
 pub use factorization::{Elimination, Factorization, WatchedPivot};
 pub use matrix::{Kkt, Unknown};
@@ -42,13 +43,34 @@ pub fn factor(
     strategy: Strategy,
     magnitude: &dyn Fn(&Arena, Expr) -> f64,
 ) -> Result<Factorization, Undetermined> {
+    let factorization = factor_within(arena, kkt, strategy, magnitude, usize::MAX)?;
+    factorization.ok_or_else(|| Undetermined { unknowns: kkt.unknowns().collect() })
+}
+
+/// The same, as long as no more than `most` entries of the matrix change on the
+/// way: `None` where the order fills the matrix.
+///
+/// # Errors
+/// As those of [`factor`].
+pub fn factor_within(
+    arena: &mut Arena,
+    kkt: &Kkt,
+    strategy: Strategy,
+    magnitude: &dyn Fn(&Arena, Expr) -> f64,
+    most: usize,
+) -> Result<Option<Factorization>, Undetermined> {
     let mut work = factorization::Work::new(arena, kkt, strategy);
     let mut order = order::Order::new(work.arena, &work.matrix, strategy);
+    let mut changed = 0;
     while let Some(pivot) = order.choose(work.arena, &work.matrix, magnitude)? {
         let taken = pivot.unknowns();
         let touched = work.matrix.touched_by(&taken);
+        changed += touched.len() * (touched.len() + 1) / 2;
+        if changed > most {
+            return Ok(None);
+        }
         work.eliminate(pivot);
         order.update(work.arena, &work.matrix, &taken, &touched);
     }
-    Ok(work.finish())
+    Ok(Some(work.finish()))
 }

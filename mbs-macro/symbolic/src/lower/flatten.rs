@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::Hoisted;
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
-use crate::operators::Function;
+use crate::operators::{Function, Parity};
 use crate::program::Operand;
 use crate::spline::SplineId;
 
@@ -55,7 +55,7 @@ impl Signed {
 pub(super) struct Flat {
     pub definitions: Vec<Definition>,
     pub names: HashMap<Value, String>,
-    pub outputs: Vec<Value>,
+    pub outputs: Vec<Signed>,
     index: HashMap<Definition, Value>,
 }
 
@@ -68,6 +68,25 @@ impl Flat {
         self.definitions.push(definition.clone());
         self.index.insert(definition, self.definitions.len() - 1);
         self.definitions.len() - 1
+    }
+
+    /// The values of the results, with the names suggested for their expressions.
+    pub fn settle_outputs(&mut self, arena: &Arena, outputs: &[Expr]) -> Vec<Value> {
+        let signed = self.outputs.clone();
+        let values: Vec<Value> = signed.into_iter().map(|output| self.settle(output)).collect();
+        for (&value, &output) in values.iter().zip(outputs) {
+            self.name(arena, value, output);
+        }
+        values
+    }
+
+    /// Gives a computed value the name suggested for an expression.
+    fn name(&mut self, arena: &Arena, value: Value, expr: Expr) {
+        if let Some(name) = arena.label_of(expr)
+            && !matches!(self.definitions[value], Definition::Leaf(_))
+        {
+            self.names.entry(value).or_insert_with(|| name.to_owned());
+        }
     }
 
     /// The value itself, a negation spelled out.
@@ -95,9 +114,7 @@ pub(super) fn flatten(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut 
     }
     for &output in outputs {
         let signed = flattening.value(output);
-        let value = flattening.flat.settle(signed);
-        flattening.name(value, output);
-        flattening.flat.outputs.push(value);
+        flattening.flat.outputs.push(signed);
     }
     flattening.flat
 }
@@ -133,18 +150,9 @@ impl Flattening<'_> {
         let signed = self.new_value(expr);
         self.known.insert(expr, signed);
         if !signed.negative {
-            self.name(signed.value, expr);
+            self.flat.name(self.arena, signed.value, expr);
         }
         signed
-    }
-
-    /// Gives a computed value the name suggested for an expression.
-    fn name(&mut self, value: Value, expr: Expr) {
-        if let Some(name) = self.arena.label_of(expr)
-            && !matches!(self.flat.definitions[value], Definition::Leaf(_))
-        {
-            self.flat.names.entry(value).or_insert_with(|| name.to_owned());
-        }
     }
 
     fn new_value(&mut self, expr: Expr) -> Signed {
@@ -161,7 +169,8 @@ impl Flattening<'_> {
             Node::Sum(constant, terms) => self.sum(constant, &terms),
             Node::Call(function, x) => {
                 let x = self.value(x);
-                let x = self.flat.settle(x);
+                let is_even = function.row().parity == Parity::Even;
+                let x = if is_even { x.value } else { self.flat.settle(x) };
                 Signed::plus(self.flat.define(Definition::Call(function, x)))
             }
             Node::Spline(spline, order, x) => {
@@ -285,10 +294,9 @@ impl Flattening<'_> {
         collected
     }
 
-    /// A sum is computed as it stands, unless all of it is negative or its
-    /// negative is there already.
+    /// A sum is computed as it stands, unless its negative is there already.
     fn is_better_negated(&self, values: &[Signed]) -> bool {
         let negated: Vec<_> = values.iter().map(|value| value.flipped_if(true)).collect();
-        values.iter().all(|value| value.negative) || self.flat.index.contains_key(&Definition::Sum(negated))
+        self.flat.index.contains_key(&Definition::Sum(negated))
     }
 }

@@ -3,12 +3,14 @@
 //! 1. `flatten` turns nodes into rows of factors and of signed summands, with
 //!    what depends on parameters alone gathered into one hoisted factor;
 //! 2. `factoring` computes pairs that occur in several rows once;
-//! 3. `schedule` puts binary instructions into order, outputs first asked for
+//! 3. `signs` chooses between sums and their negatives;
+//! 4. `schedule` puts binary instructions into order, outputs first asked for
 //!    first computed.
 
 mod factoring;
 mod flatten;
 mod schedule;
+mod signs;
 
 use std::collections::HashMap;
 
@@ -52,5 +54,7 @@ pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Program {
 fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Program {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
     factoring::factor(&mut flat);
-    Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat) }
+    signs::choose(&mut flat);
+    let results = flat.settle_outputs(arena, outputs);
+    Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results) }
 }

@@ -6,10 +6,11 @@ use super::flatten::{Definition, Flat, Signed, Value};
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
-pub(super) fn schedule(flat: &Flat) -> Program {
-    let order = order(flat);
+pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
+    let order = order(flat, outputs);
     let mut schedule = Schedule {
         flat,
+        outputs,
         program: Program::default(),
         operands: HashMap::new(),
         uses: count_uses(flat, &order),
@@ -18,12 +19,13 @@ pub(super) fn schedule(flat: &Flat) -> Program {
     for &value in &order {
         schedule.emit(value);
     }
-    schedule.program.outputs = flat.outputs.iter().map(|value| schedule.operands[value]).collect();
+    schedule.program.outputs = outputs.iter().map(|value| schedule.operands[value]).collect();
     schedule.program
 }
 
 struct Schedule<'a> {
     flat: &'a Flat,
+    outputs: &'a [Value],
     program: Program,
     operands: HashMap<Value, Operand>,
     uses: HashMap<Value, usize>,
@@ -75,7 +77,7 @@ impl Schedule<'_> {
     fn is_folded(&self, value: Value) -> bool {
         matches!(self.flat.definitions[value], Definition::Reciprocal(_))
             && self.uses.get(&value) == Some(&1)
-            && !self.flat.outputs.contains(&value)
+            && !self.outputs.contains(&value)
     }
 
     fn product(&mut self, factors: &[Value]) -> Operand {
@@ -147,8 +149,8 @@ fn operation_latency(operation: Operation) -> u32 {
 /// The values that the outputs need, operands before users; functions of inputs
 /// come first. A call in the middle would make the machine save every value that
 /// is alive across it.
-fn order(flat: &Flat) -> Vec<Value> {
-    let order = depth_first(flat, &flat.outputs);
+fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
+    let order = depth_first(flat, outputs);
     let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
     let of_inputs = |value: &Value| match flat.definitions[*value] {
         Definition::Call(_, x) | Definition::Spline(.., x) => is_leaf(x),
@@ -156,11 +158,11 @@ fn order(flat: &Flat) -> Vec<Value> {
         _ => false,
     };
     let mut roots: Vec<Value> = order.into_iter().filter(of_inputs).collect();
-    roots.extend(&flat.outputs);
+    roots.extend(outputs);
     depth_first(flat, &roots)
 }
 
-fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
+pub(super) fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
     let mut order = Vec::new();
     let mut seen = vec![false; flat.definitions.len()];
     let mut stack: Vec<(Value, bool)> = roots.iter().rev().map(|&value| (value, false)).collect();
@@ -176,7 +178,7 @@ fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
     order
 }
 
-fn operands(definition: &Definition) -> Vec<Value> {
+pub(super) fn operands(definition: &Definition) -> Vec<Value> {
     match definition {
         Definition::Leaf(_) => Vec::new(),
         Definition::Product(factors) => factors.clone(),

@@ -1,0 +1,33 @@
+//! What the declaration says of the bodies, in numbers.
+
+use mbs_symbolic::{Expr, Symbol, Tape};
+
+use super::super::jets::{self, Jet};
+use super::super::rounding::Rounded;
+use crate::model::{Coordinate, Direction, Model};
+
+/// The mass or inertia of each coordinate, and gravity along x and y.
+pub struct Bodies {
+    pub masses: Vec<Rounded>,
+    pub gravity: [Rounded; 2],
+}
+
+impl Bodies {
+    pub fn new(model: &Model, symbol: &dyn Fn(Symbol) -> f64) -> Self {
+        let of = |coordinate: &Coordinate| {
+            let body = &model.bodies[coordinate.body];
+            if coordinate.direction == Direction::Angle { body.inertia } else { body.mass }
+        };
+        let roots: Vec<Expr> = model.gravity.into_iter().chain(model.coordinates.iter().map(of)).collect();
+        let mut values = evaluate(model, &roots, symbol).into_iter();
+        let gravity = [(); 2].map(|()| values.next().unwrap_or_default());
+        Self { masses: values.collect(), gravity }
+    }
+}
+
+/// The values of expressions.
+pub fn evaluate(model: &Model, roots: &[Expr], symbol: &dyn Fn(Symbol) -> f64) -> Vec<Rounded> {
+    let tape = Tape::new(&model.arena, roots);
+    let jets = jets::evaluate(&tape, &model.arena, &|s| Jet::curve(symbol(s), 0.0, 0.0));
+    jets.into_iter().map(|jet| jet.value).collect()
+}
