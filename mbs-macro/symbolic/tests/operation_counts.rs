@@ -53,6 +53,27 @@ fn common_parts_are_computed_once() {
 }
 
 #[test]
+fn signs_cost_nothing_where_a_difference_can_be_turned_around() {
+    let (mut a, [x, y, z]) = letters(Stage::Variable);
+    // −(x − y) z is (y − x) z
+    let difference = a.sub(x, y);
+    let difference = a.share(difference);
+    let product = a.mul(difference, z);
+    let negative = a.neg(product);
+    assert_eq!(count(&mut a, &[negative]), operations(1, 1, 0, 0, 0));
+    // −(x − y) z − z likewise
+    let less = a.sub(negative, z);
+    assert_eq!(count(&mut a, &[less]), operations(1, 2, 0, 0, 0));
+    // both signs of one value need a negation
+    assert_eq!(count(&mut a, &[product, negative]), operations(1, 2, 0, 0, 0));
+    // |−x y| is |x y|
+    let (product, negative) = (a.mul(x, y), a.scale(z, (-1.0).into()));
+    let flipped = a.mul(product, negative);
+    let size = a.call(Function::Abs, flipped);
+    assert_eq!(count(&mut a, &[size]), operations(2, 0, 0, 0, 1));
+}
+
+#[test]
 fn quotients_are_one_division() {
     let (mut a, [x, y, z]) = letters(Stage::Variable);
     let quotient = a.div(x, y).expect("y is not the constant 0");
