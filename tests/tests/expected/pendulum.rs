@@ -717,6 +717,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 5u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi",
@@ -728,6 +730,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 5u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_dot",
@@ -739,6 +743,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 6u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_q",
@@ -750,6 +756,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 2u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_t",
@@ -761,6 +769,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 0u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "gamma",
@@ -772,6 +782,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 7u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "baumgarte_rhs",
@@ -783,6 +795,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 19u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "mass",
@@ -794,6 +808,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 0u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "forces",
@@ -805,6 +821,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 1u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "kinetic_energy",
@@ -816,6 +834,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 5u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "potential_energy",
@@ -827,6 +847,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 1u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "stabilized",
@@ -838,6 +860,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 30u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "constrained",
@@ -849,6 +873,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 18u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "reactions",
@@ -860,6 +886,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 20u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "position_correction",
@@ -871,6 +899,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 2u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "velocity_correction",
@@ -882,6 +912,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 8u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "outputs",
@@ -893,6 +925,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                     other: 2u32,
                     watch: 0u32,
                 },
+                written: 8u32,
+                loops: 0u32,
             },
         ],
     );

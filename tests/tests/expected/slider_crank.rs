@@ -1462,6 +1462,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 1u32,
                     watch: 0u32,
                 },
+                written: 20u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi",
@@ -1473,6 +1475,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 23u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_dot",
@@ -1484,6 +1488,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 26u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_q",
@@ -1495,6 +1501,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 15u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_t",
@@ -1506,6 +1514,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 1u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "gamma",
@@ -1517,6 +1527,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 27u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "baumgarte_rhs",
@@ -1528,6 +1540,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 84u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "mass",
@@ -1539,6 +1553,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 0u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "forces",
@@ -1550,6 +1566,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 2u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "kinetic_energy",
@@ -1561,6 +1579,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 20u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "potential_energy",
@@ -1572,6 +1592,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 3u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "stabilized",
@@ -1583,6 +1605,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 100u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "constrained",
@@ -1594,6 +1618,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 50u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "reactions",
@@ -1605,6 +1631,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 89u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "position_correction",
@@ -1616,6 +1644,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 28u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "velocity_correction",
@@ -1627,6 +1657,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 28u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "outputs",
@@ -1638,6 +1670,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 1u32,
+                loops: 0u32,
             },
         ],
     );

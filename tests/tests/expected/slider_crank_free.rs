@@ -1531,6 +1531,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 2u32,
                     watch: 0u32,
                 },
+                written: 34u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi",
@@ -1542,6 +1544,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 21u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_dot",
@@ -1553,6 +1557,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 25u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_q",
@@ -1564,6 +1570,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 15u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "phi_t",
@@ -1575,6 +1583,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 0u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "gamma",
@@ -1586,6 +1596,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 27u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "baumgarte_rhs",
@@ -1597,6 +1609,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 78u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "mass",
@@ -1608,6 +1622,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 0u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "forces",
@@ -1619,6 +1635,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 2u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "kinetic_energy",
@@ -1630,6 +1648,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 20u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "potential_energy",
@@ -1641,6 +1661,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 3u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "stabilized",
@@ -1652,6 +1674,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 3u32,
                 },
+                written: 156u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "constrained",
@@ -1663,6 +1687,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 3u32,
                 },
+                written: 112u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "reactions",
@@ -1674,6 +1700,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 3u32,
                 },
+                written: 134u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "position_correction",
@@ -1685,6 +1713,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 14u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "velocity_correction",
@@ -1696,6 +1726,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 2u32,
                 },
+                written: 14u32,
+                loops: 0u32,
             },
             ::mbs_runtime::Function {
                 name: "outputs",
@@ -1707,6 +1739,8 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                     other: 0u32,
                     watch: 0u32,
                 },
+                written: 1u32,
+                loops: 0u32,
             },
         ],
     );
