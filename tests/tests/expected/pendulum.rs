@@ -389,30 +389,6 @@ Cost: 3 mul + 2 add + 0 div + 0 sincos.*/
             rod: phi_rod,
         }
     }
-    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
-
-```text
-∂rod/∂x = x/length
-∂rod/∂y = y/length
-```
-
-
-Cost: 2 mul + 0 add + 0 div + 0 sincos.*/
-    #[inline]
-    pub fn phi_q(
-        &self,
-        t: T,
-        q: &PendulumCoordinates<T>,
-    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 1usize, 2usize> {
-        let phi_q_rod_x = self.hoisted[2] * q.x;
-        let phi_q_rod_y = self.hoisted[2] * q.y;
-        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
-            ::mbs_runtime::__private::nalgebra::ArrayStorage([
-                [phi_q_rod_x],
-                [phi_q_rod_y],
-            ]),
-        )
-    }
     /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
 
 ```text
@@ -501,6 +477,30 @@ Cost: 13 mul + 6 add + 0 div + 0 sincos.*/
         let v17 = v16 - v5;
         let v18 = v11 + v17;
         PendulumConstraints { rod: v18 }
+    }
+    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
+
+```text
+∂rod/∂x = x/length
+∂rod/∂y = y/length
+```
+
+
+Cost: 2 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline]
+    pub fn phi_q(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 1usize, 2usize> {
+        let phi_q_rod_x = self.hoisted[2] * q.x;
+        let phi_q_rod_y = self.hoisted[2] * q.y;
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [phi_q_rod_x],
+                [phi_q_rod_y],
+            ]),
+        )
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
 

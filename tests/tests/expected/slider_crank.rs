@@ -642,116 +642,6 @@ Cost: 9 mul + 10 add + 0 div + 2 sincos.*/
             slider: phi_slider,
         }
     }
-    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
-
-```text
-∂crank_x/∂x1 = 1
-∂crank_x/∂theta1 = 1/2*l1*sin(theta1)
-∂crank_y/∂y1 = 1
-∂crank_y/∂theta1 = -1/2*l1*cos(theta1)
-∂crank_speed/∂theta1 = 1
-∂rod_x/∂theta1 = l1*sin(theta1)
-∂rod_x/∂x2 = 1
-∂rod_x/∂theta2 = 1/2*l2*sin(theta2)
-∂rod_y/∂theta1 = -l1*cos(theta1)
-∂rod_y/∂y2 = 1
-∂rod_y/∂theta2 = -1/2*l2*cos(theta2)
-∂guide/∂theta1 = l1*cos(theta1)
-∂guide/∂theta2 = l2*cos(theta2)
-∂slider/∂theta1 = l1*sin(theta1)
-∂slider/∂theta2 = l2*sin(theta2)
-∂slider/∂x3 = 1
-```
-
-
-Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
-    #[inline]
-    pub fn phi_q(
-        &self,
-        t: T,
-        q: &SliderCrankCoordinates<T>,
-    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
-        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
-        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
-        let phi_q_crank_x_theta1 = self.hoisted[0] * sin_theta1;
-        let v5 = self.hoisted[0] * cos_theta1;
-        let phi_q_crank_y_theta1 = -v5;
-        let phi_q_rod_x_theta1 = self.parameters.l1 * sin_theta1;
-        let phi_q_rod_x_theta2 = self.hoisted[1] * sin_theta2;
-        let phi_q_guide_theta1 = self.parameters.l1 * cos_theta1;
-        let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
-        let v11 = self.hoisted[1] * cos_theta2;
-        let phi_q_rod_y_theta2 = -v11;
-        let phi_q_guide_theta2 = self.parameters.l2 * cos_theta2;
-        let phi_q_slider_theta2 = self.parameters.l2 * sin_theta2;
-        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
-            ::mbs_runtime::__private::nalgebra::ArrayStorage([
-                [
-                    T::from_f64(1.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                ],
-                [
-                    T::from_f64(0.0),
-                    T::from_f64(1.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                ],
-                [
-                    phi_q_crank_x_theta1,
-                    phi_q_crank_y_theta1,
-                    T::from_f64(1.0),
-                    phi_q_rod_x_theta1,
-                    phi_q_rod_y_theta1,
-                    phi_q_guide_theta1,
-                    phi_q_rod_x_theta1,
-                ],
-                [
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(1.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                ],
-                [
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(1.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                ],
-                [
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    phi_q_rod_x_theta2,
-                    phi_q_rod_y_theta2,
-                    phi_q_guide_theta2,
-                    phi_q_slider_theta2,
-                ],
-                [
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(0.0),
-                    T::from_f64(1.0),
-                ],
-            ]),
-        )
-    }
     /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
 
 ```text
@@ -982,6 +872,116 @@ Cost: 43 mul + 37 add + 0 div + 2 sincos.*/
             guide: v72,
             slider: v83,
         }
+    }
+    /**Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:
+
+```text
+∂crank_x/∂x1 = 1
+∂crank_x/∂theta1 = 1/2*l1*sin(theta1)
+∂crank_y/∂y1 = 1
+∂crank_y/∂theta1 = -1/2*l1*cos(theta1)
+∂crank_speed/∂theta1 = 1
+∂rod_x/∂theta1 = l1*sin(theta1)
+∂rod_x/∂x2 = 1
+∂rod_x/∂theta2 = 1/2*l2*sin(theta2)
+∂rod_y/∂theta1 = -l1*cos(theta1)
+∂rod_y/∂y2 = 1
+∂rod_y/∂theta2 = -1/2*l2*cos(theta2)
+∂guide/∂theta1 = l1*cos(theta1)
+∂guide/∂theta2 = l2*cos(theta2)
+∂slider/∂theta1 = l1*sin(theta1)
+∂slider/∂theta2 = l2*sin(theta2)
+∂slider/∂x3 = 1
+```
+
+
+Cost: 8 mul + 3 add + 0 div + 2 sincos.*/
+    #[inline]
+    pub fn phi_q(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+    ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 7usize, 7usize> {
+        let (sin_theta1, cos_theta1) = q.theta1.sin_cos();
+        let (sin_theta2, cos_theta2) = q.theta2.sin_cos();
+        let phi_q_crank_x_theta1 = self.hoisted[0] * sin_theta1;
+        let v5 = self.hoisted[0] * cos_theta1;
+        let phi_q_crank_y_theta1 = -v5;
+        let phi_q_rod_x_theta1 = self.parameters.l1 * sin_theta1;
+        let phi_q_rod_x_theta2 = self.hoisted[1] * sin_theta2;
+        let phi_q_guide_theta1 = self.parameters.l1 * cos_theta1;
+        let phi_q_rod_y_theta1 = -phi_q_guide_theta1;
+        let v11 = self.hoisted[1] * cos_theta2;
+        let phi_q_rod_y_theta2 = -v11;
+        let phi_q_guide_theta2 = self.parameters.l2 * cos_theta2;
+        let phi_q_slider_theta2 = self.parameters.l2 * sin_theta2;
+        ::mbs_runtime::__private::nalgebra::SMatrix::from_data(
+            ::mbs_runtime::__private::nalgebra::ArrayStorage([
+                [
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    phi_q_crank_x_theta1,
+                    phi_q_crank_y_theta1,
+                    T::from_f64(1.0),
+                    phi_q_rod_x_theta1,
+                    phi_q_rod_y_theta1,
+                    phi_q_guide_theta1,
+                    phi_q_rod_x_theta1,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    phi_q_rod_x_theta2,
+                    phi_q_rod_y_theta2,
+                    phi_q_guide_theta2,
+                    phi_q_slider_theta2,
+                ],
+                [
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(0.0),
+                    T::from_f64(1.0),
+                ],
+            ]),
+        )
     }
     /**Mass matrix M. Its diagonal, all that is not 0:
 

@@ -1,7 +1,5 @@
 //! The generated functions.
 
-use std::collections::BTreeMap;
-
 use mbs_symbolic::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -10,6 +8,7 @@ use super::access::Access;
 use super::derivation;
 use super::docs;
 use super::info;
+use super::matrices;
 use super::names::{Names, field};
 use super::program::{Body, body};
 use super::sketch;
@@ -19,33 +18,6 @@ use crate::plan::Plan;
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
-
-/// A matrix: written out, or if it is large and so mostly zeros, by its entries.
-fn matrix(
-    nalgebra: &TokenStream,
-    (rows, columns): (usize, usize),
-    entries: &BTreeMap<(usize, usize), TokenStream>,
-) -> TokenStream {
-    const LARGEST_WRITTEN_OUT: usize = 400;
-    if rows * columns <= LARGEST_WRITTEN_OUT {
-        let columns = (0..columns).map(|column| {
-            let entry =
-                |row| entries.get(&(row, column)).cloned().unwrap_or_else(|| quote!(T::from_f64(0.0)));
-            let entries = (0..rows).map(entry);
-            quote!([#(#entries),*])
-        });
-        return quote!(#nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([#(#columns),*])));
-    }
-    let assignments = entries.iter().map(|(&(row, column), value)| {
-        let (row, column) = (Literal::usize_unsuffixed(row), Literal::usize_unsuffixed(column));
-        quote!(matrix.data.0[#column][#row] = #value;)
-    });
-    quote! {
-        let mut matrix = #nalgebra::SMatrix::from_data(#nalgebra::ArrayStorage([[T::from_f64(0.0); #rows]; #columns]));
-        #(#assignments)*
-        matrix
-    }
-}
 
 /// The fields of the two vectors that most functions return.
 struct Fields {
@@ -74,7 +46,7 @@ fn inlining(model: &Model) -> TokenStream {
 
 /// The public functions that compute one thing each.
 pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names) -> TokenStream {
-    let Names { mechanism, runtime, nalgebra, state, reactions, .. } = names;
+    let Names { mechanism, runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let fields = Fields::new(model);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
@@ -96,18 +68,6 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
         let (statements, value) = (&body.statements, body.vector(q, &fields.coordinates, 0..n));
         quote!(#statements #value)
     };
-    let phi_q = {
-        let Body { statements, outputs, .. } = body(model, names, &plan.phi_q, &position);
-        let entries = plan.phi_q_places.iter().copied().zip(outputs).collect();
-        let matrix = matrix(nalgebra, (m, n), &entries);
-        quote!(#statements #matrix)
-    };
-    let mass = {
-        let Body { statements, outputs, .. } = body(model, names, &plan.mass, &position);
-        let diagonal = outputs.into_iter().enumerate().map(|(at, mass)| ((at, at), mass)).collect();
-        let matrix = matrix(nalgebra, (n, n), &diagonal);
-        quote!(#statements #matrix)
-    };
     let scalar = |program: &Program| {
         let Body { statements, outputs, .. } = body(model, names, program, &at_state);
         quote!(#statements #(#outputs)*)
@@ -115,19 +75,15 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
     let (kinetic, potential) = (scalar(&plan.kinetic_energy), scalar(&plan.potential_energy));
     let inline = inlining(model);
     let d = docs::Functions::new(model, equations, plan);
-    let (phi_doc, phi_q_doc, phi_t_doc, gamma_doc) = (d.phi(), d.phi_q(), d.phi_t(), d.gamma());
-    let (rhs_doc, mass_doc, forces_doc, accelerations_doc) =
-        (d.baumgarte_rhs(), d.mass(), d.forces(), d.accelerations());
+    let (phi_doc, phi_t_doc, gamma_doc) = (d.phi(), d.phi_t(), d.gamma());
+    let (rhs_doc, forces_doc, accelerations_doc) = (d.baumgarte_rhs(), d.forces(), d.accelerations());
+    let matrices = matrices::emit(model, plan, names, &d);
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> {
             #[doc = #phi_doc]
             #inline
             pub fn phi(&self, t: T, q: &#q) -> #rows { #phi }
-
-            #[doc = #phi_q_doc]
-            #[inline]
-            pub fn phi_q(&self, t: T, q: &#q) -> #nalgebra::SMatrix<T, #m, #n> { #phi_q }
 
             #[doc = #phi_t_doc]
             #[inline]
@@ -149,9 +105,7 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
                 #baumgarte_rhs
             }
 
-            #[doc = #mass_doc]
-            #[inline]
-            pub fn mass(&self, q: &#q) -> #nalgebra::SMatrix<T, #n, #n> { #mass }
+            #matrices
 
             #[doc = #forces_doc]
             #[inline]

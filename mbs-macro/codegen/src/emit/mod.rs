@@ -7,6 +7,7 @@ mod docs;
 mod functions;
 mod info;
 mod long;
+mod matrices;
 mod names;
 mod program;
 mod sketch;
