@@ -237,6 +237,11 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
 }
 
 #[cfg(test)]
+#[allow(
+    clippy::nonminimal_bool,
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "comparisons of lanes are tested"
+)]
 mod tests {
     use super::Lanes;
     use crate::Real;

@@ -30,8 +30,8 @@ pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 /// `N` simulations that advance by a step at once, one in each lane: parameters,
 /// inputs, states, gains, steps and times are their own.
 ///
-/// What a lane does is what its [`Simulation`] would do alone, within what
-/// [`Lanes`] says. A lane that cannot make a step stays where it is and
+/// In `f64` a lane does what its [`Simulation`] would do alone, bit for bit; in `f32`
+/// within what [`Lanes`] says. A lane that cannot make a step stays where it is and
 /// does not touch the others.
 ///
 /// # Example
@@ -159,9 +159,8 @@ fn trial_of_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
         let t = start_time + Straight::from_f64(taken) * step;
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
         let trial = trial::<Each<M>, F>(&mechanism, &now.state_of(lane), &inputs, &gains, step, t);
-        // NaN if anything is not finite, and NaN is below no limit
-        let sum = sum_of(trial.next.q) + sum_of(trial.next.v);
-        let is_healthy = (trial.here.1 + trial.there.1) + (sum - sum) < growth_limit();
+        let trouble = trouble_of(sum_of(trial.next.q) + sum_of(trial.next.v));
+        let is_healthy = (trial.here.1 + trial.there.1) + trouble < growth_limit();
         sick |= u64::from(!is_healthy);
         next.steps.0[lane] = taken;
         next.t.0[lane] = t.0;
@@ -339,8 +338,7 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
             let at = self.moment.state_of(lane);
             let reactions = mechanism.reactions(&at, &inputs, &none);
             put(&mut outputs, lane, mechanism.outputs(&at, &inputs, &reactions));
-            let sum = sum_of(reactions.acceleration);
-            healthy[lane] = reactions.growth + (sum - sum) < growth_limit();
+            healthy[lane] = reactions.growth + trouble_of(sum_of(reactions.acceleration)) < growth_limit();
         }
         (ManyOutputs::<M, N>::from_array(outputs), healthy)
     }
@@ -353,6 +351,13 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         let is_healthy = reactions.growth < growth_limit() && reactions.acceleration.is_finite();
         (self.mechanism().outputs(&at, &inputs, &reactions), [is_healthy; N])
     }
+}
+
+/// 0 if a sum is finite, else NaN, which is below no limit.
+#[inline(always)]
+#[allow(clippy::eq_op, reason = "infinity minus infinity is not 0")]
+fn trouble_of<T: Real>(sum: T) -> T {
+    sum - sum
 }
 
 /// Not finite if a component is not.

@@ -5,7 +5,7 @@ mod paper;
 
 use std::process::ExitCode;
 
-use mbs_workbench::model::{of, with};
+use mbs_workbench::model::{in_lanes, of, with};
 use mbs_workbench::{Model, Settings};
 
 fn main() -> ExitCode {
@@ -20,9 +20,10 @@ fn main() -> ExitCode {
 fn library() -> Vec<(&'static str, Box<dyn Model>)> {
     // 20 000 steps that have to follow 300 rad/s
     let fast = Settings { step: 20e-6, end: 0.4, ..Settings::default() };
+    let usual = Settings::default();
     vec![
-        ("slider-crank", of::<models::SliderCrank>()),
-        ("slider-crank-free", of::<models::SliderCrankFree>()),
+        ("slider-crank", in_lanes::<models::SliderCrank>(usual.clone())),
+        ("slider-crank-free", in_lanes::<models::SliderCrankFree>(usual.clone())),
         ("pendulum", of::<models::Pendulum>()),
         ("double-pendulum", of::<models::DoublePendulum>()),
         ("n-pendulum-1", of::<models::NPendulum1>()),
@@ -33,7 +34,7 @@ fn library() -> Vec<(&'static str, Box<dyn Model>)> {
         ("spring-mass-damper", of::<models::SpringMassDamper>()),
         ("metronome", of::<models::Metronome>()),
         ("block-on-incline", of::<models::BlockOnIncline>()),
-        ("four-bar", of::<models::FourBar>()),
+        ("four-bar", in_lanes::<models::FourBar>(usual)),
         ("four-bar-free", of::<models::FourBarFree>()),
         ("n-four-bar-1", of::<models::NFourBar1>()),
         ("n-four-bar-2", of::<models::NFourBar2>()),

@@ -219,3 +219,84 @@ fn explain_writes_latex() {
     // and what is no letter of LaTeX does not occur
     assert!(text.is_ascii(), "{text}");
 }
+
+fn sweep(folder: &Path, arguments: &str) -> (String, Vec<Vec<String>>) {
+    let output = mbs(folder, &format!("sweep {arguments} --out out.csv --plot out.svg"));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let csv = std::fs::read_to_string(folder.join("out.csv")).unwrap();
+    let rows = csv.lines().map(|line| line.split(',').map(str::to_owned).collect());
+    (String::from_utf8(output.stdout).unwrap(), rows.collect())
+}
+
+/// The crank turns by ωt exactly, one and a half turns at 300 rpm.
+#[test]
+fn a_sweep_over_two_parameters() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = "slider-crank --param omega=100rpm..300rpm:3 --param l1=50mm..60mm:2 --end 0.3s";
+    let (report, rows) = sweep(folder.path(), &format!("{grid} --output theta1 --output drive_torque"));
+    assert_eq!(
+        rows[0][..5],
+        ["omega [rpm]", "l1 [mm]", "min theta1 [rad]", "max theta1 [rad]", "final theta1 [rad]"]
+    );
+    assert_eq!(rows.len(), 7);
+    let number = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+    for (row, (rpm, crank)) in
+        [(100.0, 50.0), (200.0, 50.0), (300.0, 50.0), (100.0, 60.0)].into_iter().enumerate()
+    {
+        assert!((number(row + 1, 0) - rpm).abs() < 1e-9 && (number(row + 1, 1) - crank).abs() < 1e-9);
+        let angle = rpm * std::f64::consts::TAU / 60.0 * 0.3;
+        assert!((number(row + 1, 4) - angle).abs() < 1e-9 && number(row + 1, 2).abs() < 1e-9);
+        assert_eq!(rows[row + 1].last().unwrap(), "");
+    }
+    for part in ["largest peak", "drive_torque", "l1 = 60 mm, omega", "written: out.csv"] {
+        let part = part.replace("l1 = 60 mm, omega", "omega = 300 rpm, l1 = 60 mm");
+        assert!(report.contains(&part), "{report}");
+    }
+    let svg = std::fs::read_to_string(folder.path().join("out.svg")).unwrap();
+    assert!(svg.contains("peak drive torque") && svg.contains("omega (rpm)"));
+    assert!(!folder.path().join("out.csv.part").exists());
+}
+
+/// A rod that is not longer than the crank gets stuck.
+#[test]
+fn a_sweep_with_gaps() {
+    let folder = tempfile::tempdir().unwrap();
+    let (report, rows) = sweep(folder.path(), "slider-crank --param l2=40mm..140mm:6 --end 0.3s --show max");
+    assert!(report.contains("note: 2 of 6 runs failed, the first one at l2 = 40 mm: "), "{report}");
+    assert_eq!(rows[1][1..4], ["", "", ""]);
+    assert!(!rows[1][4].is_empty() && rows[3][4].is_empty() && !rows[3][1].is_empty(), "{rows:?}");
+    refuses("sweep slider-crank --param l2=30mm..40mm:3 --end 0.3s", &["3 of 3 runs failed", "l2 = 30 mm"]);
+}
+
+/// Lanes and one run after the other come to the same digits.
+#[test]
+fn sweeps_of_mechanisms_with_and_without_lanes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, rows) = sweep(folder.path(), "pendulum --param length=0.5m..1m:3 --end 0.5s");
+    assert_eq!(rows.len(), 4);
+    let (_, rows) = sweep(folder.path(), "slider-crank --param l1=50mm..60mm:3 --end 0.1s --output x3");
+    let (_, one) = sweep(folder.path(), "slider-crank --param l1=55mm..60mm:2 --end 0.1s --output x3");
+    assert_eq!(rows[2], one[1]);
+}
+
+#[test]
+fn sweeps_that_are_asked_wrongly() {
+    refuses("sweep slider-crank --param l2=30mm", &["not a range", "l2=LOW..HIGH:COUNT"]);
+    refuses("sweep slider-crank --param l2=30mm..50mm", &["how many values"]);
+    refuses("sweep slider-crank --param l2=30mm..50mm:x", &["`x` is not a number of values"]);
+    refuses("sweep slider-crank --param l2=50mm..30mm:3", &["first value has to be smaller"]);
+    refuses("sweep slider-crank --param l2=3kg..4kg:3", &["a mass [kg] was given"]);
+    refuses("sweep slider-crank --param l2=1mm..4mm:1", &["two values at least"]);
+    refuses("sweep slider-crank --param rod=1mm..4mm:3", &["no parameter `rod`", "l1, l2"]);
+    refuses("sweep slider-crank --param l2=1mm..4mm:3 --param l2=1mm..4mm:3", &["`l2`", "swept twice"]);
+    refuses(
+        "sweep slider-crank --param l2=1mm..2mm:9999 --param l1=1mm..2mm:99999",
+        &["at most 100000000 runs"],
+    );
+    refuses(
+        "sweep slider-crank --param l2=1mm..4mm:3 --output torqe",
+        &["no output `torqe`", "drive_torque"],
+    );
+    refuses("sweep slider-crank --param l2=1mm..4mm:3 --plot a.pdf", &["a.pdf", ".svg or .png"]);
+    refuses("sweep slider-crank --param l2=1mm..4mm:3 --out no/such/a.csv", &["cannot write no/such/a.csv"]);
+}

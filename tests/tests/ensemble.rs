@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use mbs_ensemble::{Cancelled, Ensemble, Extremes, Run, Samples, Violation};
 use mbs_runtime::{Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, mechanism};
 use models::{DoublePendulum, FourBar, SliderCrank, SliderCrankFree, SliderCrankParameters};
-use models::{SliderCrankFreeInputs, SliderCrankFreeParameters};
+use models::{NFourBar2, NFourBar2Parameters, SliderCrankFreeInputs, SliderCrankFreeParameters};
 
 const H: f64 = 0.5e-3;
 const END: f64 = 0.5;
@@ -228,6 +228,77 @@ fn a_failing_lane_disturbs_nobody() {
         if run.ended.is_none() {
             assert_eq!(Ok(run), undisturbed);
         }
+    }
+}
+
+/// To the same end as its simulation alone: state, steps and error.
+fn same_end<M: Mechanism<Real = f64>>(
+    count: usize,
+    end: f64,
+    member: impl Fn(usize) -> Result<Simulation<M>, Error> + Sync,
+) -> Vec<Option<Error>> {
+    let outcomes = Ensemble::new(end).run(count, &member, &Violation).expect("nobody cancels");
+    let ended = outcomes.into_iter().enumerate().map(|(index, outcome)| {
+        let run = outcome.expect("a start");
+        let mut simulation = member(index).expect("a start");
+        let alone = simulation.advance_to(end).err();
+        // as text: a growth may be NaN
+        assert_eq!(format!("{:?}", run.ended), format!("{alone:?}"), "{} {index}", M::INFO.name);
+        assert_eq!((run.state, run.steps), (*simulation.state(), simulation.steps()));
+        run.ended
+    });
+    ended.collect()
+}
+
+/// Steps that end on θ = 0, ±90° and 180°, to rounding, for three turns.
+#[test]
+fn through_dead_centres() {
+    let quarter = |steps: usize| std::f64::consts::FRAC_PI_2 / (steps as f64 * H);
+    let ended = same_end(11, 0.6, |index| {
+        let parameters = SliderCrankParameters { omega: quarter(100 - 5 * index), ..Default::default() };
+        Simulation::new(SliderCrank::new(parameters)?, H)
+    });
+    assert!(ended.iter().all(Option::is_none), "{ended:?}");
+    // without a drive the crank is carried over them
+    let ended = same_end(11, 1.0, |index| {
+        let omega = quarter(100 - 5 * index);
+        let parameters = SliderCrankFreeParameters { omega, ..Default::default() };
+        Simulation::new(SliderCrankFree::new(parameters)?, H)
+    });
+    assert!(ended.iter().all(Option::is_none), "{ended:?}");
+}
+
+/// A row of parallelograms passes its change points between steps. One that starts
+/// in a change point is singular at once, beside neighbours that do not notice.
+#[test]
+fn change_points_of_parallelograms() {
+    let member = |index: usize| {
+        let parameters = NFourBar2Parameters { speed: 1.0 + 0.05 * index as f64, ..Default::default() };
+        Simulation::new(NFourBar2::new(parameters)?, 1e-3)
+    };
+    let ended = same_end(11, 3.0, member);
+    assert!(ended.iter().filter(|ended| ended.is_none()).count() >= 9, "{ended:?}");
+    let some_flat = |index: usize| {
+        let simulation = member(index)?;
+        let mut state = *simulation.state();
+        if index == 3 {
+            // uprights lie to the right, bars too
+            let coordinates: &[&str] = <NFourBar2 as Mechanism>::Coordinates::NAMES;
+            for name in coordinates {
+                let at = name.rsplit('_').next().and_then(|digit| digit.parse::<f64>().ok()).unwrap_or(0.0);
+                let value = match name.split('_').next() {
+                    Some("xu") => at + 0.5,
+                    Some("xb") => at + 0.5,
+                    _ => 0.0,
+                };
+                state.q = state.q.with(name, value).unwrap_or(state.q);
+            }
+        }
+        Simulation::builder(*simulation.mechanism(), 1e-3).from_state(state).as_declared().build()
+    };
+    let ended = same_end(8, 0.2, some_flat);
+    for (index, ended) in ended.iter().enumerate() {
+        assert_eq!(matches!(ended, Some(Error::Singular { .. })), index == 3, "{index}: {ended:?}");
     }
 }
 

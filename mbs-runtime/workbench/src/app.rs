@@ -6,14 +6,14 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
-use crate::command::{explain, list, new, simulate};
+use crate::command::{explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::{Error, Model, model};
 
 /// What a command of the embedding program does.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
-/// A command line for mechanisms: `list`, `explain`, `simulate`, `new`, and whatever the
+/// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `new`, and whatever the
 /// embedding program adds.
 ///
 /// # Example
@@ -142,6 +142,7 @@ impl App {
             .subcommand(list::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
+            .subcommand(sweep::command())
             .subcommand(new::command())
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
     }
@@ -151,6 +152,7 @@ impl App {
             Some(("list", _)) => list::run(&self.models),
             Some(("explain", matches)) => explain::run(&self.models, matches),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
+            Some(("sweep", matches)) => sweep::run(&self.models, matches),
             Some(("new", matches)) => new::run(matches),
             Some((name, matches)) => self.added(name, matches),
             None => self.without_command(),

@@ -57,6 +57,24 @@ pub enum Error {
         /// Where the results up to then are, as a clause to append.
         kept: String,
     },
+    /// Runs of a sweep that failed.
+    #[error("{failed} of {of} runs failed, the first one at {first}: {cause}")]
+    Sweep {
+        /// How many.
+        failed: usize,
+        /// How many runs there were.
+        of: usize,
+        /// The parameters of the first one that failed.
+        first: String,
+        /// Why it did.
+        cause: mbs_runtime::Error,
+    },
+    /// More runs than anybody waits for.
+    #[error("a sweep has at most {most} runs; take fewer values")]
+    TooManyRuns {
+        /// How many it may have.
+        most: usize,
+    },
     /// More rows than a table should hold.
     #[error("{rows} rows would be recorded; take a longer step, an earlier end, or --every {every}")]
     TooManyRows {

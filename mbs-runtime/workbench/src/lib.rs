@@ -1,8 +1,8 @@
 //! What a person at a desk uses to work with mechanisms that `mechanism!`
 //! compiled: a command line, recordings, sweeps, figures and reports.
 //!
-//! - [`app`] gives a program of one line the commands `list`, `simulate` and
-//!   `new` for its own mechanisms.
+//! - [`app`] gives a program of one line the commands `list`, `simulate`, `sweep`
+//!   and `new` for its own mechanisms.
 //! - [`model::of`] takes any [`Mechanism`](mbs_runtime::Mechanism) in `f64` as
 //!   a [`Model`], whose type no longer matters; [`Model::simulate`] runs it with
 //!   [`Settings`] and gives a [`Recording`].
@@ -42,6 +42,7 @@ mod command;
 mod console;
 mod error;
 pub mod figure;
+pub mod members;
 pub mod model;
 mod names;
 pub mod number;

@@ -7,6 +7,7 @@ use mbs_runtime::{
     Simulation,
 };
 
+use crate::members::{self, Members};
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
 use crate::{Error, Motion, picture, quantity};
@@ -44,6 +45,13 @@ pub trait Model: Send + Sync {
     /// # Errors
     /// Settings that the mechanism does not have or refuses.
     fn motion(&self, settings: &Settings, recording: &Recording) -> Result<Motion, Error>;
+
+    /// Runs simulations that differ in parameters, on all cores.
+    ///
+    /// # Errors
+    /// Settings that the mechanism does not have or refuses; what happens to a
+    /// member is no error here.
+    fn sweep(&self, settings: &Settings, members: Members<'_>) -> Result<(), Error>;
 }
 
 /// The mechanism `M` as a [`Model`].
@@ -54,11 +62,18 @@ pub fn of<M: Mechanism<Real = f64>>() -> Box<dyn Model> {
 /// The mechanism `M` as a [`Model`] with defaults of its own: a fast mechanism
 /// needs a smaller step.
 pub fn with<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
-    Box::new(Typed::<M> { defaults, mechanism: PhantomData })
+    Box::new(Typed::<M> { defaults, sweep: members::one_by_one::<M>, mechanism: PhantomData })
+}
+
+/// The mechanism `M` as a [`Model`] whose sweeps run eight members to a vector
+/// instruction: some times faster, and some seconds more to compile.
+pub fn in_lanes<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
+    Box::new(Typed::<M> { defaults, sweep: members::in_lanes::<M>, mechanism: PhantomData })
 }
 
 struct Typed<M> {
     defaults: Settings,
+    sweep: fn(&Settings, Members<'_>) -> Result<(), Error>,
     mechanism: PhantomData<M>,
 }
 
@@ -103,31 +118,62 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         }
         Ok(motion)
     }
+
+    fn sweep(&self, settings: &Settings, members: Members<'_>) -> Result<(), Error> {
+        (self.sweep)(settings, members)
+    }
+}
+
+/// What a run is made of, but for the parameters.
+pub(crate) struct Start<M: Mechanism, F: Feedback> {
+    /// The declared parameters with those of the settings.
+    pub parameters: M::Parameters,
+    inputs: M::Inputs,
+    gains: Baumgarte<F>,
+    step: f64,
+    kind: StartKind,
+    allow_unstable: bool,
+}
+
+impl<M: Mechanism<Real = f64>, F: Feedback> Start<M, F> {
+    pub fn of(settings: &Settings) -> Result<Self, Error> {
+        let step = settings.step;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(mbs_runtime::Error::Step { step }.into());
+        }
+        let deadbeat = Baumgarte::<F>::deadbeat(step);
+        Ok(Self {
+            parameters: assign("parameter", M::Parameters::default(), &settings.parameters)?,
+            inputs: assign("input", M::Inputs::default(), &settings.inputs)?,
+            gains: Baumgarte::<F>::new(
+                settings.alpha.unwrap_or(deadbeat.alpha()),
+                settings.beta.unwrap_or(deadbeat.beta()),
+            )?,
+            step,
+            kind: settings.start,
+            allow_unstable: settings.allow_unstable,
+        })
+    }
+
+    pub fn simulation(&self, parameters: M::Parameters) -> Result<Simulation<M, F>, mbs_runtime::Error> {
+        let builder = Simulation::builder(M::new(parameters)?, self.step);
+        let mut builder = builder.baumgarte(self.gains).inputs(self.inputs);
+        if self.kind == StartKind::Declared {
+            builder = builder.as_declared();
+        }
+        if self.allow_unstable {
+            builder = builder.allow_unstable();
+        }
+        builder.build()
+    }
 }
 
 fn run<M: Mechanism<Real = f64>, F: Feedback>(
     settings: &Settings,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Recording, Error> {
-    let parameters = assign("parameter", M::Parameters::default(), &settings.parameters)?;
-    let inputs = assign("input", M::Inputs::default(), &settings.inputs)?;
-    let step = settings.step;
-    if !(step > 0.0 && step.is_finite()) {
-        return Err(mbs_runtime::Error::Step { step }.into());
-    }
-    let deadbeat = Baumgarte::<F>::deadbeat(step);
-    let gains = Baumgarte::<F>::new(
-        settings.alpha.unwrap_or(deadbeat.alpha()),
-        settings.beta.unwrap_or(deadbeat.beta()),
-    )?;
-    let mut builder = Simulation::builder(M::new(parameters)?, step).baumgarte(gains).inputs(inputs);
-    if settings.start == StartKind::Declared {
-        builder = builder.as_declared();
-    }
-    if settings.allow_unstable {
-        builder = builder.allow_unstable();
-    }
-    let simulation = builder.build()?;
+    let start = Start::<M, F>::of(settings)?;
+    let simulation = start.simulation(start.parameters)?;
     let steps = simulation.steps_to(settings.end)?;
     let every = settings.every.max(1);
     if steps / every > MAX_ROWS {
@@ -208,7 +254,7 @@ fn columns(info: &Info) -> Vec<Column> {
 }
 
 /// An output is shown in the unit that it was declared in.
-fn output_unit(output: &Quantity) -> String {
+pub(crate) fn output_unit(output: &Quantity) -> String {
     if output.unit.is_empty() { quantity::si_unit(output.dimension) } else { output.unit.to_owned() }
 }
 

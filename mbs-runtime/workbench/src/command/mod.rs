@@ -3,5 +3,7 @@
 pub(crate) mod explain;
 pub(crate) mod list;
 pub(crate) mod new;
+mod options;
 mod page;
 pub(crate) mod simulate;
+pub(crate) mod sweep;

@@ -33,18 +33,20 @@ impl Figure {
     /// # Errors
     /// [`Error::Name`] for another ending, [`Error::File`] if it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-        let bytes = match ending.as_str() {
-            "svg" => self.svg()?.into_bytes(),
-            "png" => self.png()?,
-            _ => {
-                return Err(Error::Name {
-                    name: path.display().to_string(),
-                    reason: "a picture has to end in .svg or .png".into(),
-                });
-            }
-        };
+        Self::check_ending(path)?;
+        let is_svg = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let bytes = if is_svg { self.svg()?.into_bytes() } else { self.png()? };
         std::fs::write(path, bytes).map_err(Error::file("write", path))
+    }
+
+    /// Whether a picture can be written to a file of this name.
+    pub(crate) fn check_ending(path: &Path) -> Result<(), Error> {
+        let is = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
+        if is("svg") || is("png") {
+            return Ok(());
+        }
+        let reason = "a picture has to end in .svg or .png".into();
+        Err(Error::Name { name: path.display().to_string(), reason })
     }
 
     /// The figure as the text of an SVG file.

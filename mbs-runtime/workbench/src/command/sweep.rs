@@ -1,0 +1,269 @@
+//! `mbs sweep`: one mechanism over a grid of one or two parameters.
+
+mod axis;
+mod rows;
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+
+use self::axis::{Grid, GridAxis};
+use self::rows::Rows;
+use super::options::{self, option, settings};
+use crate::app::Models;
+use crate::figure::{Axis, Figure, HeatMap, Panel, Series, Stroke};
+use crate::members::{Extent, Member, Members, quantities};
+use crate::number::significant;
+use crate::sweep::Progress;
+use crate::{Error, Model, Settings, Table, say};
+
+const EXAMPLE: &str = "\
+Example:
+  mbs sweep slider-crank --param l1=50mm..80mm:31 --param omega=100rpm..300rpm:41 \\
+      --output drive_torque --end 0.6s --out sweep.csv --plot sweep.svg
+
+A run that fails is a gap in the picture and says why in the table. A file is there
+once the sweep is complete; one that was interrupted leaves FILE.part.";
+
+pub(crate) fn command() -> Command {
+    Command::new("sweep")
+        .about("Simulate a mechanism over a grid of one or two parameters")
+        .after_help(EXAMPLE)
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`"))
+        .arg(
+            option(
+                "param",
+                "NAME=LOW..HIGH:COUNT",
+                "A parameter and its values, both ends included, such as l1=50mm..120mm:20; once or twice",
+            )
+            .action(ArgAction::Append)
+            .required(true),
+        )
+        .arg(
+            option(
+                "output",
+                "NAME",
+                "An output or a coordinate to look at; repeatable [default: all outputs]",
+            )
+            .action(ArgAction::Append),
+        )
+        .arg(
+            option("show", "WHAT", "What of it is drawn; a peak is the largest magnitude")
+                .value_parser(PossibleValuesParser::new(["peak", "max", "min", "final"]))
+                .default_value("peak"),
+        )
+        .args(options::of_a_run())
+        .arg(
+            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run")
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            option("plot", "FILE.svg|.png", "Draw curves over one parameter, heat maps over two")
+                .value_parser(value_parser!(PathBuf)),
+        )
+}
+
+/// What is looked at of a mechanism.
+struct Watched {
+    /// Its place among all [`quantities`].
+    at: usize,
+    name: &'static str,
+    unit: String,
+}
+
+/// What is drawn and summed up of an extent.
+#[derive(Clone, Copy)]
+enum Shown {
+    Peak,
+    Max,
+    Min,
+    Final,
+}
+
+impl Shown {
+    fn of(self, extent: &Extent) -> f64 {
+        match self {
+            Self::Peak => extent.high.abs().max(extent.low.abs()),
+            Self::Max => extent.high,
+            Self::Min => extent.low,
+            Self::Final => extent.last,
+        }
+    }
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+    let text = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
+    let name = text("model");
+    let model = models.get(name)?;
+    let settings = settings(model, matches)?;
+    let axes = matches.get_many::<String>("param").unwrap_or_default();
+    let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;
+    let named: Vec<&String> = matches.get_many("output").unwrap_or_default().collect();
+    let watched = watched(model, &named)?;
+    let shown = match text("show") {
+        "max" => Shown::Max,
+        "min" => Shown::Min,
+        "final" => Shown::Final,
+        _ => Shown::Peak,
+    };
+    let path = |name: &str| matches.get_one::<PathBuf>(name);
+    // before the work, so that a bad name is told at once
+    if let Some(path) = path("plot") {
+        Figure::check_ending(path)?;
+    }
+    let mut sweep = Sweep {
+        rows: path("out").map(|path| Rows::create(path, &grid, &watched)).transpose()?,
+        values: vec![Vec::new(); watched.len()],
+        failures: 0,
+        first_failure: None,
+        grid: &grid,
+        watched: &watched,
+        shown,
+    };
+    sweep.carry_out(name, model, &settings)?;
+    sweep.finish(name, text("show"), path("plot").map(PathBuf::as_path))
+}
+
+/// The named quantities; all outputs if none are named, all coordinates if there are
+/// no outputs.
+fn watched(model: &dyn Model, names: &[&String]) -> Result<Vec<Watched>, Error> {
+    let info = model.info();
+    let all = quantities(info).into_iter().enumerate();
+    let all: Vec<_> = all.map(|(at, (name, unit, _))| Watched { at, name, unit }).collect();
+    for name in names {
+        if !all.iter().any(|quantity| quantity.name == **name) {
+            return Err(Error::unknown("output", *name, all.iter().map(|quantity| quantity.name)));
+        }
+    }
+    let outputs = if info.outputs.is_empty() { 0 } else { info.coordinates.len() };
+    let is_wanted = |quantity: &Watched| match names {
+        [] => quantity.at >= outputs,
+        names => names.iter().any(|name| **name == quantity.name),
+    };
+    Ok(all.into_iter().filter(is_wanted).collect())
+}
+
+struct Sweep<'a> {
+    rows: Option<Rows>,
+    /// What is shown, quantity by quantity; NaN where a run failed.
+    values: Vec<Vec<f64>>,
+    failures: usize,
+    first_failure: Option<(usize, mbs_runtime::Error)>,
+    grid: &'a Grid,
+    watched: &'a [Watched],
+    shown: Shown,
+}
+
+impl Sweep<'_> {
+    fn carry_out(&mut self, name: &str, model: &dyn Model, settings: &Settings) -> Result<(), Error> {
+        let (grid, mut written) = (self.grid, Ok(()));
+        let progress = Progress::new(name, grid.count());
+        let members = Members {
+            names: grid.axes.iter().map(|axis| axis.name.to_owned()).collect(),
+            count: grid.count(),
+            values: &|index| grid.values(index),
+            take: &mut |index, member| {
+                if written.is_ok() {
+                    written = self.take(index, &member);
+                }
+            },
+            progress: &|done| progress.reached(done),
+        };
+        model.sweep(settings, members)?;
+        progress.finish();
+        written
+    }
+
+    fn take(&mut self, index: usize, member: &Member) -> Result<(), Error> {
+        for (values, quantity) in self.values.iter_mut().zip(self.watched) {
+            let extent = member.as_ref().ok().and_then(|extents| extents.get(quantity.at));
+            values.push(extent.map_or(f64::NAN, |extent| self.shown.of(extent)));
+        }
+        if let Err(error) = member {
+            self.failures += 1;
+            self.first_failure.get_or_insert((index, *error));
+        }
+        match &mut self.rows {
+            Some(rows) => rows.write(self.grid, index, self.watched, member),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(self, name: &str, shown: &str, plot: Option<&Path>) -> Result<(), Error> {
+        if self.failures < self.grid.count() {
+            say(self.summary(shown).to_string().trim_end());
+        }
+        let mut files = Vec::new();
+        if let Some(path) = plot {
+            self.figure(name, shown).save(path)?;
+            files.push(path.to_owned());
+        }
+        let count = self.grid.count();
+        let failure = self.first_failure.map(|(at, cause)| Error::Sweep {
+            failed: self.failures,
+            of: count,
+            first: self.grid.place(at),
+            cause,
+        });
+        if let Some(rows) = self.rows {
+            files.insert(0, rows.finish()?);
+        }
+        for path in files {
+            say(format_args!("written: {}", path.display()));
+        }
+        match failure {
+            Some(failure) if self.failures == count => Err(failure),
+            Some(failure) => {
+                say(format_args!("note: {failure}"));
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Where what is shown is smallest and largest.
+    fn summary(&self, shown: &str) -> Table {
+        let heading = |which: &str| format!("{which} {shown}");
+        let mut table = Table::new(["", &heading("smallest"), "at", &heading("largest"), "at"]);
+        for (quantity, values) in self.watched.iter().zip(&self.values) {
+            let seen = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
+            let low = seen().min_by(|a, b| a.1.total_cmp(b.1));
+            let high = seen().max_by(|a, b| a.1.total_cmp(b.1));
+            let cells = |place: Option<(usize, &f64)>| match place {
+                Some((at, value)) => {
+                    [format!("{} {}", significant(*value, 6), quantity.unit), self.grid.place(at)]
+                }
+                None => [const { String::new() }; 2],
+            };
+            table.row([quantity.name.to_owned()].into_iter().chain(cells(low)).chain(cells(high)));
+        }
+        table
+    }
+
+    fn figure(&self, name: &str, shown: &str) -> Figure {
+        let axis = |axis: &GridAxis| Axis::new(axis.name.replace('_', " "), axis.unit.replace('*', "·"));
+        let value = |quantity: &Watched| {
+            let label = format!("{shown} {}", quantity.name.replace('_', " "));
+            Axis::new(label, quantity.unit.replace('*', "·"))
+        };
+        let panel = |(quantity, values): (&Watched, &Vec<f64>)| match self.grid.axes.as_slice() {
+            [x, y] => {
+                let map = HeatMap {
+                    x: x.shown_values(),
+                    y: y.shown_values(),
+                    values: values.clone(),
+                    scale: value(quantity),
+                };
+                Panel::map(axis(x), axis(y), map)
+            }
+            axes => {
+                let x = axes.first().map(GridAxis::shown_values).unwrap_or_default();
+                let curve = Series::xy("", &x, values).stroke(Stroke::Dotted);
+                Panel::lines(axes.first().map(axis).unwrap_or_default(), value(quantity), [curve])
+            }
+        };
+        let panels = self.watched.iter().zip(&self.values).map(panel);
+        panels.fold(Figure::new(format!("{name}: sweep")), Figure::panel)
+    }
+}

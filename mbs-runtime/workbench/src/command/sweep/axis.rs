@@ -1,0 +1,114 @@
+//! The grid of a sweep.
+
+use mbs_runtime::Info;
+
+use crate::number::significant;
+use crate::{Error, quantity, sweep};
+
+/// More runs than this are refused, before they take days.
+const MOST_RUNS: usize = 100_000_000;
+
+/// A parameter and its values.
+pub struct GridAxis {
+    pub name: &'static str,
+    /// The unit that it was declared in, and its size.
+    pub unit: String,
+    scale: f64,
+    /// In SI units, ascending.
+    values: Vec<f64>,
+}
+
+impl GridAxis {
+    /// Reads `name=low..high:count`.
+    pub fn parse(text: &str, info: &Info) -> Result<Self, Error> {
+        let (name, range) = quantity::split_setting(text)?;
+        let parameter = info
+            .parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+            .ok_or_else(|| Error::unknown("parameter", name, info.parameters.iter().map(|p| p.name)))?;
+        let wrong = |reason: &str| Error::Value {
+            what: name.to_owned(),
+            text: range.to_owned(),
+            reason: format!("{reason}; write {name}=LOW..HIGH:COUNT, for instance l1=50mm..120mm:20"),
+        };
+        let (low, rest) = range.split_once("..").ok_or_else(|| wrong("that is not a range"))?;
+        let (high, count) = rest.rsplit_once(':').ok_or_else(|| wrong("it is not said how many values"))?;
+        let count: usize =
+            count.trim().parse().map_err(|_| wrong(&format!("`{count}` is not a number of values")))?;
+        let value = |text: &str| quantity::parse(name, text, parameter.dimension);
+        let (low, high) = (value(low)?, value(high)?);
+        if !(2..=MOST_RUNS).contains(&count) {
+            return Err(wrong("there have to be two values at least, and not more than 100 million"));
+        }
+        if low >= high {
+            return Err(wrong("the first value has to be smaller than the last"));
+        }
+        let unit = if parameter.unit.is_empty() {
+            quantity::si_unit(parameter.dimension)
+        } else {
+            parameter.unit.to_owned()
+        };
+        let scale = if parameter.scale == 0.0 { 1.0 } else { parameter.scale };
+        let unit = if unit == "1" { String::new() } else { unit };
+        Ok(Self { name: parameter.name, unit, scale, values: sweep::evenly(low, high, count) })
+    }
+
+    /// The values in the declared unit.
+    pub fn shown_values(&self) -> Vec<f64> {
+        self.values.iter().map(|value| value / self.scale).collect()
+    }
+}
+
+/// One or two parameters; the first one changes from run to run.
+pub struct Grid {
+    pub axes: Vec<GridAxis>,
+}
+
+impl Grid {
+    pub fn of(axes: Vec<GridAxis>) -> Result<Self, Error> {
+        let wrong =
+            |name: &str, reason: &str| Error::Name { name: name.to_owned(), reason: reason.to_owned() };
+        match axes.as_slice() {
+            [x, y] if x.name == y.name => return Err(wrong(x.name, "it is swept twice")),
+            [_, _, third, ..] => return Err(wrong(third.name, "one or two parameters are swept at a time")),
+            _ => {}
+        }
+        let grid = Self { axes };
+        let count = grid.axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
+        match count {
+            Some(count) if count <= MOST_RUNS => Ok(grid),
+            _ => Err(Error::TooManyRuns { most: MOST_RUNS }),
+        }
+    }
+
+    pub fn count(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// The values of a run, in SI units.
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        let mut rest = index;
+        let mut value = |axis: &GridAxis| {
+            let at = rest % axis.values.len();
+            rest /= axis.values.len();
+            axis.values.get(at).copied().unwrap_or(f64::NAN)
+        };
+        self.axes.iter().map(&mut value).collect()
+    }
+
+    /// The same in the declared units.
+    pub fn shown_values(&self, index: usize) -> Vec<f64> {
+        self.values(index).iter().zip(&self.axes).map(|(value, axis)| value / axis.scale).collect()
+    }
+
+    /// `l1 = 60 mm, omega = 200 rpm`
+    pub fn place(&self, index: usize) -> String {
+        let values = self.shown_values(index);
+        let named = values.iter().zip(&self.axes);
+        let text = |(value, axis): (&f64, &GridAxis)| {
+            format!("{} = {} {}", axis.name, significant(*value, 6), axis.unit).trim_end().to_owned()
+        };
+        named.map(text).collect::<Vec<_>>().join(", ")
+    }
+}
