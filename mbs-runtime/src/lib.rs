@@ -93,6 +93,7 @@ mod info;
 pub mod language {}
 mod kinematics;
 mod mechanism;
+mod pair;
 mod real;
 mod simulation;
 mod sincos;
@@ -107,7 +108,8 @@ pub use error::Error;
 pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
 pub use mbs_macro::mechanism;
-pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
+pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
+pub use pair::{Pair, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

@@ -3,6 +3,8 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::pair::{Pair, Two, Vector};
+
 /// A real scalar: what a generated solver needs to know of its number type.
 ///
 /// Implemented for `f32` and `f64`. With the feature `std` the elementary
@@ -27,6 +29,8 @@ pub trait Real:
 {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
+    /// Two of them at once; [`Two<Self>`](crate::Two) will do.
+    type Pair: Pair<Self>;
 
     /// The nearest scalar to `x`.
     fn from_f64(x: f64) -> Self;
@@ -112,9 +116,10 @@ macro_rules! elementary {
 }
 
 macro_rules! real {
-    ($float:ident, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
+    ($float:ident, $Pair:ty, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
+            type Pair = $Pair;
 
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
@@ -178,9 +183,9 @@ macro_rules! real {
     };
 }
 
-real!(f64, sin_cos_f64, atan2, pow;
+real!(f64, Vector, sin_cos_f64, atan2, pow;
     sin = sin, cos = cos, tan = tan, asin = asin, acos = acos, atan = atan,
     sqrt = sqrt, exp = exp, ln = log, tanh = tanh);
-real!(f32, sin_cos_f32, atan2f, powf;
+real!(f32, Two<f32>, sin_cos_f32, atan2f, powf;
     sin = sinf, cos = cosf, tan = tanf, asin = asinf, acos = acosf, atan = atanf,
     sqrt = sqrtf, exp = expf, ln = logf, tanh = tanhf);

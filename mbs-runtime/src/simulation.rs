@@ -1,7 +1,10 @@
 //! A mechanism in motion.
 
 use crate::heun::{Solution, check_solution, heun_step};
-use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
+use crate::mechanism::growth_limit;
+use crate::{
+    Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start,
+};
 
 /// A mechanism being integrated in time.
 ///
@@ -71,9 +74,26 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     #[inline]
     pub fn step(&mut self) -> Result<(), Error> {
         let t_next = self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step;
-        let next =
-            heun_step::<M, F>(&self.mechanism, &self.state, &self.inputs, &self.gains, self.step, t_next);
-        match next {
+        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
+        // Written so that a NaN fails the test. The state is stored from registers,
+        // pair by pair; through a `Result` it would be copied in other pieces than
+        // those in which it was written, for which processors wait.
+        if let Some(fused) = mechanism.fused_step::<F>(state, inputs, gains, *step, t_next)
+            && fused.growth < growth_limit()
+            && fused.sum.is_finite()
+        {
+            self.state = fused.next;
+            self.steps += 1;
+            return Ok(());
+        }
+        self.step_in_stages(t_next)
+    }
+
+    /// The step of mechanisms that have no other, and of those whose step failed:
+    /// it finds out what went wrong, if anything did.
+    fn step_in_stages(&mut self, t_next: M::Real) -> Result<(), Error> {
+        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
+        match heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next) {
             Ok(next) => {
                 self.state = next;
                 self.steps += 1;

@@ -11,6 +11,7 @@ mod program;
 mod sketch;
 mod solver;
 mod splines;
+mod step;
 mod types;
 
 use proc_macro2::TokenStream;
@@ -28,12 +29,14 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let construction = functions::construction(model, plan, &names);
     let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
+    let step = step::functions(model, plan, &names);
     let mechanism = functions::mechanism(model, equations, plan, &names);
     quote! {
         #types
         #construction
         #solver
         #functions
+        #step
         #mechanism
     }
 }
