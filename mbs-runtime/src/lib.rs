@@ -109,7 +109,7 @@ pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantit
 pub use kinematics::{Kinematics, Motion};
 pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
-pub use pair::{Pair, Two};
+pub use pair::{Pair, Single, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

@@ -1,6 +1,6 @@
 //! Two scalars that are computed with at once.
 
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x2;
 
@@ -12,14 +12,17 @@ use crate::sincos;
 pub trait Pair<T>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
+    /// A scalar between pairs.
+    type Single: Single<T>;
+
     /// The pair of `first` and `second`.
-    fn join(first: T, second: T) -> Self;
+    fn join(first: Self::Single, second: Self::Single) -> Self;
     /// The pair of `both` and `both`.
-    fn splat(both: T) -> Self;
+    fn splat(both: Self::Single) -> Self;
     /// The first lane.
-    fn first(self) -> T;
+    fn first(self) -> Self::Single;
     /// The second lane.
-    fn second(self) -> T;
+    fn second(self) -> Self::Single;
     /// The pair with its lanes exchanged.
     #[must_use]
     fn swap(self) -> Self;
@@ -28,6 +31,54 @@ pub trait Pair<T>:
     fn flip(self) -> Self;
     /// Sines and cosines.
     fn sin_cos(self) -> (Self, Self);
+}
+
+/// A scalar that is computed with next to pairs, where that is another register
+/// than that of a scalar.
+pub trait Single<T>:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// From a scalar.
+    fn new(scalar: T) -> Self;
+    /// The scalar.
+    fn get(self) -> T;
+}
+
+impl<T: Real> Single<T> for T {
+    #[inline(always)]
+    fn new(scalar: T) -> Self {
+        scalar
+    }
+    #[inline(always)]
+    fn get(self) -> T {
+        self
+    }
+}
+
+/// A double in the first lane of a vector register, with anything in the second: it
+/// costs nothing to take it from a pair, and compilers leave it where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Low(f64x2);
+
+impl Single<f64> for Low {
+    #[inline(always)]
+    fn new(scalar: f64) -> Self {
+        Self(f64x2::new([scalar, 0.0]))
+    }
+    #[inline(always)]
+    fn get(self) -> f64 {
+        let [scalar, _] = self.0.to_array();
+        scalar
+    }
+}
+
+impl Neg for Low {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
 }
 
 /// A pair of any scalars, computed one after the other.
@@ -53,12 +104,23 @@ macro_rules! lane_by_lane {
                 Self($Operator::$operator(self.0, other.0))
             }
         }
+
+        impl $Operator for Low {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $operator(self, other: Self) -> Self {
+                Self($Operator::$operator(self.0, other.0))
+            }
+        }
     )*};
 }
 
 lane_by_lane!(Add add, Sub sub, Mul mul, Div div);
 
 impl<T: Real> Pair<T> for Two<T> {
+    type Single = T;
+
     #[inline(always)]
     fn join(first: T, second: T) -> Self {
         Self(first, second)
@@ -96,25 +158,25 @@ impl<T: Real> Pair<T> for Two<T> {
 pub struct Vector(f64x2);
 
 impl Pair<f64> for Vector {
+    type Single = Low;
+
     #[inline(always)]
-    fn join(first: f64, second: f64) -> Self {
-        // From registers: an array of the two would go through memory.
-        let [joined, _] = f64x2::transpose([f64x2::splat(first), f64x2::splat(second)]);
+    fn join(first: Low, second: Low) -> Self {
+        let [joined, _] = f64x2::transpose([first.0, second.0]);
         Self(joined)
     }
     #[inline(always)]
-    fn splat(both: f64) -> Self {
-        Self(f64x2::splat(both))
+    fn splat(both: Low) -> Self {
+        Self::join(both, both)
     }
     #[inline(always)]
-    fn first(self) -> f64 {
-        let [first, _] = self.0.to_array();
-        first
+    fn first(self) -> Low {
+        Low(self.0)
     }
     #[inline(always)]
-    fn second(self) -> f64 {
-        let [_, second] = self.0.to_array();
-        second
+    fn second(self) -> Low {
+        let [_, second] = f64x2::transpose([self.0, self.0]);
+        Low(second)
     }
     #[inline(always)]
     fn swap(self) -> Self {
@@ -138,6 +200,7 @@ impl Pair<f64> for Vector {
 /// One after the other, each as the scalar does it.
 #[cold]
 fn far_sin_cos(angles: Vector) -> (Vector, Vector) {
-    let ((s, c), (sine, cosine)) = (Real::sin_cos(angles.first()), Real::sin_cos(angles.second()));
-    (Pair::join(s, sine), Pair::join(c, cosine))
+    let [first, second] = angles.0.to_array();
+    let ((s, c), (sine, cosine)) = (Real::sin_cos(first), Real::sin_cos(second));
+    (Vector(f64x2::new([s, sine])), Vector(f64x2::new([c, cosine])))
 }

@@ -2,9 +2,7 @@
 
 use crate::heun::{Solution, check_solution, heun_step};
 use crate::mechanism::growth_limit;
-use crate::{
-    Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start,
-};
+use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
 
 /// A mechanism being integrated in time.
 ///

@@ -62,8 +62,8 @@ pub(crate) fn sin_cos_of_two(x: f64x2) -> (f64x2, f64x2) {
     let has_bit = |bit: u64| (shifted & f64x2::splat(f64::from_bits(bit)) | one).simd_gt(one);
     let (swap, second_half) = (has_bit(1), has_bit(2));
     let sign = f64x2::splat(-0.0);
-    let s = swap.blend(cosine, sine) ^ (second_half & sign);
-    let c = swap.blend(sine, cosine) ^ ((second_half ^ swap) & sign);
+    let s = swap.bitselect(cosine, sine) ^ (second_half & sign);
+    let c = swap.bitselect(sine, cosine) ^ ((second_half ^ swap) & sign);
     (s, c)
 }
 
@@ -151,7 +151,11 @@ mod tests {
             // all sizes up to the range, and beside multiples of π/2
             let scale = RANGE * 2_f64.powi(-((random & 31) as i32));
             let x = unit * scale;
-            if random & 32 == 0 { x } else { (x * core::f64::consts::FRAC_2_PI).round() * core::f64::consts::FRAC_PI_2 }
+            if random & 32 == 0 {
+                x
+            } else {
+                (x * core::f64::consts::FRAC_2_PI).round() * core::f64::consts::FRAC_PI_2
+            }
         };
         for _ in 0..100_000 {
             let x = [angle(), angle()];

@@ -8,6 +8,7 @@ use mbs_runtime::{Baumgarte, Components, Feedback, Held, Mechanism, PerStage, Si
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs};
 use tests::by_hand::{Coordinates, Gains, Rows, SliderCrank as ByHand};
+use tests::by_hand_on_pairs::Places;
 
 /// The step in s.
 pub const H: f64 = 0.5e-3;
@@ -23,6 +24,8 @@ pub enum Method {
     Dense,
     /// Eliminated by a person, scalars.
     ByHand,
+    /// Eliminated by a person, everything kept in vector registers.
+    OnPairs,
 }
 
 /// One program to be measured.
@@ -56,14 +59,18 @@ impl Kernel {
         for is_driven in [true, false] {
             for is_held in [true, false] {
                 for with_reactions in [false, true] {
-                    for method in [Method::Compiled, Method::Dense, Method::ByHand] {
+                    for method in [Method::Compiled, Method::Dense, Method::ByHand, Method::OnPairs] {
                         all.push(Self { method, is_driven, is_held, with_reactions });
                     }
                 }
             }
         }
-        // nobody wrote the free multipliers out by hand
-        all.retain(|k| k.method != Method::ByHand || !k.with_reactions || k.is_driven);
+        // nobody wrote everything out by hand
+        all.retain(|k| match k.method {
+            Method::ByHand => !k.with_reactions || k.is_driven,
+            Method::OnPairs => !k.with_reactions && !k.is_held,
+            Method::Compiled | Method::Dense => true,
+        });
         all
     }
 
@@ -75,6 +82,8 @@ impl Kernel {
             (Method::Compiled, false) => self.compiled::<PerStage>(steps),
             (Method::Dense, _) => self.dense(steps),
             (Method::ByHand, _) => self.by_hand(steps),
+            (Method::OnPairs, _) if self.is_driven => self.on_pairs::<true>(steps),
+            (Method::OnPairs, _) => self.on_pairs::<false>(steps),
         }
     }
 
@@ -133,6 +142,7 @@ impl Kernel {
                 reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
             }
         }
+        black_box((q, v));
         (q[2], reaction)
     }
 
@@ -173,7 +183,20 @@ impl Kernel {
                 reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
             }
         }
+        black_box((q, v));
         (q[2], reaction)
+    }
+
+    fn on_pairs<const IS_DRIVEN: bool>(&self, steps: u32) -> (f64, f64) {
+        let (hand, gains, q, v) = self.start();
+        let ([q], [v]) = (q.data.0, v.data.0);
+        let (mut q, mut v) = (Places::new(q), Places::new(v));
+        for k in 0..steps {
+            let times = [f64::from(k) * H, f64::from(k + 1) * H];
+            (q, v) = hand.step_on_pairs::<IS_DRIVEN>((&q, &v), &gains, H, times);
+        }
+        black_box((q, v));
+        (q.theta1(), 0.0)
     }
 }
 
@@ -200,5 +223,6 @@ where
             reaction = multipliers.as_ref().last().copied().unwrap_or(0.0);
         }
     }
+    black_box(*simulation.state());
     (simulation.state().q.get("theta1").unwrap_or(f64::NAN), reaction)
 }

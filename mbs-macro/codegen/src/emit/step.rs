@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mbs_symbolic::pairs::{Lane, Scalar, Step, Woven};
 use mbs_symbolic::{Operand, Operation};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::access::Access;
 use super::functions::{Fields, vector};
@@ -64,92 +64,104 @@ pub fn choice(plan: &Plan, names: &Names) -> TokenStream {
 fn body(model: &Model, names: &Names, fields: &Fields, woven: &Woven) -> TokenStream {
     let runtime = &names.runtime;
     let mut writer = Writer { model, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
-    let mut statements = TokenStream::new();
-    for (at, step) in woven.steps.iter().enumerate() {
-        statements.extend(writer.statement(at, step, woven.steps.get(at + 1)));
-    }
+    let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
+    let value = |&output| {
+        let value = writer.scalar(output);
+        quote!(#value.get())
+    };
+    let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
     let n = fields.coordinates.len();
-    let outputs: Vec<TokenStream> = woven.outputs.iter().map(|&output| writer.scalar(output)).collect();
-    let (q, v) = (
-        vector(&names.coordinates.of_t, &fields.coordinates, &outputs[..n]),
-        vector(&names.coordinates.of_t, &fields.coordinates, &outputs[n..2 * n]),
-    );
-    let (growth, sum) = (&outputs[2 * n], &outputs[2 * n + 1]);
+    let (positions, rest) = outputs.split_at(n);
+    let (velocities, health) = rest.split_at(n);
+    let of_coordinates = |values| vector(&names.coordinates.of_t, &fields.coordinates, values);
+    let (q, v) = (of_coordinates(positions), of_coordinates(velocities));
     quote! {
-        use #runtime::Pair as _;
+        use #runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
         let half_h = T::from_f64(0.5) * h;
         #statements
-        #runtime::Stepped { next: #runtime::State { t: t_next, q: #q, v: #v }, growth: #growth, sum: #sum }
+        let [growth, sum] = [#(#health),*];
+        #runtime::Stepped { next: #runtime::State { t: t_next, q: #q, v: #v }, growth, sum }
     }
 }
 
 struct Writer<'a> {
     model: &'a Model,
     access: Access,
+    /// Of the steps so far.
     names: Vec<Ident>,
     taken: BTreeSet<String>,
 }
 
 impl Writer<'_> {
-    fn statement(&mut self, at: usize, step: &Step, next: Option<&Step>) -> TokenStream {
-        let pair = |value: TokenStream| (format_ident!("p{at}"), value);
-        let (name, value) = match step {
+    fn statement(&mut self, step: &Step) -> TokenStream {
+        let at = self.names.len();
+        let pair = |at: &usize| &self.names[*at];
+        let value = match step {
             Step::Scalar(operation, a, b, name) => {
-                let (a, b) = (self.scalar(*a), self.scalar(*b));
-                let value = operation_tokens(*operation, &a, &b, &self.access.mechanism);
-                (self.scalar_name(at, name.as_deref()), value)
-            }
-            Step::Join(a, b) => {
-                let (a, b) = (self.scalar(*a), self.scalar(*b));
-                pair(quote!(T::Pair::join(#a, #b)))
-            }
-            Step::Splat(a) => {
-                let a = self.scalar(*a);
-                pair(quote!(T::Pair::splat(#a)))
-            }
-            Step::Swap(of) => {
-                let of = &self.names[*of];
-                pair(quote!(#of.swap()))
-            }
-            Step::Flip(of) => {
-                let of = &self.names[*of];
-                pair(quote!(#of.flip()))
-            }
-            Step::Pair(operation, a, b) => {
-                let (a, b) = (&self.names[*a], &self.names[*b]);
-                pair(match operation {
-                    Operation::Sub => quote!(#a - #b),
-                    Operation::Mul => quote!(#a * #b),
-                    Operation::Div => quote!(#a / #b),
-                    _ => quote!(#a + #b),
-                })
+                let value = self.operation(*operation, *a, *b);
+                let name = self.scalar_name(name.as_deref());
+                self.names.push(name.clone());
+                return quote!(let #name = #value;);
             }
             Step::Sines(angles) => {
-                let angles = self.names[*angles].clone();
+                let angles = pair(angles);
                 let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
-                self.names.extend([sines.clone(), cosines.clone()]);
-                debug_assert_eq!(next, Some(&Step::Cosines));
-                return quote!(let (#sines, #cosines) = #angles.sin_cos(););
+                let statement = quote!(let (#sines, #cosines) = #angles.sin_cos(););
+                self.names.extend([sines, cosines]);
+                return statement;
             }
             // Named with the sines.
             Step::Cosines => return TokenStream::new(),
+            Step::Join(a, b) => {
+                let (a, b) = (self.scalar(*a), self.scalar(*b));
+                quote!(T::Pair::join(#a, #b))
+            }
+            Step::Splat(a) => {
+                let a = self.scalar(*a);
+                quote!(T::Pair::splat(#a))
+            }
+            Step::Swap(of) => {
+                let of = pair(of);
+                quote!(#of.swap())
+            }
+            Step::Flip(of) => {
+                let of = pair(of);
+                quote!(#of.flip())
+            }
+            Step::Pair(operation, a, b) => {
+                let (a, b) = (pair(a), pair(b));
+                operation_tokens(*operation, &quote!(#a), &quote!(#b), &self.access.mechanism)
+            }
         };
+        let name = format_ident!("p{at}");
         self.names.push(name.clone());
         quote!(let #name = #value;)
     }
 
+    /// An operation on scalars; functions are those of the scalar type itself.
+    fn operation(&self, operation: Operation, a: Scalar, b: Scalar) -> TokenStream {
+        let (a, b) = (self.scalar(a), self.scalar(b));
+        match operation {
+            Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => single(operation_tokens(
+                operation,
+                &quote!(#a.get()),
+                &quote!(#b.get()),
+                &self.access.mechanism,
+            )),
+            _ => operation_tokens(operation, &a, &b, &self.access.mechanism),
+        }
+    }
+
     fn scalar(&self, scalar: Scalar) -> TokenStream {
         match scalar {
-            Scalar::Given(Operand::Number(number)) => number_tokens(number),
-            Scalar::Given(Operand::Symbol(symbol)) => symbol_tokens(self.model, &self.access, symbol),
+            Scalar::Given(Operand::Number(number)) => single(number_tokens(number)),
+            Scalar::Given(Operand::Symbol(symbol)) => single(symbol_tokens(self.model, &self.access, symbol)),
             Scalar::Given(Operand::Hoisted(at) | Operand::Value(at)) => {
                 let at = Literal::usize_unsuffixed(at);
-                quote!(self.hoisted[#at])
+                single(quote!(self.hoisted[#at]))
             }
-            Scalar::Step(at) => {
-                let name = &self.names[at];
-                quote!(#name)
-            }
+            Scalar::Step(at) => self.names[at].to_token_stream(),
             Scalar::Lane(at, lane) => {
                 let name = &self.names[at];
                 match lane {
@@ -160,12 +172,16 @@ impl Writer<'_> {
         }
     }
 
-    fn scalar_name(&mut self, at: usize, suggested: Option<&str>) -> Ident {
+    fn scalar_name(&mut self, suggested: Option<&str>) -> Ident {
         match suggested {
             Some(name) if syn::parse_str::<Ident>(name).is_ok() && self.taken.insert(name.to_owned()) => {
                 Ident::new(name, Span::call_site())
             }
-            _ => format_ident!("v{at}"),
+            _ => format_ident!("v{}", self.names.len()),
         }
     }
+}
+
+fn single(scalar: TokenStream) -> TokenStream {
+    quote!(Single::<T>::new(#scalar))
 }

@@ -19,8 +19,11 @@ pub struct FusedStep {
 
 /// The fused step of a mechanism that is small enough.
 pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Option<FusedStep> {
-    let stages = stabilized.instructions.len() + stabilized.instructions.len().max(constrained.instructions.len());
-    if stages > LONGEST {
+    if stabilized.instructions.len() > LONGEST {
+        return None;
+    }
+    let [held, per_stage] = [constrained, stabilized].map(|second| step(model, stabilized, second));
+    if held.instructions.len().max(per_stage.instructions.len()) > LONGEST {
         return None;
     }
     let meaning = |symbol: Symbol| model.meanings[symbol.index()];
@@ -49,32 +52,25 @@ pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Opti
             Meaning::Time | Meaning::NextTime | Meaning::Coordinate(_) | Meaning::Velocity(_)
         )
     };
-    let layout = Layout { are_neighbours: &are_neighbours, are_written_together: &are_written_together, is_constant: &is_constant };
-    let woven = |second: &Program| {
-        let program = step(model, stabilized, second);
-        let mut woven = weave(&program, &layout);
-        if std::env::var_os("TUNE").is_some() {
-            eprint!(" {} -> {:?} ", program.instructions.len(), woven.census());
-        }
-        woven.sum_outputs(2 * model.coordinates.len());
+    let layout = Layout {
+        are_neighbours: &are_neighbours,
+        are_written_together: &are_written_together,
+        is_constant: &is_constant,
+    };
+    let woven = |program: &Program| {
+        let mut woven = weave(program, &layout);
+        woven.sum_outputs(2 * n);
         woven
     };
-    Some(FusedStep { held: woven(constrained), per_stage: woven(stabilized) })
+    Some(FusedStep { held: woven(&held), per_stage: woven(&per_stage) })
 }
 
 /// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the
 /// first, or computes its own.
 fn step(model: &Model, first: &Program, second: &Program) -> Program {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
-    let (mut q, mut v) = (vec![Operand::Value(0); n], vec![Operand::Value(0); n]);
-    for index in 0..model.meanings.len() {
-        let Some(symbol) = model.arena.symbol_at(index) else { continue };
-        match model.meanings[index] {
-            Meaning::Coordinate(at) => q[at] = Operand::Symbol(symbol),
-            Meaning::Velocity(at) => v[at] = Operand::Symbol(symbol),
-            _ => {}
-        }
-    }
+    let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
+    let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
     let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(Operand::Symbol);
 
     let mut steps = Fusion::default();
@@ -83,11 +79,11 @@ fn step(model: &Model, first: &Program, second: &Program) -> Program {
 
     let mut stage: HashMap<Symbol, Operand> = HashMap::new();
     let mut predicted = Vec::new();
-    for at in 0..n {
-        let (Operand::Symbol(position), Operand::Symbol(velocity)) = (q[at], v[at]) else { continue };
-        let (q, v) = (steps.axpy(h, v[at], q[at]), steps.axpy(h, here_acceleration[at], v[at]));
-        stage.extend([(position, q), (velocity, v)]);
-        predicted.push(v);
+    for (at, coordinate) in model.coordinates.iter().enumerate() {
+        let position = steps.axpy(h, v[at], q[at]);
+        let velocity = steps.axpy(h, here_acceleration[at], v[at]);
+        stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
+        predicted.push(velocity);
     }
     stage.insert(model.symbols.time, Operand::Symbol(model.symbols.next_time));
     stage.extend(model.symbols.feedback.iter().copied().zip(feedback.iter().copied()));

@@ -6,9 +6,9 @@
 //! are there already, so that seeds are judged again before they are taken.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BinaryHeap, HashMap};
 
-use super::{Kind, Lane, Layout, Partner, alignments, is_sine_or_cosine, kind};
+use super::{Angles, Kind, Lane, Layout, Partner, alignments, is_sine_or_cosine, kind};
 use crate::program::{Instruction, Operand, Program};
 
 /// What moves cost, in operations: those into both lanes are used again and again,
@@ -28,11 +28,8 @@ const WAIT: f32 = 0.02;
 /// How far a seed grows.
 const DEPTH: usize = 8;
 
-pub(super) fn choose(
-    program: &Program,
-    layout: &Layout<'_>,
-) -> Vec<Option<Partner>> {
-    let mut chooser = Chooser::new(program, layout);
+pub(super) fn choose(program: &Program, angles: &Angles, layout: &Layout<'_>) -> Vec<Option<Partner>> {
+    let mut chooser = Chooser::new(program, angles, layout);
     // What was not worth it alone may be once its users are pairs.
     while chooser.pass() {}
     chooser.partners
@@ -49,13 +46,16 @@ struct Chooser<'a> {
     latencies: Vec<u32>,
     ancestors: Ancestors,
     partners: Vec<Option<Partner>>,
+    /// For sines and cosines of a pair of angles the first of them; for every other
+    /// instruction itself.
+    turns: Vec<usize>,
 }
 
 /// Pairs that are tried out.
 type Trial = Vec<(usize, usize)>;
 
 impl<'a> Chooser<'a> {
-    fn new(program: &'a Program, layout: &'a Layout<'a>) -> Self {
+    fn new(program: &'a Program, angles: &Angles, layout: &'a Layout<'a>) -> Self {
         let length = program.instructions.len();
         let mut users = vec![Vec::new(); length];
         for (at, instruction) in program.instructions.iter().enumerate() {
@@ -82,6 +82,7 @@ impl<'a> Chooser<'a> {
             latencies: program.latencies(),
             ancestors: Ancestors::new(program),
             partners: vec![None; length],
+            turns: turns(program, angles),
         }
     }
 
@@ -190,7 +191,8 @@ impl<'a> Chooser<'a> {
             alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, 2)).sum()
         };
         let all = alignments(left, right);
-        let best = all.into_iter().reduce(|best, next| if likely(&next) > likely(&best) { next } else { best });
+        let best =
+            all.into_iter().reduce(|best, next| if likely(&next) > likely(&best) { next } else { best });
         for (a, b) in best.into_iter().flatten() {
             gain += self.of_operands(a, b, trial, depth);
         }
@@ -249,7 +251,9 @@ impl<'a> Chooser<'a> {
         let mut gain = 0.0;
         for &user in &self.users[x] {
             let partner = self.partners[user].filter(|partner| partner.lane == Lane::First);
-            let Some(partner) = partner.filter(|partner| self.users[y].contains(&partner.other)) else { continue };
+            let Some(partner) = partner.filter(|partner| self.users[y].contains(&partner.other)) else {
+                continue;
+            };
             let [left, right] = [user, partner.other].map(|at| &self.program.instructions[at]);
             let wanted = (Operand::Value(x), Operand::Value(y));
             if alignments(left, right).iter().any(|alignment| alignment.contains(&wanted)) {
@@ -311,46 +315,50 @@ impl<'a> Chooser<'a> {
     /// independent instructions, but two together may wait for each other.
     fn is_acyclic_with(&self, trial: &Trial) -> bool {
         let length = self.partners.len();
-        let mut other: Vec<Option<usize>> =
-            self.partners.iter().map(|partner| partner.map(|partner| partner.other)).collect();
-        for &(first, second) in trial {
-            other[first] = Some(second);
-            other[second] = Some(first);
-        }
-        // a pair is known by its first instruction
-        let node = |at: usize| other[at].map_or(at, |other| at.min(other));
-        let of_value = |operand: Operand| match operand {
-            Operand::Value(value) => Some(value),
-            _ => None,
-        };
-        let operands = |at: usize| {
-            let Instruction { a, b, .. } = &self.program.instructions[at];
-            [*a, *b].into_iter().filter_map(of_value)
-        };
-        let members = |at: usize| [Some(at), other[at]].into_iter().flatten();
-        let mut waits = vec![0_usize; length];
-        for at in (0..length).filter(|&at| node(at) == at) {
-            waits[at] = members(at).flat_map(operands).count();
-        }
-        let mut ready: Vec<usize> = (0..length).filter(|&at| node(at) == at && waits[at] == 0).collect();
-        let mut done = 0;
-        let mut uses: Vec<Vec<usize>> = vec![Vec::new(); length];
-        for at in 0..length {
-            for value in operands(at) {
-                uses[node(value)].push(node(at));
+        // Instructions that are computed at once are known by one of them.
+        let mut node = self.turns.clone();
+        for (at, partner) in self.partners.iter().enumerate() {
+            if let Some(partner) = partner {
+                node[at] = at.min(partner.other);
             }
         }
+        for &(first, second) in trial {
+            node[first] = first.min(second);
+            node[second] = first.min(second);
+        }
+        let mut waits = vec![0_usize; length];
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); length];
+        for (at, instruction) in self.program.instructions.iter().enumerate() {
+            for operand in [instruction.a, instruction.b] {
+                if let Operand::Value(value) = operand {
+                    waits[node[at]] += 1;
+                    users[node[value]].push(node[at]);
+                }
+            }
+        }
+        let is_node = |at: &usize| node[*at] == *at;
+        let mut ready: Vec<usize> = (0..length).filter(|at| is_node(at) && waits[*at] == 0).collect();
+        let mut done = 0;
         while let Some(at) = ready.pop() {
-            done += members(at).count();
-            for &user in &uses[at] {
+            done += 1;
+            for &user in &users[at] {
                 waits[user] -= 1;
                 if waits[user] == 0 {
                     ready.push(user);
                 }
             }
         }
-        done == length
+        done == (0..length).filter(is_node).count()
     }
+}
+
+fn turns(program: &Program, angles: &Angles) -> Vec<usize> {
+    let mut first = HashMap::new();
+    let of_pair = |(at, instruction): (usize, &Instruction)| match angles.get(&instruction.a) {
+        Some((pair, _)) if is_sine_or_cosine(instruction) => *first.entry(*pair).or_insert(at),
+        _ => at,
+    };
+    program.instructions.iter().enumerate().map(of_pair).collect()
 }
 
 /// What a pair and all that grows from it gain.
@@ -404,4 +412,3 @@ impl Ancestors {
         self.bits[at * self.words + value / 64] >> (value % 64) & 1 == 1
     }
 }
-

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::{Lane, Layout, Partner, Scalar, Step, Woven, alignments, is_sine_or_cosine};
+use super::{Angles, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, alignments};
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -17,6 +17,7 @@ const DEPTH: usize = 5;
 pub(super) fn weave(
     program: &Program,
     partners: &[Option<Partner>],
+    angles: &Angles,
     layout: &Layout<'_>,
 ) -> Woven {
     let mut weaver = Weaver {
@@ -26,15 +27,12 @@ pub(super) fn weave(
         steps: Vec::new(),
         scalars: HashMap::new(),
         pairs: HashMap::new(),
-        angles: pair_angles(program),
+        angles,
         turns: HashMap::new(),
     };
     let outputs = program.outputs.iter().map(|&output| weaver.scalar(output)).collect();
     Woven { steps: weaver.steps, outputs }
 }
-
-/// Two operands, as the lanes of a pair.
-type Lanes = (Operand, Operand);
 
 struct Weaver<'a> {
     program: &'a Program,
@@ -44,30 +42,9 @@ struct Weaver<'a> {
     scalars: HashMap<usize, Scalar>,
     /// The steps of pairs, plain and flipped.
     pairs: HashMap<Lanes, [Option<usize>; 2]>,
-    /// Angle → the pair of angles that it belongs to, and its lane.
-    angles: HashMap<Operand, (Lanes, Lane)>,
+    angles: &'a Angles,
     /// The sines of pairs of angles.
     turns: HashMap<Lanes, usize>,
-}
-
-/// Pairs the angles in their order; the last of an odd number stands alone.
-fn pair_angles(program: &Program) -> HashMap<Operand, (Lanes, Lane)> {
-    let mut angles = Vec::new();
-    for instruction in program.instructions.iter().filter(|i| is_sine_or_cosine(i)) {
-        if !angles.contains(&instruction.a) {
-            angles.push(instruction.a);
-        }
-    }
-    let mut lanes = HashMap::new();
-    for pair in angles.chunks(2) {
-        if let [first, second] = *pair {
-            lanes.insert(first, ((first, second), Lane::First));
-            lanes.insert(second, ((first, second), Lane::Second));
-        } else {
-            lanes.extend(pair.iter().map(|&angle| (angle, ((angle, angle), Lane::First))));
-        }
-    }
-    lanes
 }
 
 impl Weaver<'_> {
