@@ -100,9 +100,11 @@ fn polynomial<T>(z: T, coefficients: [f64; 6], constant: &impl Fn(f64) -> T) -> 
 where
     T: Copy + Add<Output = T> + Mul<Output = T>,
 {
-    let [p0, p1, p2, p3, p4, p5] = coefficients.map(constant);
+    // Not `map`: it is a call of its own where there is a lot of code already.
+    let [p0, p1, p2, p3, p4, p5] = coefficients;
     let w = z * z;
-    (p0 + z * p1) + w * ((p2 + z * p3) + w * (p4 + z * p5))
+    (constant(p0) + z * constant(p1))
+        + w * ((constant(p2) + z * constant(p3)) + w * (constant(p4) + z * constant(p5)))
 }
 
 #[cfg(all(test, feature = "std"))]

@@ -87,6 +87,7 @@ impl Kernel {
         }
     }
 
+    #[inline(never)]
     fn compiled<F: Feedback>(&self, steps: u32) -> (f64, f64) {
         if self.is_driven {
             let simulation = simulation::<_, F>(SliderCrank::declared(), Default::default());
@@ -114,6 +115,7 @@ impl Kernel {
         (black_box(hand), black_box(Gains { two_alpha, beta_squared }), q, Coordinates::from(v))
     }
 
+    #[inline(never)]
     fn dense(&self, steps: u32) -> (f64, f64) {
         let (hand, gains, mut q, mut v) = self.start();
         let solve = |q: &Coordinates, v: &Coordinates, feedback: &Rows| {
@@ -146,6 +148,7 @@ impl Kernel {
         (q[2], reaction)
     }
 
+    #[inline(never)]
     fn by_hand(&self, steps: u32) -> (f64, f64) {
         let (hand, gains, q, v) = self.start();
         let ([mut q], [mut v]) = (q.data.0, v.data.0);
@@ -187,6 +190,7 @@ impl Kernel {
         (q[2], reaction)
     }
 
+    #[inline(never)]
     fn on_pairs<const IS_DRIVEN: bool>(&self, steps: u32) -> (f64, f64) {
         let (hand, gains, q, v) = self.start();
         let ([q], [v]) = (q.data.0, v.data.0);
@@ -208,6 +212,7 @@ fn simulation<M: Mechanism, F: Feedback>(mechanism: M, inputs: M::Inputs) -> Sim
         .unwrap_or_else(|_| std::process::abort())
 }
 
+#[inline(never)]
 fn run_compiled<M, F>(mut simulation: Simulation<M, F>, steps: u32, with_reactions: bool) -> (f64, f64)
 where
     M: Mechanism<Real = f64>,
