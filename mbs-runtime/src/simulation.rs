@@ -189,6 +189,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     ///
     /// # Errors
     /// [`Error::Singular`], [`Error::Input`].
+    #[inline]
     pub fn reactions(&self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         self.reactions_with(&M::Constraints::splat(M::Real::default()))
     }
@@ -203,17 +204,28 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.reactions_with(&feedback)
     }
 
+    #[inline]
     fn reactions_with(
         &self,
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
+        // A sum is finite only if all of them are, and shorter than a test of each.
+        let sum =
+            solved.acceleration.into_array().as_ref().iter().fold(M::Real::default(), |sum, &a| sum + a);
+        if sum.is_finite() && solved.growth < growth_limit() {
+            return Ok(solved);
+        }
+        self.examine(solved.acceleration, solved.growth).map(|()| solved)
+    }
+
+    /// Takes values and not references, so that what is healthy need not be in memory.
+    #[cold]
+    fn examine(&self, acceleration: M::Coordinates, growth: M::Real) -> Result<(), Error> {
         let (t, q) = (self.state.t, &self.state.q);
-        let solution =
-            Solution { t, q, value: &solved.acceleration, growth: solved.growth, pivots: M::INFO.pivots };
+        let solution = Solution { t, q, value: &acceleration, growth, pivots: M::INFO.pivots };
         check_solution(&solution, || self.mechanism.worst_pivot(t, q))
-            .map_err(|error| self.blame_inputs(error))?;
-        Ok(solved)
+            .map_err(|error| self.blame_inputs(error))
     }
 
     /// The declared outputs in the present state.

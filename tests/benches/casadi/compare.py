@@ -136,12 +136,11 @@ def accelerations(system, solver):
         if n != m:
             return None
         a = ca.solve(phi_q, rhs)
-    elif solver in ("kkt", "kkt qr"):
+    elif solver == "kkt":
         if n > 9:
             return None
         kkt = ca.vertcat(ca.horzcat(ca.diag(mass), phi_q.T), ca.horzcat(phi_q, ca.SX(m, m)))
-        right = ca.vertcat(force, rhs)
-        a = (ca.solve(kkt, right) if solver == "kkt" else ca.solve(kkt, right, "symbolicqr", {}))[:n]
+        a = ca.solve(kkt, ca.vertcat(force, rhs))[:n]
     else:
         schur = ca.mtimes([phi_q, inverse, phi_q.T])
         right = ca.mtimes([phi_q, inverse, force]) - rhs
@@ -189,7 +188,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
     flags = ["-march=native"] if options.native else []
-    target = ROOT / "target" / ("casadi-native" if options.native else "casadi")
+    target = ROOT / "target" / ("native" if options.native else "")
     environment = {**os.environ, "RUSTFLAGS": "-C target-cpu=native"} if options.native else os.environ
     command = ["cargo", "build", "--release", "-p", "tests", "--example", "step_times", "--target-dir", target]
     subprocess.run(command, cwd=ROOT, env=environment, check=True)
@@ -200,7 +199,7 @@ def main():
         os.chdir(folder)
         programs = {}
         for name, system in MODELS.items():
-            for solver in ("kinematic", "kkt", "kkt qr", "schur", "schur ldl"):
+            for solver in ("kinematic", "kkt", "schur", "schur ldl"):
                 program = build(folder, name, system, solver, flags)
                 if program:
                     programs[name, solver] = program

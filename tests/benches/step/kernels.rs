@@ -34,7 +34,7 @@ pub struct Kernel {
     pub method: Method,
     pub is_driven: bool,
     pub is_held: bool,
-    /// Whether the clean multipliers are computed after every step.
+    /// Whether the clean multipliers are computed before every step.
     pub with_reactions: bool,
 }
 
@@ -129,6 +129,9 @@ impl Kernel {
         let mut reaction = 0.0;
         for k in 0..steps {
             let (t, t_next) = (f64::from(k) * H, f64::from(k + 1) * H);
+            if self.with_reactions {
+                reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
+            }
             let feedback = hand.feedback(t, &q, &v, &gains);
             let here = solve(&q, &v, &feedback).acceleration;
             let (predicted_q, predicted_v) = (q + v * H, v + here * H);
@@ -140,9 +143,6 @@ impl Kernel {
             let there = solve(&predicted_q, &predicted_v, &feedback).acceleration;
             q += (v + predicted_v) * (0.5 * H);
             v += (here + there) * (0.5 * H);
-            if self.with_reactions {
-                reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
-            }
         }
         black_box((q, v));
         (q[2], reaction)
@@ -169,6 +169,10 @@ impl Kernel {
                     hand.accelerations_free_held(q, v, feedback)
                 }
             };
+            if self.with_reactions {
+                let clean = held(&q, &v, &[0.0; 7]);
+                reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
+            }
             let (here, feedback) = stage(&q, &v, t);
             let predicted_q: [f64; 7] = std::array::from_fn(|i| q[i] + H * v[i]);
             let predicted_v: [f64; 7] = std::array::from_fn(|i| v[i] + H * here[i]);
@@ -180,10 +184,6 @@ impl Kernel {
             for i in 0..7 {
                 q[i] += 0.5 * H * (v[i] + predicted_v[i]);
                 v[i] += 0.5 * H * (here[i] + there[i]);
-            }
-            if self.with_reactions {
-                let clean = held(&q, &v, &[0.0; 7]);
-                reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
             }
         }
         black_box((q, v));
@@ -220,12 +220,12 @@ where
 {
     let mut reaction = 0.0;
     for _ in 0..steps {
-        if simulation.step().is_err() {
-            std::process::abort();
-        }
         if with_reactions && let Ok(solved) = simulation.reactions() {
             let multipliers = black_box(solved.multipliers).into_array();
             reaction = multipliers.as_ref().last().copied().unwrap_or(0.0);
+        }
+        if simulation.step().is_err() {
+            std::process::abort();
         }
     }
     black_box(*simulation.state());
