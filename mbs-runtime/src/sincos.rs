@@ -109,7 +109,9 @@ where
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use super::{RANGE, sin_cos};
+    use wide::f64x2;
+
+    use super::{RANGE, sin_cos, sin_cos_of_two};
 
     /// Distance in units in the last place of the expected value.
     fn ulps(found: f64, expected: f64) -> f64 {

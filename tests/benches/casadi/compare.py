@@ -161,7 +161,7 @@ def build(folder, name, system, solver, flags):
     function = accelerations(system, solver)
     if function is None:
         return None
-    stem = f"{name} {solver}".replace(" ", "_")
+    stem = f"{name} {solver}".replace(" ", "_").replace("-", "_")
     function.generate(f"{stem}.c", {"casadi_int": "int"})
     n = len(system.q)
     numbers = lambda values: "{" + ", ".join(repr(float(x)) for x in values) + "}"
