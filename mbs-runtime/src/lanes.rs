@@ -203,6 +203,7 @@ macro_rules! lane_by_lane {
 }
 
 impl<T: Lane, const N: usize> Real for Lanes<T, N> {
+    type Pair = crate::Two<Self>;
     const EPSILON: Self = Self([T::EPSILON; N]);
 
     #[inline(always)]
@@ -227,7 +228,7 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
         (Self(sines), Self(cosines))
     }
     lane_by_lane!(
-        sin cos tan asin acos atan sqrt exp ln tanh abs sign;
+        tan asin acos atan sqrt exp ln tanh abs sign;
         atan2 pow min max greater
     );
     #[inline(always)]

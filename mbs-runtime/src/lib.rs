@@ -95,6 +95,7 @@ mod kinematics;
 pub mod lanes;
 mod mechanism;
 mod pack;
+mod pair;
 mod real;
 mod simulation;
 mod sincos;
@@ -111,8 +112,9 @@ pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantit
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
-pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, growth_limit};
+pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
 pub use pack::Pack;
+pub use pair::{Pair, Single, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

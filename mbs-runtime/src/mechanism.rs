@@ -1,6 +1,6 @@
 //! What a generated mechanism offers to integrators and tools.
 
-use crate::{Components, Derivation, Error, Info, Real, Sketch};
+use crate::{Components, Derivation, Error, Feedback, Info, Real, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,18 @@ pub struct Reactions<C: Components, R> {
     pub multipliers: R,
     /// Pivot growth; see [`Mechanism`].
     pub growth: C::Real,
+}
+
+/// A step of Heun's method that nobody has looked at yet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stepped<C: Components> {
+    /// The state after the step.
+    pub next: State<C>,
+    /// The sum of the pivot growths of both stages; see [`Mechanism`].
+    pub growth: C::Real,
+    /// The sum of positions and velocities, up to their signs: finite only if all
+    /// of them are.
+    pub sum: C::Real,
 }
 
 /// A mechanism with constraints Φ(q, t) = 0 and the equations of motion
@@ -141,6 +153,23 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         inputs: &Self::Inputs,
         feedback: &Self::Constraints,
     ) -> Accelerations<Self::Coordinates>;
+
+    /// A whole step of Heun's method of length `h`, from `at` to `t_next`, as one
+    /// program: sines and cosines of both stages, the solutions and the update, in
+    /// the operations of [`stabilized`](Self::stabilized) and
+    /// [`constrained`](Self::constrained). `None` if the mechanism is too large for
+    /// that to pay.
+    #[inline(always)]
+    fn fused_step<F: Feedback>(
+        &self,
+        _at: &State<Self::Coordinates>,
+        _inputs: &Self::Inputs,
+        _gains: &Gains<Self::Real>,
+        _h: Self::Real,
+        _t_next: Self::Real,
+    ) -> Option<Stepped<Self::Coordinates>> {
+        None
+    }
 
     /// Solves for q̈ and λ with γ + `feedback` below.
     fn reactions(

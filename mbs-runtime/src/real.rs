@@ -3,6 +3,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::pair::{Pair, Two, Vector};
 use crate::spline::Spline;
 
 /// A real scalar: what a generated solver needs to know of its number type.
@@ -30,6 +31,8 @@ pub trait Real:
 {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
+    /// Two of them at once; [`Two<Self>`](crate::Two) will do.
+    type Pair: Pair<Self>;
 
     /// The nearest scalar to `x`.
     fn from_f64(x: f64) -> Self;
@@ -41,9 +44,15 @@ pub trait Real:
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
     /// Sine of an angle in rad.
-    fn sin(self) -> Self;
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
     /// Cosine of an angle in rad.
-    fn cos(self) -> Self;
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
     /// Tangent of an angle in rad.
     fn tan(self) -> Self;
     /// Inverse sine in rad, NaN outside −1 … 1.
@@ -125,9 +134,10 @@ macro_rules! elementary {
 }
 
 macro_rules! real {
-    ($float:ident, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
+    ($float:ident, $Pair:ty, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
+            type Pair = $Pair;
 
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
@@ -191,9 +201,9 @@ macro_rules! real {
     };
 }
 
-real!(f64, sin_cos_f64, atan2, pow;
-    sin = sin, cos = cos, tan = tan, asin = asin, acos = acos, atan = atan,
+real!(f64, Vector, sin_cos_f64, atan2, pow;
+    tan = tan, asin = asin, acos = acos, atan = atan,
     sqrt = sqrt, exp = exp, ln = log, tanh = tanh);
-real!(f32, sin_cos_f32, atan2f, powf;
-    sin = sinf, cos = cosf, tan = tanf, asin = asinf, acos = acosf, atan = atanf,
+real!(f32, Two<f32>, sin_cos_f32, atan2f, powf;
+    tan = tanf, asin = asinf, acos = acosf, atan = atanf,
     sqrt = sqrtf, exp = expf, ln = logf, tanh = tanhf);

@@ -1,6 +1,7 @@
 //! A mechanism in motion.
 
 use crate::heun::{Solution, check_solution, heun_step};
+use crate::mechanism::growth_limit;
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, start};
 
 /// A mechanism being integrated in time.
@@ -71,9 +72,26 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     #[inline]
     pub fn step(&mut self) -> Result<(), Error> {
         let t_next = self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step;
-        let next =
-            heun_step::<M, F>(&self.mechanism, &self.state, &self.inputs, &self.gains, self.step, t_next);
-        match next {
+        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
+        // Written so that a NaN fails the test. The state is stored from registers,
+        // pair by pair; through a `Result` it would be copied in other pieces than
+        // those in which it was written, for which processors wait.
+        if let Some(fused) = mechanism.fused_step::<F>(state, inputs, gains, *step, t_next)
+            && fused.growth < growth_limit()
+            && fused.sum.is_finite()
+        {
+            self.state = fused.next;
+            self.steps += 1;
+            return Ok(());
+        }
+        self.step_in_stages(t_next)
+    }
+
+    /// The step of mechanisms that have no other, and of those whose step failed:
+    /// it finds out what went wrong, if anything did.
+    fn step_in_stages(&mut self, t_next: M::Real) -> Result<(), Error> {
+        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
+        match heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next) {
             Ok(next) => {
                 self.state = next;
                 self.steps += 1;
@@ -181,6 +199,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     ///
     /// # Errors
     /// [`Error::Singular`], [`Error::Input`].
+    #[inline]
     pub fn reactions(&self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         self.reactions_with(&M::Constraints::splat(M::Real::default()))
     }
@@ -195,17 +214,28 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.reactions_with(&feedback)
     }
 
+    #[inline]
     fn reactions_with(
         &self,
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
+        // A sum is finite only if all of them are, and shorter than a test of each.
+        let sum =
+            solved.acceleration.into_array().as_ref().iter().fold(M::Real::default(), |sum, &a| sum + a);
+        if sum.is_finite() && solved.growth < growth_limit() {
+            return Ok(solved);
+        }
+        self.examine(solved.acceleration, solved.growth).map(|()| solved)
+    }
+
+    /// Takes values and not references, so that what is healthy need not be in memory.
+    #[cold]
+    fn examine(&self, acceleration: M::Coordinates, growth: M::Real) -> Result<(), Error> {
         let (t, q) = (self.state.t, &self.state.q);
-        let solution =
-            Solution { t, q, value: &solved.acceleration, growth: solved.growth, pivots: M::INFO.pivots };
+        let solution = Solution { t, q, value: &acceleration, growth, pivots: M::INFO.pivots };
         check_solution(&solution, || self.mechanism.worst_pivot(t, q))
-            .map_err(|error| self.blame_inputs(error))?;
-        Ok(solved)
+            .map_err(|error| self.blame_inputs(error))
     }
 
     /// The declared outputs in the present state.

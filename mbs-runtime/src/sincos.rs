@@ -1,8 +1,13 @@
-//! Sine and cosine together, short enough to be inlined.
+//! Sine and cosine together, of one angle or of two at once, short enough to be
+//! inlined.
 //!
 //! Library calls for sines and cosines cost more than all the rest of a small
 //! mechanism, and everything that is alive has to be saved across them. This one
 //! has no branch within its range.
+
+use core::ops::{Add, Mul, Sub};
+
+use wide::f64x2;
 
 /// Up to here the reduction below is exact enough; mechanisms that turn further
 /// than that fall back to the library.
@@ -53,17 +58,8 @@ const SHIFT: f64 = 6_755_399_441_055_744.0;
 /// reduction, polynomials in r, and a quarter turn per unit of n.
 #[inline(always)]
 fn reduced(x: f64, shift_back: f64) -> (f64, f64) {
-    let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
-    let n = shifted - shift_back;
+    let Octant { shifted, sine, cosine } = octant(x, shift_back, |constant| constant);
     let quadrant = shifted.to_bits();
-    let r = ((x - n * HALF_PI[0]) - n * HALF_PI[1]) - n * HALF_PI[2];
-
-    let z = r * r;
-    let sine = r + r * z * polynomial(z, SINE);
-    let half = 0.5 * z;
-    let whole = 1.0 - half;
-    let cosine = whole + (((1.0 - whole) - half) + z * z * polynomial(z, COSINE));
-
     let swap = quadrant & 1 == 1;
     let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
     // The sine is negative in quadrants 2 and 3, the cosine in 1 and 2.
@@ -73,16 +69,62 @@ fn reduced(x: f64, shift_back: f64) -> (f64, f64) {
     (s, c)
 }
 
+/// The same of two angles at once, bit for bit.
+#[inline(always)]
+pub(crate) fn sin_cos_of_two(x: f64x2) -> (f64x2, f64x2) {
+    let Octant { shifted, sine, cosine } = octant(x, f64x2::splat(SHIFT), f64x2::splat);
+    let one = f64x2::splat(1.0);
+    let has_bit = |bit: u64| (shifted & f64x2::splat(f64::from_bits(bit)) | one).simd_gt(one);
+    let (swap, second_half) = (has_bit(1), has_bit(2));
+    let sign = f64x2::splat(-0.0);
+    let s = swap.bitselect(cosine, sine) ^ (second_half & sign);
+    let c = swap.bitselect(sine, cosine) ^ ((second_half ^ swap) & sign);
+    (s, c)
+}
+
+/// n in the low bits of the mantissa, and the sine and cosine of r.
+struct Octant<T> {
+    shifted: T,
+    sine: T,
+    cosine: T,
+}
+
+#[inline(always)]
+fn octant<T>(x: T, shift_back: T, constant: impl Fn(f64) -> T) -> Octant<T>
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
+{
+    let shifted = x * constant(core::f64::consts::FRAC_2_PI) + constant(SHIFT);
+    let n = shifted - shift_back;
+    let [high, middle, low] = HALF_PI;
+    let r = ((x - n * constant(high)) - n * constant(middle)) - n * constant(low);
+
+    let z = r * r;
+    let sine = r + r * z * polynomial(z, SINE, &constant);
+    let half = constant(0.5) * z;
+    let whole = constant(1.0) - half;
+    let cosine = whole + (((constant(1.0) - whole) - half) + z * z * polynomial(z, COSINE, &constant));
+    Octant { shifted, sine, cosine }
+}
+
 /// Estrin's scheme: half as long a chain of operations as Horner's.
 #[inline(always)]
-fn polynomial(z: f64, [p0, p1, p2, p3, p4, p5]: [f64; 6]) -> f64 {
+fn polynomial<T>(z: T, coefficients: [f64; 6], constant: &impl Fn(f64) -> T) -> T
+where
+    T: Copy + Add<Output = T> + Mul<Output = T>,
+{
+    // Not `map`: it is a call of its own where there is a lot of code already.
+    let [p0, p1, p2, p3, p4, p5] = coefficients;
     let w = z * z;
-    (p0 + z * p1) + w * ((p2 + z * p3) + w * (p4 + z * p5))
+    (constant(p0) + z * constant(p1))
+        + w * ((constant(p2) + z * constant(p3)) + w * (constant(p4) + z * constant(p5)))
 }
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use super::{RANGE, sin_cos};
+    use wide::f64x2;
+
+    use super::{RANGE, sin_cos, sin_cos_of_two};
 
     /// Distance in units in the last place of the expected value.
     fn ulps(found: f64, expected: f64) -> f64 {
@@ -115,5 +157,32 @@ mod tests {
         }
         assert!(worst < 2.6, "{worst}");
         assert!(sin_cos(f64::NAN).0.is_nan());
+    }
+
+    #[test]
+    fn two_at_once_are_the_same_bit_for_bit() {
+        let mut random = 1_u64;
+        let mut angle = || {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let unit = (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+            // all sizes up to the range, and beside multiples of π/2
+            let scale = RANGE * 2_f64.powi(-((random & 31) as i32));
+            let x = unit * scale;
+            if random & 32 == 0 {
+                x
+            } else {
+                (x * core::f64::consts::FRAC_2_PI).round() * core::f64::consts::FRAC_PI_2
+            }
+        };
+        for _ in 0..100_000 {
+            let x = [angle(), angle()];
+            let (s, c) = sin_cos_of_two(f64x2::new(x));
+            for (lane, x) in x.into_iter().enumerate() {
+                let (sine, cosine) = sin_cos(x);
+                assert_eq!(s.to_array()[lane].to_bits(), sine.to_bits(), "sine of {x}");
+                assert_eq!(c.to_array()[lane].to_bits(), cosine.to_bits(), "cosine of {x}");
+            }
+        }
+        assert!(sin_cos_of_two(f64x2::splat(f64::NAN)).0.to_array()[1].is_nan());
     }
 }

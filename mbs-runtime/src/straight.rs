@@ -59,6 +59,7 @@ macro_rules! of_the_scalar {
 }
 
 impl<T: Lane> Real for Straight<T> {
+    type Pair = crate::Two<Self>;
     const EPSILON: Self = Self(T::EPSILON);
 
     #[inline(always)]
@@ -79,7 +80,7 @@ impl<T: Lane> Real for Straight<T> {
         (Self(sine), Self(cosine))
     }
     of_the_scalar!(
-        sin cos tan asin acos atan sqrt exp ln tanh abs sign;
+        tan asin acos atan sqrt exp ln tanh abs sign;
         atan2 pow min max greater
     );
     #[inline(always)]

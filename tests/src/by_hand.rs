@@ -5,6 +5,7 @@
 //! The paper prints γ with ω in the place of θ̇1, and its row 6 with a stray ω²;
 //! here it is what differentiating Eq. (3) twice gives.
 
+use mbs_runtime::Real;
 use nalgebra::{SMatrix, SVector};
 
 /// Seven coordinates, or their rates.
@@ -317,7 +318,8 @@ struct Trigonometry {
 impl Trigonometry {
     #[inline(always)]
     fn new(of: &SliderCrank, q: &[f64; 7]) -> Self {
-        let ((s1, c1), (s2, c2)) = (q[2].sin_cos(), q[5].sin_cos());
+        // the library's are a call each, across which everything has to be saved
+        let ((s1, c1), (s2, c2)) = (Real::sin_cos(q[2]), Real::sin_cos(q[5]));
         Self { l1s1: of.l1 * s1, l1c1: of.l1 * c1, l2s2: of.l2 * s2, l2c2: of.l2 * c2 }
     }
 

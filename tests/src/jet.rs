@@ -94,6 +94,7 @@ impl Div for Jet {
 
 impl Real for Jet {
     const EPSILON: Self = Self { value: f64::EPSILON, first: 0.0, second: 0.0 };
+    type Pair = mbs_runtime::Two<Self>;
 
     fn from_f64(x: f64) -> Self {
         Self::line(x, 0.0)

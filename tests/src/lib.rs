@@ -2,6 +2,7 @@
 //! numbers that carry derivatives, random states, random declarations.
 
 pub mod by_hand;
+pub mod by_hand_on_pairs;
 pub mod fuzzing;
 pub mod jet;
 pub mod operators;

@@ -95,6 +95,7 @@ macro_rules! binary {
 
 impl Real for Probe {
     const EPSILON: Self = Self(f64::EPSILON);
+    type Pair = mbs_runtime::Two<Self>;
 
     fn from_f64(x: f64) -> Self {
         Self(x)

@@ -2,6 +2,7 @@
 //! alone is hoisted, and every function has its instructions.
 
 mod minimum_norm;
+mod step;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,6 +15,7 @@ use crate::derive::Equations;
 use crate::model::Model;
 use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
+pub use step::FusedStep;
 
 /// An order that changes more entries than this per unknown fills the matrix of a
 /// chain, and is given up.
@@ -58,6 +60,8 @@ pub struct Plan {
     pub position_correction: Program,
     /// Δv, growth
     pub velocity_correction: Program,
+    /// A whole step, of a mechanism that is small enough.
+    pub fused_step: Option<FusedStep>,
     /// Growth of every watched pivot.
     pub pivots: Program,
     /// The same of the corrections of a start.
@@ -173,6 +177,7 @@ pub fn plan(
         requirements: Program::default(),
         start: Program::default(),
         points: Program::default(),
+        fused_step: None,
         pivot_names: names(&factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
@@ -180,6 +185,7 @@ pub fn plan(
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
+        fused_step: step::fused(model, &plan.stabilized, &plan.constrained),
         prepare: lower_whole(&mut model.arena, hoisted.values()),
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements),

@@ -43,6 +43,7 @@ mod latex;
 mod lower;
 mod number;
 mod operators;
+pub mod pairs;
 mod program;
 mod repetition;
 mod spline;

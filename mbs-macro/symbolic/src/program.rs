@@ -43,6 +43,18 @@ pub enum Operation {
     Spline(SplineId, u8),
 }
 
+impl Operation {
+    /// Roughly how many cycles today's processors take.
+    pub(crate) fn latency(self) -> u32 {
+        match self {
+            Self::Add | Self::Sub | Self::Mul => 4,
+            Self::Neg => 1,
+            Self::Div => 14,
+            Self::Call(_) | Self::Call2(_) | Self::Spline(..) => 50,
+        }
+    }
+}
+
 /// One assignment. `b` equals `a` where the operation has one operand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instruction {
@@ -105,6 +117,19 @@ impl fmt::Display for Operations {
 }
 
 impl Program {
+    /// For every instruction how long its result takes from the inputs, in cycles.
+    pub(crate) fn latencies(&self) -> Vec<u32> {
+        let mut latencies: Vec<u32> = Vec::with_capacity(self.instructions.len());
+        for instruction in &self.instructions {
+            let of = |operand: Operand| match operand {
+                Operand::Value(at) => latencies[at],
+                _ => 0,
+            };
+            latencies.push(of(instruction.a).max(of(instruction.b)) + instruction.operation.latency());
+        }
+        latencies
+    }
+
     /// The operations of the whole program.
     pub fn operations(&self) -> Operations {
         self.count(0..self.instructions.len())
@@ -112,6 +137,12 @@ impl Program {
 
     /// The operations that the first `outputs` results need.
     pub fn operations_for(&self, outputs: usize) -> Operations {
+        let needed = self.needed_for(outputs);
+        self.count((0..needed.len()).filter(|&at| needed[at]))
+    }
+
+    /// Which instructions the first `outputs` results need.
+    fn needed_for(&self, outputs: usize) -> Vec<bool> {
         let mut needed = vec![false; self.instructions.len()];
         let mut mark = |operand: &Operand| {
             if let Operand::Value(at) = operand {
@@ -128,7 +159,31 @@ impl Program {
                 }
             }
         }
-        self.count((0..needed.len()).filter(|&at| needed[at]))
+        needed
+    }
+
+    /// The program without instructions that no output needs.
+    #[must_use]
+    pub fn without_dead_code(self) -> Self {
+        let needed = self.needed_for(self.outputs.len());
+        let mut positions = Vec::with_capacity(needed.len());
+        let mut count = 0;
+        for &is_needed in &needed {
+            positions.push(count);
+            count += usize::from(is_needed);
+        }
+        let moved = |operand: Operand| match operand {
+            Operand::Value(at) => Operand::Value(positions[at]),
+            _ => operand,
+        };
+        let instructions = self.instructions.into_iter().zip(&needed).filter(|(_, is_needed)| **is_needed);
+        Self {
+            instructions: instructions
+                .map(|(i, _)| Instruction { a: moved(i.a), b: moved(i.b), ..i })
+                .collect(),
+            outputs: self.outputs.into_iter().map(moved).collect(),
+            splines: self.splines,
+        }
     }
 
     fn count(&self, instructions: impl Iterator<Item = usize>) -> Operations {
@@ -150,6 +205,20 @@ impl Program {
         count
     }
 
+    /// An operation on numbers.
+    pub(crate) fn apply(&self, operation: Operation, a: f64, b: f64) -> f64 {
+        match operation {
+            Operation::Add => a + b,
+            Operation::Sub => a - b,
+            Operation::Mul => a * b,
+            Operation::Div => a / b,
+            Operation::Neg => -a,
+            Operation::Call(function) => (function.row().value)(a, 0.0),
+            Operation::Call2(function) => (function.row().value)(a, b),
+            Operation::Spline(spline, order) => self.splines[spline.index()].derivative(order, a),
+        }
+    }
+
     /// Runs the program.
     pub fn evaluate(&self, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
@@ -161,16 +230,7 @@ impl Program {
         };
         for instruction in &self.instructions {
             let (a, b) = (read(instruction.a, &values), read(instruction.b, &values));
-            values.push(match instruction.operation {
-                Operation::Add => a + b,
-                Operation::Sub => a - b,
-                Operation::Mul => a * b,
-                Operation::Div => a / b,
-                Operation::Neg => -a,
-                Operation::Call(function) => (function.row().value)(a, 0.0),
-                Operation::Call2(function) => (function.row().value)(a, b),
-                Operation::Spline(spline, order) => self.splines[spline.index()].derivative(order, a),
-            });
+            values.push(self.apply(instruction.operation, a, b));
         }
         self.outputs.iter().map(|&output| read(output, &values)).collect()
     }

@@ -81,6 +81,7 @@ impl Div for Dual {
 
 impl Real for Dual {
     const EPSILON: Self = Self { value: f64::EPSILON, rate: 0.0 };
+    type Pair = mbs_runtime::Two<Self>;
 
     fn from_f64(x: f64) -> Self {
         Self::new(x, 0.0)

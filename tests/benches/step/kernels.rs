@@ -8,6 +8,7 @@ use mbs_runtime::{Baumgarte, Components, Feedback, Held, Mechanism, PerStage, Si
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs};
 use tests::by_hand::{Coordinates, Gains, Rows, SliderCrank as ByHand};
+use tests::by_hand_on_pairs::Places;
 
 /// The step in s.
 pub const H: f64 = 0.5e-3;
@@ -23,6 +24,8 @@ pub enum Method {
     Dense,
     /// Eliminated by a person, scalars.
     ByHand,
+    /// Eliminated by a person, everything kept in vector registers.
+    OnPairs,
 }
 
 /// One program to be measured.
@@ -31,7 +34,7 @@ pub struct Kernel {
     pub method: Method,
     pub is_driven: bool,
     pub is_held: bool,
-    /// Whether the clean multipliers are computed after every step.
+    /// Whether the clean multipliers are computed before every step.
     pub with_reactions: bool,
 }
 
@@ -56,14 +59,18 @@ impl Kernel {
         for is_driven in [true, false] {
             for is_held in [true, false] {
                 for with_reactions in [false, true] {
-                    for method in [Method::Compiled, Method::Dense, Method::ByHand] {
+                    for method in [Method::Compiled, Method::Dense, Method::ByHand, Method::OnPairs] {
                         all.push(Self { method, is_driven, is_held, with_reactions });
                     }
                 }
             }
         }
-        // nobody wrote the free multipliers out by hand
-        all.retain(|k| k.method != Method::ByHand || !k.with_reactions || k.is_driven);
+        // nobody wrote everything out by hand
+        all.retain(|k| match k.method {
+            Method::ByHand => !k.with_reactions || k.is_driven,
+            Method::OnPairs => !k.with_reactions && !k.is_held,
+            Method::Compiled | Method::Dense => true,
+        });
         all
     }
 
@@ -75,9 +82,12 @@ impl Kernel {
             (Method::Compiled, false) => self.compiled::<PerStage>(steps),
             (Method::Dense, _) => self.dense(steps),
             (Method::ByHand, _) => self.by_hand(steps),
+            (Method::OnPairs, _) if self.is_driven => self.on_pairs::<true>(steps),
+            (Method::OnPairs, _) => self.on_pairs::<false>(steps),
         }
     }
 
+    #[inline(never)]
     fn compiled<F: Feedback>(&self, steps: u32) -> (f64, f64) {
         if self.is_driven {
             let simulation = simulation::<_, F>(SliderCrank::declared(), Default::default());
@@ -105,6 +115,7 @@ impl Kernel {
         (black_box(hand), black_box(Gains { two_alpha, beta_squared }), q, Coordinates::from(v))
     }
 
+    #[inline(never)]
     fn dense(&self, steps: u32) -> (f64, f64) {
         let (hand, gains, mut q, mut v) = self.start();
         let solve = |q: &Coordinates, v: &Coordinates, feedback: &Rows| {
@@ -118,6 +129,9 @@ impl Kernel {
         let mut reaction = 0.0;
         for k in 0..steps {
             let (t, t_next) = (f64::from(k) * H, f64::from(k + 1) * H);
+            if self.with_reactions {
+                reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
+            }
             let feedback = hand.feedback(t, &q, &v, &gains);
             let here = solve(&q, &v, &feedback).acceleration;
             let (predicted_q, predicted_v) = (q + v * H, v + here * H);
@@ -129,13 +143,12 @@ impl Kernel {
             let there = solve(&predicted_q, &predicted_v, &feedback).acceleration;
             q += (v + predicted_v) * (0.5 * H);
             v += (here + there) * (0.5 * H);
-            if self.with_reactions {
-                reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
-            }
         }
+        black_box((q, v));
         (q[2], reaction)
     }
 
+    #[inline(never)]
     fn by_hand(&self, steps: u32) -> (f64, f64) {
         let (hand, gains, q, v) = self.start();
         let ([mut q], [mut v]) = (q.data.0, v.data.0);
@@ -156,6 +169,10 @@ impl Kernel {
                     hand.accelerations_free_held(q, v, feedback)
                 }
             };
+            if self.with_reactions {
+                let clean = held(&q, &v, &[0.0; 7]);
+                reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
+            }
             let (here, feedback) = stage(&q, &v, t);
             let predicted_q: [f64; 7] = std::array::from_fn(|i| q[i] + H * v[i]);
             let predicted_v: [f64; 7] = std::array::from_fn(|i| v[i] + H * here[i]);
@@ -168,12 +185,22 @@ impl Kernel {
                 q[i] += 0.5 * H * (v[i] + predicted_v[i]);
                 v[i] += 0.5 * H * (here[i] + there[i]);
             }
-            if self.with_reactions {
-                let clean = held(&q, &v, &[0.0; 7]);
-                reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
-            }
         }
+        black_box((q, v));
         (q[2], reaction)
+    }
+
+    #[inline(never)]
+    fn on_pairs<const IS_DRIVEN: bool>(&self, steps: u32) -> (f64, f64) {
+        let (hand, gains, q, v) = self.start();
+        let ([q], [v]) = (q.data.0, v.data.0);
+        let (mut q, mut v) = (Places::new(q), Places::new(v));
+        for k in 0..steps {
+            let times = [f64::from(k) * H, f64::from(k + 1) * H];
+            (q, v) = hand.step_on_pairs::<IS_DRIVEN>((&q, &v), &gains, H, times);
+        }
+        black_box((q, v));
+        (q.theta1(), 0.0)
     }
 }
 
@@ -185,6 +212,7 @@ fn simulation<M: Mechanism, F: Feedback>(mechanism: M, inputs: M::Inputs) -> Sim
         .unwrap_or_else(|_| std::process::abort())
 }
 
+#[inline(never)]
 fn run_compiled<M, F>(mut simulation: Simulation<M, F>, steps: u32, with_reactions: bool) -> (f64, f64)
 where
     M: Mechanism<Real = f64>,
@@ -192,13 +220,14 @@ where
 {
     let mut reaction = 0.0;
     for _ in 0..steps {
-        if simulation.step().is_err() {
-            std::process::abort();
-        }
         if with_reactions && let Ok(solved) = simulation.reactions() {
             let multipliers = black_box(solved.multipliers).into_array();
             reaction = multipliers.as_ref().last().copied().unwrap_or(0.0);
         }
+        if simulation.step().is_err() {
+            std::process::abort();
+        }
     }
+    black_box(*simulation.state());
     (simulation.state().q.get("theta1").unwrap_or(f64::NAN), reaction)
 }

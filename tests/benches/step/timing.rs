@@ -28,19 +28,34 @@ pub fn print() {
 
     println!("ns per Heun step, medians of {REPETITIONS} interleaved repetitions");
     println!(
-        "{:28} {:>9} {:>9} {:>9} {:>12} {:>14}",
-        "", "compiled", "dense LU", "by hand", "dense/ours", "ours/by hand"
+        "{:28} {:>9} {:>9} {:>9} {:>9} {:>12} {:>14} {:>14} {:>12}",
+        "",
+        "compiled",
+        "dense LU",
+        "by hand",
+        "on pairs",
+        "dense/ours",
+        "ours/by hand",
+        "ours/on pairs",
+        "with λ"
     );
     for kernel in kernels.iter().filter(|kernel| kernel.method == Method::Compiled) {
-        let case = kernel.case();
-        let (Some(ours), Some(dense)) = (time(&case, Method::Compiled), time(&case, Method::Dense)) else {
-            continue;
+        let of = |method: Method| time(&kernel.case(), method);
+        let (Some(ours), Some(dense)) = (of(Method::Compiled), of(Method::Dense)) else { continue };
+        let columns = [of(Method::ByHand), of(Method::OnPairs)];
+        let [by_hand, on_pairs] = columns.map(|time| time.map_or(String::new(), |time| format!("{time:.1}")));
+        let [to_hand, to_pairs] =
+            columns.map(|time| time.map_or(String::new(), |time| format!("{:.2}x", ours / time)));
+        let without = Kernel { with_reactions: false, ..*kernel }.case();
+        let with_reactions = match time(&without, Method::Compiled).filter(|_| kernel.with_reactions) {
+            Some(without) => format!("{:.2}x", ours / without),
+            None => String::new(),
         };
-        print!("{case:28} {ours:9.1} {dense:9.1}");
-        match time(&case, Method::ByHand) {
-            Some(by_hand) => println!(" {by_hand:9.1} {:11.1}x {:13.2}x", dense / ours, ours / by_hand),
-            None => println!(" {:>9} {:11.1}x", "", dense / ours),
-        }
+        println!(
+            "{:28} {ours:9.1} {dense:9.1} {by_hand:>9} {on_pairs:>9} {:11.1}x {to_hand:>14} {to_pairs:>14} {with_reactions:>12}",
+            kernel.case(),
+            dense / ours
+        );
     }
     println!();
 }

@@ -584,6 +584,216 @@ Cost: 13 mul + 6 add + 1 div + 0 sincos.*/
     }
 }
 #[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> Pendulum<T> {
+    ///A step with feedback held over it.
+    #[inline(always)]
+    fn step_held(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<PendulumCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p6 = p0 * p5;
+        let p7 = p4 * p6;
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p11 = p10 * p2;
+        let p12 = p9 * p11;
+        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p14 = p11.swap();
+        let p15 = p13 * p14;
+        let p16 = p12 + p15;
+        let p17 = p8 * p16;
+        let v18 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p19 = p0 * p0;
+        let v20 = p19.second() + p19.first();
+        let v21 = Single::<T>::new(self.hoisted[1]) * v20;
+        let phi_rod = v21 - Single::<T>::new(self.hoisted[0]);
+        let v23 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let feedback_rod = v18 + v23;
+        let v25 = Single::<T>::new(self.hoisted[6]) * p7.second();
+        let v26 = v25 + p17.second();
+        let v27 = feedback_rod - v26;
+        let p28 = p6 * p7;
+        let v29 = p28.second() + p28.first();
+        let v30 = v27 / v29;
+        let p31 = T::Pair::splat(v30);
+        let p32 = p7 * p31;
+        let acc_y = Single::<T>::new(self.hoisted[7]) + p32.second();
+        let p34 = T::Pair::join(p32.first(), acc_y);
+        let p35 = p3 * p34;
+        let p36 = p2 + p35;
+        let p37 = p2 + p36;
+        let p38 = p1 * p37;
+        let p39 = p0 + p38;
+        let p40 = p3 * p2;
+        let p41 = p0 + p40;
+        let p42 = p41 * p5;
+        let p43 = p4 * p42;
+        let v44 = Single::<T>::new(self.hoisted[6]) * p43.second();
+        let v45 = feedback_rod - v44;
+        let p46 = p10 * p36;
+        let p47 = p36 * p46;
+        let v48 = p47.second() + p47.first();
+        let v49 = Single::<T>::new(self.hoisted[1]) * v48;
+        let v50 = v45 - v49;
+        let p51 = p42 * p43;
+        let v52 = p51.second() + p51.first();
+        let v53 = v50 / v52;
+        let p54 = T::Pair::splat(v53);
+        let p55 = p43 * p54;
+        let v56 = p32.first() + p55.first();
+        let v57 = Single::<T>::new(self.hoisted[7]) + p55.second();
+        let v58 = acc_y + v57;
+        let p59 = T::Pair::join(v56, v58);
+        let p60 = p1 * p59;
+        let p61 = p2 + p60;
+        let v62 = Single::<T>::new(T::from_f64(0.0))
+            + Single::<T>::new(T::from_f64(0.0));
+        let p63 = p39 + p61;
+        let v64 = p63.first() + p63.second();
+        let [growth, sum] = [v62.get(), v64.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: PendulumCoordinates {
+                    x: p39.first().get(),
+                    y: p39.second().get(),
+                },
+                v: PendulumCoordinates {
+                    x: p61.first().get(),
+                    y: p61.second().get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+    ///A step with feedback in both stages.
+    #[inline(always)]
+    fn step_per_stage(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<PendulumCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p6 = p0 * p5;
+        let p7 = p4 * p6;
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p11 = p10 * p2;
+        let p12 = p9 * p11;
+        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p14 = p11.swap();
+        let p15 = p13 * p14;
+        let p16 = p12 + p15;
+        let p17 = p8 * p16;
+        let v18 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p19 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p20 = p0 * p0;
+        let v21 = p20.second() + p20.first();
+        let p22 = p3 * p2;
+        let p23 = p0 + p22;
+        let p24 = p23 * p23;
+        let v25 = p24.second() + p24.first();
+        let p26 = T::Pair::join(v21, v25);
+        let p27 = p8 * p26;
+        let p28 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p29 = p27 - p28;
+        let p30 = p19 * p29;
+        let feedback_rod = v18 + p30.first();
+        let v32 = Single::<T>::new(self.hoisted[6]) * p7.second();
+        let v33 = v32 + p17.second();
+        let v34 = feedback_rod - v33;
+        let p35 = p6 * p7;
+        let v36 = p35.second() + p35.first();
+        let v37 = v34 / v36;
+        let p38 = T::Pair::splat(v37);
+        let p39 = p7 * p38;
+        let acc_y = Single::<T>::new(self.hoisted[7]) + p39.second();
+        let p41 = T::Pair::join(p39.first(), acc_y);
+        let p42 = p3 * p41;
+        let p43 = p2 + p42;
+        let p44 = p2 + p43;
+        let p45 = p1 * p44;
+        let p46 = p0 + p45;
+        let p47 = p23 * p5;
+        let p48 = p4 * p47;
+        let p49 = T::Pair::join(p23.first(), p43.second());
+        let p50 = p10 * p43;
+        let p51 = p49 * p50;
+        let p52 = T::Pair::join(p23.second(), p43.first());
+        let p53 = p50.swap();
+        let p54 = p52 * p53;
+        let p55 = p51 + p54;
+        let p56 = p8 * p55;
+        let v57 = Single::<T>::new(gains.minus_two_alpha) * p56.first();
+        let v58 = v57 + p30.second();
+        let v59 = Single::<T>::new(self.hoisted[6]) * p48.second();
+        let v60 = v59 + p56.second();
+        let v61 = v58 - v60;
+        let p62 = p47 * p48;
+        let v63 = p62.second() + p62.first();
+        let v64 = v61 / v63;
+        let p65 = T::Pair::splat(v64);
+        let p66 = p48 * p65;
+        let v67 = p39.first() + p66.first();
+        let v68 = Single::<T>::new(self.hoisted[7]) + p66.second();
+        let v69 = acc_y + v68;
+        let p70 = T::Pair::join(v67, v69);
+        let p71 = p1 * p70;
+        let p72 = p2 + p71;
+        let v73 = Single::<T>::new(T::from_f64(0.0))
+            + Single::<T>::new(T::from_f64(0.0));
+        let p74 = p46 + p72;
+        let v75 = p74.first() + p74.second();
+        let [growth, sum] = [v73.get(), v75.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: PendulumCoordinates {
+                    x: p46.first().get(),
+                    y: p46.second().get(),
+                },
+                v: PendulumCoordinates {
+                    x: p72.first().get(),
+                    y: p72.second().get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+}
+#[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = Pendulum<Scalar>;
@@ -1260,6 +1470,23 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             },
             growth: T::from_f64(0.0),
         }
+    }
+    #[inline(always)]
+    fn fused_step<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<::mbs_runtime::Stepped<PendulumCoordinates<T>>> {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
     }
     fn worst_pivot(
         &self,

@@ -1159,6 +1159,541 @@ Cost: 48 mul + 34 add + 1 div + 2 sincos.*/
     }
 }
 #[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> SliderCrank<T> {
+    ///A step with feedback held over it.
+    #[inline(always)]
+    fn step_held(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<SliderCrankCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let phi_dot_crank_speed = Single::<T>::new(at.v.theta1)
+            - Single::<T>::new(self.parameters.omega);
+        let v22 = Single::<T>::new(gains.minus_two_alpha) * phi_dot_crank_speed;
+        let v23 = Single::<T>::new(at.t) * Single::<T>::new(self.parameters.omega);
+        let phi_crank_speed = Single::<T>::new(at.q.theta1) - v23;
+        let v25 = Single::<T>::new(gains.minus_beta_squared) * phi_crank_speed;
+        let feedback_crank_speed = v22 + v25;
+        let p27 = T::Pair::splat(feedback_crank_speed);
+        let p28 = p27.flip();
+        let p29 = p28 * p16;
+        let v30 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p31 = T::Pair::splat(v30);
+        let p32 = p31 * p10;
+        let p33 = p29 + p32;
+        let p34 = p20 - p33;
+        let p35 = p3 * p34;
+        let p36 = p2 + p35;
+        let p37 = p2 + p36;
+        let p38 = p1 * p37;
+        let p39 = p0 + p38;
+        let v40 = Single::<T>::new(h) * feedback_crank_speed;
+        let v41 = Single::<T>::new(at.v.theta1) + v40;
+        let v42 = Single::<T>::new(at.v.theta1) + v41;
+        let v43 = Single::<T>::new(half_h) * v42;
+        let v44 = Single::<T>::new(at.q.theta1) + v43;
+        let p45 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p46 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p47 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p48 = T::Pair::join(cosines7.second(), sines7.second());
+        let p49 = p47 * p48;
+        let p50 = p45 - p49;
+        let p51 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p52 = p51 * p9;
+        let p53 = p50 - p52;
+        let p54 = p4 * p53;
+        let p55 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p56 = p55.flip();
+        let p57 = p49.swap();
+        let p58 = p56 * p57;
+        let p59 = p46 + p58;
+        let p60 = p52.swap();
+        let p61 = p15 * p60;
+        let p62 = p59 + p61;
+        let p63 = p13 * p62;
+        let p64 = p54 + p63;
+        let p65 = p28 * p60;
+        let p66 = p31 * p52;
+        let p67 = p65 + p66;
+        let v68 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p69 = T::Pair::splat(v68);
+        let p70 = p69 * p49;
+        let p71 = p67 + p70;
+        let p72 = p64 - p71;
+        let p73 = p57.flip();
+        let p74 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let v75 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v76 = Single::<T>::new(at.q.theta1) + v75;
+        let v77 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v78 = Single::<T>::new(at.q.theta2) + v77;
+        let p79 = T::Pair::join(v76, v78);
+        let (sines80, cosines80) = p79.sin_cos();
+        let p82 = T::Pair::join(cosines7.second(), cosines80.second());
+        let p83 = p74 / p82;
+        let p84 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let p85 = T::Pair::join(sines7.second(), cosines7.second());
+        let p86 = p84 * p85;
+        let phi_guide = p86.first() + p52.second();
+        let v88 = Single::<T>::new(at.q.x3) - p86.second();
+        let phi_slider = v88 - p52.first();
+        let p90 = T::Pair::join(phi_guide, phi_slider);
+        let p91 = p4 * p90;
+        let v92 = Single::<T>::new(at.v.theta2) * p86.second();
+        let p93 = T::Pair::join(v92, p61.first());
+        let p94 = p61.flip();
+        let v95 = Single::<T>::new(at.v.theta2) * p86.first();
+        let v96 = Single::<T>::new(at.v.x3) + v95;
+        let p97 = T::Pair::join(p94.second(), v96);
+        let p98 = p93 + p97;
+        let p99 = p13 * p98;
+        let p100 = p91 + p99;
+        let p101 = p69.flip();
+        let p102 = p101 * p86;
+        let p103 = p67.flip();
+        let p104 = p103.swap();
+        let p105 = p102 - p104;
+        let p106 = p100 + p105;
+        let acc_theta2 = p83.first() * p106.first();
+        let p108 = T::Pair::splat(acc_theta2);
+        let p109 = p73 * p108;
+        let p110 = p72 - p109;
+        let p111 = p3 * p110;
+        let p112 = p46 + p111;
+        let p113 = p46 + p112;
+        let p114 = p1 * p113;
+        let p115 = p45 + p114;
+        let p116 = T::Pair::join(
+            Single::<T>::new(at.q.theta2),
+            Single::<T>::new(at.q.x3),
+        );
+        let p117 = T::Pair::join(
+            Single::<T>::new(at.v.theta2),
+            Single::<T>::new(at.v.x3),
+        );
+        let v118 = p86.first() * acc_theta2;
+        let acc_x3 = p106.second() - v118;
+        let p120 = T::Pair::join(acc_theta2, acc_x3);
+        let p121 = p3 * p120;
+        let p122 = p117 + p121;
+        let p123 = p117 + p122;
+        let p124 = p1 * p123;
+        let p125 = p116 + p124;
+        let p126 = T::Pair::join(sines80.first(), cosines80.first());
+        let p127 = p27 * p126;
+        let v128 = v41 * v41;
+        let p129 = T::Pair::splat(v128);
+        let p130 = T::Pair::join(cosines80.first(), sines80.first());
+        let p131 = p129 * p130;
+        let p132 = T::Pair::join(p127.first(), p131.second());
+        let p133 = p5 * p132;
+        let p134 = p20 - p133;
+        let p135 = p5.flip();
+        let p136 = T::Pair::join(p131.first(), p127.second());
+        let p137 = p135 * p136;
+        let p138 = p134 - p137;
+        let p139 = p34 + p138;
+        let p140 = p1 * p139;
+        let p141 = p2 + p140;
+        let v142 = feedback_crank_speed + feedback_crank_speed;
+        let v143 = Single::<T>::new(half_h) * v142;
+        let v144 = Single::<T>::new(at.v.theta1) + v143;
+        let v145 = p122.first() * p122.first();
+        let p146 = T::Pair::splat(v145);
+        let p147 = T::Pair::join(cosines80.second(), sines80.second());
+        let p148 = p47 * p147;
+        let p149 = p146 * p148;
+        let p150 = p64 - p149;
+        let p151 = p51.flip();
+        let p152 = p151 * p127;
+        let p153 = p51 * p131;
+        let p154 = p152 + p153;
+        let p155 = p150 - p154;
+        let p156 = p148.swap();
+        let p157 = p156.flip();
+        let v158 = Single::<T>::new(self.parameters.l2) * sines80.second();
+        let v159 = v145 * v158;
+        let v160 = p100.first() + v159;
+        let p161 = p154.flip();
+        let v162 = v160 - p161.second();
+        let v163 = p83.second() * v162;
+        let p164 = T::Pair::splat(v163);
+        let p165 = p157 * p164;
+        let p166 = p155 - p165;
+        let p167 = p110 + p166;
+        let p168 = p1 * p167;
+        let p169 = p46 + p168;
+        let v170 = acc_theta2 + v163;
+        let v171 = Single::<T>::new(half_h) * v170;
+        let v172 = Single::<T>::new(at.v.theta2) + v171;
+        let v173 = Single::<T>::new(self.parameters.l2) * v145;
+        let v174 = v173 * cosines80.second();
+        let v175 = p100.second() - v174;
+        let v176 = v175 - p161.first();
+        let v177 = v158 * v163;
+        let v178 = v176 - v177;
+        let v179 = acc_x3 + v178;
+        let v180 = Single::<T>::new(half_h) * v179;
+        let v181 = Single::<T>::new(at.v.x3) + v180;
+        let p182 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p183 = p182 * p83;
+        let v184 = Single::<T>::new(p183.first().get().abs());
+        let v185 = Single::<T>::new(p183.second().get().abs());
+        let v186 = v184 + v185;
+        let p187 = p39 + p115;
+        let p188 = p187 + p125;
+        let p189 = p188 + p141;
+        let p190 = p189 + p169;
+        let v191 = v44 + v144;
+        let v192 = v191 + v172;
+        let v193 = v192 + v181;
+        let v194 = v193 + p190.first();
+        let v195 = v194 + p190.second();
+        let [growth, sum] = [v186.get(), v195.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: SliderCrankCoordinates {
+                    x1: p39.first().get(),
+                    y1: p39.second().get(),
+                    theta1: v44.get(),
+                    x2: p115.first().get(),
+                    y2: p115.second().get(),
+                    theta2: p125.first().get(),
+                    x3: p125.second().get(),
+                },
+                v: SliderCrankCoordinates {
+                    x1: p141.first().get(),
+                    y1: p141.second().get(),
+                    theta1: v144.get(),
+                    x2: p169.first().get(),
+                    y2: p169.second().get(),
+                    theta2: v172.get(),
+                    x3: v181.get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+    ///A step with feedback in both stages.
+    #[inline(always)]
+    fn step_per_stage(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<SliderCrankCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let phi_dot_crank_speed = Single::<T>::new(at.v.theta1)
+            - Single::<T>::new(self.parameters.omega);
+        let v22 = Single::<T>::new(gains.minus_two_alpha) * phi_dot_crank_speed;
+        let v23 = Single::<T>::new(at.t) * Single::<T>::new(self.parameters.omega);
+        let phi_crank_speed = Single::<T>::new(at.q.theta1) - v23;
+        let v25 = Single::<T>::new(gains.minus_beta_squared) * phi_crank_speed;
+        let feedback_crank_speed = v22 + v25;
+        let p27 = T::Pair::splat(feedback_crank_speed);
+        let p28 = p27.flip();
+        let p29 = p28 * p16;
+        let v30 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p31 = T::Pair::splat(v30);
+        let p32 = p31 * p10;
+        let p33 = p29 + p32;
+        let p34 = p20 - p33;
+        let p35 = p3 * p34;
+        let p36 = p2 + p35;
+        let p37 = p2 + p36;
+        let p38 = p1 * p37;
+        let p39 = p0 + p38;
+        let v40 = Single::<T>::new(h) * feedback_crank_speed;
+        let v41 = Single::<T>::new(at.v.theta1) + v40;
+        let v42 = Single::<T>::new(at.v.theta1) + v41;
+        let v43 = Single::<T>::new(half_h) * v42;
+        let v44 = Single::<T>::new(at.q.theta1) + v43;
+        let p45 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p46 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p47 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p48 = T::Pair::join(cosines7.second(), sines7.second());
+        let p49 = p47 * p48;
+        let p50 = p45 - p49;
+        let p51 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p52 = p51 * p9;
+        let p53 = p50 - p52;
+        let p54 = p4 * p53;
+        let p55 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p56 = p55.flip();
+        let p57 = p49.swap();
+        let p58 = p56 * p57;
+        let p59 = p46 + p58;
+        let p60 = p52.swap();
+        let p61 = p15 * p60;
+        let p62 = p59 + p61;
+        let p63 = p13 * p62;
+        let p64 = p54 + p63;
+        let p65 = p28 * p60;
+        let p66 = p31 * p52;
+        let p67 = p65 + p66;
+        let v68 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p69 = T::Pair::splat(v68);
+        let p70 = p69 * p49;
+        let p71 = p67 + p70;
+        let p72 = p64 - p71;
+        let p73 = p57.flip();
+        let p74 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let v75 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v76 = Single::<T>::new(at.q.theta1) + v75;
+        let v77 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v78 = Single::<T>::new(at.q.theta2) + v77;
+        let p79 = T::Pair::join(v76, v78);
+        let (sines80, cosines80) = p79.sin_cos();
+        let p82 = T::Pair::join(cosines7.second(), cosines80.second());
+        let p83 = p74 / p82;
+        let p84 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let p85 = T::Pair::join(sines7.second(), cosines7.second());
+        let p86 = p84 * p85;
+        let phi_guide = p86.first() + p52.second();
+        let v88 = Single::<T>::new(at.q.x3) - p86.second();
+        let phi_slider = v88 - p52.first();
+        let p90 = T::Pair::join(phi_guide, phi_slider);
+        let p91 = p4 * p90;
+        let v92 = Single::<T>::new(at.v.theta2) * p86.second();
+        let p93 = T::Pair::join(v92, p61.first());
+        let p94 = p61.flip();
+        let v95 = Single::<T>::new(at.v.theta2) * p86.first();
+        let v96 = Single::<T>::new(at.v.x3) + v95;
+        let p97 = T::Pair::join(p94.second(), v96);
+        let p98 = p93 + p97;
+        let p99 = p13 * p98;
+        let p100 = p91 + p99;
+        let p101 = p69.flip();
+        let p102 = p101 * p86;
+        let p103 = p67.flip();
+        let p104 = p103.swap();
+        let p105 = p102 - p104;
+        let p106 = p100 + p105;
+        let acc_theta2 = p83.first() * p106.first();
+        let p108 = T::Pair::splat(acc_theta2);
+        let p109 = p73 * p108;
+        let p110 = p72 - p109;
+        let p111 = p3 * p110;
+        let p112 = p46 + p111;
+        let p113 = p46 + p112;
+        let p114 = p1 * p113;
+        let p115 = p45 + p114;
+        let v116 = Single::<T>::new(h) * acc_theta2;
+        let v117 = Single::<T>::new(at.v.theta2) + v116;
+        let v118 = Single::<T>::new(at.v.theta2) + v117;
+        let v119 = Single::<T>::new(half_h) * v118;
+        let v120 = Single::<T>::new(at.q.theta2) + v119;
+        let v121 = p86.first() * acc_theta2;
+        let acc_x3 = p106.second() - v121;
+        let v123 = Single::<T>::new(h) * acc_x3;
+        let v124 = Single::<T>::new(at.v.x3) + v123;
+        let v125 = Single::<T>::new(at.v.x3) + v124;
+        let v126 = Single::<T>::new(half_h) * v125;
+        let v127 = Single::<T>::new(at.q.x3) + v126;
+        let p128 = p3 * p2;
+        let p129 = p0 + p128;
+        let p130 = T::Pair::join(cosines80.first(), sines80.first());
+        let p131 = p5 * p130;
+        let p132 = p129 - p131;
+        let p133 = p4 * p132;
+        let p134 = T::Pair::splat(v41);
+        let p135 = p134.flip();
+        let p136 = p131.swap();
+        let p137 = p135 * p136;
+        let p138 = p36 + p137;
+        let p139 = p13 * p138;
+        let p140 = p133 + p139;
+        let v141 = v41 - Single::<T>::new(self.parameters.omega);
+        let v142 = Single::<T>::new(gains.minus_two_alpha) * v141;
+        let v143 = Single::<T>::new(t_next) * Single::<T>::new(self.parameters.omega);
+        let v144 = v76 - v143;
+        let v145 = Single::<T>::new(gains.minus_beta_squared) * v144;
+        let v146 = v142 + v145;
+        let p147 = T::Pair::splat(v146);
+        let p148 = p147.flip();
+        let p149 = p148 * p136;
+        let v150 = v41 * v41;
+        let p151 = T::Pair::splat(v150);
+        let p152 = p151 * p131;
+        let p153 = p149 + p152;
+        let p154 = p140 - p153;
+        let p155 = p34 + p154;
+        let p156 = p1 * p155;
+        let p157 = p2 + p156;
+        let v158 = feedback_crank_speed + v146;
+        let v159 = Single::<T>::new(half_h) * v158;
+        let v160 = Single::<T>::new(at.v.theta1) + v159;
+        let p161 = p3 * p46;
+        let p162 = p45 + p161;
+        let p163 = T::Pair::join(cosines80.second(), sines80.second());
+        let p164 = p47 * p163;
+        let p165 = p162 - p164;
+        let p166 = p51 * p130;
+        let p167 = p165 - p166;
+        let p168 = p4 * p167;
+        let p169 = T::Pair::splat(v117);
+        let p170 = p169.flip();
+        let p171 = p164.swap();
+        let p172 = p170 * p171;
+        let p173 = p112 + p172;
+        let p174 = p166.swap();
+        let p175 = p135 * p174;
+        let p176 = p173 + p175;
+        let p177 = p13 * p176;
+        let p178 = p168 + p177;
+        let p179 = p148 * p174;
+        let p180 = p151 * p166;
+        let p181 = p179 + p180;
+        let v182 = v117 * v117;
+        let p183 = T::Pair::splat(v182);
+        let p184 = p183 * p164;
+        let p185 = p181 + p184;
+        let p186 = p178 - p185;
+        let p187 = p171.flip();
+        let p188 = T::Pair::join(sines80.second(), cosines80.second());
+        let p189 = p84 * p188;
+        let v190 = p189.first() + p166.second();
+        let v191 = Single::<T>::new(h) * Single::<T>::new(at.v.x3);
+        let v192 = Single::<T>::new(at.q.x3) + v191;
+        let v193 = v192 - p189.second();
+        let v194 = v193 - p166.first();
+        let p195 = T::Pair::join(v190, v194);
+        let p196 = p4 * p195;
+        let v197 = v117 * p189.second();
+        let p198 = T::Pair::join(v197, p175.first());
+        let p199 = p175.flip();
+        let v200 = v117 * p189.first();
+        let v201 = v124 + v200;
+        let p202 = T::Pair::join(p199.second(), v201);
+        let p203 = p198 + p202;
+        let p204 = p13 * p203;
+        let p205 = p196 + p204;
+        let p206 = p183.flip();
+        let p207 = p206 * p189;
+        let p208 = p181.flip();
+        let p209 = p208.swap();
+        let p210 = p207 - p209;
+        let p211 = p205 + p210;
+        let v212 = p83.second() * p211.first();
+        let p213 = T::Pair::splat(v212);
+        let p214 = p187 * p213;
+        let p215 = p186 - p214;
+        let p216 = p110 + p215;
+        let p217 = p1 * p216;
+        let p218 = p46 + p217;
+        let v219 = acc_theta2 + v212;
+        let v220 = Single::<T>::new(half_h) * v219;
+        let v221 = Single::<T>::new(at.v.theta2) + v220;
+        let v222 = p189.first() * v212;
+        let v223 = p211.second() - v222;
+        let v224 = acc_x3 + v223;
+        let v225 = Single::<T>::new(half_h) * v224;
+        let v226 = Single::<T>::new(at.v.x3) + v225;
+        let p227 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p228 = p227 * p83;
+        let v229 = Single::<T>::new(p228.first().get().abs());
+        let v230 = Single::<T>::new(p228.second().get().abs());
+        let v231 = v229 + v230;
+        let p232 = p39 + p115;
+        let p233 = p232 + p157;
+        let p234 = p233 + p218;
+        let v235 = v44 + v120;
+        let v236 = v235 + v127;
+        let v237 = v236 + v160;
+        let v238 = v237 + v221;
+        let v239 = v238 + v226;
+        let v240 = v239 + p234.first();
+        let v241 = v240 + p234.second();
+        let [growth, sum] = [v231.get(), v241.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: SliderCrankCoordinates {
+                    x1: p39.first().get(),
+                    y1: p39.second().get(),
+                    theta1: v44.get(),
+                    x2: p115.first().get(),
+                    y2: p115.second().get(),
+                    theta2: v120.get(),
+                    x3: v127.get(),
+                },
+                v: SliderCrankCoordinates {
+                    x1: p157.first().get(),
+                    y1: p157.second().get(),
+                    theta1: v160.get(),
+                    x2: p218.first().get(),
+                    y2: p218.second().get(),
+                    theta2: v221.get(),
+                    x3: v226.get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+}
+#[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = SliderCrank<Scalar>;
@@ -2621,6 +3156,23 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             },
             growth: abs_v26,
         }
+    }
+    #[inline(always)]
+    fn fused_step<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<::mbs_runtime::Stepped<SliderCrankCoordinates<T>>> {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
     }
     fn worst_pivot(
         &self,

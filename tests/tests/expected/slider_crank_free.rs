@@ -1214,6 +1214,741 @@ Cost: 76 mul + 49 add + 2 div + 2 sincos.*/
     }
 }
 #[allow(unused_variables, clippy::all)]
+impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
+    ///A step with feedback held over it.
+    #[inline(always)]
+    fn step_held(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let v21 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p22 = T::Pair::splat(v21);
+        let p23 = p22 * p10;
+        let p24 = p20 - p23;
+        let p25 = p16.flip();
+        let p26 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p27 = p26 * p9;
+        let p28 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let v29 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v30 = Single::<T>::new(at.q.theta1) + v29;
+        let v31 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v32 = Single::<T>::new(at.q.theta2) + v31;
+        let p33 = T::Pair::join(v30, v32);
+        let (sines34, cosines34) = p33.sin_cos();
+        let p36 = T::Pair::join(cosines7.second(), cosines34.second());
+        let p37 = p28 * p36;
+        let p38 = T::Pair::join(p27.first(), p37.first());
+        let v39 = Single::<T>::new(self.parameters.l2) * sines7.second();
+        let phi_guide = v39 + p27.second();
+        let v41 = Single::<T>::new(at.q.x3) - p37.first();
+        let phi_slider = v41 - p27.first();
+        let p43 = T::Pair::join(phi_guide, phi_slider);
+        let p44 = p4 * p43;
+        let v45 = Single::<T>::new(at.v.theta2) * p37.first();
+        let p46 = p27.swap();
+        let p47 = p14 * p46;
+        let p48 = T::Pair::join(v45, p47.first());
+        let v49 = Single::<T>::new(at.v.theta2) * v39;
+        let v50 = Single::<T>::new(at.v.x3) + v49;
+        let p51 = T::Pair::join(p47.second(), v50);
+        let p52 = p48 + p51;
+        let p53 = p13 * p52;
+        let p54 = p44 + p53;
+        let v55 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p56 = T::Pair::splat(v55);
+        let p57 = p56.flip();
+        let p58 = T::Pair::join(v39, p37.first());
+        let p59 = p57 * p58;
+        let p60 = p22 * p27;
+        let p61 = p60.swap();
+        let p62 = p61.flip();
+        let p63 = p59 + p62;
+        let p64 = p54 + p63;
+        let p65 = T::Pair::splat(Single::<T>::new(T::from_f64(1.0)));
+        let p66 = p37 * p37;
+        let v67 = p27.first() * p27.first();
+        let p68 = T::Pair::join(cosines34.first(), sines34.first());
+        let p69 = p26 * p68;
+        let v70 = p69.first() * p69.first();
+        let p71 = T::Pair::join(v67, v70);
+        let p72 = p66 + p71;
+        let p73 = p65 / p72;
+        let v74 = p64.first() * p73.first();
+        let p75 = T::Pair::splat(v74);
+        let p76 = p38 * p75;
+        let p77 = T::Pair::join(p37.first(), p27.first());
+        let p78 = p77.flip();
+        let v79 = Single::<T>::new(self.parameters.m3) * p64.second();
+        let v80 = v39 * v79;
+        let p81 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p82 = T::Pair::join(cosines7.second(), sines7.second());
+        let p83 = p81 * p82;
+        let p84 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p85 = p84 - p83;
+        let p86 = p85 - p27;
+        let p87 = p4 * p86;
+        let p88 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p89 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p90 = p89 * p83;
+        let p91 = p90.swap();
+        let p92 = p91.flip();
+        let p93 = p88 + p92;
+        let p94 = p47.flip();
+        let p95 = p93 + p94;
+        let p96 = p13 * p95;
+        let p97 = p87 + p96;
+        let p98 = p56 * p83;
+        let p99 = p98 + p60;
+        let p100 = p97 - p99;
+        let v101 = Single::<T>::new(self.parameters.m2) * p100.first();
+        let v102 = p83.second() * v101;
+        let v103 = v80 + v102;
+        let v104 = Single::<T>::new(self.parameters.m2) * p100.second();
+        let v105 = Single::<T>::new(self.hoisted[5]) + v104;
+        let v106 = p83.first() * v105;
+        let v107 = v103 - v106;
+        let v108 = p27.first() * v107;
+        let v109 = p27.second() * v101;
+        let v110 = Single::<T>::new(self.parameters.m1) * p24.second();
+        let v111 = Single::<T>::new(self.hoisted[4]) + v110;
+        let v112 = p10.first() * v111;
+        let v113 = v109 - v112;
+        let v114 = Single::<T>::new(self.parameters.m1) * p24.first();
+        let v115 = p10.second() * v114;
+        let v116 = Single::<T>::new(inputs.crank_torque) + v115;
+        let v117 = p27.second() * v79;
+        let v118 = v116 + v117;
+        let v119 = v113 + v118;
+        let v120 = p27.first() * v105;
+        let v121 = v119 - v120;
+        let v122 = p37.first() * v121;
+        let v123 = v108 - v122;
+        let p124 = T::Pair::join(p27.first(), p69.first());
+        let p125 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let p126 = T::Pair::join(sines7.second(), sines34.second());
+        let p127 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p128 = p127 * p126;
+        let p129 = p126 * p128;
+        let p130 = p125 + p129;
+        let p131 = p124 * p130;
+        let p132 = T::Pair::join(sines7.first(), sines34.first());
+        let p133 = T::Pair::splat(Single::<T>::new(self.hoisted[14]));
+        let p134 = p133 * p126;
+        let p135 = p132 * p134;
+        let p136 = T::Pair::join(cosines7.first(), cosines34.first());
+        let p137 = T::Pair::splat(Single::<T>::new(self.hoisted[13]));
+        let p138 = p137 * p36;
+        let p139 = p136 * p138;
+        let p140 = p135 + p139;
+        let p141 = p37 * p140;
+        let p142 = p131 - p141;
+        let p143 = p37 * p142;
+        let p144 = p124 * p140;
+        let p145 = T::Pair::splat(Single::<T>::new(self.hoisted[15]));
+        let p146 = T::Pair::splat(Single::<T>::new(self.hoisted[16]));
+        let p147 = p146 * p132;
+        let p148 = p132 * p147;
+        let p149 = p145 + p148;
+        let p150 = p37 * p149;
+        let p151 = p144 - p150;
+        let p152 = p124 * p151;
+        let p153 = p143 + p152;
+        let v154 = p153.first() * v74;
+        let v155 = v123 - v154;
+        let p156 = p124 * p142;
+        let p157 = p37 * p151;
+        let p158 = p156 - p157;
+        let v159 = v155 / p158.first();
+        let p160 = T::Pair::splat(v159);
+        let p161 = p78 * p160;
+        let p162 = p76 - p161;
+        let p163 = T::Pair::splat(p162.first());
+        let p164 = p25 * p163;
+        let p165 = p24 - p164;
+        let p166 = p3 * p165;
+        let p167 = p2 + p166;
+        let p168 = p2 + p167;
+        let p169 = p1 * p168;
+        let p170 = p0 + p169;
+        let p171 = T::Pair::join(
+            Single::<T>::new(at.v.theta1),
+            Single::<T>::new(at.v.theta2),
+        );
+        let p172 = p3 * p162;
+        let p173 = p171 + p172;
+        let p174 = p171 + p173;
+        let p175 = p1 * p174;
+        let p176 = p6 + p175;
+        let p177 = T::Pair::join(p27.second(), p83.first());
+        let p178 = p177.flip();
+        let p179 = p178 * p162;
+        let p180 = T::Pair::join(p83.second(), p27.first());
+        let p181 = p180.flip();
+        let p182 = p162.swap();
+        let p183 = p181 * p182;
+        let p184 = p179 + p183;
+        let p185 = p100 - p184;
+        let p186 = p3 * p185;
+        let p187 = p88 + p186;
+        let p188 = p88 + p187;
+        let p189 = p1 * p188;
+        let p190 = p84 + p189;
+        let v191 = v39 * p162.second();
+        let v192 = v191 + p179.first();
+        let acc_x3 = p64.second() - v192;
+        let v194 = Single::<T>::new(h) * acc_x3;
+        let v195 = Single::<T>::new(at.v.x3) + v194;
+        let v196 = Single::<T>::new(at.v.x3) + v195;
+        let v197 = Single::<T>::new(half_h) * v196;
+        let v198 = Single::<T>::new(at.q.x3) + v197;
+        let p199 = p173 * p173;
+        let p200 = T::Pair::splat(p199.first());
+        let p201 = p5 * p68;
+        let p202 = p200 * p201;
+        let p203 = p20 - p202;
+        let p204 = p201.swap();
+        let p205 = p204.flip();
+        let p206 = T::Pair::join(p69.first(), p37.second());
+        let p207 = p200 * p69;
+        let v208 = Single::<T>::new(self.parameters.l2) * sines34.second();
+        let v209 = p199.second() * v208;
+        let v210 = p54.first() + v209;
+        let v211 = p207.second() + v210;
+        let v212 = v211 * p73.second();
+        let p213 = T::Pair::splat(v212);
+        let p214 = p206 * p213;
+        let p215 = T::Pair::join(p37.second(), p69.first());
+        let p216 = p215.flip();
+        let v217 = p199.second() * p37.second();
+        let v218 = p54.second() - v217;
+        let v219 = v218 - p207.first();
+        let v220 = Single::<T>::new(self.parameters.m3) * v219;
+        let v221 = v208 * v220;
+        let p222 = T::Pair::join(cosines34.second(), sines34.second());
+        let p223 = p81 * p222;
+        let p224 = T::Pair::splat(p199.second());
+        let p225 = p224 * p223;
+        let p226 = p97 - p225;
+        let p227 = p226 - p207;
+        let v228 = Single::<T>::new(self.parameters.m2) * p227.first();
+        let v229 = p223.second() * v228;
+        let v230 = v221 + v229;
+        let v231 = Single::<T>::new(self.parameters.m2) * p227.second();
+        let v232 = Single::<T>::new(self.hoisted[5]) + v231;
+        let v233 = p223.first() * v232;
+        let v234 = v230 - v233;
+        let v235 = p69.first() * v234;
+        let v236 = p69.second() * v228;
+        let v237 = Single::<T>::new(self.parameters.m1) * p203.second();
+        let v238 = Single::<T>::new(self.hoisted[4]) + v237;
+        let v239 = p201.first() * v238;
+        let v240 = v236 - v239;
+        let v241 = Single::<T>::new(self.parameters.m1) * p203.first();
+        let v242 = p201.second() * v241;
+        let v243 = Single::<T>::new(inputs.crank_torque) + v242;
+        let v244 = p69.second() * v220;
+        let v245 = v243 + v244;
+        let v246 = v240 + v245;
+        let v247 = p69.first() * v232;
+        let v248 = v246 - v247;
+        let v249 = p37.second() * v248;
+        let v250 = v235 - v249;
+        let v251 = p153.second() * v212;
+        let v252 = v250 - v251;
+        let v253 = v252 / p158.second();
+        let p254 = T::Pair::splat(v253);
+        let p255 = p216 * p254;
+        let p256 = p214 - p255;
+        let p257 = T::Pair::splat(p256.first());
+        let p258 = p205 * p257;
+        let p259 = p203 - p258;
+        let p260 = p165 + p259;
+        let p261 = p1 * p260;
+        let p262 = p2 + p261;
+        let p263 = p162 + p256;
+        let p264 = p1 * p263;
+        let p265 = p171 + p264;
+        let p266 = T::Pair::join(p69.second(), p223.first());
+        let p267 = p266.flip();
+        let p268 = p267 * p256;
+        let p269 = T::Pair::join(p223.second(), p69.first());
+        let p270 = p269.flip();
+        let p271 = p256.swap();
+        let p272 = p270 * p271;
+        let p273 = p268 + p272;
+        let p274 = p227 - p273;
+        let p275 = p185 + p274;
+        let p276 = p1 * p275;
+        let p277 = p88 + p276;
+        let v278 = v208 * p256.second();
+        let v279 = v278 + p268.first();
+        let v280 = v219 - v279;
+        let v281 = acc_x3 + v280;
+        let v282 = Single::<T>::new(half_h) * v281;
+        let v283 = Single::<T>::new(at.v.x3) + v282;
+        let p284 = T::Pair::splat(Single::<T>::new(self.hoisted[17]));
+        let p285 = p284 * p73;
+        let v286 = Single::<T>::new(p285.first().get().abs());
+        let v287 = Single::<T>::new(v286.get().sqrt());
+        let v288 = Single::<T>::new(p285.second().get().abs());
+        let v289 = Single::<T>::new(v288.get().sqrt());
+        let v290 = v287 + v289;
+        let p291 = p170 + p176;
+        let p292 = p291 + p190;
+        let p293 = p292 + p262;
+        let p294 = p293 + p265;
+        let p295 = p294 + p277;
+        let v296 = v198 + v283;
+        let v297 = v296 + p295.first();
+        let v298 = v297 + p295.second();
+        let [growth, sum] = [v290.get(), v298.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: SliderCrankFreeCoordinates {
+                    x1: p170.first().get(),
+                    y1: p170.second().get(),
+                    theta1: p176.first().get(),
+                    x2: p190.first().get(),
+                    y2: p190.second().get(),
+                    theta2: p176.second().get(),
+                    x3: v198.get(),
+                },
+                v: SliderCrankFreeCoordinates {
+                    x1: p262.first().get(),
+                    y1: p262.second().get(),
+                    theta1: p265.first().get(),
+                    x2: p277.first().get(),
+                    y2: p277.second().get(),
+                    theta2: p265.second().get(),
+                    x3: v283.get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+    ///A step with feedback in both stages.
+    #[inline(always)]
+    fn step_per_stage(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>> {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let v21 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p22 = T::Pair::splat(v21);
+        let p23 = p22 * p10;
+        let p24 = p20 - p23;
+        let p25 = p16.flip();
+        let p26 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p27 = p26 * p9;
+        let p28 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let v29 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v30 = Single::<T>::new(at.q.theta1) + v29;
+        let v31 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v32 = Single::<T>::new(at.q.theta2) + v31;
+        let p33 = T::Pair::join(v30, v32);
+        let (sines34, cosines34) = p33.sin_cos();
+        let p36 = T::Pair::join(cosines7.second(), cosines34.second());
+        let p37 = p28 * p36;
+        let p38 = T::Pair::join(p27.first(), p37.first());
+        let v39 = Single::<T>::new(self.parameters.l2) * sines7.second();
+        let phi_guide = v39 + p27.second();
+        let v41 = Single::<T>::new(at.q.x3) - p37.first();
+        let phi_slider = v41 - p27.first();
+        let p43 = T::Pair::join(phi_guide, phi_slider);
+        let p44 = p4 * p43;
+        let v45 = Single::<T>::new(at.v.theta2) * p37.first();
+        let p46 = p27.swap();
+        let p47 = p14 * p46;
+        let p48 = T::Pair::join(v45, p47.first());
+        let v49 = Single::<T>::new(at.v.theta2) * v39;
+        let v50 = Single::<T>::new(at.v.x3) + v49;
+        let p51 = T::Pair::join(p47.second(), v50);
+        let p52 = p48 + p51;
+        let p53 = p13 * p52;
+        let p54 = p44 + p53;
+        let v55 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p56 = T::Pair::splat(v55);
+        let p57 = p56.flip();
+        let p58 = T::Pair::join(v39, p37.first());
+        let p59 = p57 * p58;
+        let p60 = p22 * p27;
+        let p61 = p60.swap();
+        let p62 = p61.flip();
+        let p63 = p59 + p62;
+        let p64 = p54 + p63;
+        let p65 = T::Pair::splat(Single::<T>::new(T::from_f64(1.0)));
+        let p66 = p37 * p37;
+        let v67 = p27.first() * p27.first();
+        let p68 = T::Pair::join(cosines34.first(), sines34.first());
+        let p69 = p26 * p68;
+        let v70 = p69.first() * p69.first();
+        let p71 = T::Pair::join(v67, v70);
+        let p72 = p66 + p71;
+        let p73 = p65 / p72;
+        let v74 = p64.first() * p73.first();
+        let p75 = T::Pair::splat(v74);
+        let p76 = p38 * p75;
+        let p77 = T::Pair::join(p37.first(), p27.first());
+        let p78 = p77.flip();
+        let v79 = Single::<T>::new(self.parameters.m3) * p64.second();
+        let v80 = v39 * v79;
+        let p81 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p82 = T::Pair::join(cosines7.second(), sines7.second());
+        let p83 = p81 * p82;
+        let p84 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p85 = p84 - p83;
+        let p86 = p85 - p27;
+        let p87 = p4 * p86;
+        let p88 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p89 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p90 = p89.flip();
+        let p91 = p83.swap();
+        let p92 = p90 * p91;
+        let p93 = p88 + p92;
+        let p94 = p47.flip();
+        let p95 = p93 + p94;
+        let p96 = p13 * p95;
+        let p97 = p87 + p96;
+        let p98 = p56 * p83;
+        let p99 = p98 + p60;
+        let p100 = p97 - p99;
+        let v101 = Single::<T>::new(self.parameters.m2) * p100.first();
+        let v102 = p83.second() * v101;
+        let v103 = v80 + v102;
+        let v104 = Single::<T>::new(self.parameters.m2) * p100.second();
+        let v105 = Single::<T>::new(self.hoisted[5]) + v104;
+        let v106 = p83.first() * v105;
+        let v107 = v103 - v106;
+        let v108 = p27.first() * v107;
+        let v109 = p27.second() * v101;
+        let v110 = Single::<T>::new(self.parameters.m1) * p24.second();
+        let v111 = Single::<T>::new(self.hoisted[4]) + v110;
+        let v112 = p10.first() * v111;
+        let v113 = v109 - v112;
+        let v114 = Single::<T>::new(self.parameters.m1) * p24.first();
+        let v115 = p10.second() * v114;
+        let v116 = Single::<T>::new(inputs.crank_torque) + v115;
+        let v117 = p27.second() * v79;
+        let v118 = v116 + v117;
+        let v119 = v113 + v118;
+        let v120 = p27.first() * v105;
+        let v121 = v119 - v120;
+        let v122 = p37.first() * v121;
+        let v123 = v108 - v122;
+        let p124 = T::Pair::join(p27.first(), p69.first());
+        let p125 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let p126 = T::Pair::join(sines7.second(), sines34.second());
+        let p127 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p128 = p127 * p126;
+        let p129 = p126 * p128;
+        let p130 = p125 + p129;
+        let p131 = p124 * p130;
+        let p132 = T::Pair::join(sines7.first(), sines34.first());
+        let p133 = T::Pair::splat(Single::<T>::new(self.hoisted[14]));
+        let p134 = p133 * p126;
+        let p135 = p132 * p134;
+        let p136 = T::Pair::join(cosines7.first(), cosines34.first());
+        let p137 = T::Pair::splat(Single::<T>::new(self.hoisted[13]));
+        let p138 = p137 * p36;
+        let p139 = p136 * p138;
+        let p140 = p135 + p139;
+        let p141 = p37 * p140;
+        let p142 = p131 - p141;
+        let p143 = p37 * p142;
+        let p144 = p124 * p140;
+        let p145 = T::Pair::splat(Single::<T>::new(self.hoisted[15]));
+        let p146 = T::Pair::splat(Single::<T>::new(self.hoisted[16]));
+        let p147 = p146 * p132;
+        let p148 = p132 * p147;
+        let p149 = p145 + p148;
+        let p150 = p37 * p149;
+        let p151 = p144 - p150;
+        let p152 = p124 * p151;
+        let p153 = p143 + p152;
+        let v154 = p153.first() * v74;
+        let v155 = v123 - v154;
+        let p156 = p124 * p142;
+        let p157 = p37 * p151;
+        let p158 = p156 - p157;
+        let v159 = v155 / p158.first();
+        let p160 = T::Pair::splat(v159);
+        let p161 = p78 * p160;
+        let p162 = p76 - p161;
+        let p163 = T::Pair::splat(p162.first());
+        let p164 = p25 * p163;
+        let p165 = p24 - p164;
+        let p166 = p3 * p165;
+        let p167 = p2 + p166;
+        let p168 = p2 + p167;
+        let p169 = p1 * p168;
+        let p170 = p0 + p169;
+        let p171 = T::Pair::join(
+            Single::<T>::new(at.v.theta1),
+            Single::<T>::new(at.v.theta2),
+        );
+        let p172 = p3 * p162;
+        let p173 = p171 + p172;
+        let p174 = p171 + p173;
+        let p175 = p1 * p174;
+        let p176 = p6 + p175;
+        let p177 = T::Pair::join(p27.second(), p83.first());
+        let p178 = p177.flip();
+        let p179 = p178 * p162;
+        let p180 = T::Pair::join(p83.second(), p27.first());
+        let p181 = p180.flip();
+        let p182 = p162.swap();
+        let p183 = p181 * p182;
+        let p184 = p179 + p183;
+        let p185 = p100 - p184;
+        let p186 = p3 * p185;
+        let p187 = p88 + p186;
+        let p188 = p88 + p187;
+        let p189 = p1 * p188;
+        let p190 = p84 + p189;
+        let v191 = v39 * p162.second();
+        let v192 = v191 + p179.first();
+        let acc_x3 = p64.second() - v192;
+        let v194 = Single::<T>::new(h) * acc_x3;
+        let v195 = Single::<T>::new(at.v.x3) + v194;
+        let v196 = Single::<T>::new(at.v.x3) + v195;
+        let v197 = Single::<T>::new(half_h) * v196;
+        let v198 = Single::<T>::new(at.q.x3) + v197;
+        let p199 = p3 * p2;
+        let p200 = p0 + p199;
+        let p201 = p5 * p68;
+        let p202 = p200 - p201;
+        let p203 = p4 * p202;
+        let p204 = T::Pair::splat(p173.first());
+        let p205 = p204.flip();
+        let p206 = p201.swap();
+        let p207 = p205 * p206;
+        let p208 = p167 + p207;
+        let p209 = p13 * p208;
+        let p210 = p203 + p209;
+        let p211 = p173 * p173;
+        let p212 = T::Pair::splat(p211.first());
+        let p213 = p212 * p201;
+        let p214 = p210 - p213;
+        let p215 = p206.flip();
+        let p216 = T::Pair::join(p69.first(), p37.second());
+        let v217 = Single::<T>::new(self.parameters.l2) * sines34.second();
+        let v218 = v217 + p69.second();
+        let v219 = Single::<T>::new(h) * Single::<T>::new(at.v.x3);
+        let v220 = Single::<T>::new(at.q.x3) + v219;
+        let v221 = v220 - p37.second();
+        let v222 = v221 - p69.first();
+        let p223 = T::Pair::join(v218, v222);
+        let p224 = p4 * p223;
+        let v225 = p173.second() * p37.second();
+        let p226 = p69.swap();
+        let p227 = p204 * p226;
+        let phi_dot_guide = v225 + p227.second();
+        let v229 = p173.second() * v217;
+        let v230 = v195 + v229;
+        let phi_dot_slider = p227.first() + v230;
+        let p232 = T::Pair::join(phi_dot_guide, phi_dot_slider);
+        let p233 = p13 * p232;
+        let p234 = p224 + p233;
+        let p235 = T::Pair::splat(p211.second());
+        let p236 = p235.flip();
+        let p237 = T::Pair::join(v217, p37.second());
+        let p238 = p236 * p237;
+        let p239 = p212 * p69;
+        let p240 = p239.swap();
+        let p241 = p240.flip();
+        let p242 = p238 + p241;
+        let p243 = p234 + p242;
+        let v244 = p243.first() * p73.second();
+        let p245 = T::Pair::splat(v244);
+        let p246 = p216 * p245;
+        let p247 = T::Pair::join(p37.second(), p69.first());
+        let p248 = p247.flip();
+        let v249 = Single::<T>::new(self.parameters.m3) * p243.second();
+        let v250 = v217 * v249;
+        let p251 = T::Pair::join(cosines34.second(), sines34.second());
+        let p252 = p81 * p251;
+        let p253 = p3 * p88;
+        let p254 = p84 + p253;
+        let p255 = p254 - p252;
+        let p256 = p255 - p69;
+        let p257 = p4 * p256;
+        let p258 = T::Pair::splat(p173.second());
+        let p259 = p258.flip();
+        let p260 = p252.swap();
+        let p261 = p259 * p260;
+        let p262 = p187 + p261;
+        let p263 = p227.flip();
+        let p264 = p262 + p263;
+        let p265 = p13 * p264;
+        let p266 = p257 + p265;
+        let p267 = p235 * p252;
+        let p268 = p267 + p239;
+        let p269 = p266 - p268;
+        let v270 = Single::<T>::new(self.parameters.m2) * p269.first();
+        let v271 = p252.second() * v270;
+        let v272 = v250 + v271;
+        let v273 = Single::<T>::new(self.parameters.m2) * p269.second();
+        let v274 = Single::<T>::new(self.hoisted[5]) + v273;
+        let v275 = p252.first() * v274;
+        let v276 = v272 - v275;
+        let v277 = p69.first() * v276;
+        let v278 = p69.second() * v270;
+        let v279 = Single::<T>::new(self.parameters.m1) * p214.second();
+        let v280 = Single::<T>::new(self.hoisted[4]) + v279;
+        let v281 = p201.first() * v280;
+        let v282 = v278 - v281;
+        let v283 = Single::<T>::new(self.parameters.m1) * p214.first();
+        let v284 = p201.second() * v283;
+        let v285 = Single::<T>::new(inputs.crank_torque) + v284;
+        let v286 = p69.second() * v249;
+        let v287 = v285 + v286;
+        let v288 = v282 + v287;
+        let v289 = p69.first() * v274;
+        let v290 = v288 - v289;
+        let v291 = p37.second() * v290;
+        let v292 = v277 - v291;
+        let v293 = p153.second() * v244;
+        let v294 = v292 - v293;
+        let v295 = v294 / p158.second();
+        let p296 = T::Pair::splat(v295);
+        let p297 = p248 * p296;
+        let p298 = p246 - p297;
+        let p299 = T::Pair::splat(p298.first());
+        let p300 = p215 * p299;
+        let p301 = p214 - p300;
+        let p302 = p165 + p301;
+        let p303 = p1 * p302;
+        let p304 = p2 + p303;
+        let p305 = p162 + p298;
+        let p306 = p1 * p305;
+        let p307 = p171 + p306;
+        let p308 = T::Pair::join(p69.second(), p252.first());
+        let p309 = p308.flip();
+        let p310 = p309 * p298;
+        let p311 = T::Pair::join(p252.second(), p69.first());
+        let p312 = p311.flip();
+        let p313 = p298.swap();
+        let p314 = p312 * p313;
+        let p315 = p310 + p314;
+        let p316 = p269 - p315;
+        let p317 = p185 + p316;
+        let p318 = p1 * p317;
+        let p319 = p88 + p318;
+        let v320 = v217 * p298.second();
+        let v321 = v320 + p310.first();
+        let v322 = p243.second() - v321;
+        let v323 = acc_x3 + v322;
+        let v324 = Single::<T>::new(half_h) * v323;
+        let v325 = Single::<T>::new(at.v.x3) + v324;
+        let p326 = T::Pair::splat(Single::<T>::new(self.hoisted[17]));
+        let p327 = p326 * p73;
+        let v328 = Single::<T>::new(p327.first().get().abs());
+        let v329 = Single::<T>::new(v328.get().sqrt());
+        let v330 = Single::<T>::new(p327.second().get().abs());
+        let v331 = Single::<T>::new(v330.get().sqrt());
+        let v332 = v329 + v331;
+        let p333 = p170 + p176;
+        let p334 = p333 + p190;
+        let p335 = p334 + p304;
+        let p336 = p335 + p307;
+        let p337 = p336 + p319;
+        let v338 = v198 + v325;
+        let v339 = v338 + p337.first();
+        let v340 = v339 + p337.second();
+        let [growth, sum] = [v332.get(), v340.get()];
+        ::mbs_runtime::Stepped {
+            next: ::mbs_runtime::State {
+                t: t_next,
+                q: SliderCrankFreeCoordinates {
+                    x1: p170.first().get(),
+                    y1: p170.second().get(),
+                    theta1: p176.first().get(),
+                    x2: p190.first().get(),
+                    y2: p190.second().get(),
+                    theta2: p176.second().get(),
+                    x3: v198.get(),
+                },
+                v: SliderCrankFreeCoordinates {
+                    x1: p304.first().get(),
+                    y1: p304.second().get(),
+                    theta1: p307.first().get(),
+                    x2: p319.first().get(),
+                    y2: p319.second().get(),
+                    theta2: p307.second().get(),
+                    x3: v325.get(),
+                },
+            },
+            growth,
+            sum,
+        }
+    }
+}
+#[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = SliderCrankFree<Scalar>;
@@ -2801,6 +3536,23 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             },
             growth: abs_v12,
         }
+    }
+    #[inline(always)]
+    fn fused_step<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>>> {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
     }
     fn worst_pivot(
         &self,

@@ -12,6 +12,7 @@ use super::matrices;
 use super::names::{Names, field};
 use super::program::{Body, body};
 use super::sketch;
+use super::step;
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -20,13 +21,13 @@ use crate::plan::Plan;
 const LARGEST_INLINED: usize = 64;
 
 /// The fields of the two vectors that most functions return.
-struct Fields {
-    coordinates: Vec<Ident>,
-    rows: Vec<Ident>,
+pub(super) struct Fields {
+    pub coordinates: Vec<Ident>,
+    pub rows: Vec<Ident>,
 }
 
 impl Fields {
-    fn new(model: &Model) -> Self {
+    pub fn new(model: &Model) -> Self {
         Self {
             coordinates: model.coordinates.iter().map(|c| field(&c.quantity.name)).collect(),
             rows: model.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
@@ -142,6 +143,7 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let points = Literal::usize_unsuffixed(model.sketch.points.len());
     let places = sketch::places(&body(model, names, &plan.points, &Access::of_position()));
     let kernels = kernels(model, plan, names, &fields);
+    let fused_step = step::choice(plan, names);
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
     let worst_pivot = worst_pivot(model, names, &plan.pivots);
@@ -190,6 +192,7 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
                 Self::phi_dot(self, at)
             }
             #kernels
+            #fused_step
             fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
             fn worst_start_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_start_pivot }
             #inline

@@ -13,6 +13,7 @@ mod program;
 mod sketch;
 mod solver;
 mod splines;
+mod step;
 mod types;
 
 use proc_macro2::TokenStream;
@@ -30,12 +31,14 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let construction = construction::emit(model, plan, &names);
     let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
+    let step = step::functions(model, plan, &names);
     let mechanism = functions::mechanism(model, equations, plan, &names);
     quote! {
         #types
         #construction
         #solver
         #functions
+        #step
         #mechanism
     }
 }

@@ -40,18 +40,22 @@ impl Body {
 
     /// Some of the outputs as a vector with named components.
     pub fn vector(&self, of_t: &TokenStream, fields: &[Ident], range: Range<usize>) -> TokenStream {
-        if fields.is_empty() {
-            return quote!(::core::default::Default::default());
-        }
-        if self.places.is_some() {
+        if self.places.is_some() && !fields.is_empty() {
             let (runtime, array) = (&self.runtime, self.array(range));
             return quote!(<#of_t as #runtime::Components>::from_array(#array));
         }
-        // `Name<T>` as it stands in expressions
-        let name = of_t.clone().into_iter().next();
-        let values = &self.outputs[range];
-        quote!(#name { #(#fields: #values),* })
+        named(of_t, fields, &self.outputs[range])
     }
+}
+
+/// A vector of type `of_t` with these components.
+pub fn named(of_t: &TokenStream, fields: &[Ident], values: &[TokenStream]) -> TokenStream {
+    if fields.is_empty() {
+        return quote!(::core::default::Default::default());
+    }
+    // `Name<T>` as it stands in expressions
+    let name = of_t.clone().into_iter().next();
+    quote!(#name { #(#fields: #values),* })
 }
 
 /// A program as one list of statements, or if it is long, as loops and
@@ -185,7 +189,7 @@ impl<'a> Writer<'a> {
     pub fn operand(&self, operand: Operand) -> TokenStream {
         match operand {
             Operand::Number(number) => number_tokens(number),
-            Operand::Symbol(symbol) => self.symbol(symbol),
+            Operand::Symbol(symbol) => symbol_tokens(self.model, self.access, symbol),
             Operand::Hoisted(at) => {
                 let (this, at) = (&self.access.this, Literal::usize_unsuffixed(at));
                 quote!(#this.hoisted[#at])
@@ -201,45 +205,6 @@ impl<'a> Writer<'a> {
     /// The variable that holds a result.
     pub fn result(&self, at: usize) -> Option<&Ident> {
         self.results.get(&at)
-    }
-
-    fn symbol(&self, symbol: Symbol) -> TokenStream {
-        let Access { parameters, time, positions, velocities, .. } = self.access;
-        let coordinate = |at: usize| field(&self.model.coordinates[at].quantity.name);
-        let row = |at: usize| field(&self.model.constraints[at].name);
-        match self.model.meanings[symbol.index()] {
-            Meaning::Time => time.clone(),
-            Meaning::Parameter(at) => {
-                let name = field(&self.model.parameters[at].quantity.name);
-                quote!(#parameters.#name)
-            }
-            Meaning::Input(at) => {
-                let name = field(&self.model.inputs[at].name);
-                quote!(inputs.#name)
-            }
-            Meaning::Coordinate(at) => {
-                let name = coordinate(at);
-                quote!(#positions.#name)
-            }
-            Meaning::Velocity(at) => {
-                let name = coordinate(at);
-                quote!(#velocities.#name)
-            }
-            Meaning::Acceleration(at) => {
-                let name = coordinate(at);
-                quote!(reactions.acceleration.#name)
-            }
-            Meaning::Multiplier(at) => {
-                let name = row(at);
-                quote!(reactions.multipliers.#name)
-            }
-            Meaning::Feedback(at) => {
-                let name = row(at);
-                quote!(feedback.#name)
-            }
-            Meaning::MinusTwoAlpha => quote!(gains.minus_two_alpha),
-            Meaning::MinusBetaSquared => quote!(gains.minus_beta_squared),
-        }
     }
 
     /// The name of a result: suggested, `sin_theta`, or `v7`.
@@ -269,7 +234,50 @@ impl<'a> Writer<'a> {
     }
 }
 
-fn operation_tokens(
+/// How generated code reads a symbol.
+pub fn symbol_tokens(model: &Model, access: &Access, symbol: Symbol) -> TokenStream {
+    let Access { parameters, time, positions, velocities, .. } = access;
+    let coordinate = |at: usize| field(&model.coordinates[at].quantity.name);
+    let row = |at: usize| field(&model.constraints[at].name);
+    match model.meanings[symbol.index()] {
+        Meaning::Time => time.clone(),
+        Meaning::Parameter(at) => {
+            let name = field(&model.parameters[at].quantity.name);
+            quote!(#parameters.#name)
+        }
+        Meaning::Input(at) => {
+            let name = field(&model.inputs[at].name);
+            quote!(inputs.#name)
+        }
+        Meaning::Coordinate(at) => {
+            let name = coordinate(at);
+            quote!(#positions.#name)
+        }
+        Meaning::Velocity(at) => {
+            let name = coordinate(at);
+            quote!(#velocities.#name)
+        }
+        Meaning::Acceleration(at) => {
+            let name = coordinate(at);
+            quote!(reactions.acceleration.#name)
+        }
+        Meaning::Multiplier(at) => {
+            let name = row(at);
+            quote!(reactions.multipliers.#name)
+        }
+        Meaning::Feedback(at) => {
+            let name = row(at);
+            quote!(feedback.#name)
+        }
+        Meaning::MinusTwoAlpha => quote!(gains.minus_two_alpha),
+        Meaning::MinusBetaSquared => quote!(gains.minus_beta_squared),
+        Meaning::Step => quote!(h),
+        Meaning::HalfStep => quote!(half_h),
+        Meaning::NextTime => quote!(t_next),
+    }
+}
+
+pub fn operation_tokens(
     operation: Operation,
     a: &TokenStream,
     b: &TokenStream,

@@ -81,6 +81,10 @@ pub enum Meaning {
     Feedback(usize),
     MinusTwoAlpha,
     MinusBetaSquared,
+    /// h, h/2 and t + h of a step.
+    Step,
+    HalfStep,
+    NextTime,
 }
 
 /// The symbols, by meaning.
@@ -90,6 +94,9 @@ pub struct Symbols {
     pub minus_beta_squared: Symbol,
     /// Per constraint.
     pub feedback: Vec<Symbol>,
+    pub step: Symbol,
+    pub half_step: Symbol,
+    pub next_time: Symbol,
 }
 
 /// A name with its unit, for tools.

@@ -214,6 +214,9 @@ impl<'a> Resolver<'a> {
             minus_two_alpha: self.scope.symbol("(-2*alpha)", Stage::Variable, Meaning::MinusTwoAlpha),
             minus_beta_squared: self.scope.symbol("(-beta^2)", Stage::Variable, Meaning::MinusBetaSquared),
             feedback,
+            step: self.scope.symbol("(h)", Stage::Variable, Meaning::Step),
+            half_step: self.scope.symbol("(h/2)", Stage::Variable, Meaning::HalfStep),
+            next_time: self.scope.symbol("(t+h)", Stage::Variable, Meaning::NextTime),
         }
     }
 }

@@ -69,7 +69,7 @@ impl Schedule<'_> {
     }
 
     fn push(&mut self, operation: Operation, a: Operand, b: Operand) -> Operand {
-        self.latencies.push(self.latency(a).max(self.latency(b)) + operation_latency(operation));
+        self.latencies.push(self.latency(a).max(self.latency(b)) + operation.latency());
         self.program.instructions.push(Instruction { operation, a, b, name: None });
         Operand::Value(self.program.instructions.len() - 1)
     }
@@ -133,16 +133,6 @@ impl Schedule<'_> {
             Operand::Value(at) => self.latencies[at],
             _ => 0,
         }
-    }
-}
-
-/// Rough latencies in cycles of today's processors.
-fn operation_latency(operation: Operation) -> u32 {
-    match operation {
-        Operation::Add | Operation::Sub | Operation::Mul => 4,
-        Operation::Neg => 1,
-        Operation::Div => 14,
-        Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => 50,
     }
 }
 

@@ -38,7 +38,12 @@ impl Array {
             Meaning::Acceleration(at) => (Self::Accelerations, at),
             Meaning::Multiplier(at) => (Self::Multipliers, at),
             Meaning::Feedback(at) => (Self::Feedback, at),
-            Meaning::Time | Meaning::MinusTwoAlpha | Meaning::MinusBetaSquared => return None,
+            Meaning::Time
+            | Meaning::MinusTwoAlpha
+            | Meaning::MinusBetaSquared
+            | Meaning::Step
+            | Meaning::HalfStep
+            | Meaning::NextTime => return None,
         })
     }
 

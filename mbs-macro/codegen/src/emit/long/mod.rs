@@ -59,6 +59,9 @@ fn class(meaning: Meaning) -> usize {
         Meaning::Acceleration(_) => 7,
         Meaning::Multiplier(_) => 8,
         Meaning::Feedback(_) => 9,
+        Meaning::Step => 10,
+        Meaning::HalfStep => 11,
+        Meaning::NextTime => 12,
     }
 }
 

@@ -1,0 +1,187 @@
+//! A whole step as one function on pairs of scalars.
+
+use std::collections::BTreeSet;
+
+use mbs_symbolic::pairs::{Lane, Scalar, Step, Woven};
+use mbs_symbolic::{Operand, Operation};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+
+use super::access::Access;
+use super::functions::Fields;
+use super::names::Names;
+use super::program::{named, number_tokens, operation_tokens, symbol_tokens};
+use crate::model::Model;
+use crate::plan::Plan;
+
+/// The functions of both kinds of feedback; nothing if the mechanism is too large.
+pub fn functions(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+    let Some(step) = &plan.fused_step else { return TokenStream::new() };
+    let Names { mechanism, runtime, state, .. } = names;
+    let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
+    let fields = Fields::new(model);
+    let function = |doc: &str, name: &str, woven: &Woven| {
+        let name = Ident::new(name, Span::call_site());
+        let body = body(model, names, &fields, woven);
+        quote! {
+            #[doc = #doc]
+            #[inline(always)]
+            fn #name(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #runtime::Stepped<#q> {
+                #body
+            }
+        }
+    };
+    let held = function("A step with feedback held over it.", "step_held", &step.held);
+    let per_stage = function("A step with feedback in both stages.", "step_per_stage", &step.per_stage);
+    quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl<T: #runtime::Real> #mechanism<T> {
+            #held
+            #per_stage
+        }
+    }
+}
+
+/// The trait's function, which chooses between the two.
+pub fn choice(plan: &Plan, names: &Names) -> TokenStream {
+    if plan.fused_step.is_none() {
+        return TokenStream::new();
+    }
+    let Names { runtime, state, .. } = names;
+    let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
+    quote! {
+        #[inline(always)]
+        fn fused_step<F: #runtime::Feedback>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#runtime::Stepped<#q>> {
+            ::core::option::Option::Some(if F::IS_HELD {
+                self.step_held(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage(at, inputs, gains, h, t_next)
+            })
+        }
+    }
+}
+
+fn body(model: &Model, names: &Names, fields: &Fields, woven: &Woven) -> TokenStream {
+    let runtime = &names.runtime;
+    let mut writer = Writer { model, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
+    let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
+    let value = |&output| {
+        let value = writer.scalar(output);
+        quote!(#value.get())
+    };
+    let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
+    let n = fields.coordinates.len();
+    let (positions, rest) = outputs.split_at(n);
+    let (velocities, health) = rest.split_at(n);
+    let of_coordinates = |values| named(&names.coordinates.of_t, &fields.coordinates, values);
+    let (q, v) = (of_coordinates(positions), of_coordinates(velocities));
+    quote! {
+        use #runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        #statements
+        let [growth, sum] = [#(#health),*];
+        #runtime::Stepped { next: #runtime::State { t: t_next, q: #q, v: #v }, growth, sum }
+    }
+}
+
+struct Writer<'a> {
+    model: &'a Model,
+    access: Access,
+    /// Of the steps so far.
+    names: Vec<Ident>,
+    taken: BTreeSet<String>,
+}
+
+impl Writer<'_> {
+    fn statement(&mut self, step: &Step) -> TokenStream {
+        let at = self.names.len();
+        let pair = |at: &usize| &self.names[*at];
+        let value = match step {
+            Step::Scalar(operation, a, b, name) => {
+                let value = self.operation(*operation, *a, *b);
+                let name = self.scalar_name(name.as_deref());
+                self.names.push(name.clone());
+                return quote!(let #name = #value;);
+            }
+            Step::Sines(angles) => {
+                let angles = pair(angles);
+                let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
+                let statement = quote!(let (#sines, #cosines) = #angles.sin_cos(););
+                self.names.extend([sines, cosines]);
+                return statement;
+            }
+            // Named with the sines.
+            Step::Cosines => return TokenStream::new(),
+            Step::Join(a, b) => {
+                let (a, b) = (self.scalar(*a), self.scalar(*b));
+                quote!(T::Pair::join(#a, #b))
+            }
+            Step::Splat(a) => {
+                let a = self.scalar(*a);
+                quote!(T::Pair::splat(#a))
+            }
+            Step::Swap(of) => {
+                let of = pair(of);
+                quote!(#of.swap())
+            }
+            Step::Flip(of) => {
+                let of = pair(of);
+                quote!(#of.flip())
+            }
+            Step::Pair(operation, a, b) => {
+                let (a, b) = (pair(a), pair(b));
+                operation_tokens(*operation, &quote!(#a), &quote!(#b), &self.access.mechanism)
+            }
+        };
+        let name = format_ident!("p{at}");
+        self.names.push(name.clone());
+        quote!(let #name = #value;)
+    }
+
+    /// An operation on scalars; functions are those of the scalar type itself.
+    fn operation(&self, operation: Operation, a: Scalar, b: Scalar) -> TokenStream {
+        let (a, b) = (self.scalar(a), self.scalar(b));
+        match operation {
+            Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => single(operation_tokens(
+                operation,
+                &quote!(#a.get()),
+                &quote!(#b.get()),
+                &self.access.mechanism,
+            )),
+            _ => operation_tokens(operation, &a, &b, &self.access.mechanism),
+        }
+    }
+
+    fn scalar(&self, scalar: Scalar) -> TokenStream {
+        match scalar {
+            Scalar::Given(Operand::Number(number)) => single(number_tokens(number)),
+            Scalar::Given(Operand::Symbol(symbol)) => single(symbol_tokens(self.model, &self.access, symbol)),
+            Scalar::Given(Operand::Hoisted(at) | Operand::Value(at)) => {
+                let at = Literal::usize_unsuffixed(at);
+                single(quote!(self.hoisted[#at]))
+            }
+            Scalar::Step(at) => self.names[at].to_token_stream(),
+            Scalar::Lane(at, lane) => {
+                let name = &self.names[at];
+                match lane {
+                    Lane::First => quote!(#name.first()),
+                    Lane::Second => quote!(#name.second()),
+                }
+            }
+        }
+    }
+
+    fn scalar_name(&mut self, suggested: Option<&str>) -> Ident {
+        match suggested {
+            Some(name) if syn::parse_str::<Ident>(name).is_ok() && self.taken.insert(name.to_owned()) => {
+                Ident::new(name, Span::call_site())
+            }
+            _ => format_ident!("v{}", self.names.len()),
+        }
+    }
+}
+
+fn single(scalar: TokenStream) -> TokenStream {
+    quote!(Single::<T>::new(#scalar))
+}

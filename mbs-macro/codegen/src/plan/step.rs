@@ -1,0 +1,142 @@
+//! A whole step of Heun's method as one program.
+
+use std::collections::HashMap;
+
+use mbs_symbolic::pairs::{Layout, Woven, weave};
+use mbs_symbolic::{Instruction, Operand, Operation, Program, Symbol};
+
+use crate::model::{Direction, Meaning, Model};
+
+/// Longer steps are left in two stages: what has to be kept between operations no
+/// longer fits into registers, and finding pairs takes time.
+const LONGEST: usize = 1024;
+
+/// A step with each kind of feedback.
+pub struct FusedStep {
+    pub held: Woven,
+    pub per_stage: Woven,
+}
+
+/// The fused step of a mechanism that is small enough.
+pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Option<FusedStep> {
+    if stabilized.instructions.len() > LONGEST {
+        return None;
+    }
+    let [held, per_stage] = [constrained, stabilized].map(|second| step(model, stabilized, second));
+    if held.instructions.len().max(per_stage.instructions.len()) > LONGEST {
+        return None;
+    }
+    let meaning = |symbol: Symbol| model.meanings[symbol.index()];
+    // The x and the y of a body. An angle next to an x is not read with it: it would
+    // have to be written with it, or the processor waits for the two writes.
+    let is_place = |a: usize, b: usize| {
+        b == a + 1
+            && matches!(
+                (model.coordinates.get(a), model.coordinates.get(b)),
+                (Some(a), Some(b))
+                    if a.body == b.body && (a.direction, b.direction) == (Direction::X, Direction::Y)
+            )
+    };
+    let are_neighbours = |a: Symbol, b: Symbol| match (meaning(a), meaning(b)) {
+        (Meaning::Coordinate(a), Meaning::Coordinate(b)) | (Meaning::Velocity(a), Meaning::Velocity(b)) => {
+            is_place(a, b)
+        }
+        _ => false,
+    };
+    let n = model.coordinates.len();
+    let are_written_together =
+        |a: usize, b: usize| is_place(a, b) || a >= n && b >= n && is_place(a - n, b - n);
+    let is_constant = |symbol: Symbol| {
+        !matches!(
+            meaning(symbol),
+            Meaning::Time | Meaning::NextTime | Meaning::Coordinate(_) | Meaning::Velocity(_)
+        )
+    };
+    let layout = Layout {
+        are_neighbours: &are_neighbours,
+        are_written_together: &are_written_together,
+        is_constant: &is_constant,
+    };
+    let woven = |program: &Program| {
+        let mut woven = weave(program, &layout);
+        woven.sum_outputs(2 * n);
+        woven
+    };
+    Some(FusedStep { held: woven(&held), per_stage: woven(&per_stage) })
+}
+
+/// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the
+/// first, or computes its own.
+fn step(model: &Model, first: &Program, second: &Program) -> Program {
+    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
+    let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
+    let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(Operand::Symbol);
+
+    let mut steps = Fusion::default();
+    let here = steps.append(first, &HashMap::new());
+    let (here_acceleration, feedback) = (&here[..n], &here[n..n + m]);
+
+    let mut stage: HashMap<Symbol, Operand> = HashMap::new();
+    let mut predicted = Vec::new();
+    for (at, coordinate) in model.coordinates.iter().enumerate() {
+        let position = steps.axpy(h, v[at], q[at]);
+        let velocity = steps.axpy(h, here_acceleration[at], v[at]);
+        stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
+        predicted.push(velocity);
+    }
+    stage.insert(model.symbols.time, Operand::Symbol(model.symbols.next_time));
+    stage.extend(model.symbols.feedback.iter().copied().zip(feedback.iter().copied()));
+    let there = steps.append(second, &stage);
+
+    let mut outputs = Vec::new();
+    for at in 0..n {
+        let sum = steps.push(Operation::Add, v[at], predicted[at], None);
+        outputs.push(steps.axpy(half_h, sum, q[at]));
+    }
+    for at in 0..n {
+        let sum = steps.push(Operation::Add, here_acceleration[at], there[at], None);
+        outputs.push(steps.axpy(half_h, sum, v[at]));
+    }
+    if let (Some(&here), Some(&there)) = (here.last(), there.last()) {
+        outputs.push(steps.push(Operation::Add, here, there, None));
+    }
+    Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
+}
+
+/// Instructions one after the other, none of them twice.
+#[derive(Default)]
+struct Fusion {
+    instructions: Vec<Instruction>,
+    known: HashMap<(Operation, Operand, Operand), Operand>,
+}
+
+impl Fusion {
+    fn push(&mut self, operation: Operation, a: Operand, b: Operand, name: Option<String>) -> Operand {
+        *self.known.entry((operation, a, b)).or_insert_with(|| {
+            self.instructions.push(Instruction { operation, a, b, name });
+            Operand::Value(self.instructions.len() - 1)
+        })
+    }
+
+    /// y + a x
+    fn axpy(&mut self, a: Operand, x: Operand, y: Operand) -> Operand {
+        let product = self.push(Operation::Mul, a, x, None);
+        self.push(Operation::Add, y, product, None)
+    }
+
+    /// Appends a program with these values for its symbols; its outputs.
+    fn append(&mut self, program: &Program, symbols: &HashMap<Symbol, Operand>) -> Vec<Operand> {
+        let mut values: Vec<Operand> = Vec::with_capacity(program.instructions.len());
+        let read = |operand: Operand, values: &[Operand]| match operand {
+            Operand::Symbol(symbol) => symbols.get(&symbol).copied().unwrap_or(operand),
+            Operand::Value(at) => values[at],
+            _ => operand,
+        };
+        for instruction in &program.instructions {
+            let (a, b) = (read(instruction.a, &values), read(instruction.b, &values));
+            values.push(self.push(instruction.operation, a, b, instruction.name.clone()));
+        }
+        program.outputs.iter().map(|&output| read(output, &values)).collect()
+    }
+}

@@ -1,0 +1,414 @@
+//! Which instructions share a vector.
+//!
+//! A pair saves an operation, and costs a move for every operand that is not a pair
+//! itself. So pairs are grown: from a seed down its operands as long as that gains.
+//! The seed that gains most goes first; what it gains depends on the pairs that
+//! are there already, so that seeds are judged again before they are taken.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BinaryHeap, HashMap};
+
+use super::{Angles, Kind, Lane, Layout, Partner, alignments, is_sine_or_cosine, kind};
+use crate::program::{Instruction, Operand, Program};
+
+/// What moves cost, in operations: those into both lanes are used again and again,
+/// and those of constants are done before a loop.
+const JOIN: f32 = 1.0;
+const JOIN_CONSTANTS: f32 = 0.5;
+const SPLAT: f32 = 0.4;
+const SWAP: f32 = 0.8;
+/// One lane adds, the other subtracts.
+const MIXED: f32 = 0.4;
+/// A scalar that waits in the second lane.
+const EXTRACT: f32 = 0.25;
+/// Two results that are written at once.
+const WRITE: f32 = 0.8;
+/// A cycle that a lane waits for the other.
+const WAIT: f32 = 0.02;
+/// How far a seed grows.
+const DEPTH: usize = 8;
+
+pub(super) fn choose(program: &Program, angles: &Angles, layout: &Layout<'_>) -> Vec<Option<Partner>> {
+    let mut chooser = Chooser::new(program, angles, layout);
+    // What was not worth it alone may be once its users are pairs.
+    while chooser.pass() {}
+    chooser.partners
+}
+
+struct Chooser<'a> {
+    program: &'a Program,
+    layout: &'a Layout<'a>,
+    kinds: Vec<Option<Kind>>,
+    users: Vec<Vec<usize>>,
+    /// The output that an instruction is.
+    outputs: Vec<Option<usize>>,
+    /// When a result is there at the earliest.
+    latencies: Vec<u32>,
+    ancestors: Ancestors,
+    partners: Vec<Option<Partner>>,
+    /// For sines and cosines of a pair of angles the first of them; for every other
+    /// instruction itself.
+    turns: Vec<usize>,
+}
+
+/// Pairs that are tried out.
+type Trial = Vec<(usize, usize)>;
+
+impl<'a> Chooser<'a> {
+    fn new(program: &'a Program, angles: &Angles, layout: &'a Layout<'a>) -> Self {
+        let length = program.instructions.len();
+        let mut users = vec![Vec::new(); length];
+        for (at, instruction) in program.instructions.iter().enumerate() {
+            for operand in [instruction.a, instruction.b] {
+                if let Operand::Value(of) = operand
+                    && users[of].last() != Some(&at)
+                {
+                    users[of].push(at);
+                }
+            }
+        }
+        let mut outputs = vec![None; length];
+        for (position, output) in program.outputs.iter().enumerate() {
+            if let Operand::Value(at) = output {
+                outputs[*at] = Some(position);
+            }
+        }
+        Self {
+            program,
+            layout,
+            kinds: program.instructions.iter().map(kind).collect(),
+            users,
+            outputs,
+            latencies: program.latencies(),
+            ancestors: Ancestors::new(program),
+            partners: vec![None; length],
+            turns: turns(program, angles),
+        }
+    }
+
+    /// Takes seeds until none gains; whether there was any.
+    fn pass(&mut self) -> bool {
+        let mut seeds: BinaryHeap<Seed> = BinaryHeap::new();
+        for class in self.classes() {
+            for (at, &x) in class.iter().enumerate() {
+                for &y in &class[at + 1..] {
+                    let seed = self.judge(x, y).0;
+                    if seed.gain > 0.0 {
+                        seeds.push(seed);
+                    }
+                }
+            }
+        }
+        let mut is_changed = false;
+        while let Some(seed) = seeds.pop() {
+            let (judged, trial) = self.judge(seed.x, seed.y);
+            if judged.gain <= 0.0 {
+                continue;
+            }
+            if seeds.peek().is_some_and(|next| next.gain > judged.gain) {
+                seeds.push(judged);
+            } else if self.is_acyclic_with(&trial) {
+                self.take(&trial);
+                is_changed = true;
+            }
+        }
+        is_changed
+    }
+
+    /// Free instructions that look alike, operands and operands of operands included.
+    fn classes(&self) -> Vec<Vec<usize>> {
+        let mut classes: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        for at in 0..self.kinds.len() {
+            if self.kinds[at].is_some() && self.partners[at].is_none() {
+                classes.entry(self.shape(Operand::Value(at), 2)).or_default().push(at);
+            }
+        }
+        classes.into_values().collect()
+    }
+
+    fn shape(&self, operand: Operand, depth: usize) -> String {
+        let Operand::Value(at) = operand else {
+            return match operand {
+                Operand::Symbol(_) => "s".to_owned(),
+                _ => "c".to_owned(),
+            };
+        };
+        let instruction = &self.program.instructions[at];
+        let Some(kind) = self.kinds[at] else { return "f".to_owned() };
+        let name = match kind {
+            Kind::Sum => '+',
+            Kind::Product => '*',
+            Kind::Quotient => '/',
+        };
+        if depth == 0 {
+            return name.to_string();
+        }
+        let mut operands = [self.shape(instruction.a, depth - 1), self.shape(instruction.b, depth - 1)];
+        if kind != Kind::Quotient {
+            operands.sort();
+        }
+        format!("{name}({}{})", operands[0], operands[1])
+    }
+
+    fn judge(&self, x: usize, y: usize) -> (Seed, Trial) {
+        let mut trial = Trial::new();
+        let gain = if self.can_pair(x, y, &trial) { self.grow(x, y, &mut trial, 0) } else { 0.0 };
+        (Seed { gain, x, y }, trial)
+    }
+
+    fn can_pair(&self, x: usize, y: usize, trial: &Trial) -> bool {
+        let is_free = |at: usize| {
+            self.partners[at].is_none() && trial.iter().all(|&(first, second)| at != first && at != second)
+        };
+        x != y
+            && self.kinds[x].is_some()
+            && self.kinds[x] == self.kinds[y]
+            && is_free(x)
+            && is_free(y)
+            && !self.ancestors.has(x, y)
+            && !self.ancestors.has(y, x)
+    }
+
+    fn are_paired(&self, x: usize, y: usize, trial: &Trial) -> bool {
+        self.partners[x] == Some(Partner { other: y, lane: Lane::First }) || trial.contains(&(x, y))
+    }
+
+    fn is_paired(&self, x: usize, trial: &Trial) -> bool {
+        self.partners[x].is_some() || trial.iter().any(|&(first, second)| x == first || x == second)
+    }
+
+    /// What the pair gains with the best of what its operands can do.
+    fn grow(&self, x: usize, y: usize, trial: &mut Trial, depth: usize) -> f32 {
+        trial.push((x, y));
+        let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
+        let mut gain = 1.0;
+        if left.operation != right.operation {
+            gain -= MIXED;
+        }
+        gain -= WAIT * self.latencies[x].abs_diff(self.latencies[y]) as f32;
+        gain += self.of_users(x, y, trial);
+        let likely = |alignment: &[(Operand, Operand); 2]| -> f32 {
+            alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, 2)).sum()
+        };
+        let all = alignments(left, right);
+        let best =
+            all.into_iter().reduce(|best, next| if likely(&next) > likely(&best) { next } else { best });
+        for (a, b) in best.into_iter().flatten() {
+            gain += self.of_operands(a, b, trial, depth);
+        }
+        gain
+    }
+
+    /// What using these two as a pair costs, or gains if they become one.
+    fn of_operands(&self, a: Operand, b: Operand, trial: &mut Trial, depth: usize) -> f32 {
+        let (Operand::Value(x), Operand::Value(y)) = (a, b) else {
+            return -self.cost_of_given(a, b);
+        };
+        if x == y {
+            return -SPLAT;
+        }
+        if self.are_paired(x, y, trial) {
+            return 0.0;
+        }
+        if self.are_paired(y, x, trial) {
+            return -SWAP;
+        }
+        if depth < DEPTH && self.can_pair(x, y, trial) {
+            let before = trial.len();
+            let gain = self.grow(x, y, trial, depth + 1);
+            if gain > -JOIN {
+                return gain;
+            }
+            trial.truncate(before);
+        }
+        -JOIN
+    }
+
+    fn cost_of_given(&self, a: Operand, b: Operand) -> f32 {
+        let is_constant = |operand| match operand {
+            Operand::Number(_) | Operand::Hoisted(_) => true,
+            Operand::Symbol(symbol) => (self.layout.is_constant)(symbol),
+            Operand::Value(_) => false,
+        };
+        match (a, b) {
+            (Operand::Number(_), Operand::Number(_)) => 0.0,
+            (Operand::Symbol(x), Operand::Symbol(y)) if (self.layout.are_neighbours)(x, y) => 0.0,
+            _ if a == b => {
+                if is_constant(a) {
+                    0.0
+                } else {
+                    SPLAT
+                }
+            }
+            _ if is_constant(a) && is_constant(b) => JOIN_CONSTANTS,
+            _ => JOIN,
+        }
+    }
+
+    /// Users that are a pair already no longer join their operands; users that
+    /// are scalars have to fetch theirs.
+    fn of_users(&self, x: usize, y: usize, trial: &Trial) -> f32 {
+        let mut gain = 0.0;
+        for &user in &self.users[x] {
+            let partner = self.partners[user].filter(|partner| partner.lane == Lane::First);
+            let Some(partner) = partner.filter(|partner| self.users[y].contains(&partner.other)) else {
+                continue;
+            };
+            let [left, right] = [user, partner.other].map(|at| &self.program.instructions[at]);
+            let wanted = (Operand::Value(x), Operand::Value(y));
+            if alignments(left, right).iter().any(|alignment| alignment.contains(&wanted)) {
+                gain += JOIN;
+                break;
+            }
+        }
+        if let (Some(a), Some(b)) = (self.outputs[x], self.outputs[y])
+            && (self.layout.are_written_together)(a, b)
+        {
+            gain += WRITE;
+        }
+        if self.users[y].iter().any(|&user| !self.is_paired(user, trial)) {
+            gain -= EXTRACT;
+        }
+        gain
+    }
+
+    /// How well two operands seem to go together.
+    fn likeness(&self, a: Operand, b: Operand, trial: &Trial, depth: usize) -> f32 {
+        let (Operand::Value(x), Operand::Value(y)) = (a, b) else {
+            return if matches!((a, b), (Operand::Value(_), _) | (_, Operand::Value(_))) {
+                -1.0
+            } else {
+                1.0 - self.cost_of_given(a, b)
+            };
+        };
+        if x == y {
+            return 1.0 - SPLAT;
+        }
+        if self.are_paired(x, y, trial) {
+            return 2.0;
+        }
+        if self.are_paired(y, x, trial) {
+            return 1.0;
+        }
+        if !self.can_pair(x, y, trial) {
+            let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
+            return if is_sine_or_cosine(left) && is_sine_or_cosine(right) { 0.5 } else { 0.0 };
+        }
+        if depth == 0 {
+            return 1.0;
+        }
+        let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
+        let of = |alignment: [(Operand, Operand); 2]| -> f32 {
+            alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, depth - 1)).sum()
+        };
+        1.0 + alignments(left, right).into_iter().map(of).fold(f32::MIN, f32::max) / 2.0
+    }
+
+    fn take(&mut self, trial: &Trial) {
+        for &(first, second) in trial {
+            self.partners[first] = Some(Partner { other: second, lane: Lane::First });
+            self.partners[second] = Some(Partner { other: first, lane: Lane::Second });
+        }
+    }
+
+    /// Whether pairs can be computed one after the other: each alone joins
+    /// independent instructions, but two together may wait for each other.
+    fn is_acyclic_with(&self, trial: &Trial) -> bool {
+        let length = self.partners.len();
+        // Instructions that are computed at once are known by one of them.
+        let mut node = self.turns.clone();
+        for (at, partner) in self.partners.iter().enumerate() {
+            if let Some(partner) = partner {
+                node[at] = at.min(partner.other);
+            }
+        }
+        for &(first, second) in trial {
+            node[first] = first.min(second);
+            node[second] = first.min(second);
+        }
+        let mut waits = vec![0_usize; length];
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); length];
+        for (at, instruction) in self.program.instructions.iter().enumerate() {
+            for operand in [instruction.a, instruction.b] {
+                if let Operand::Value(value) = operand {
+                    waits[node[at]] += 1;
+                    users[node[value]].push(node[at]);
+                }
+            }
+        }
+        let is_node = |at: &usize| node[*at] == *at;
+        let mut ready: Vec<usize> = (0..length).filter(|at| is_node(at) && waits[*at] == 0).collect();
+        let mut done = 0;
+        while let Some(at) = ready.pop() {
+            done += 1;
+            for &user in &users[at] {
+                waits[user] -= 1;
+                if waits[user] == 0 {
+                    ready.push(user);
+                }
+            }
+        }
+        done == (0..length).filter(is_node).count()
+    }
+}
+
+fn turns(program: &Program, angles: &Angles) -> Vec<usize> {
+    let mut first = HashMap::new();
+    let of_pair = |(at, instruction): (usize, &Instruction)| match angles.get(&instruction.a) {
+        Some((pair, _)) if is_sine_or_cosine(instruction) => *first.entry(*pair).or_insert(at),
+        _ => at,
+    };
+    program.instructions.iter().enumerate().map(of_pair).collect()
+}
+
+/// What a pair and all that grows from it gain.
+#[derive(Clone, Copy, PartialEq)]
+struct Seed {
+    gain: f32,
+    x: usize,
+    y: usize,
+}
+
+impl Eq for Seed {}
+
+impl Ord for Seed {
+    /// Of equal gains the earliest instructions are greatest.
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.gain.total_cmp(&other.gain).then_with(|| (other.x, other.y).cmp(&(self.x, self.y)))
+    }
+}
+
+impl PartialOrd for Seed {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Which instructions wait for which others, a bit each.
+struct Ancestors {
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Ancestors {
+    fn new(program: &Program) -> Self {
+        let length = program.instructions.len();
+        let words = length.div_ceil(64);
+        let mut bits = vec![0; words * length];
+        for (at, instruction) in program.instructions.iter().enumerate() {
+            for operand in [instruction.a, instruction.b] {
+                let Operand::Value(value) = operand else { continue };
+                for word in 0..words {
+                    bits[at * words + word] |= bits[value * words + word];
+                }
+                bits[at * words + value / 64] |= 1 << (value % 64);
+            }
+        }
+        Self { words, bits }
+    }
+
+    /// Whether `at` waits for `value`.
+    fn has(&self, at: usize, value: usize) -> bool {
+        self.bits[at * self.words + value / 64] >> (value % 64) & 1 == 1
+    }
+}

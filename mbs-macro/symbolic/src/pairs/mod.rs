@@ -1,0 +1,255 @@
+//! Straight-line code on pairs: two equal operations as one on two lanes.
+//!
+//! Processors compute on two doubles as fast as on one, but compilers are poor at
+//! finding the pairs in long straight-line code. A mechanism is full of them: the x
+//! and the y of a place, two angles, two stages of a step.
+//!
+//! 1. `choose` decides which instructions share a vector;
+//! 2. `weave` writes them down, with what brings operands into their lanes.
+//!
+//! Results are those of the program, bit for bit but for the sign of a zero: lanes
+//! do the same operations on the same operands. Where one lane adds and the other
+//! subtracts, an operand is held with one lane negated, which is exact.
+
+mod choose;
+mod weave;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use crate::arena::Symbol;
+use crate::operators::Function;
+use crate::program::{Instruction, Operand, Operation, Program};
+
+/// One of the two lanes of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Lane {
+    /// The first.
+    First,
+    /// The second.
+    Second,
+}
+
+/// Where a step finds a scalar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalar {
+    /// A number, a symbol or a hoisted value.
+    Given(Operand),
+    /// The result of an earlier scalar step.
+    Step(usize),
+    /// A lane of an earlier pair.
+    Lane(usize, Lane),
+}
+
+/// What a step computes; pairs are named by the position of their steps.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// A scalar, by an operation on scalars (the second is the first again where
+    /// the operation has one operand); its name, if one was suggested.
+    Scalar(Operation, Scalar, Scalar, Option<String>),
+    /// A pair of two scalars.
+    Join(Scalar, Scalar),
+    /// A scalar in both lanes.
+    Splat(Scalar),
+    /// A pair with its lanes exchanged.
+    Swap(usize),
+    /// A pair with its second lane negated.
+    Flip(usize),
+    /// A binary operation on two pairs: `Add`, `Sub`, `Mul` or `Div`.
+    Pair(Operation, usize, usize),
+    /// The sines of a pair of angles; the step after it has the cosines.
+    Sines(usize),
+    /// The cosines that come with the sines before.
+    Cosines,
+}
+
+/// A program on pairs and scalars.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Woven {
+    /// The steps; each refers to earlier ones only.
+    pub steps: Vec<Step>,
+    /// The results.
+    pub outputs: Vec<Scalar>,
+}
+
+/// Where the symbols of a program come from.
+pub struct Layout<'a> {
+    /// Whether two symbols lie side by side in memory, so that they are read as a pair.
+    pub are_neighbours: &'a dyn Fn(Symbol, Symbol) -> bool,
+    /// Whether two outputs do, so that they are written as a pair.
+    pub are_written_together: &'a dyn Fn(usize, usize) -> bool,
+    /// Whether a symbol is the same in run after run of the program, so that a loop
+    /// moves it into both lanes once.
+    pub is_constant: &'a dyn Fn(Symbol) -> bool,
+}
+
+/// Weaves a program.
+pub fn weave(program: &Program, layout: &Layout<'_>) -> Woven {
+    let angles = pair_angles(program);
+    let partners = choose::choose(program, &angles, layout);
+    weave::weave(program, &partners, &angles, layout)
+}
+
+/// Two operands, as the lanes of a pair.
+type Lanes = (Operand, Operand);
+
+/// Angle → the pair of angles that it belongs to, and its lane.
+type Angles = HashMap<Operand, (Lanes, Lane)>;
+
+/// Pairs the angles whose sines and cosines can be computed at once, in their order;
+/// the last of an odd number stands alone.
+fn pair_angles(program: &Program) -> Angles {
+    // How many turns one after the other lead to a value: those with equal numbers do
+    // not depend on each other, whatever else shares vectors.
+    let mut depths = Vec::with_capacity(program.instructions.len());
+    let mut angles: BTreeMap<u32, Vec<Operand>> = BTreeMap::new();
+    for instruction in &program.instructions {
+        let depth = |operand: Operand| match operand {
+            Operand::Value(at) => depths[at],
+            _ => 0,
+        };
+        let mut of_result: u32 = depth(instruction.a).max(depth(instruction.b));
+        if is_sine_or_cosine(instruction) {
+            let angles = angles.entry(of_result).or_default();
+            if !angles.contains(&instruction.a) {
+                angles.push(instruction.a);
+            }
+            of_result += 1;
+        }
+        depths.push(of_result);
+    }
+    let mut lanes = Angles::new();
+    for pair in angles.values().flat_map(|angles| angles.chunks(2)) {
+        if let [first, second] = *pair {
+            lanes.insert(first, ((first, second), Lane::First));
+            lanes.insert(second, ((first, second), Lane::Second));
+        } else {
+            lanes.extend(pair.iter().map(|&angle| (angle, ((angle, angle), Lane::First))));
+        }
+    }
+    lanes
+}
+
+/// How an instruction stands in a vector: with which other, and in which lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Partner {
+    other: usize,
+    lane: Lane,
+}
+
+/// What instructions have in common that can share a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Kind {
+    Sum,
+    Product,
+    Quotient,
+}
+
+fn kind(instruction: &Instruction) -> Option<Kind> {
+    match instruction.operation {
+        Operation::Add | Operation::Sub => Some(Kind::Sum),
+        Operation::Mul => Some(Kind::Product),
+        Operation::Div => Some(Kind::Quotient),
+        _ => None,
+    }
+}
+
+fn is_sine_or_cosine(instruction: &Instruction) -> bool {
+    matches!(instruction.operation, Operation::Call(Function::Sin | Function::Cos))
+}
+
+/// The ways to line up the operands of two instructions of one kind: first with
+/// first and second with second, or crossed where an instruction commutes. The
+/// first operand of a difference is what is subtracted from.
+fn alignments(x: &Instruction, y: &Instruction) -> Vec<[(Operand, Operand); 2]> {
+    let commutes = |i: &Instruction| matches!(i.operation, Operation::Add | Operation::Mul);
+    let mut alignments = vec![[(x.a, y.a), (x.b, y.b)]];
+    if commutes(x) {
+        alignments.push([(x.b, y.a), (x.a, y.b)]);
+    }
+    if commutes(y) {
+        alignments.push([(x.a, y.b), (x.b, y.a)]);
+    }
+    if commutes(x) && commutes(y) && x.operation != Operation::Mul {
+        alignments.push([(x.b, y.b), (x.a, y.a)]);
+    }
+    alignments
+}
+
+impl Woven {
+    /// Runs the program.
+    pub fn evaluate(&self, program: &Program, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[f64]) -> Vec<f64> {
+        let mut values: Vec<[f64; 2]> = Vec::with_capacity(self.steps.len());
+        let read = |scalar: Scalar, values: &[[f64; 2]]| match scalar {
+            Scalar::Given(operand) => match operand {
+                Operand::Number(number) => number.to_f64(),
+                Operand::Symbol(s) => symbol(s),
+                Operand::Hoisted(at) | Operand::Value(at) => hoisted[at],
+            },
+            Scalar::Step(at) | Scalar::Lane(at, Lane::First) => values[at][0],
+            Scalar::Lane(at, Lane::Second) => values[at][1],
+        };
+        for step in &self.steps {
+            let value = match step {
+                Step::Scalar(operation, a, b, _) => {
+                    let value = program.apply(*operation, read(*a, &values), read(*b, &values));
+                    [value, value]
+                }
+                Step::Join(a, b) => [read(*a, &values), read(*b, &values)],
+                Step::Splat(a) => [read(*a, &values); 2],
+                Step::Swap(at) => [values[*at][1], values[*at][0]],
+                Step::Flip(at) => [values[*at][0], -values[*at][1]],
+                Step::Pair(operation, a, b) => {
+                    [0, 1].map(|lane| program.apply(*operation, values[*a][lane], values[*b][lane]))
+                }
+                Step::Sines(at) => values[*at].map(f64::sin),
+                Step::Cosines => match self.steps.get(values.len().wrapping_sub(1)) {
+                    Some(Step::Sines(at)) => values[*at].map(f64::cos),
+                    _ => [f64::NAN; 2],
+                },
+            };
+            values.push(value);
+        }
+        self.outputs.iter().map(|&output| read(output, &values)).collect()
+    }
+
+    /// Appends an output: the sum of the first `outputs`, with some of them negated
+    /// or twice, as their pairs have it. It is finite only if all of them are.
+    pub fn sum_outputs(&mut self, outputs: usize) {
+        let mut pairs = BTreeSet::new();
+        let mut scalars = Vec::new();
+        for &output in self.outputs.iter().take(outputs) {
+            match output {
+                Scalar::Lane(at, _) => {
+                    pairs.insert(at);
+                }
+                _ => scalars.push(output),
+            }
+        }
+        let sum = pairs.into_iter().reduce(|a, b| self.push(Step::Pair(Operation::Add, a, b)));
+        if let Some(sum) = sum {
+            scalars.extend([Scalar::Lane(sum, Lane::First), Scalar::Lane(sum, Lane::Second)]);
+        }
+        let add = |a, b| Scalar::Step(self.push(Step::Scalar(Operation::Add, a, b, None)));
+        let sum = scalars.into_iter().reduce(add);
+        self.outputs.extend(sum);
+    }
+
+    fn push(&mut self, step: Step) -> usize {
+        self.steps.push(step);
+        self.steps.len() - 1
+    }
+
+    /// How many steps there are of each kind: scalars, pairs, then what only moves
+    /// lanes.
+    pub fn census(&self) -> [usize; 6] {
+        let count = |wanted: fn(&Step) -> bool| self.steps.iter().filter(|step| wanted(step)).count();
+        [
+            count(|step| matches!(step, Step::Scalar(..))),
+            count(|step| matches!(step, Step::Pair(..))),
+            count(|step| matches!(step, Step::Join(..))),
+            count(|step| matches!(step, Step::Splat(..))),
+            count(|step| matches!(step, Step::Swap(..))),
+            count(|step| matches!(step, Step::Flip(..))),
+        ]
+    }
+}

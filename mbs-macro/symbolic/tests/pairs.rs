@@ -1,0 +1,110 @@
+//! Programs on pairs compute what the programs compute that they were woven from,
+//! bit for bit but for the sign of a zero; and do it in fewer operations.
+
+mod common;
+
+use common::{Tree, VARIABLES, points, trees};
+use mbs_symbolic::pairs::{Layout, Scalar, Step, Woven, weave};
+use mbs_symbolic::{Arena, Expr, Function, Program, Stage, Symbol, lower_whole};
+use proptest::prelude::*;
+
+/// Symbols with even numbers lie before their successors.
+fn woven(program: &Program) -> Woven {
+    let layout = Layout {
+        are_neighbours: &|a, b| a.index() % 2 == 0 && b.index() == a.index() + 1,
+        are_written_together: &|a, b| a % 2 == 0 && b == a + 1,
+        is_constant: &|_| false,
+    };
+    weave(program, &layout)
+}
+
+fn letters<const N: usize>() -> (Arena, [Expr; N]) {
+    let mut arena = Arena::new();
+    let letters = std::array::from_fn(|at| {
+        let symbol = arena.symbol(&format!("x{at}"), Stage::Variable);
+        arena.variable(symbol)
+    });
+    (arena, letters)
+}
+
+fn assert_refers_back(woven: &Woven) {
+    for (at, step) in woven.steps.iter().enumerate() {
+        let is_earlier = |scalar: &Scalar| match scalar {
+            Scalar::Given(_) => true,
+            Scalar::Step(of) | Scalar::Lane(of, _) => *of < at,
+        };
+        let is_fine = match step {
+            Step::Scalar(_, a, b, _) | Step::Join(a, b) => is_earlier(a) && is_earlier(b),
+            Step::Splat(a) => is_earlier(a),
+            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) => *of < at,
+            Step::Pair(_, a, b) => *a < at && *b < at,
+            Step::Cosines => matches!(woven.steps[at - 1], Step::Sines(_)),
+        };
+        assert!(is_fine, "step {at} of {woven:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn woven_programs_compute_the_same(
+        trees in prop::collection::vec(trees(), 1..6),
+        points in prop::collection::vec(points(), 4),
+    ) {
+        let (mut arena, variables) = letters::<VARIABLES>();
+        let roots: Vec<Expr> = trees.iter().filter_map(|tree: &Tree| tree.build(&mut arena, &variables)).collect();
+        let program = lower_whole(&mut arena, &roots);
+        let mut woven = woven(&program);
+        assert_refers_back(&woven);
+        woven.sum_outputs(roots.len());
+        assert_refers_back(&woven);
+        for point in points {
+            let symbol = |symbol: Symbol| point[symbol.index()];
+            let expected = program.evaluate(&symbol, &[]);
+            let found = woven.evaluate(&program, &symbol, &[]);
+            for (expected, found) in expected.iter().zip(&found) {
+                prop_assert!(
+                    expected == found || expected.is_nan() && found.is_nan(),
+                    "{expected} became {found} in {woven:?}"
+                );
+            }
+            // the sum tells whether all of them are finite
+            let sum = found.get(roots.len()).copied().unwrap_or(0.0);
+            prop_assert!(!sum.is_finite() || expected.iter().all(|x| x.is_finite()));
+        }
+    }
+}
+
+#[test]
+fn a_rotation_is_two_pairs_of_operations() {
+    // x cos a − y sin a, y cos a + x sin a: two products on pairs and a sum, in
+    // which one lane subtracts
+    let (mut arena, [x, y, angle]) = letters();
+    let (s, c) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
+    let [xc, ys, yc, xs] = [(x, c), (y, s), (y, c), (x, s)].map(|(a, b)| arena.mul(a, b));
+    let (first, second) = (arena.sub(xc, ys), arena.add(yc, xs));
+    let program = lower_whole(&mut arena, &[first, second]);
+    let woven = woven(&program);
+    let [scalars, pairs, ..] = woven.census();
+    assert_eq!((scalars, pairs), (0, 3), "{woven:?}");
+    let point = [3.0, 4.0, 0.5];
+    let symbol = |symbol: Symbol| point[symbol.index()];
+    assert_eq!(woven.evaluate(&program, &symbol, &[]), program.evaluate(&symbol, &[]));
+}
+
+#[test]
+fn what_waits_for_each_other_is_no_pair() {
+    // a chain: no two of its operations can be done at once
+    let (mut arena, [x, y]) = letters();
+    let mut chain = x;
+    for _ in 0..6 {
+        let product = arena.mul(chain, y);
+        chain = arena.add(product, x);
+        chain = arena.share(chain);
+    }
+    let program = lower_whole(&mut arena, &[chain]);
+    let woven = woven(&program);
+    assert_eq!(woven.census()[0], program.instructions.len());
+    assert_eq!(woven.census()[1], 0);
+}
