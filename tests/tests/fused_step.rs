@@ -106,6 +106,7 @@ fn mechanisms_of_the_library_step_alike() {
     check(CartPendulum::declared(), Default::default());
     check(NFourBar1::declared(), Default::default());
     check(NPendulum2::declared(), Default::default());
+    check(NPendulum10::declared(), Default::default());
     check(Peaucellier::declared(), Default::default());
     // friction, a spline, springs
     check(BlockOnIncline::declared(), Default::default());

@@ -7,9 +7,9 @@ use mbs_symbolic::{Instruction, Operand, Operation, Program, Symbol};
 
 use crate::model::{Direction, Meaning, Model};
 
-/// Longer steps are left in two stages: what has to be kept between operations no
-/// longer fits into registers, and finding pairs takes time.
-const LONGEST: usize = 1024;
+/// Longer steps are left in two stages: rustc nests a scope per statement, and its
+/// stack ends at about twice as many.
+const LONGEST: usize = 3072;
 
 /// A step with each kind of feedback.
 pub struct FusedStep {
