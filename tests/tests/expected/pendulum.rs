@@ -604,79 +604,76 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p1 = T::Pair::splat(Single::<T>::new(half_h));
         let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
         let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
-        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p6 = p0 * p5;
-        let p7 = p4 * p6;
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p11 = p10 * p2;
-        let p12 = p9 * p11;
-        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p14 = p11.swap();
-        let p15 = p13 * p14;
-        let p16 = p12 + p15;
-        let p17 = p8 * p16;
-        let v18 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p5 = p0 * p4;
+        let v6 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p8 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p9 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p10 = p9 * p2;
+        let p11 = p8 * p10;
+        let p12 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p13 = p10.swap();
+        let p14 = p12 * p13;
+        let p15 = p11 + p14;
+        let p16 = p7 * p15;
+        let v17 = v6 - p16.second();
+        let v18 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
         let p19 = p0 * p0;
         let v20 = p19.second() + p19.first();
         let v21 = Single::<T>::new(self.hoisted[1]) * v20;
         let phi_rod = v21 - Single::<T>::new(self.hoisted[0]);
         let v23 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
         let feedback_rod = v18 + v23;
-        let v25 = Single::<T>::new(self.hoisted[6]) * p7.second();
-        let v26 = v25 + p17.second();
-        let v27 = feedback_rod - v26;
-        let p28 = p6 * p7;
-        let v29 = p28.second() + p28.first();
-        let v30 = v27 / v29;
-        let p31 = T::Pair::splat(v30);
-        let p32 = p7 * p31;
-        let acc_y = Single::<T>::new(self.hoisted[7]) + p32.second();
-        let p34 = T::Pair::join(p32.first(), acc_y);
-        let p35 = p3 * p34;
-        let p36 = p2 + p35;
-        let p37 = p2 + p36;
-        let p38 = p1 * p37;
+        let v25 = v17 + feedback_rod;
+        let p26 = p5 * p5;
+        let v27 = p26.second() + p26.first();
+        let v28 = v25 / v27;
+        let p29 = T::Pair::splat(v28);
+        let p30 = p5 * p29;
+        let acc_y = p30.second() - Single::<T>::new(T::from_f64(9.81));
+        let p32 = T::Pair::join(p30.first(), acc_y);
+        let p33 = p3 * p32;
+        let p34 = p2 + p33;
+        let p35 = p2 + p34;
+        let p36 = p1 * p35;
+        let p37 = p0 + p36;
+        let p38 = p3 * p2;
         let p39 = p0 + p38;
-        let p40 = p3 * p2;
-        let p41 = p0 + p40;
-        let p42 = p41 * p5;
-        let p43 = p4 * p42;
-        let v44 = Single::<T>::new(self.hoisted[6]) * p43.second();
-        let v45 = feedback_rod - v44;
-        let p46 = p10 * p36;
-        let p47 = p36 * p46;
-        let v48 = p47.second() + p47.first();
-        let v49 = Single::<T>::new(self.hoisted[1]) * v48;
-        let v50 = v45 - v49;
-        let p51 = p42 * p43;
-        let v52 = p51.second() + p51.first();
-        let v53 = v50 / v52;
-        let p54 = T::Pair::splat(v53);
-        let p55 = p43 * p54;
-        let v56 = p32.first() + p55.first();
-        let v57 = Single::<T>::new(self.hoisted[7]) + p55.second();
-        let v58 = acc_y + v57;
-        let p59 = T::Pair::join(v56, v58);
-        let p60 = p1 * p59;
-        let p61 = p2 + p60;
-        let v62 = Single::<T>::new(T::from_f64(0.0))
+        let p40 = p39 * p4;
+        let v41 = Single::<T>::new(T::from_f64(9.81)) * p40.second();
+        let v42 = feedback_rod + v41;
+        let p43 = p9 * p34;
+        let p44 = p34 * p43;
+        let v45 = p44.second() + p44.first();
+        let v46 = Single::<T>::new(self.hoisted[1]) * v45;
+        let v47 = v42 - v46;
+        let p48 = p40 * p40;
+        let v49 = p48.second() + p48.first();
+        let v50 = v47 / v49;
+        let p51 = T::Pair::splat(v50);
+        let p52 = p40 * p51;
+        let v53 = p30.first() + p52.first();
+        let v54 = p52.second() - Single::<T>::new(T::from_f64(9.81));
+        let v55 = acc_y + v54;
+        let p56 = T::Pair::join(v53, v55);
+        let p57 = p1 * p56;
+        let p58 = p2 + p57;
+        let v59 = Single::<T>::new(T::from_f64(0.0))
             + Single::<T>::new(T::from_f64(0.0));
-        let p63 = p39 + p61;
-        let v64 = p63.first() + p63.second();
-        let [growth, sum] = [v62.get(), v64.get()];
+        let p60 = p37 + p58;
+        let v61 = p60.first() + p60.second();
+        let [growth, sum] = [v59.get(), v61.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p39.first().get(),
-                    y: p39.second().get(),
+                    x: p37.first().get(),
+                    y: p37.second().get(),
                 },
                 v: PendulumCoordinates {
-                    x: p61.first().get(),
-                    y: p61.second().get(),
+                    x: p58.first().get(),
+                    y: p58.second().get(),
                 },
             },
             growth,
@@ -702,21 +699,21 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p1 = T::Pair::splat(Single::<T>::new(half_h));
         let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
         let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
-        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p6 = p0 * p5;
-        let p7 = p4 * p6;
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p11 = p10 * p2;
-        let p12 = p9 * p11;
-        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p14 = p11.swap();
-        let p15 = p13 * p14;
-        let p16 = p12 + p15;
-        let p17 = p8 * p16;
-        let v18 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p5 = p0 * p4;
+        let v6 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p8 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p9 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p10 = p9 * p2;
+        let p11 = p8 * p10;
+        let p12 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p13 = p10.swap();
+        let p14 = p12 * p13;
+        let p15 = p11 + p14;
+        let p16 = p7 * p15;
+        let v17 = v6 - p16.second();
+        let v18 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
         let p19 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
         let p20 = p0 * p0;
         let v21 = p20.second() + p20.first();
@@ -725,67 +722,64 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p24 = p23 * p23;
         let v25 = p24.second() + p24.first();
         let p26 = T::Pair::join(v21, v25);
-        let p27 = p8 * p26;
+        let p27 = p7 * p26;
         let p28 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
         let p29 = p27 - p28;
         let p30 = p19 * p29;
         let feedback_rod = v18 + p30.first();
-        let v32 = Single::<T>::new(self.hoisted[6]) * p7.second();
-        let v33 = v32 + p17.second();
-        let v34 = feedback_rod - v33;
-        let p35 = p6 * p7;
-        let v36 = p35.second() + p35.first();
-        let v37 = v34 / v36;
-        let p38 = T::Pair::splat(v37);
-        let p39 = p7 * p38;
-        let acc_y = Single::<T>::new(self.hoisted[7]) + p39.second();
-        let p41 = T::Pair::join(p39.first(), acc_y);
-        let p42 = p3 * p41;
-        let p43 = p2 + p42;
-        let p44 = p2 + p43;
-        let p45 = p1 * p44;
-        let p46 = p0 + p45;
-        let p47 = p23 * p5;
-        let p48 = p4 * p47;
-        let p49 = T::Pair::join(p23.first(), p43.second());
-        let p50 = p10 * p43;
-        let p51 = p49 * p50;
-        let p52 = T::Pair::join(p23.second(), p43.first());
-        let p53 = p50.swap();
-        let p54 = p52 * p53;
-        let p55 = p51 + p54;
-        let p56 = p8 * p55;
-        let v57 = Single::<T>::new(gains.minus_two_alpha) * p56.first();
-        let v58 = v57 + p30.second();
-        let v59 = Single::<T>::new(self.hoisted[6]) * p48.second();
-        let v60 = v59 + p56.second();
-        let v61 = v58 - v60;
-        let p62 = p47 * p48;
-        let v63 = p62.second() + p62.first();
-        let v64 = v61 / v63;
-        let p65 = T::Pair::splat(v64);
-        let p66 = p48 * p65;
-        let v67 = p39.first() + p66.first();
-        let v68 = Single::<T>::new(self.hoisted[7]) + p66.second();
-        let v69 = acc_y + v68;
-        let p70 = T::Pair::join(v67, v69);
-        let p71 = p1 * p70;
-        let p72 = p2 + p71;
-        let v73 = Single::<T>::new(T::from_f64(0.0))
+        let v32 = v17 + feedback_rod;
+        let p33 = p5 * p5;
+        let v34 = p33.second() + p33.first();
+        let v35 = v32 / v34;
+        let p36 = T::Pair::splat(v35);
+        let p37 = p5 * p36;
+        let acc_y = p37.second() - Single::<T>::new(T::from_f64(9.81));
+        let p39 = T::Pair::join(p37.first(), acc_y);
+        let p40 = p3 * p39;
+        let p41 = p2 + p40;
+        let p42 = p2 + p41;
+        let p43 = p1 * p42;
+        let p44 = p0 + p43;
+        let p45 = p23 * p4;
+        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
+        let p47 = T::Pair::join(p23.first(), p41.second());
+        let p48 = p9 * p41;
+        let p49 = p47 * p48;
+        let p50 = T::Pair::join(p23.second(), p41.first());
+        let p51 = p48.swap();
+        let p52 = p50 * p51;
+        let p53 = p49 + p52;
+        let p54 = p7 * p53;
+        let v55 = v46 - p54.second();
+        let v56 = Single::<T>::new(gains.minus_two_alpha) * p54.first();
+        let v57 = v56 + p30.second();
+        let v58 = v55 + v57;
+        let p59 = p45 * p45;
+        let v60 = p59.second() + p59.first();
+        let v61 = v58 / v60;
+        let p62 = T::Pair::splat(v61);
+        let p63 = p45 * p62;
+        let v64 = p37.first() + p63.first();
+        let v65 = p63.second() - Single::<T>::new(T::from_f64(9.81));
+        let v66 = acc_y + v65;
+        let p67 = T::Pair::join(v64, v66);
+        let p68 = p1 * p67;
+        let p69 = p2 + p68;
+        let v70 = Single::<T>::new(T::from_f64(0.0))
             + Single::<T>::new(T::from_f64(0.0));
-        let p74 = p46 + p72;
-        let v75 = p74.first() + p74.second();
-        let [growth, sum] = [v73.get(), v75.get()];
+        let p71 = p44 + p69;
+        let v72 = p71.first() + p71.second();
+        let [growth, sum] = [v70.get(), v72.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p46.first().get(),
-                    y: p46.second().get(),
+                    x: p44.first().get(),
+                    y: p44.second().get(),
                 },
                 v: PendulumCoordinates {
-                    x: p72.first().get(),
-                    y: p72.second().get(),
+                    x: p69.first().get(),
+                    y: p69.second().get(),
                 },
             },
             growth,
