@@ -268,7 +268,7 @@ fn a_sweep_with_gaps() {
     refuses("sweep slider-crank --param l2=30mm..40mm:3 --end 0.3s", &["3 of 3 runs failed", "l2 = 30 mm"]);
 }
 
-/// Lanes and one run after the other come to the same digits.
+/// With and without lanes; the digits of a run do not depend on its neighbours.
 #[test]
 fn sweeps_of_mechanisms_with_and_without_lanes() {
     let folder = tempfile::tempdir().unwrap();
