@@ -3,7 +3,7 @@
 pub use nalgebra;
 
 pub use crate::spline::{Segment, Spline};
-use crate::{Components, Error, Real};
+use crate::{Components, Error, Pair, Real, Single};
 
 /// Refuses parameters that are not finite.
 pub fn check_finite<P: Components>(parameters: &P) -> Result<(), Error> {
@@ -54,4 +54,19 @@ pub fn gather<T: Real, const N: usize>(values: &[T], places: &[u32; N]) -> [T; N
 /// x and y in turn as points.
 pub fn pairs<T: Real, const N: usize>(values: &[T]) -> [[T; 2]; N] {
     core::array::from_fn(|at| [read(values, 2 * at), read(values, 2 * at + 1)])
+}
+
+/// Sines and cosines of `count` angles, two at once.
+#[inline(always)]
+pub fn sin_cos_each<T: Real>(count: usize, angle: impl Fn(usize) -> T, mut keep: impl FnMut(usize, T, T)) {
+    let single = |at| <T::Pair as Pair<T>>::Single::new(angle(at));
+    for first in (1..count).step_by(2).map(|second| second - 1) {
+        let (sines, cosines) = T::Pair::join(single(first), single(first + 1)).sin_cos();
+        keep(first, sines.first().get(), cosines.first().get());
+        keep(first + 1, sines.second().get(), cosines.second().get());
+    }
+    if count % 2 == 1 {
+        let (sine, cosine) = angle(count - 1).sin_cos();
+        keep(count - 1, sine, cosine);
+    }
 }

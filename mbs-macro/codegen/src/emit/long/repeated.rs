@@ -1,8 +1,9 @@
 //! Copies of the same instructions as a loop.
 
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
-use mbs_symbolic::{Operand, Repetition, Source};
+use mbs_symbolic::{Function, Operand, Operation, Repetition, Source};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -17,6 +18,12 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
     let sources: Vec<[Source; 2]> =
         (0..repetition.length).map(|at| repetition.sources(program, at)).collect();
 
+    let mut simple = Columns::new(context, repetition);
+    if let Some(statements) = angles(context, &mut simple, &first_copy, &sources) {
+        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, model)).collect();
+        let doc = Some(format!(" {} angles.", repetition.count));
+        return Part { name, doc, statements, arguments };
+    }
     let mut columns = Columns::new(context, repetition);
     let mut writer = Writer::new(model, program, access, pairs, first_copy.clone()).with_slots(slots);
     for at in first_copy.clone() {
@@ -48,6 +55,39 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
     arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, model)));
     let doc = format!(" {} instructions, {} times.", repetition.length, repetition.count);
     Part { name, doc: Some(doc), statements, arguments }
+}
+
+/// A loop over the sines and cosines of components, which are taken two at once.
+fn angles(
+    context: &Context<'_>,
+    columns: &mut Columns<'_>,
+    first_copy: &Range<usize>,
+    sources: &[[Source; 2]],
+) -> Option<TokenStream> {
+    let Context { names, program, pairs, slots, .. } = *context;
+    let [[source, _], [other, _]] = sources else { return None };
+    let Source::Each(operands) = source else { return None };
+    let is_pair = pairs.partner(first_copy.start) == Some(first_copy.start + 1) && source == other;
+    if !is_pair || !operands.iter().all(|operand| matches!(operand, Operand::Symbol(_))) {
+        return None;
+    }
+    let angle = columns.each(operands);
+    let is_sine = program.instructions[first_copy.start].operation == Operation::Call(Function::Sin);
+    let results = if is_sine { ["sine", "cosine"] } else { ["cosine", "sine"] };
+    let runtime = &names.runtime;
+    let mut kept = TokenStream::new();
+    for (at, result) in first_copy.clone().zip(results) {
+        let copies = (0..columns.repetition.count).map(|copy| slots.of(at + 2 * copy));
+        if let Some(places) = copies.collect::<Option<Vec<_>>>() {
+            let (place, result) = (columns.place(places), format_ident!("{result}"));
+            kept.extend(quote!(#runtime::__private::write(slots, #place, #result);));
+        }
+    }
+    // places from a table would need the loop
+    columns.tables.is_empty().then(|| {
+        let count = Literal::usize_unsuffixed(columns.repetition.count);
+        quote!(#runtime::__private::sin_cos_each(#count, |copy| #angle, |copy, sine, cosine| { #kept });)
+    })
 }
 
 /// What the function of a loop has to reach besides slots and arrays.
