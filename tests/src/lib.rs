@@ -1,11 +1,14 @@
-//! Shared pieces of the cross-checks: the slider-crank written out by hand,
-//! numbers that carry derivatives, random states, random declarations.
+//! Shared pieces of the cross-checks: the slider-crank and the N-pendulum written
+//! out by hand, chains of any length, numbers that carry derivatives, random
+//! states, random declarations.
 
 pub mod by_hand;
 pub mod by_hand_on_pairs;
+pub mod chains;
 pub mod fuzzing;
 pub mod jet;
 pub mod operators;
+pub mod pendulum;
 pub mod random;
 
 /// The README's example compiles and runs.

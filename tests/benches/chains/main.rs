@@ -1,0 +1,48 @@
+//! What a Heun step of a long chain costs: how it grows with the number of links,
+//! generated loops against straight lines and against a person's loops, in the
+//! same run.
+
+mod kernels;
+mod timing;
+
+use std::env;
+use std::process::ExitCode;
+
+use kernels::Kernel;
+
+fn main() -> ExitCode {
+    let kernels = match Kernel::all() {
+        Ok(kernels) => kernels,
+        Err(error) => {
+            println!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    if !all_codes_agree(&kernels) {
+        return ExitCode::FAILURE;
+    }
+    // `cargo test --benches` runs this without the flag: the comparison above is the test
+    if env::args().any(|argument| argument == "--bench") {
+        timing::print(&kernels);
+    }
+    ExitCode::SUCCESS
+}
+
+/// Ten steps of the same chain differ by the rounding of angles of a few radians,
+/// some ulps a step; `tests/pendulum_by_hand.rs` says by how much.
+fn all_codes_agree(kernels: &[Kernel]) -> bool {
+    let mut is_good = true;
+    for kernel in kernels {
+        let angle = (kernel.run)(10);
+        let same = |other: &&Kernel| other.chain == kernel.chain && other.n == kernel.n;
+        let others = kernels.iter().filter(same).map(|other| (other.run)(10));
+        for other in others {
+            let apart = (angle - other).abs();
+            if apart.is_nan() || apart > 1e-12 {
+                println!("{}: θ = {angle}, but {other} of another program", kernel.name());
+                is_good = false;
+            }
+        }
+    }
+    is_good
+}
