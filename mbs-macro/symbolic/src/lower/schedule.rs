@@ -164,7 +164,33 @@ fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
     };
     let mut roots: Vec<Value> = order.into_iter().filter(of_inputs).collect();
     roots.extend(outputs);
-    depth_first(flat, &roots)
+    gather_early(flat, outputs, depth_first(flat, &roots))
+}
+
+/// Moves what only very long sums need to where its operands are: the watch over a
+/// pivot beside the pivot, where it fills the time that others wait for it.
+fn gather_early(flat: &Flat, outputs: &[Value], order: Vec<Value>) -> Vec<Value> {
+    let is_long =
+        |value: Value| matches!(&flat.definitions[value], Definition::Sum(row) if row.len() > LONGEST_TREE);
+    if !order.iter().any(|&value| is_long(value)) {
+        return order;
+    }
+    // users stand behind what they use
+    let mut is_needed = vec![false; flat.definitions.len()];
+    outputs.iter().for_each(|&output| is_needed[output] = true);
+    for &value in order.iter().rev().filter(|&&value| !is_long(value)) {
+        if is_needed[value] {
+            operands(&flat.definitions[value]).into_iter().for_each(|operand| is_needed[operand] = true);
+        }
+    }
+    let mut places = vec![0; flat.definitions.len()];
+    for (place, &value) in order.iter().enumerate() {
+        let behind = operands(&flat.definitions[value]).into_iter().map(|operand| places[operand]).max();
+        places[value] = if is_needed[value] { place } else { behind.unwrap_or(place) };
+    }
+    let mut order = order;
+    order.sort_by_key(|&value| places[value]);
+    order
 }
 
 pub(super) fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
