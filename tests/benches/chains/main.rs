@@ -1,7 +1,8 @@
 //! What a Heun step of a long chain costs: how it grows with the number of links,
 //! generated loops against straight lines and against a person's loops, in the
-//! same run.
+//! same run. `-- --figure FILE.svg` draws it.
 
+mod figure;
 mod kernels;
 mod timing;
 
@@ -23,7 +24,13 @@ fn main() -> ExitCode {
     }
     // `cargo test --benches` runs this without the flag: the comparison above is the test
     if env::args().any(|argument| argument == "--bench") {
-        timing::print(&kernels);
+        let times = timing::times(&kernels);
+        timing::print(&kernels, &times);
+        let file = env::args().skip_while(|argument| argument != "--figure").nth(1);
+        if let Some(Err(error)) = file.map(|file| figure::save(&kernels, &times, file.as_ref())) {
+            println!("{error}");
+            return ExitCode::FAILURE;
+        }
     }
     ExitCode::SUCCESS
 }
