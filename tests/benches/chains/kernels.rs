@@ -31,8 +31,8 @@ pub enum Chain {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Code {
-    /// As generated: repeated parts as loops.
-    Loops,
+    /// As generated: repeated parts as loops, if it is long enough.
+    Generated,
     /// Generated without loops.
     Straight,
     ByHand,
@@ -54,7 +54,7 @@ impl Kernel {
             Chain::FourBar => "four-bar",
         };
         let code = match self.code {
-            Code::Loops => "loops",
+            Code::Generated => "generated",
             Code::Straight => "straight lines",
             Code::ByHand => "by hand",
         };
@@ -64,24 +64,24 @@ impl Kernel {
     /// Every chain in every form that there is of it.
     pub fn all() -> Result<Vec<Self>, mbs_runtime::Error> {
         use Chain::{FourBar, Pendulum};
-        use Code::{Loops, Straight};
+        use Code::{Generated, Straight};
         Ok(vec![
-            generated::<Pendulum10>(Pendulum, 10, Loops)?,
-            generated::<Pendulum20>(Pendulum, 20, Loops)?,
-            generated::<Pendulum40>(Pendulum, 40, Loops)?,
-            generated::<Pendulum100>(Pendulum, 100, Loops)?,
-            generated::<Pendulum200>(Pendulum, 200, Loops)?,
-            generated::<Pendulum400>(Pendulum, 400, Loops)?,
+            generated::<Pendulum10>(Pendulum, 10, Generated)?,
+            generated::<Pendulum20>(Pendulum, 20, Generated)?,
+            generated::<Pendulum40>(Pendulum, 40, Generated)?,
+            generated::<Pendulum100>(Pendulum, 100, Generated)?,
+            generated::<Pendulum200>(Pendulum, 200, Generated)?,
+            generated::<Pendulum400>(Pendulum, 400, Generated)?,
             generated::<PendulumStraight40>(Pendulum, 40, Straight)?,
             by_hand::<Pendulum10, 10>()?,
             by_hand::<Pendulum40, 40>()?,
             by_hand::<Pendulum400, 400>()?,
-            generated::<FourBar10>(FourBar, 10, Loops)?,
-            generated::<FourBar20>(FourBar, 20, Loops)?,
-            generated::<FourBar40>(FourBar, 40, Loops)?,
-            generated::<FourBar100>(FourBar, 100, Loops)?,
-            generated::<FourBar200>(FourBar, 200, Loops)?,
-            generated::<FourBar400>(FourBar, 400, Loops)?,
+            generated::<FourBar10>(FourBar, 10, Generated)?,
+            generated::<FourBar20>(FourBar, 20, Generated)?,
+            generated::<FourBar40>(FourBar, 40, Generated)?,
+            generated::<FourBar100>(FourBar, 100, Generated)?,
+            generated::<FourBar200>(FourBar, 200, Generated)?,
+            generated::<FourBar400>(FourBar, 400, Generated)?,
             generated::<FourBarStraight40>(FourBar, 40, Straight)?,
         ])
     }

@@ -23,11 +23,8 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
     schedule.program
 }
 
-/// Rows with more terms or factors than this are gathered first,
+/// Rows with more terms or factors than this are gathered one after the other.
 const LONGEST_TREE: usize = 32;
-
-/// into so many.
-const GATHERED: usize = 4;
 
 struct Schedule<'a> {
     flat: &'a Flat,
@@ -119,8 +116,8 @@ impl Schedule<'_> {
     /// Combines two operands at a time, those first that are there first, so
     /// that the result waits for as few operations as possible. `None` of none.
     ///
-    /// Very long rows are gathered into a few of these in turn, in their order: the
-    /// same instructions over and over, which can become a loop.
+    /// Very long rows are gathered in their order: the same instruction over and
+    /// over, which can become a loop.
     fn reduce<T: Copy>(
         &mut self,
         mut operands: Vec<T>,
@@ -128,10 +125,7 @@ impl Schedule<'_> {
         operand: impl Fn(&T) -> Operand,
     ) -> Option<T> {
         if operands.len() > LONGEST_TREE {
-            for later in operands.split_off(GATHERED) {
-                let first = operands.remove(0);
-                operands.push(combine(self, first, later));
-            }
+            return operands.into_iter().reduce(|sum, next| combine(self, sum, next));
         }
         loop {
             // Stable, latest first: ties keep the order of the row.
