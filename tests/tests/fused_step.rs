@@ -153,6 +153,17 @@ fn mechanisms_of_the_library_step_alike() {
     check(SpringMassDamper::declared(), Default::default());
 }
 
+/// A mechanism whose step is too long for one program gives reactions all the same.
+#[test]
+fn long_steps_give_reactions_too() {
+    let mechanism = NFourBar10::declared();
+    let (at, inputs) = (mechanism.declared_start(), NoInputs::default());
+    let gains = Gains { minus_two_alpha: 0.0, minus_beta_squared: 0.0 };
+    assert!(mechanism.fused_step_with_reactions::<Held>(&at, &inputs, &gains, H, H).is_none());
+    compare_with_reactions::<_, Held>(&mechanism, &at, &inputs, "a long step");
+    compare_with_reactions::<_, PerStage>(&mechanism, &at, &inputs, "a long step");
+}
+
 #[test]
 fn single_precision_steps_alike() {
     check(SliderCrank::<f32>::default(), Default::default());

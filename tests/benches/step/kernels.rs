@@ -244,27 +244,35 @@ where
         black_box(multipliers).into_array().as_ref().last().copied().unwrap_or(0.0)
     };
     let mut reaction = 0.0;
-    for _ in 0..steps {
-        if reactions == Reactions::Before
-            && let Ok(solved) = simulation.reactions()
-        {
-            reaction = last(solved.multipliers);
+    // A loop for each, as a program has one of them.
+    match reactions {
+        Reactions::None => {
+            for _ in 0..steps {
+                done(simulation.step());
+            }
         }
-        let is_good = if reactions == Reactions::Within {
-            let before = *simulation.state();
-            simulation.step_with_reactions().is_ok_and(|solved| {
+        Reactions::Before => {
+            for _ in 0..steps {
+                if let Ok(solved) = simulation.reactions() {
+                    reaction = last(solved.multipliers);
+                }
+                done(simulation.step());
+            }
+        }
+        Reactions::Within => {
+            for _ in 0..steps {
+                let before = *simulation.state();
+                let solved = done(simulation.step_with_reactions());
                 reaction = last(solved.multipliers);
                 let outputs = simulation.mechanism().outputs(&before, simulation.inputs(), &solved);
                 black_box(torque(outputs));
-                true
-            })
-        } else {
-            simulation.step().is_ok()
-        };
-        if !is_good {
-            std::process::abort();
+            }
         }
     }
     black_box(*simulation.state());
     (simulation.state().q.get("theta1").unwrap_or(f64::NAN), reaction)
+}
+
+fn done<T>(result: Result<T, mbs_runtime::Error>) -> T {
+    result.unwrap_or_else(|_| std::process::abort())
 }
