@@ -171,6 +171,22 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         None
     }
 
+    /// The same with q̈ and λ at the start of the step, without feedback terms, in the
+    /// operations of [`reactions`](Self::reactions); `sum` is finite only if these q̈
+    /// are too.
+    #[inline(always)]
+    #[allow(clippy::type_complexity, reason = "the parts have names")]
+    fn fused_step_with_reactions<F: Feedback>(
+        &self,
+        _at: &State<Self::Coordinates>,
+        _inputs: &Self::Inputs,
+        _gains: &Gains<Self::Real>,
+        _h: Self::Real,
+        _t_next: Self::Real,
+    ) -> Option<(Stepped<Self::Coordinates>, Reactions<Self::Coordinates, Self::Constraints>)> {
+        None
+    }
+
     /// Solves for q̈ and λ with γ + `feedback` below.
     fn reactions(
         &self,

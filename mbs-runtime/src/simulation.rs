@@ -71,7 +71,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// is where they come from; the state stays that of the last good step.
     #[inline]
     pub fn step(&mut self) -> Result<(), Error> {
-        let t_next = self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step;
+        let t_next = self.next_time();
         let Self { mechanism, state, inputs, gains, step, .. } = &*self;
         // Written so that a NaN fails the test. The state is stored from registers,
         // pair by pair; through a `Result` it would be copied in other pieces than
@@ -85,6 +85,59 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             return Ok(());
         }
         self.step_in_stages(t_next)
+    }
+
+    /// Advances by one step, and gives the [`reactions`](Self::reactions) at its start:
+    /// what they have in common is computed once.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
+    /// for _ in 0..500 {
+    ///     let expected = swing.reactions()?.multipliers.rod;
+    ///     let at_start = swing.step_with_reactions()?;
+    ///     assert_eq!(at_start.multipliers.rod, expected);
+    /// }
+    /// assert_eq!(swing.steps(), 500);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`reactions`](Self::reactions) and [`step`](Self::step); the state stays that
+    /// of the last good step.
+    #[inline]
+    pub fn step_with_reactions(&mut self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
+        let t_next = self.next_time();
+        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
+        if let Some((fused, reactions)) =
+            mechanism.fused_step_with_reactions::<F>(state, inputs, gains, *step, t_next)
+            && fused.growth < growth_limit()
+            && fused.sum.is_finite()
+        {
+            self.state = fused.next;
+            self.steps += 1;
+            return Ok(reactions);
+        }
+        let reactions = self.reactions()?;
+        self.step()?;
+        Ok(reactions)
+    }
+
+    /// The time after the next step.
+    #[inline(always)]
+    fn next_time(&self) -> M::Real {
+        self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step
     }
 
     /// The step of mechanisms that have no other, and of those whose step failed:

@@ -1,7 +1,7 @@
 //! A fused step is the step in two stages, bit for bit but for the sign of a zero:
 //! at states on and off the constraints, in both precisions, with both kinds of
 //! feedback, at and beside positions in which mechanisms are singular, and at angles
-//! beyond the range of the inlined sine.
+//! beyond the range of the inlined sine. So are the reactions that a step gives.
 //!
 //! Not within a tolerance: lanes do the operations of the scalars, so that a
 //! difference is an error.
@@ -65,7 +65,42 @@ fn compare<M: Mechanism, F: Feedback>(
     if fused.sum.is_finite() {
         assert!(q.is_finite() && v.is_finite(), "{what}: not finite, but the sum is");
     }
+    compare_with_reactions::<M, F>(mechanism, at, inputs, &what);
     fused.next
+}
+
+/// Compares a step that gives reactions with reactions and then a step: results,
+/// failures, and the states after them.
+fn compare_with_reactions<M: Mechanism, F: Feedback>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    what: &str,
+) {
+    let simulation = Simulation::builder(*mechanism, H)
+        .baumgarte(Baumgarte::<F>::deadbeat(H))
+        .inputs(*inputs)
+        .from_state(*at)
+        .as_declared()
+        .build();
+    // off the constraints a state may not be finite any more
+    let Ok(mut fused) = simulation else { return };
+    let mut apart = fused;
+    let expected = apart.reactions().and_then(|reactions| apart.step().map(|()| reactions));
+    match (fused.step_with_reactions(), expected) {
+        (Ok(found), Ok(expected)) => {
+            assert_same(found.acceleration, expected.acceleration, &format!("q̈ of {what}"));
+            assert_same(found.multipliers, expected.multipliers, &format!("λ of {what}"));
+            assert!(are_same(found.growth, expected.growth), "{what}: growth at the start");
+        }
+        // as text: a growth that is not a number is not equal to itself
+        (found, expected) => {
+            assert_eq!(format!("{:?}", found.err()), format!("{:?}", expected.err()), "{what}");
+        }
+    }
+    assert_eq!(fused.steps(), apart.steps(), "{what}");
+    assert_same(fused.state().q, apart.state().q, what);
+    assert_same(fused.state().v, apart.state().v, what);
 }
 
 /// Everything about one mechanism: its motion from the start, random states beside
@@ -73,6 +108,10 @@ fn compare<M: Mechanism, F: Feedback>(
 fn check<M: Mechanism>(mechanism: M, inputs: M::Inputs) {
     let mut random = Random::new(7);
     let start = mechanism.declared_start();
+    let (h, none) = (M::Real::from_f64(H), M::Real::default());
+    let gains = Gains { minus_two_alpha: none, minus_beta_squared: none };
+    let fused = mechanism.fused_step_with_reactions::<Held>(&start, &inputs, &gains, h, start.t + h);
+    assert!(fused.is_some(), "{} gives no reactions with a step", M::INFO.name);
     let start = mbs_runtime::start::consistent(&mechanism, &start).unwrap_or(start);
     let (mut held, mut per_stage) = (start, start);
     for _ in 0..200 {
@@ -112,6 +151,17 @@ fn mechanisms_of_the_library_step_alike() {
     check(BlockOnIncline::declared(), Default::default());
     check(CamFollower::declared(), Default::default());
     check(SpringMassDamper::declared(), Default::default());
+}
+
+/// A mechanism whose step is too long for one program gives reactions all the same.
+#[test]
+fn long_steps_give_reactions_too() {
+    let mechanism = NFourBar10::declared();
+    let (at, inputs) = (mechanism.declared_start(), NoInputs::default());
+    let gains = Gains { minus_two_alpha: 0.0, minus_beta_squared: 0.0 };
+    assert!(mechanism.fused_step_with_reactions::<Held>(&at, &inputs, &gains, H, H).is_none());
+    compare_with_reactions::<_, Held>(&mechanism, &at, &inputs, "a long step");
+    compare_with_reactions::<_, PerStage>(&mechanism, &at, &inputs, "a long step");
 }
 
 #[test]
@@ -180,6 +230,7 @@ fn failures_are_named() {
         .build()
         .expect("any finite state");
     let error = simulation.step().expect_err("the rod is upright");
+    assert_eq!(simulation.step_with_reactions().err(), Some(error));
     assert!(
         matches!(error, mbs_runtime::Error::Singular { constraint: "guide", coordinate: "theta2", .. }),
         "{error}"

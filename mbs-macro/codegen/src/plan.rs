@@ -181,11 +181,16 @@ pub fn plan(
         pivot_names: names(&factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
+    let stages = step::Stages {
+        stabilized: &plan.stabilized,
+        constrained: &plan.constrained,
+        reactions: &plan.reactions,
+    };
     let requirements = requirements(model, equations);
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
-        fused_step: step::fused(model, &plan.stabilized, &plan.constrained),
+        fused_step: step::fused(model, stages),
         prepare: lower_whole(&mut model.arena, hoisted.values()),
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements),

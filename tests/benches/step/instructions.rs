@@ -106,7 +106,7 @@ fn compare(counts: &BTreeMap<String, u64>) -> bool {
                 "NOT RECORDED".to_owned()
             }
         };
-        println!("{name:36} {count:6} {verdict}");
+        println!("{name:44} {count:6} {verdict}");
     }
     if !is_good {
         println!("look at the change; if it is right, record it with BLESS=1");

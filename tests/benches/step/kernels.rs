@@ -28,14 +28,23 @@ pub enum Method {
     OnPairs,
 }
 
+/// Whether a step comes with the clean multipliers at its start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reactions {
+    None,
+    /// Computed before it, by a call of their own.
+    Before,
+    /// Computed within it; with the torque of the drive.
+    Within,
+}
+
 /// One program to be measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
     pub method: Method,
     pub is_driven: bool,
     pub is_held: bool,
-    /// Whether the clean multipliers are computed before every step.
-    pub with_reactions: bool,
+    pub reactions: Reactions,
 }
 
 impl Kernel {
@@ -49,7 +58,11 @@ impl Kernel {
     pub fn case(&self) -> String {
         let motion = if self.is_driven { "driven" } else { "free" };
         let feedback = if self.is_held { "held" } else { "per-stage" };
-        let reactions = if self.with_reactions { " reactions" } else { "" };
+        let reactions = match self.reactions {
+            Reactions::None => "",
+            Reactions::Before => " reactions",
+            Reactions::Within => " with λ and torque",
+        };
         format!("{motion} {feedback}{reactions}")
     }
 
@@ -58,17 +71,21 @@ impl Kernel {
         let mut all = Vec::new();
         for is_driven in [true, false] {
             for is_held in [true, false] {
-                for with_reactions in [false, true] {
+                for reactions in [Reactions::None, Reactions::Before, Reactions::Within] {
                     for method in [Method::Compiled, Method::Dense, Method::ByHand, Method::OnPairs] {
-                        all.push(Self { method, is_driven, is_held, with_reactions });
+                        all.push(Self { method, is_driven, is_held, reactions });
                     }
                 }
             }
         }
         // nobody wrote everything out by hand
         all.retain(|k| match k.method {
-            Method::ByHand => !k.with_reactions || k.is_driven,
-            Method::OnPairs => !k.with_reactions && !k.is_held,
+            Method::ByHand => match k.reactions {
+                Reactions::None => true,
+                Reactions::Before => k.is_driven,
+                Reactions::Within => false,
+            },
+            Method::OnPairs => k.reactions == Reactions::None && !k.is_held,
             Method::Compiled | Method::Dense => true,
         });
         all
@@ -91,11 +108,11 @@ impl Kernel {
     fn compiled<F: Feedback>(&self, steps: u32) -> (f64, f64) {
         if self.is_driven {
             let simulation = simulation::<_, F>(SliderCrank::declared(), Default::default());
-            run_compiled(simulation, steps, self.with_reactions)
+            run_compiled(simulation, steps, self.reactions, |outputs| outputs.drive_torque)
         } else {
             let inputs = SliderCrankFreeInputs { crank_torque: TORQUE };
             let simulation = simulation::<_, F>(SliderCrankFree::declared(), inputs);
-            run_compiled(simulation, steps, self.with_reactions)
+            run_compiled(simulation, steps, self.reactions, |_| TORQUE)
         }
     }
 
@@ -129,7 +146,7 @@ impl Kernel {
         let mut reaction = 0.0;
         for k in 0..steps {
             let (t, t_next) = (f64::from(k) * H, f64::from(k + 1) * H);
-            if self.with_reactions {
+            if self.reactions != Reactions::None {
                 reaction = black_box(solve(&q, &v, &Rows::zeros())).multipliers[6];
             }
             let feedback = hand.feedback(t, &q, &v, &gains);
@@ -169,7 +186,7 @@ impl Kernel {
                     hand.accelerations_free_held(q, v, feedback)
                 }
             };
-            if self.with_reactions {
+            if self.reactions != Reactions::None {
                 let clean = held(&q, &v, &[0.0; 7]);
                 reaction = black_box(hand.multipliers_driven(&q, &clean))[6];
             }
@@ -213,21 +230,49 @@ fn simulation<M: Mechanism, F: Feedback>(mechanism: M, inputs: M::Inputs) -> Sim
 }
 
 #[inline(never)]
-fn run_compiled<M, F>(mut simulation: Simulation<M, F>, steps: u32, with_reactions: bool) -> (f64, f64)
+fn run_compiled<M, F>(
+    mut simulation: Simulation<M, F>,
+    steps: u32,
+    reactions: Reactions,
+    torque: impl Fn(M::Outputs) -> f64,
+) -> (f64, f64)
 where
     M: Mechanism<Real = f64>,
     F: Feedback,
 {
+    let last = |multipliers: M::Constraints| {
+        black_box(multipliers).into_array().as_ref().last().copied().unwrap_or(0.0)
+    };
     let mut reaction = 0.0;
-    for _ in 0..steps {
-        if with_reactions && let Ok(solved) = simulation.reactions() {
-            let multipliers = black_box(solved.multipliers).into_array();
-            reaction = multipliers.as_ref().last().copied().unwrap_or(0.0);
+    // A loop for each, as a program has one of them.
+    match reactions {
+        Reactions::None => {
+            for _ in 0..steps {
+                done(simulation.step());
+            }
         }
-        if simulation.step().is_err() {
-            std::process::abort();
+        Reactions::Before => {
+            for _ in 0..steps {
+                if let Ok(solved) = simulation.reactions() {
+                    reaction = last(solved.multipliers);
+                }
+                done(simulation.step());
+            }
+        }
+        Reactions::Within => {
+            for _ in 0..steps {
+                let before = *simulation.state();
+                let solved = done(simulation.step_with_reactions());
+                reaction = last(solved.multipliers);
+                let outputs = simulation.mechanism().outputs(&before, simulation.inputs(), &solved);
+                black_box(torque(outputs));
+            }
         }
     }
     black_box(*simulation.state());
     (simulation.state().q.get("theta1").unwrap_or(f64::NAN), reaction)
+}
+
+fn done<T>(result: Result<T, mbs_runtime::Error>) -> T {
+    result.unwrap_or_else(|_| std::process::abort())
 }

@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use crate::kernels::{Kernel, Method};
+use crate::kernels::{Kernel, Method, Reactions};
 
 /// One turn of the crank.
 const STEPS: u32 = 600;
@@ -28,7 +28,7 @@ pub fn print() {
 
     println!("ns per Heun step, medians of {REPETITIONS} interleaved repetitions");
     println!(
-        "{:28} {:>9} {:>9} {:>9} {:>9} {:>12} {:>14} {:>14} {:>12}",
+        "{:36} {:>9} {:>9} {:>9} {:>9} {:>12} {:>14} {:>14} {:>12}",
         "",
         "compiled",
         "dense LU",
@@ -46,13 +46,14 @@ pub fn print() {
         let [by_hand, on_pairs] = columns.map(|time| time.map_or(String::new(), |time| format!("{time:.1}")));
         let [to_hand, to_pairs] =
             columns.map(|time| time.map_or(String::new(), |time| format!("{:.2}x", ours / time)));
-        let without = Kernel { with_reactions: false, ..*kernel }.case();
-        let with_reactions = match time(&without, Method::Compiled).filter(|_| kernel.with_reactions) {
-            Some(without) => format!("{:.2}x", ours / without),
-            None => String::new(),
-        };
+        let without = Kernel { reactions: Reactions::None, ..*kernel }.case();
+        let with_reactions =
+            match time(&without, Method::Compiled).filter(|_| kernel.reactions != Reactions::None) {
+                Some(without) => format!("{:.2}x", ours / without),
+                None => String::new(),
+            };
         println!(
-            "{:28} {ours:9.1} {dense:9.1} {by_hand:>9} {on_pairs:>9} {:11.1}x {to_hand:>14} {to_pairs:>14} {with_reactions:>12}",
+            "{:36} {ours:9.1} {dense:9.1} {by_hand:>9} {on_pairs:>9} {:11.1}x {to_hand:>14} {to_pairs:>14} {with_reactions:>12}",
             kernel.case(),
             dense / ours
         );

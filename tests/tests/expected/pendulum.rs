@@ -659,11 +659,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p56 = T::Pair::join(v53, v55);
         let p57 = p1 * p56;
         let p58 = p2 + p57;
-        let v59 = Single::<T>::new(T::from_f64(0.0))
-            + Single::<T>::new(T::from_f64(0.0));
-        let p60 = p37 + p58;
-        let v61 = p60.first() + p60.second();
-        let [growth, sum] = [v59.get(), v61.get()];
+        let p59 = p37 + p58;
+        let v60 = p59.first() + p59.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -676,8 +673,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                     y: p58.second().get(),
                 },
             },
-            growth,
-            sum,
+            growth: Single::<T>::new(T::from_f64(0.0)).get(),
+            sum: v60.get(),
         }
     }
     ///A step with feedback in both stages.
@@ -765,11 +762,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p67 = T::Pair::join(v64, v66);
         let p68 = p1 * p67;
         let p69 = p2 + p68;
-        let v70 = Single::<T>::new(T::from_f64(0.0))
-            + Single::<T>::new(T::from_f64(0.0));
-        let p71 = p44 + p69;
-        let v72 = p71.first() + p71.second();
-        let [growth, sum] = [v70.get(), v72.get()];
+        let p70 = p44 + p69;
+        let v71 = p70.first() + p70.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -782,9 +776,252 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                     y: p69.second().get(),
                 },
             },
-            growth,
-            sum,
+            growth: Single::<T>::new(T::from_f64(0.0)).get(),
+            sum: v71.get(),
         }
+    }
+    ///A step with feedback held over it, and the reactions at its start.
+    #[inline(always)]
+    fn step_held_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<PendulumCoordinates<T>>,
+        ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>>,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p5 = p0 * p4;
+        let p6 = T::Pair::splat(p5.first());
+        let v7 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p11 = p10 * p2;
+        let p12 = p9 * p11;
+        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p14 = p11.swap();
+        let p15 = p13 * p14;
+        let p16 = p12 + p15;
+        let p17 = p8 * p16;
+        let v18 = v7 - p17.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p20 = p0 * p0;
+        let v21 = p20.second() + p20.first();
+        let v22 = Single::<T>::new(self.hoisted[1]) * v21;
+        let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
+        let v24 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let feedback_rod = v19 + v24;
+        let v26 = v18 + feedback_rod;
+        let p27 = T::Pair::join(v26, v18);
+        let p28 = p5 * p5;
+        let v29 = p28.second() + p28.first();
+        let p30 = T::Pair::splat(v29);
+        let p31 = p27 / p30;
+        let p32 = p6 * p31;
+        let p33 = T::Pair::splat(p5.second());
+        let p34 = p33 * p31;
+        let p35 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p36 = p34 - p35;
+        let p37 = T::Pair::join(p32.first(), p36.first());
+        let p38 = p3 * p37;
+        let p39 = p2 + p38;
+        let p40 = p2 + p39;
+        let p41 = p1 * p40;
+        let p42 = p0 + p41;
+        let p43 = p3 * p2;
+        let p44 = p0 + p43;
+        let p45 = p44 * p4;
+        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
+        let v47 = feedback_rod + v46;
+        let p48 = p10 * p39;
+        let p49 = p39 * p48;
+        let v50 = p49.second() + p49.first();
+        let v51 = Single::<T>::new(self.hoisted[1]) * v50;
+        let v52 = v47 - v51;
+        let p53 = p45 * p45;
+        let v54 = p53.second() + p53.first();
+        let v55 = v52 / v54;
+        let p56 = T::Pair::splat(v55);
+        let p57 = p45 * p56;
+        let v58 = p32.first() + p57.first();
+        let acc_y = p57.second() - Single::<T>::new(T::from_f64(9.81));
+        let v60 = p36.first() + acc_y;
+        let p61 = T::Pair::join(v58, v60);
+        let p62 = p1 * p61;
+        let p63 = p2 + p62;
+        let v64 = Single::<T>::new(self.parameters.mass) * p31.second();
+        let lambda_rod = -v64;
+        let p66 = p32 + p36;
+        let p67 = p66 + p42;
+        let p68 = p67 + p63;
+        let v69 = p68.first() + p68.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: PendulumCoordinates {
+                        x: p42.first().get(),
+                        y: p42.second().get(),
+                    },
+                    v: PendulumCoordinates {
+                        x: p63.first().get(),
+                        y: p63.second().get(),
+                    },
+                },
+                growth: Single::<T>::new(T::from_f64(0.0)).get(),
+                sum: v69.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: PendulumCoordinates {
+                    x: p32.second().get(),
+                    y: p36.second().get(),
+                },
+                multipliers: PendulumConstraints {
+                    rod: lambda_rod.get(),
+                },
+                growth: Single::<T>::new(T::from_f64(0.0)).get(),
+            },
+        )
+    }
+    ///A step with feedback in both stages, and the reactions at its start.
+    #[inline(always)]
+    fn step_per_stage_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<PendulumCoordinates<T>>,
+        ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>>,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p5 = p0 * p4;
+        let p6 = T::Pair::splat(p5.first());
+        let v7 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p11 = p10 * p2;
+        let p12 = p9 * p11;
+        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p14 = p11.swap();
+        let p15 = p13 * p14;
+        let p16 = p12 + p15;
+        let p17 = p8 * p16;
+        let v18 = v7 - p17.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
+        let p20 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p21 = p0 * p0;
+        let v22 = p21.second() + p21.first();
+        let p23 = p3 * p2;
+        let p24 = p0 + p23;
+        let p25 = p24 * p24;
+        let v26 = p25.second() + p25.first();
+        let p27 = T::Pair::join(v22, v26);
+        let p28 = p8 * p27;
+        let p29 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p30 = p28 - p29;
+        let p31 = p20 * p30;
+        let feedback_rod = v19 + p31.first();
+        let v33 = v18 + feedback_rod;
+        let p34 = T::Pair::join(v33, v18);
+        let p35 = p5 * p5;
+        let v36 = p35.second() + p35.first();
+        let p37 = T::Pair::splat(v36);
+        let p38 = p34 / p37;
+        let p39 = p6 * p38;
+        let p40 = T::Pair::splat(p5.second());
+        let p41 = p40 * p38;
+        let p42 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p43 = p41 - p42;
+        let p44 = T::Pair::join(p39.first(), p43.first());
+        let p45 = p3 * p44;
+        let p46 = p2 + p45;
+        let p47 = p2 + p46;
+        let p48 = p1 * p47;
+        let p49 = p0 + p48;
+        let p50 = p24 * p4;
+        let v51 = Single::<T>::new(T::from_f64(9.81)) * p50.second();
+        let p52 = T::Pair::join(p24.first(), p46.second());
+        let p53 = p10 * p46;
+        let p54 = p52 * p53;
+        let p55 = T::Pair::join(p24.second(), p46.first());
+        let p56 = p53.swap();
+        let p57 = p55 * p56;
+        let p58 = p54 + p57;
+        let p59 = p8 * p58;
+        let v60 = v51 - p59.second();
+        let v61 = Single::<T>::new(gains.minus_two_alpha) * p59.first();
+        let v62 = v61 + p31.second();
+        let v63 = v60 + v62;
+        let p64 = p50 * p50;
+        let v65 = p64.second() + p64.first();
+        let v66 = v63 / v65;
+        let p67 = T::Pair::splat(v66);
+        let p68 = p50 * p67;
+        let v69 = p39.first() + p68.first();
+        let acc_y = p68.second() - Single::<T>::new(T::from_f64(9.81));
+        let v71 = p43.first() + acc_y;
+        let p72 = T::Pair::join(v69, v71);
+        let p73 = p1 * p72;
+        let p74 = p2 + p73;
+        let v75 = Single::<T>::new(self.parameters.mass) * p38.second();
+        let lambda_rod = -v75;
+        let p77 = p39 + p43;
+        let p78 = p77 + p49;
+        let p79 = p78 + p74;
+        let v80 = p79.first() + p79.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: PendulumCoordinates {
+                        x: p49.first().get(),
+                        y: p49.second().get(),
+                    },
+                    v: PendulumCoordinates {
+                        x: p74.first().get(),
+                        y: p74.second().get(),
+                    },
+                },
+                growth: Single::<T>::new(T::from_f64(0.0)).get(),
+                sum: v80.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: PendulumCoordinates {
+                    x: p39.second().get(),
+                    y: p43.second().get(),
+                },
+                multipliers: PendulumConstraints {
+                    rod: lambda_rod.get(),
+                },
+                growth: Single::<T>::new(T::from_f64(0.0)).get(),
+            },
+        )
     }
 }
 #[allow(unused_variables, clippy::all)]
@@ -1479,6 +1716,28 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 self.step_held(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
+    }
+    #[inline(always)]
+    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<
+        (
+            ::mbs_runtime::Stepped<PendulumCoordinates<T>>,
+            ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>>,
+        ),
+    > {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held_with_reactions(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage_with_reactions(at, inputs, gains, h, t_next)
             },
         )
     }

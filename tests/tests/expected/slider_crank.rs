@@ -1379,7 +1379,6 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         let v193 = v192 + v181;
         let v194 = v193 + p190.first();
         let v195 = v194 + p190.second();
-        let [growth, sum] = [v186.get(), v195.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -1402,8 +1401,8 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
                     x3: v181.get(),
                 },
             },
-            growth,
-            sum,
+            growth: v186.get(),
+            sum: v195.get(),
         }
     }
     ///A step with feedback in both stages.
@@ -1665,7 +1664,6 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         let v239 = v238 + v226;
         let v240 = v239 + p234.first();
         let v241 = v240 + p234.second();
-        let [growth, sum] = [v231.get(), v241.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -1688,9 +1686,728 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
                     x3: v226.get(),
                 },
             },
-            growth,
-            sum,
+            growth: v231.get(),
+            sum: v241.get(),
         }
+    }
+    ///A step with feedback held over it, and the reactions at its start.
+    #[inline(always)]
+    fn step_held_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<SliderCrankCoordinates<T>>,
+        ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>>,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let phi_dot_crank_speed = Single::<T>::new(at.v.theta1)
+            - Single::<T>::new(self.parameters.omega);
+        let v22 = Single::<T>::new(gains.minus_two_alpha) * phi_dot_crank_speed;
+        let v23 = Single::<T>::new(at.t) * Single::<T>::new(self.parameters.omega);
+        let phi_crank_speed = Single::<T>::new(at.q.theta1) - v23;
+        let v25 = Single::<T>::new(gains.minus_beta_squared) * phi_crank_speed;
+        let feedback_crank_speed = v22 + v25;
+        let p27 = T::Pair::splat(feedback_crank_speed);
+        let p28 = p27.flip();
+        let p29 = p28 * p16;
+        let v30 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p31 = T::Pair::splat(v30);
+        let p32 = p31 * p10;
+        let p33 = p29 + p32;
+        let p34 = p20 - p33;
+        let p35 = p3 * p34;
+        let p36 = p2 + p35;
+        let p37 = p2 + p36;
+        let p38 = p1 * p37;
+        let p39 = p0 + p38;
+        let v40 = Single::<T>::new(h) * feedback_crank_speed;
+        let v41 = Single::<T>::new(at.v.theta1) + v40;
+        let v42 = Single::<T>::new(at.v.theta1) + v41;
+        let v43 = Single::<T>::new(half_h) * v42;
+        let v44 = Single::<T>::new(at.q.theta1) + v43;
+        let p45 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p46 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p47 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p48 = T::Pair::join(cosines7.second(), sines7.second());
+        let p49 = p47 * p48;
+        let p50 = p45 - p49;
+        let p51 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p52 = p51 * p9;
+        let p53 = p50 - p52;
+        let p54 = p4 * p53;
+        let p55 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p56 = p55.flip();
+        let p57 = p49.swap();
+        let p58 = p56 * p57;
+        let p59 = p46 + p58;
+        let p60 = p52.swap();
+        let p61 = p15 * p60;
+        let p62 = p59 + p61;
+        let p63 = p13 * p62;
+        let p64 = p54 + p63;
+        let p65 = p28 * p60;
+        let p66 = p31 * p52;
+        let p67 = p65 + p66;
+        let v68 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p69 = T::Pair::splat(v68);
+        let p70 = p69 * p49;
+        let p71 = p67 + p70;
+        let p72 = p64 - p71;
+        let p73 = p57.flip();
+        let p74 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let v75 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v76 = Single::<T>::new(at.q.theta1) + v75;
+        let v77 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v78 = Single::<T>::new(at.q.theta2) + v77;
+        let p79 = T::Pair::join(v76, v78);
+        let (sines80, cosines80) = p79.sin_cos();
+        let p82 = T::Pair::join(cosines7.second(), cosines80.second());
+        let p83 = p74 / p82;
+        let p84 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let p85 = T::Pair::join(sines7.second(), cosines7.second());
+        let p86 = p84 * p85;
+        let phi_guide = p86.first() + p52.second();
+        let v88 = Single::<T>::new(at.q.x3) - p86.second();
+        let phi_slider = v88 - p52.first();
+        let p90 = T::Pair::join(phi_guide, phi_slider);
+        let p91 = p4 * p90;
+        let v92 = Single::<T>::new(at.v.theta2) * p86.second();
+        let p93 = T::Pair::join(v92, p61.first());
+        let p94 = p61.flip();
+        let v95 = Single::<T>::new(at.v.theta2) * p86.first();
+        let v96 = Single::<T>::new(at.v.x3) + v95;
+        let p97 = T::Pair::join(p94.second(), v96);
+        let p98 = p93 + p97;
+        let p99 = p13 * p98;
+        let p100 = p91 + p99;
+        let p101 = p69.flip();
+        let p102 = p101 * p86;
+        let p103 = p67.flip();
+        let p104 = p103.swap();
+        let p105 = p102 - p104;
+        let p106 = p100 + p105;
+        let acc_theta2 = p83.first() * p106.first();
+        let p108 = T::Pair::splat(acc_theta2);
+        let p109 = p73 * p108;
+        let p110 = p72 - p109;
+        let p111 = p3 * p110;
+        let p112 = p46 + p111;
+        let p113 = p46 + p112;
+        let p114 = p1 * p113;
+        let p115 = p45 + p114;
+        let p116 = T::Pair::join(
+            Single::<T>::new(at.q.theta2),
+            Single::<T>::new(at.q.x3),
+        );
+        let p117 = T::Pair::join(
+            Single::<T>::new(at.v.theta2),
+            Single::<T>::new(at.v.x3),
+        );
+        let v118 = p86.first() * acc_theta2;
+        let acc_x3 = p106.second() - v118;
+        let p120 = T::Pair::join(acc_theta2, acc_x3);
+        let p121 = p3 * p120;
+        let p122 = p117 + p121;
+        let p123 = p117 + p122;
+        let p124 = p1 * p123;
+        let p125 = p116 + p124;
+        let p126 = T::Pair::join(sines80.first(), cosines80.first());
+        let p127 = p27 * p126;
+        let v128 = v41 * v41;
+        let p129 = T::Pair::splat(v128);
+        let p130 = T::Pair::join(cosines80.first(), sines80.first());
+        let p131 = p129 * p130;
+        let p132 = T::Pair::join(p127.first(), p131.second());
+        let p133 = p5 * p132;
+        let p134 = p20 - p133;
+        let p135 = p5.flip();
+        let p136 = T::Pair::join(p131.first(), p127.second());
+        let p137 = p135 * p136;
+        let p138 = p134 - p137;
+        let p139 = p34 + p138;
+        let p140 = p1 * p139;
+        let p141 = p2 + p140;
+        let v142 = feedback_crank_speed + feedback_crank_speed;
+        let v143 = Single::<T>::new(half_h) * v142;
+        let v144 = Single::<T>::new(at.v.theta1) + v143;
+        let v145 = p122.first() * p122.first();
+        let p146 = T::Pair::splat(v145);
+        let p147 = T::Pair::join(cosines80.second(), sines80.second());
+        let p148 = p47 * p147;
+        let p149 = p146 * p148;
+        let p150 = p64 - p149;
+        let p151 = p51.flip();
+        let p152 = p151 * p127;
+        let p153 = p51 * p131;
+        let p154 = p152 + p153;
+        let p155 = p150 - p154;
+        let p156 = p148.swap();
+        let p157 = p156.flip();
+        let v158 = Single::<T>::new(self.parameters.l2) * sines80.second();
+        let v159 = v145 * v158;
+        let v160 = p100.first() + v159;
+        let p161 = p154.flip();
+        let v162 = v160 - p161.second();
+        let v163 = p83.second() * v162;
+        let p164 = T::Pair::splat(v163);
+        let p165 = p157 * p164;
+        let p166 = p155 - p165;
+        let p167 = p110 + p166;
+        let p168 = p1 * p167;
+        let p169 = p46 + p168;
+        let v170 = acc_theta2 + v163;
+        let v171 = Single::<T>::new(half_h) * v170;
+        let v172 = Single::<T>::new(at.v.theta2) + v171;
+        let v173 = Single::<T>::new(self.parameters.l2) * v145;
+        let v174 = v173 * cosines80.second();
+        let v175 = p100.second() - v174;
+        let v176 = v175 - p161.first();
+        let v177 = v158 * v163;
+        let v178 = v176 - v177;
+        let v179 = acc_x3 + v178;
+        let v180 = Single::<T>::new(half_h) * v179;
+        let v181 = Single::<T>::new(at.v.x3) + v180;
+        let v182 = -p32.first();
+        let v183 = -p32.second();
+        let v184 = -p70.first();
+        let v185 = v184 - p66.first();
+        let v186 = -p66.second();
+        let v187 = p102.first() - v186;
+        let v188 = p83.first() * v187;
+        let p189 = T::Pair::splat(v188);
+        let p190 = p49 * p189;
+        let acc_x2 = v185 - p190.second();
+        let v192 = p70.second() - v186;
+        let acc_y2 = p190.first() - v192;
+        let v194 = Single::<T>::new(self.parameters.l2) * v68;
+        let v195 = v194 * cosines7.second();
+        let v196 = -v195;
+        let v197 = v196 - p66.first();
+        let v198 = p86.first() * v188;
+        let v199 = v197 - v198;
+        let p200 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p201 = p200 * p83;
+        let v202 = Single::<T>::new(p201.first().get().abs());
+        let v203 = Single::<T>::new(p201.second().get().abs());
+        let v204 = v202 + v203;
+        let v205 = Single::<T>::new(self.parameters.m1) * v182;
+        let lambda_crank_x = -v205;
+        let v207 = Single::<T>::new(self.parameters.m1) * v183;
+        let v208 = Single::<T>::new(self.hoisted[4]) + v207;
+        let lambda_crank_y = -v208;
+        let v210 = Single::<T>::new(self.parameters.m2) * v192;
+        let v211 = v210 - Single::<T>::new(self.hoisted[5]);
+        let p212 = T::Pair::splat(Single::<T>::new(self.parameters.m2));
+        let p213 = p212 * p190;
+        let lambda_rod_y = v211 - p213.first();
+        let v215 = p52.first() * lambda_rod_y;
+        let v216 = Single::<T>::new(self.parameters.m3) * v198;
+        let v217 = Single::<T>::new(self.parameters.m3) * v197;
+        let lambda_slider = v216 - v217;
+        let v219 = p52.second() * lambda_slider;
+        let v220 = v215 - v219;
+        let v221 = p10.second() * v205;
+        let v222 = p10.first() * lambda_crank_y;
+        let v223 = v221 + v222;
+        let v224 = Single::<T>::new(self.parameters.m2) * v185;
+        let lambda_rod_x = p213.second() - v224;
+        let v226 = p52.second() * lambda_rod_x;
+        let v227 = v223 - v226;
+        let v228 = v220 + v227;
+        let v229 = p49.first() * v211;
+        let v230 = p49.second() * v224;
+        let v231 = p86.first() * v217;
+        let v232 = Single::<T>::new(self.hoisted[14]) * sines7.second();
+        let v233 = sines7.second() * v232;
+        let v234 = Single::<T>::new(self.hoisted[13]) + v233;
+        let v235 = v234 * v188;
+        let v236 = v231 - v235;
+        let v237 = v230 + v236;
+        let v238 = v229 + v237;
+        let lambda_guide = p83.first() * v238;
+        let v240 = p52.first() * lambda_guide;
+        let v241 = v228 - v240;
+        let p242 = p39 + p115;
+        let p243 = p242 + p125;
+        let p244 = p243 + p141;
+        let p245 = p244 + p169;
+        let v246 = v44 + v144;
+        let v247 = v246 + v172;
+        let v248 = v247 + v181;
+        let v249 = v248 + v182;
+        let v250 = v249 + v183;
+        let v251 = v250 + Single::<T>::new(T::from_f64(0.0));
+        let v252 = v251 + acc_x2;
+        let v253 = v252 + acc_y2;
+        let v254 = v253 + v188;
+        let v255 = v254 + v199;
+        let v256 = v255 + p245.first();
+        let v257 = v256 + p245.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: SliderCrankCoordinates {
+                        x1: p39.first().get(),
+                        y1: p39.second().get(),
+                        theta1: v44.get(),
+                        x2: p115.first().get(),
+                        y2: p115.second().get(),
+                        theta2: p125.first().get(),
+                        x3: p125.second().get(),
+                    },
+                    v: SliderCrankCoordinates {
+                        x1: p141.first().get(),
+                        y1: p141.second().get(),
+                        theta1: v144.get(),
+                        x2: p169.first().get(),
+                        y2: p169.second().get(),
+                        theta2: v172.get(),
+                        x3: v181.get(),
+                    },
+                },
+                growth: v204.get(),
+                sum: v257.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: SliderCrankCoordinates {
+                    x1: v182.get(),
+                    y1: v183.get(),
+                    theta1: Single::<T>::new(T::from_f64(0.0)).get(),
+                    x2: acc_x2.get(),
+                    y2: acc_y2.get(),
+                    theta2: v188.get(),
+                    x3: v199.get(),
+                },
+                multipliers: SliderCrankConstraints {
+                    crank_x: lambda_crank_x.get(),
+                    crank_y: lambda_crank_y.get(),
+                    crank_speed: v241.get(),
+                    rod_x: lambda_rod_x.get(),
+                    rod_y: lambda_rod_y.get(),
+                    guide: lambda_guide.get(),
+                    slider: lambda_slider.get(),
+                },
+                growth: v202.get(),
+            },
+        )
+    }
+    ///A step with feedback in both stages, and the reactions at its start.
+    #[inline(always)]
+    fn step_per_stage_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<SliderCrankCoordinates<T>>,
+        ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>>,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let phi_dot_crank_speed = Single::<T>::new(at.v.theta1)
+            - Single::<T>::new(self.parameters.omega);
+        let v22 = Single::<T>::new(gains.minus_two_alpha) * phi_dot_crank_speed;
+        let v23 = Single::<T>::new(at.t) * Single::<T>::new(self.parameters.omega);
+        let phi_crank_speed = Single::<T>::new(at.q.theta1) - v23;
+        let v25 = Single::<T>::new(gains.minus_beta_squared) * phi_crank_speed;
+        let feedback_crank_speed = v22 + v25;
+        let p27 = T::Pair::splat(feedback_crank_speed);
+        let p28 = p27.flip();
+        let p29 = p28 * p16;
+        let v30 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p31 = T::Pair::splat(v30);
+        let p32 = p31 * p10;
+        let p33 = p29 + p32;
+        let p34 = p20 - p33;
+        let p35 = p3 * p34;
+        let p36 = p2 + p35;
+        let p37 = p2 + p36;
+        let p38 = p1 * p37;
+        let p39 = p0 + p38;
+        let v40 = Single::<T>::new(h) * feedback_crank_speed;
+        let v41 = Single::<T>::new(at.v.theta1) + v40;
+        let v42 = Single::<T>::new(at.v.theta1) + v41;
+        let v43 = Single::<T>::new(half_h) * v42;
+        let v44 = Single::<T>::new(at.q.theta1) + v43;
+        let p45 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p46 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p47 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.x3));
+        let p48 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.x3));
+        let p49 = T::Pair::join(
+            Single::<T>::new(self.hoisted[1]),
+            Single::<T>::new(self.parameters.l2),
+        );
+        let p50 = T::Pair::splat(cosines7.second());
+        let p51 = p49 * p50;
+        let p52 = p48 - p51;
+        let p53 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p54 = T::Pair::join(sines7.first(), cosines7.first());
+        let p55 = p53 * p54;
+        let p56 = T::Pair::splat(p55.second());
+        let p57 = p52 - p56;
+        let p58 = p4 * p57;
+        let p59 = p14 * p55;
+        let p60 = T::Pair::splat(p59.first());
+        let p61 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p62 = T::Pair::splat(sines7.second());
+        let p63 = p49 * p62;
+        let p64 = p61 * p63;
+        let p65 = p47 + p64;
+        let p66 = p60 + p65;
+        let p67 = p13 * p66;
+        let p68 = p58 + p67;
+        let v69 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p70 = T::Pair::splat(v69);
+        let p71 = p70 * p51;
+        let p72 = p27 * p55;
+        let p73 = p31.flip();
+        let p74 = p55.swap();
+        let p75 = p73 * p74;
+        let p76 = p72 + p75;
+        let p77 = T::Pair::splat(p76.first());
+        let p78 = p71 + p77;
+        let p79 = p68 - p78;
+        let p80 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let v81 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v82 = Single::<T>::new(at.q.theta1) + v81;
+        let v83 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v84 = Single::<T>::new(at.q.theta2) + v83;
+        let p85 = T::Pair::join(v82, v84);
+        let (sines86, cosines86) = p85.sin_cos();
+        let p88 = T::Pair::join(cosines7.second(), cosines86.second());
+        let p89 = p80 / p88;
+        let v90 = v69 * p63.second();
+        let v91 = v90 - p76.second();
+        let v92 = Single::<T>::new(at.q.y2) - p63.first();
+        let p93 = T::Pair::join(p63.second(), v92);
+        let p94 = T::Pair::splat(p55.first());
+        let p95 = p94.flip();
+        let p96 = p93 + p95;
+        let p97 = p4 * p96;
+        let v98 = Single::<T>::new(at.v.theta2) * p51.second();
+        let phi_dot_guide = v98 + p59.second();
+        let v100 = Single::<T>::new(at.v.theta2) * p51.first();
+        let v101 = Single::<T>::new(at.v.y2) - v100;
+        let phi_dot_rod_y = v101 - p59.second();
+        let p103 = T::Pair::join(phi_dot_guide, phi_dot_rod_y);
+        let p104 = p13 * p103;
+        let p105 = p97 + p104;
+        let v106 = v91 + p105.first();
+        let acc_theta2 = p89.first() * v106;
+        let p108 = T::Pair::splat(acc_theta2);
+        let p109 = p63 * p108;
+        let p110 = p79 - p109;
+        let p111 = p3 * p110;
+        let p112 = p47 + p111;
+        let v113 = v69 * p63.first();
+        let v114 = p76.second() - v113;
+        let v115 = v114 + p105.second();
+        let v116 = p51.first() * acc_theta2;
+        let acc_y2 = v115 + v116;
+        let v118 = Single::<T>::new(h) * acc_y2;
+        let v119 = Single::<T>::new(at.v.y2) + v118;
+        let p120 = T::Pair::join(p112.first(), v119);
+        let p121 = p46 + p120;
+        let p122 = p1 * p121;
+        let p123 = p45 + p122;
+        let v124 = Single::<T>::new(h) * acc_theta2;
+        let v125 = Single::<T>::new(at.v.theta2) + v124;
+        let v126 = Single::<T>::new(at.v.theta2) + v125;
+        let v127 = Single::<T>::new(half_h) * v126;
+        let v128 = Single::<T>::new(at.q.theta2) + v127;
+        let v129 = Single::<T>::new(at.v.x3) + p112.second();
+        let v130 = Single::<T>::new(half_h) * v129;
+        let v131 = Single::<T>::new(at.q.x3) + v130;
+        let p132 = p3 * p2;
+        let p133 = p0 + p132;
+        let p134 = T::Pair::join(cosines86.first(), sines86.first());
+        let p135 = p5 * p134;
+        let p136 = p133 - p135;
+        let p137 = p4 * p136;
+        let p138 = T::Pair::splat(v41);
+        let p139 = p138.flip();
+        let p140 = p135.swap();
+        let p141 = p139 * p140;
+        let p142 = p36 + p141;
+        let p143 = p13 * p142;
+        let p144 = p137 + p143;
+        let v145 = v41 - Single::<T>::new(self.parameters.omega);
+        let v146 = Single::<T>::new(gains.minus_two_alpha) * v145;
+        let v147 = Single::<T>::new(t_next) * Single::<T>::new(self.parameters.omega);
+        let v148 = v82 - v147;
+        let v149 = Single::<T>::new(gains.minus_beta_squared) * v148;
+        let v150 = v146 + v149;
+        let p151 = T::Pair::splat(v150);
+        let p152 = p151.flip();
+        let p153 = p152 * p140;
+        let v154 = v41 * v41;
+        let p155 = T::Pair::splat(v154);
+        let p156 = p155 * p135;
+        let p157 = p153 + p156;
+        let p158 = p144 - p157;
+        let p159 = p34 + p158;
+        let p160 = p1 * p159;
+        let p161 = p2 + p160;
+        let v162 = feedback_crank_speed + v150;
+        let v163 = Single::<T>::new(half_h) * v162;
+        let v164 = Single::<T>::new(at.v.theta1) + v163;
+        let p165 = p3 * p47;
+        let p166 = p48 + p165;
+        let p167 = T::Pair::splat(cosines86.second());
+        let p168 = p49 * p167;
+        let p169 = p166 - p168;
+        let p170 = T::Pair::join(sines86.first(), cosines86.first());
+        let p171 = p53 * p170;
+        let p172 = T::Pair::splat(p171.second());
+        let p173 = p169 - p172;
+        let p174 = p4 * p173;
+        let p175 = p138 * p171;
+        let p176 = T::Pair::splat(p175.first());
+        let p177 = T::Pair::splat(v125);
+        let p178 = T::Pair::splat(sines86.second());
+        let p179 = p49 * p178;
+        let p180 = p177 * p179;
+        let p181 = p112 + p180;
+        let p182 = p176 + p181;
+        let p183 = p13 * p182;
+        let p184 = p174 + p183;
+        let v185 = v125 * v125;
+        let p186 = T::Pair::splat(v185);
+        let p187 = p186 * p168;
+        let p188 = p151 * p171;
+        let p189 = p155.flip();
+        let p190 = p171.swap();
+        let p191 = p189 * p190;
+        let p192 = p188 + p191;
+        let p193 = T::Pair::splat(p192.first());
+        let p194 = p187 + p193;
+        let p195 = p184 - p194;
+        let v196 = v185 * p179.second();
+        let v197 = v196 - p192.second();
+        let v198 = Single::<T>::new(h) * Single::<T>::new(at.v.y2);
+        let v199 = Single::<T>::new(at.q.y2) + v198;
+        let v200 = v199 - p179.first();
+        let p201 = T::Pair::join(p179.second(), v200);
+        let p202 = T::Pair::splat(p171.first());
+        let p203 = p202.flip();
+        let p204 = p201 + p203;
+        let p205 = p4 * p204;
+        let v206 = v125 * p168.second();
+        let v207 = v206 + p175.second();
+        let v208 = v125 * p168.first();
+        let v209 = v119 - v208;
+        let v210 = v209 - p175.second();
+        let p211 = T::Pair::join(v207, v210);
+        let p212 = p13 * p211;
+        let p213 = p205 + p212;
+        let v214 = v197 + p213.first();
+        let v215 = p89.second() * v214;
+        let p216 = T::Pair::splat(v215);
+        let p217 = p179 * p216;
+        let p218 = p195 - p217;
+        let p219 = p110 + p218;
+        let v220 = v185 * p179.first();
+        let v221 = p192.second() - v220;
+        let v222 = v221 + p213.second();
+        let v223 = p168.first() * v215;
+        let v224 = v222 + v223;
+        let v225 = acc_y2 + v224;
+        let p226 = T::Pair::join(p219.first(), v225);
+        let p227 = p1 * p226;
+        let p228 = p46 + p227;
+        let v229 = acc_theta2 + v215;
+        let v230 = Single::<T>::new(half_h) * v229;
+        let v231 = Single::<T>::new(at.v.theta2) + v230;
+        let v232 = Single::<T>::new(half_h) * p219.second();
+        let v233 = Single::<T>::new(at.v.x3) + v232;
+        let v234 = -p32.first();
+        let v235 = -p32.second();
+        let v236 = Single::<T>::new(self.parameters.l2) * v69;
+        let v237 = v236 * cosines7.second();
+        let v238 = -v237;
+        let v239 = -p71.first();
+        let p240 = T::Pair::join(v238, v239);
+        let p241 = T::Pair::splat(p75.first());
+        let p242 = p240 - p241;
+        let p243 = p63.swap();
+        let p244 = p75.flip();
+        let v245 = -p244.second();
+        let v246 = v90 - v245;
+        let v247 = p89.first() * v246;
+        let p248 = T::Pair::splat(v247);
+        let p249 = p243 * p248;
+        let acc_x2 = p242.second() - p249.second();
+        let v251 = p51.first() * v247;
+        let v252 = v113 - v245;
+        let v253 = v251 - v252;
+        let acc_x3 = p242.first() - p249.first();
+        let p255 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p256 = p255 * p89;
+        let v257 = Single::<T>::new(p256.first().get().abs());
+        let v258 = Single::<T>::new(p256.second().get().abs());
+        let v259 = v257 + v258;
+        let v260 = Single::<T>::new(self.parameters.m1) * v234;
+        let lambda_crank_x = -v260;
+        let v262 = Single::<T>::new(self.parameters.m1) * v235;
+        let v263 = Single::<T>::new(self.hoisted[4]) + v262;
+        let lambda_crank_y = -v263;
+        let v265 = Single::<T>::new(self.parameters.m2) * v252;
+        let v266 = v265 - Single::<T>::new(self.hoisted[5]);
+        let v267 = Single::<T>::new(self.parameters.m2) * v251;
+        let lambda_rod_y = v266 - v267;
+        let v269 = p55.second() * lambda_rod_y;
+        let p270 = T::Pair::join(
+            Single::<T>::new(self.parameters.m3),
+            Single::<T>::new(self.parameters.m2),
+        );
+        let p271 = p270 * p249;
+        let p272 = p270 * p242;
+        let p273 = p271 - p272;
+        let p274 = p94 * p273;
+        let v275 = v269 - p274.first();
+        let v276 = p10.second() * v260;
+        let v277 = p10.first() * lambda_crank_y;
+        let v278 = v276 + v277;
+        let v279 = v278 - p274.second();
+        let v280 = v275 + v279;
+        let v281 = p51.first() * v266;
+        let v282 = p63.first() * p272.second();
+        let v283 = p63.second() * p272.first();
+        let v284 = Single::<T>::new(self.hoisted[14]) * sines7.second();
+        let v285 = sines7.second() * v284;
+        let v286 = Single::<T>::new(self.hoisted[13]) + v285;
+        let v287 = v286 * v247;
+        let v288 = v283 - v287;
+        let v289 = v282 + v288;
+        let v290 = v281 + v289;
+        let lambda_guide = p89.first() * v290;
+        let v292 = p55.second() * lambda_guide;
+        let v293 = v280 - v292;
+        let p294 = p39 + p123;
+        let p295 = p294 + p161;
+        let p296 = p295 + p228;
+        let v297 = v44 + v128;
+        let v298 = v297 + v131;
+        let v299 = v298 + v164;
+        let v300 = v299 + v231;
+        let v301 = v300 + v233;
+        let v302 = v301 + v234;
+        let v303 = v302 + v235;
+        let v304 = v303 + Single::<T>::new(T::from_f64(0.0));
+        let v305 = v304 + acc_x2;
+        let v306 = v305 + v253;
+        let v307 = v306 + v247;
+        let v308 = v307 + acc_x3;
+        let v309 = v308 + p296.first();
+        let v310 = v309 + p296.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: SliderCrankCoordinates {
+                        x1: p39.first().get(),
+                        y1: p39.second().get(),
+                        theta1: v44.get(),
+                        x2: p123.first().get(),
+                        y2: p123.second().get(),
+                        theta2: v128.get(),
+                        x3: v131.get(),
+                    },
+                    v: SliderCrankCoordinates {
+                        x1: p161.first().get(),
+                        y1: p161.second().get(),
+                        theta1: v164.get(),
+                        x2: p228.first().get(),
+                        y2: p228.second().get(),
+                        theta2: v231.get(),
+                        x3: v233.get(),
+                    },
+                },
+                growth: v259.get(),
+                sum: v310.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: SliderCrankCoordinates {
+                    x1: v234.get(),
+                    y1: v235.get(),
+                    theta1: Single::<T>::new(T::from_f64(0.0)).get(),
+                    x2: acc_x2.get(),
+                    y2: v253.get(),
+                    theta2: v247.get(),
+                    x3: acc_x3.get(),
+                },
+                multipliers: SliderCrankConstraints {
+                    crank_x: lambda_crank_x.get(),
+                    crank_y: lambda_crank_y.get(),
+                    crank_speed: v293.get(),
+                    rod_x: p273.second().get(),
+                    rod_y: lambda_rod_y.get(),
+                    guide: lambda_guide.get(),
+                    slider: p273.first().get(),
+                },
+                growth: v257.get(),
+            },
+        )
     }
 }
 #[allow(unused_variables, clippy::all)]
@@ -3171,6 +3888,31 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
                 self.step_held(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
+    }
+    #[inline(always)]
+    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<
+        (
+            ::mbs_runtime::Stepped<SliderCrankCoordinates<T>>,
+            ::mbs_runtime::Reactions<
+                SliderCrankCoordinates<T>,
+                SliderCrankConstraints<T>,
+            >,
+        ),
+    > {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held_with_reactions(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage_with_reactions(at, inputs, gains, h, t_next)
             },
         )
     }

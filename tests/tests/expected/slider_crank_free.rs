@@ -1533,7 +1533,6 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v296 = v198 + v283;
         let v297 = v296 + p295.first();
         let v298 = v297 + p295.second();
-        let [growth, sum] = [v290.get(), v298.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -1556,8 +1555,8 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
                     x3: v283.get(),
                 },
             },
-            growth,
-            sum,
+            growth: v290.get(),
+            sum: v298.get(),
         }
     }
     ///A step with feedback in both stages.
@@ -1920,7 +1919,6 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         let v338 = v198 + v325;
         let v339 = v338 + p337.first();
         let v340 = v339 + p337.second();
-        let [growth, sum] = [v332.get(), v340.get()];
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
@@ -1943,9 +1941,948 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
                     x3: v325.get(),
                 },
             },
-            growth,
-            sum,
+            growth: v332.get(),
+            sum: v340.get(),
         }
+    }
+    ///A step with feedback held over it, and the reactions at its start.
+    #[inline(always)]
+    fn step_held_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>>,
+        ::mbs_runtime::Reactions<
+            SliderCrankFreeCoordinates<T>,
+            SliderCrankFreeConstraints<T>,
+        >,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let v21 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p22 = T::Pair::splat(v21);
+        let p23 = p22 * p10;
+        let p24 = p20 - p23;
+        let p25 = p16.flip();
+        let p26 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p27 = p26 * p9;
+        let p28 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let v29 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v30 = Single::<T>::new(at.q.theta1) + v29;
+        let v31 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v32 = Single::<T>::new(at.q.theta2) + v31;
+        let p33 = T::Pair::join(v30, v32);
+        let (sines34, cosines34) = p33.sin_cos();
+        let p36 = T::Pair::join(cosines7.second(), cosines34.second());
+        let p37 = p28 * p36;
+        let p38 = T::Pair::join(p27.first(), p37.first());
+        let v39 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p40 = T::Pair::splat(v39);
+        let v41 = Single::<T>::new(self.parameters.l2) * sines7.second();
+        let p42 = T::Pair::join(p37.first(), v41);
+        let p43 = p40 * p42;
+        let p44 = p22 * p27;
+        let v45 = p43.second() + p44.second();
+        let phi_guide = v41 + p27.second();
+        let v47 = Single::<T>::new(at.q.x3) - p37.first();
+        let phi_slider = v47 - p27.first();
+        let p49 = T::Pair::join(phi_guide, phi_slider);
+        let p50 = p4 * p49;
+        let v51 = Single::<T>::new(at.v.theta2) * p37.first();
+        let p52 = p27.swap();
+        let p53 = p14 * p52;
+        let p54 = T::Pair::join(v51, p53.first());
+        let v55 = Single::<T>::new(at.v.theta2) * v41;
+        let v56 = Single::<T>::new(at.v.x3) + v55;
+        let p57 = T::Pair::join(p53.second(), v56);
+        let p58 = p54 + p57;
+        let p59 = p13 * p58;
+        let p60 = p50 + p59;
+        let v61 = v45 + p60.first();
+        let p62 = p44 + p43;
+        let p63 = T::Pair::join(v61, p62.second());
+        let p64 = T::Pair::splat(Single::<T>::new(T::from_f64(1.0)));
+        let p65 = p37 * p37;
+        let v66 = p27.first() * p27.first();
+        let p67 = T::Pair::join(cosines34.first(), sines34.first());
+        let p68 = p26 * p67;
+        let v69 = p68.first() * p68.first();
+        let p70 = T::Pair::join(v66, v69);
+        let p71 = p65 + p70;
+        let p72 = p64 / p71;
+        let p73 = T::Pair::splat(p72.first());
+        let p74 = p63 * p73;
+        let p75 = T::Pair::splat(p74.first());
+        let p76 = p38 * p75;
+        let p77 = T::Pair::join(p37.first(), p27.first());
+        let p78 = p77.flip();
+        let p79 = T::Pair::splat(p27.first());
+        let p80 = T::Pair::splat(v41);
+        let p81 = T::Pair::splat(Single::<T>::new(self.parameters.m3));
+        let v82 = p60.second() - p62.first();
+        let v83 = -p43.first();
+        let v84 = v83 - p44.first();
+        let p85 = T::Pair::join(v82, v84);
+        let p86 = p81 * p85;
+        let p87 = p80 * p86;
+        let p88 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p89 = T::Pair::join(cosines7.second(), sines7.second());
+        let p90 = p88 * p89;
+        let p91 = T::Pair::splat(p90.second());
+        let p92 = T::Pair::splat(Single::<T>::new(self.parameters.m2));
+        let p93 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p94 = p93 - p90;
+        let p95 = p94 - p27;
+        let p96 = p4 * p95;
+        let p97 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p98 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p99 = p98 * p90;
+        let p100 = p99.swap();
+        let p101 = p100.flip();
+        let p102 = p97 + p101;
+        let p103 = p53.flip();
+        let p104 = p102 + p103;
+        let p105 = p13 * p104;
+        let p106 = p96 + p105;
+        let p107 = p40 * p90;
+        let p108 = p107 + p44;
+        let p109 = p106 - p108;
+        let v110 = -p107.first();
+        let v111 = v110 - p44.first();
+        let p112 = T::Pair::join(p109.first(), v111);
+        let p113 = p92 * p112;
+        let p114 = p91 * p113;
+        let p115 = p87 + p114;
+        let p116 = T::Pair::splat(p90.first());
+        let p117 = p92.flip();
+        let v118 = p44.second() + p107.second();
+        let p119 = T::Pair::join(p109.second(), v118);
+        let p120 = p117 * p119;
+        let p121 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
+        let p122 = p120 + p121;
+        let p123 = p116 * p122;
+        let p124 = p115 - p123;
+        let p125 = p79 * p124;
+        let p126 = T::Pair::splat(p37.first());
+        let p127 = T::Pair::splat(p27.second());
+        let p128 = p127 * p113;
+        let p129 = T::Pair::splat(p10.first());
+        let p130 = T::Pair::splat(Single::<T>::new(self.parameters.m1));
+        let p131 = p130.flip();
+        let p132 = T::Pair::join(p24.second(), p23.second());
+        let p133 = p131 * p132;
+        let p134 = T::Pair::splat(Single::<T>::new(self.hoisted[4]));
+        let p135 = p133 + p134;
+        let p136 = p129 * p135;
+        let p137 = p128 - p136;
+        let p138 = T::Pair::splat(Single::<T>::new(inputs.crank_torque));
+        let p139 = T::Pair::splat(p10.second());
+        let v140 = -p23.first();
+        let p141 = T::Pair::join(p24.first(), v140);
+        let p142 = p130 * p141;
+        let p143 = p139 * p142;
+        let p144 = p138 + p143;
+        let p145 = p127 * p86;
+        let p146 = p144 + p145;
+        let p147 = p137 + p146;
+        let p148 = p79 * p122;
+        let p149 = p147 - p148;
+        let p150 = p126 * p149;
+        let p151 = p125 - p150;
+        let p152 = T::Pair::join(p27.first(), p68.first());
+        let p153 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let p154 = T::Pair::join(sines7.second(), sines34.second());
+        let p155 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p156 = p155 * p154;
+        let p157 = p154 * p156;
+        let p158 = p153 + p157;
+        let p159 = p152 * p158;
+        let p160 = T::Pair::join(sines7.first(), sines34.first());
+        let p161 = T::Pair::splat(Single::<T>::new(self.hoisted[14]));
+        let p162 = p161 * p154;
+        let p163 = p160 * p162;
+        let p164 = T::Pair::join(cosines7.first(), cosines34.first());
+        let p165 = T::Pair::splat(Single::<T>::new(self.hoisted[13]));
+        let p166 = p165 * p36;
+        let p167 = p164 * p166;
+        let p168 = p163 + p167;
+        let p169 = p37 * p168;
+        let p170 = p159 - p169;
+        let p171 = p37 * p170;
+        let p172 = p152 * p168;
+        let p173 = T::Pair::splat(Single::<T>::new(self.hoisted[15]));
+        let p174 = T::Pair::splat(Single::<T>::new(self.hoisted[16]));
+        let p175 = p174 * p160;
+        let p176 = p160 * p175;
+        let p177 = p173 + p176;
+        let p178 = p37 * p177;
+        let p179 = p172 - p178;
+        let p180 = p152 * p179;
+        let p181 = p171 + p180;
+        let p182 = T::Pair::splat(p181.first());
+        let p183 = p182 * p74;
+        let p184 = p151 - p183;
+        let p185 = p152 * p170;
+        let p186 = p37 * p179;
+        let p187 = p185 - p186;
+        let p188 = T::Pair::splat(p187.first());
+        let p189 = p184 / p188;
+        let p190 = T::Pair::splat(p189.first());
+        let p191 = p78 * p190;
+        let p192 = p76 - p191;
+        let p193 = T::Pair::splat(p192.first());
+        let p194 = p25 * p193;
+        let p195 = p24 - p194;
+        let p196 = p3 * p195;
+        let p197 = p2 + p196;
+        let p198 = p2 + p197;
+        let p199 = p1 * p198;
+        let p200 = p0 + p199;
+        let p201 = T::Pair::join(
+            Single::<T>::new(at.v.theta1),
+            Single::<T>::new(at.v.theta2),
+        );
+        let p202 = p3 * p192;
+        let p203 = p201 + p202;
+        let p204 = p201 + p203;
+        let p205 = p1 * p204;
+        let p206 = p6 + p205;
+        let p207 = T::Pair::join(p27.second(), p90.first());
+        let p208 = p207.flip();
+        let p209 = p208 * p192;
+        let p210 = T::Pair::join(p90.second(), p27.first());
+        let p211 = p210.flip();
+        let p212 = p192.swap();
+        let p213 = p211 * p212;
+        let p214 = p209 + p213;
+        let p215 = p109 - p214;
+        let p216 = p3 * p215;
+        let p217 = p97 + p216;
+        let p218 = p97 + p217;
+        let p219 = p1 * p218;
+        let p220 = p93 + p219;
+        let v221 = v41 * p192.second();
+        let v222 = v221 + p209.first();
+        let acc_x3 = v82 - v222;
+        let v224 = Single::<T>::new(h) * acc_x3;
+        let v225 = Single::<T>::new(at.v.x3) + v224;
+        let v226 = Single::<T>::new(at.v.x3) + v225;
+        let v227 = Single::<T>::new(half_h) * v226;
+        let v228 = Single::<T>::new(at.q.x3) + v227;
+        let p229 = p203 * p203;
+        let p230 = T::Pair::splat(p229.first());
+        let p231 = p5 * p67;
+        let p232 = p230 * p231;
+        let p233 = p20 - p232;
+        let p234 = p231.swap();
+        let p235 = p234.flip();
+        let p236 = T::Pair::join(p68.first(), p37.second());
+        let p237 = p230 * p68;
+        let v238 = Single::<T>::new(self.parameters.l2) * sines34.second();
+        let v239 = p229.second() * v238;
+        let v240 = p60.first() + v239;
+        let v241 = p237.second() + v240;
+        let v242 = v241 * p72.second();
+        let p243 = T::Pair::splat(v242);
+        let p244 = p236 * p243;
+        let p245 = T::Pair::join(p37.second(), p68.first());
+        let p246 = p245.flip();
+        let v247 = p229.second() * p37.second();
+        let v248 = p60.second() - v247;
+        let v249 = v248 - p237.first();
+        let v250 = Single::<T>::new(self.parameters.m3) * v249;
+        let v251 = v238 * v250;
+        let p252 = T::Pair::join(cosines34.second(), sines34.second());
+        let p253 = p88 * p252;
+        let p254 = T::Pair::splat(p229.second());
+        let p255 = p254 * p253;
+        let p256 = p106 - p255;
+        let p257 = p256 - p237;
+        let v258 = Single::<T>::new(self.parameters.m2) * p257.first();
+        let v259 = p253.second() * v258;
+        let v260 = v251 + v259;
+        let v261 = Single::<T>::new(self.parameters.m2) * p257.second();
+        let v262 = Single::<T>::new(self.hoisted[5]) + v261;
+        let v263 = p253.first() * v262;
+        let v264 = v260 - v263;
+        let v265 = p68.first() * v264;
+        let v266 = p68.second() * v258;
+        let v267 = Single::<T>::new(self.parameters.m1) * p233.second();
+        let v268 = Single::<T>::new(self.hoisted[4]) + v267;
+        let v269 = p231.first() * v268;
+        let v270 = v266 - v269;
+        let v271 = Single::<T>::new(self.parameters.m1) * p233.first();
+        let v272 = p231.second() * v271;
+        let v273 = Single::<T>::new(inputs.crank_torque) + v272;
+        let v274 = p68.second() * v250;
+        let v275 = v273 + v274;
+        let v276 = v270 + v275;
+        let v277 = p68.first() * v262;
+        let v278 = v276 - v277;
+        let v279 = p37.second() * v278;
+        let v280 = v265 - v279;
+        let v281 = p181.second() * v242;
+        let v282 = v280 - v281;
+        let v283 = v282 / p187.second();
+        let p284 = T::Pair::splat(v283);
+        let p285 = p246 * p284;
+        let p286 = p244 - p285;
+        let p287 = T::Pair::splat(p286.first());
+        let p288 = p235 * p287;
+        let p289 = p233 - p288;
+        let p290 = p195 + p289;
+        let p291 = p1 * p290;
+        let p292 = p2 + p291;
+        let p293 = p192 + p286;
+        let p294 = p1 * p293;
+        let p295 = p201 + p294;
+        let p296 = T::Pair::join(p68.second(), p253.first());
+        let p297 = p296.flip();
+        let p298 = p297 * p286;
+        let p299 = T::Pair::join(p253.second(), p68.first());
+        let p300 = p299.flip();
+        let p301 = p286.swap();
+        let p302 = p300 * p301;
+        let p303 = p298 + p302;
+        let p304 = p257 - p303;
+        let p305 = p215 + p304;
+        let p306 = p1 * p305;
+        let p307 = p97 + p306;
+        let v308 = v238 * p286.second();
+        let v309 = v308 + p298.first();
+        let v310 = v249 - v309;
+        let v311 = acc_x3 + v310;
+        let v312 = Single::<T>::new(half_h) * v311;
+        let v313 = Single::<T>::new(at.v.x3) + v312;
+        let p314 = T::Pair::splat(p74.second());
+        let p315 = p38 * p314;
+        let p316 = T::Pair::splat(p189.second());
+        let p317 = p78 * p316;
+        let p318 = p315 - p317;
+        let p319 = T::Pair::splat(p318.first());
+        let p320 = p16 * p319;
+        let acc_x1 = v140 - p320.first();
+        let acc_y1 = p320.second() - p23.second();
+        let p323 = p207 * p318;
+        let p324 = p318.swap();
+        let p325 = p210 * p324;
+        let p326 = p323 + p325;
+        let acc_x2 = v111 - p326.first();
+        let acc_y2 = p326.second() - v118;
+        let v329 = v41 * p318.second();
+        let v330 = v329 + p323.first();
+        let v331 = v84 - v330;
+        let p332 = T::Pair::splat(Single::<T>::new(self.hoisted[17]));
+        let p333 = p332 * p72;
+        let v334 = Single::<T>::new(p333.first().get().abs());
+        let v335 = Single::<T>::new(v334.get().sqrt());
+        let v336 = Single::<T>::new(p333.second().get().abs());
+        let v337 = Single::<T>::new(v336.get().sqrt());
+        let v338 = v335 + v337;
+        let p339 = p130 * p320;
+        let lambda_crank_x = p339.first() - p142.second();
+        let p341 = p135.flip();
+        let lambda_crank_y = p341.second() - p339.second();
+        let p343 = p92 * p326;
+        let lambda_rod_x = p343.first() - p113.second();
+        let p345 = p122.flip();
+        let lambda_rod_y = p345.second() - p343.second();
+        let p347 = T::Pair::join(p177.first(), p158.first());
+        let p348 = p347 * p318;
+        let p349 = T::Pair::splat(p168.first());
+        let p350 = p349 * p324;
+        let p351 = p348 + p350;
+        let v352 = p124.second() - p351.second();
+        let v353 = p37.first() * v352;
+        let v354 = p149.second() - p351.first();
+        let v355 = p27.first() * v354;
+        let v356 = v353 + v355;
+        let lambda_guide = p72.first() * v356;
+        let v358 = Single::<T>::new(self.parameters.m3) * v330;
+        let lambda_slider = v358 - p86.second();
+        let p360 = p200 + p206;
+        let p361 = p360 + p220;
+        let p362 = p361 + p292;
+        let p363 = p362 + p295;
+        let p364 = p363 + p307;
+        let p365 = p364 + p318;
+        let v366 = v228 + v313;
+        let v367 = v366 + acc_x1;
+        let v368 = v367 + acc_y1;
+        let v369 = v368 + acc_x2;
+        let v370 = v369 + acc_y2;
+        let v371 = v370 + v331;
+        let v372 = v371 + p365.first();
+        let v373 = v372 + p365.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: SliderCrankFreeCoordinates {
+                        x1: p200.first().get(),
+                        y1: p200.second().get(),
+                        theta1: p206.first().get(),
+                        x2: p220.first().get(),
+                        y2: p220.second().get(),
+                        theta2: p206.second().get(),
+                        x3: v228.get(),
+                    },
+                    v: SliderCrankFreeCoordinates {
+                        x1: p292.first().get(),
+                        y1: p292.second().get(),
+                        theta1: p295.first().get(),
+                        x2: p307.first().get(),
+                        y2: p307.second().get(),
+                        theta2: p295.second().get(),
+                        x3: v313.get(),
+                    },
+                },
+                growth: v338.get(),
+                sum: v373.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: SliderCrankFreeCoordinates {
+                    x1: acc_x1.get(),
+                    y1: acc_y1.get(),
+                    theta1: p318.first().get(),
+                    x2: acc_x2.get(),
+                    y2: acc_y2.get(),
+                    theta2: p318.second().get(),
+                    x3: v331.get(),
+                },
+                multipliers: SliderCrankFreeConstraints {
+                    crank_x: lambda_crank_x.get(),
+                    crank_y: lambda_crank_y.get(),
+                    rod_x: lambda_rod_x.get(),
+                    rod_y: lambda_rod_y.get(),
+                    guide: lambda_guide.get(),
+                    slider: lambda_slider.get(),
+                },
+                growth: v335.get(),
+            },
+        )
+    }
+    ///A step with feedback in both stages, and the reactions at its start.
+    #[inline(always)]
+    fn step_per_stage_with_reactions(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> (
+        ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>>,
+        ::mbs_runtime::Reactions<
+            SliderCrankFreeCoordinates<T>,
+            SliderCrankFreeConstraints<T>,
+        >,
+    ) {
+        use ::mbs_runtime::{Pair as _, Single as _};
+        type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Single;
+        let half_h = T::from_f64(0.5) * h;
+        let p0 = T::Pair::join(Single::<T>::new(at.q.x1), Single::<T>::new(at.q.y1));
+        let p1 = T::Pair::splat(Single::<T>::new(half_h));
+        let p2 = T::Pair::join(Single::<T>::new(at.v.x1), Single::<T>::new(at.v.y1));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
+        let p5 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
+        let p6 = T::Pair::join(
+            Single::<T>::new(at.q.theta1),
+            Single::<T>::new(at.q.theta2),
+        );
+        let (sines7, cosines7) = p6.sin_cos();
+        let p9 = T::Pair::join(cosines7.first(), sines7.first());
+        let p10 = p5 * p9;
+        let p11 = p0 - p10;
+        let p12 = p4 * p11;
+        let p13 = T::Pair::splat(Single::<T>::new(gains.minus_two_alpha));
+        let p14 = T::Pair::splat(Single::<T>::new(at.v.theta1));
+        let p15 = p14.flip();
+        let p16 = p10.swap();
+        let p17 = p15 * p16;
+        let p18 = p2 + p17;
+        let p19 = p13 * p18;
+        let p20 = p12 + p19;
+        let v21 = Single::<T>::new(at.v.theta1) * Single::<T>::new(at.v.theta1);
+        let p22 = T::Pair::splat(v21);
+        let p23 = p22 * p10;
+        let p24 = p20 - p23;
+        let p25 = p16.flip();
+        let p26 = T::Pair::splat(Single::<T>::new(self.parameters.l1));
+        let p27 = p26 * p9;
+        let p28 = T::Pair::splat(Single::<T>::new(self.parameters.l2));
+        let v29 = Single::<T>::new(h) * Single::<T>::new(at.v.theta1);
+        let v30 = Single::<T>::new(at.q.theta1) + v29;
+        let v31 = Single::<T>::new(h) * Single::<T>::new(at.v.theta2);
+        let v32 = Single::<T>::new(at.q.theta2) + v31;
+        let p33 = T::Pair::join(v30, v32);
+        let (sines34, cosines34) = p33.sin_cos();
+        let p36 = T::Pair::join(cosines7.second(), cosines34.second());
+        let p37 = p28 * p36;
+        let p38 = T::Pair::join(p27.first(), p37.first());
+        let v39 = Single::<T>::new(self.parameters.l2) * sines7.second();
+        let phi_guide = v39 + p27.second();
+        let v41 = Single::<T>::new(at.q.x3) - p37.first();
+        let phi_slider = v41 - p27.first();
+        let p43 = T::Pair::join(phi_guide, phi_slider);
+        let p44 = p4 * p43;
+        let v45 = Single::<T>::new(at.v.theta2) * p37.first();
+        let p46 = p27.swap();
+        let p47 = p14 * p46;
+        let p48 = T::Pair::join(v45, p47.first());
+        let v49 = Single::<T>::new(at.v.theta2) * v39;
+        let v50 = Single::<T>::new(at.v.x3) + v49;
+        let p51 = T::Pair::join(p47.second(), v50);
+        let p52 = p48 + p51;
+        let p53 = p13 * p52;
+        let p54 = p44 + p53;
+        let v55 = Single::<T>::new(at.v.theta2) * Single::<T>::new(at.v.theta2);
+        let p56 = T::Pair::splat(v55);
+        let p57 = p56.flip();
+        let p58 = T::Pair::join(v39, p37.first());
+        let p59 = p57 * p58;
+        let p60 = p22 * p27;
+        let p61 = p60.swap();
+        let p62 = p61.flip();
+        let p63 = p59 + p62;
+        let p64 = p54 + p63;
+        let v65 = p60.second() + p59.first();
+        let p66 = T::Pair::join(p64.first(), v65);
+        let p67 = T::Pair::splat(Single::<T>::new(T::from_f64(1.0)));
+        let p68 = p37 * p37;
+        let v69 = p27.first() * p27.first();
+        let p70 = T::Pair::join(cosines34.first(), sines34.first());
+        let p71 = p26 * p70;
+        let v72 = p71.first() * p71.first();
+        let p73 = T::Pair::join(v69, v72);
+        let p74 = p68 + p73;
+        let p75 = p67 / p74;
+        let p76 = T::Pair::splat(p75.first());
+        let p77 = p66 * p76;
+        let p78 = T::Pair::splat(p77.first());
+        let p79 = p38 * p78;
+        let p80 = T::Pair::join(p37.first(), p27.first());
+        let p81 = p80.flip();
+        let p82 = T::Pair::splat(p27.first());
+        let p83 = T::Pair::splat(v39);
+        let p84 = T::Pair::splat(Single::<T>::new(self.parameters.m3));
+        let p85 = p59.flip();
+        let v86 = -p85.second();
+        let v87 = v86 - p60.first();
+        let p88 = T::Pair::join(p64.second(), v87);
+        let p89 = p84 * p88;
+        let p90 = p83 * p89;
+        let p91 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p92 = T::Pair::join(cosines7.second(), sines7.second());
+        let p93 = p91 * p92;
+        let p94 = T::Pair::splat(p93.second());
+        let p95 = T::Pair::splat(Single::<T>::new(self.parameters.m2));
+        let p96 = T::Pair::join(Single::<T>::new(at.q.x2), Single::<T>::new(at.q.y2));
+        let p97 = p96 - p93;
+        let p98 = p97 - p27;
+        let p99 = p4 * p98;
+        let p100 = T::Pair::join(Single::<T>::new(at.v.x2), Single::<T>::new(at.v.y2));
+        let p101 = T::Pair::splat(Single::<T>::new(at.v.theta2));
+        let p102 = p101.flip();
+        let p103 = p93.swap();
+        let p104 = p102 * p103;
+        let p105 = p100 + p104;
+        let p106 = p47.flip();
+        let p107 = p105 + p106;
+        let p108 = p13 * p107;
+        let p109 = p99 + p108;
+        let p110 = p56 * p93;
+        let p111 = p110 + p60;
+        let p112 = p109 - p111;
+        let v113 = -p110.first();
+        let v114 = v113 - p60.first();
+        let p115 = T::Pair::join(p112.first(), v114);
+        let p116 = p95 * p115;
+        let p117 = p94 * p116;
+        let p118 = p90 + p117;
+        let p119 = T::Pair::splat(p93.first());
+        let p120 = p95.flip();
+        let v121 = p60.second() + p110.second();
+        let p122 = T::Pair::join(p112.second(), v121);
+        let p123 = p120 * p122;
+        let p124 = T::Pair::splat(Single::<T>::new(self.hoisted[5]));
+        let p125 = p123 + p124;
+        let p126 = p119 * p125;
+        let p127 = p118 - p126;
+        let p128 = p82 * p127;
+        let p129 = T::Pair::splat(p37.first());
+        let p130 = T::Pair::splat(p27.second());
+        let p131 = p130 * p116;
+        let p132 = T::Pair::splat(p10.first());
+        let p133 = T::Pair::splat(Single::<T>::new(self.parameters.m1));
+        let p134 = p133.flip();
+        let p135 = T::Pair::join(p24.second(), p23.second());
+        let p136 = p134 * p135;
+        let p137 = T::Pair::splat(Single::<T>::new(self.hoisted[4]));
+        let p138 = p136 + p137;
+        let p139 = p132 * p138;
+        let p140 = p131 - p139;
+        let p141 = T::Pair::splat(Single::<T>::new(inputs.crank_torque));
+        let p142 = T::Pair::splat(p10.second());
+        let v143 = -p23.first();
+        let p144 = T::Pair::join(p24.first(), v143);
+        let p145 = p133 * p144;
+        let p146 = p142 * p145;
+        let p147 = p141 + p146;
+        let p148 = p130 * p89;
+        let p149 = p147 + p148;
+        let p150 = p140 + p149;
+        let p151 = p82 * p125;
+        let p152 = p150 - p151;
+        let p153 = p129 * p152;
+        let p154 = p128 - p153;
+        let p155 = T::Pair::join(p27.first(), p71.first());
+        let p156 = T::Pair::splat(Single::<T>::new(self.hoisted[11]));
+        let p157 = T::Pair::join(sines7.second(), sines34.second());
+        let p158 = T::Pair::splat(Single::<T>::new(self.hoisted[12]));
+        let p159 = p158 * p157;
+        let p160 = p157 * p159;
+        let p161 = p156 + p160;
+        let p162 = p155 * p161;
+        let p163 = T::Pair::join(sines7.first(), sines34.first());
+        let p164 = T::Pair::splat(Single::<T>::new(self.hoisted[14]));
+        let p165 = p164 * p157;
+        let p166 = p163 * p165;
+        let p167 = T::Pair::join(cosines7.first(), cosines34.first());
+        let p168 = T::Pair::splat(Single::<T>::new(self.hoisted[13]));
+        let p169 = p168 * p36;
+        let p170 = p167 * p169;
+        let p171 = p166 + p170;
+        let p172 = p37 * p171;
+        let p173 = p162 - p172;
+        let p174 = p37 * p173;
+        let p175 = p155 * p171;
+        let p176 = T::Pair::splat(Single::<T>::new(self.hoisted[15]));
+        let p177 = T::Pair::splat(Single::<T>::new(self.hoisted[16]));
+        let p178 = p177 * p163;
+        let p179 = p163 * p178;
+        let p180 = p176 + p179;
+        let p181 = p37 * p180;
+        let p182 = p175 - p181;
+        let p183 = p155 * p182;
+        let p184 = p174 + p183;
+        let p185 = T::Pair::splat(p184.first());
+        let p186 = p185 * p77;
+        let p187 = p154 - p186;
+        let p188 = p155 * p173;
+        let p189 = p37 * p182;
+        let p190 = p188 - p189;
+        let p191 = T::Pair::splat(p190.first());
+        let p192 = p187 / p191;
+        let p193 = T::Pair::splat(p192.first());
+        let p194 = p81 * p193;
+        let p195 = p79 - p194;
+        let p196 = T::Pair::splat(p195.first());
+        let p197 = p25 * p196;
+        let p198 = p24 - p197;
+        let p199 = p3 * p198;
+        let p200 = p2 + p199;
+        let p201 = p2 + p200;
+        let p202 = p1 * p201;
+        let p203 = p0 + p202;
+        let p204 = T::Pair::join(
+            Single::<T>::new(at.v.theta1),
+            Single::<T>::new(at.v.theta2),
+        );
+        let p205 = p3 * p195;
+        let p206 = p204 + p205;
+        let p207 = p204 + p206;
+        let p208 = p1 * p207;
+        let p209 = p6 + p208;
+        let p210 = T::Pair::join(p27.second(), p93.first());
+        let p211 = p210.flip();
+        let p212 = p211 * p195;
+        let p213 = T::Pair::join(p93.second(), p27.first());
+        let p214 = p213.flip();
+        let p215 = p195.swap();
+        let p216 = p214 * p215;
+        let p217 = p212 + p216;
+        let p218 = p112 - p217;
+        let p219 = p3 * p218;
+        let p220 = p100 + p219;
+        let p221 = p100 + p220;
+        let p222 = p1 * p221;
+        let p223 = p96 + p222;
+        let v224 = v39 * p195.second();
+        let v225 = v224 + p212.first();
+        let acc_x3 = p64.second() - v225;
+        let v227 = Single::<T>::new(h) * acc_x3;
+        let v228 = Single::<T>::new(at.v.x3) + v227;
+        let v229 = Single::<T>::new(at.v.x3) + v228;
+        let v230 = Single::<T>::new(half_h) * v229;
+        let v231 = Single::<T>::new(at.q.x3) + v230;
+        let p232 = p3 * p2;
+        let p233 = p0 + p232;
+        let p234 = p5 * p70;
+        let p235 = p233 - p234;
+        let p236 = p4 * p235;
+        let p237 = T::Pair::splat(p206.first());
+        let p238 = p237.flip();
+        let p239 = p234.swap();
+        let p240 = p238 * p239;
+        let p241 = p200 + p240;
+        let p242 = p13 * p241;
+        let p243 = p236 + p242;
+        let p244 = p206 * p206;
+        let p245 = T::Pair::splat(p244.first());
+        let p246 = p245 * p234;
+        let p247 = p243 - p246;
+        let p248 = p239.flip();
+        let p249 = T::Pair::join(p71.first(), p37.second());
+        let v250 = Single::<T>::new(self.parameters.l2) * sines34.second();
+        let v251 = v250 + p71.second();
+        let v252 = Single::<T>::new(h) * Single::<T>::new(at.v.x3);
+        let v253 = Single::<T>::new(at.q.x3) + v252;
+        let v254 = v253 - p37.second();
+        let v255 = v254 - p71.first();
+        let p256 = T::Pair::join(v251, v255);
+        let p257 = p4 * p256;
+        let v258 = p206.second() * p37.second();
+        let p259 = p71.swap();
+        let p260 = p237 * p259;
+        let phi_dot_guide = v258 + p260.second();
+        let v262 = p206.second() * v250;
+        let v263 = v228 + v262;
+        let phi_dot_slider = p260.first() + v263;
+        let p265 = T::Pair::join(phi_dot_guide, phi_dot_slider);
+        let p266 = p13 * p265;
+        let p267 = p257 + p266;
+        let p268 = T::Pair::splat(p244.second());
+        let p269 = p268.flip();
+        let p270 = T::Pair::join(v250, p37.second());
+        let p271 = p269 * p270;
+        let p272 = p245 * p71;
+        let p273 = p272.swap();
+        let p274 = p273.flip();
+        let p275 = p271 + p274;
+        let p276 = p267 + p275;
+        let v277 = p276.first() * p75.second();
+        let p278 = T::Pair::splat(v277);
+        let p279 = p249 * p278;
+        let p280 = T::Pair::join(p37.second(), p71.first());
+        let p281 = p280.flip();
+        let v282 = Single::<T>::new(self.parameters.m3) * p276.second();
+        let v283 = v250 * v282;
+        let p284 = T::Pair::join(cosines34.second(), sines34.second());
+        let p285 = p91 * p284;
+        let p286 = p3 * p100;
+        let p287 = p96 + p286;
+        let p288 = p287 - p285;
+        let p289 = p288 - p71;
+        let p290 = p4 * p289;
+        let p291 = T::Pair::splat(p206.second());
+        let p292 = p291.flip();
+        let p293 = p285.swap();
+        let p294 = p292 * p293;
+        let p295 = p220 + p294;
+        let p296 = p260.flip();
+        let p297 = p295 + p296;
+        let p298 = p13 * p297;
+        let p299 = p290 + p298;
+        let p300 = p268 * p285;
+        let p301 = p300 + p272;
+        let p302 = p299 - p301;
+        let v303 = Single::<T>::new(self.parameters.m2) * p302.first();
+        let v304 = p285.second() * v303;
+        let v305 = v283 + v304;
+        let v306 = Single::<T>::new(self.parameters.m2) * p302.second();
+        let v307 = Single::<T>::new(self.hoisted[5]) + v306;
+        let v308 = p285.first() * v307;
+        let v309 = v305 - v308;
+        let v310 = p71.first() * v309;
+        let v311 = p71.second() * v303;
+        let v312 = Single::<T>::new(self.parameters.m1) * p247.second();
+        let v313 = Single::<T>::new(self.hoisted[4]) + v312;
+        let v314 = p234.first() * v313;
+        let v315 = v311 - v314;
+        let v316 = Single::<T>::new(self.parameters.m1) * p247.first();
+        let v317 = p234.second() * v316;
+        let v318 = Single::<T>::new(inputs.crank_torque) + v317;
+        let v319 = p71.second() * v282;
+        let v320 = v318 + v319;
+        let v321 = v315 + v320;
+        let v322 = p71.first() * v307;
+        let v323 = v321 - v322;
+        let v324 = p37.second() * v323;
+        let v325 = v310 - v324;
+        let v326 = p184.second() * v277;
+        let v327 = v325 - v326;
+        let v328 = v327 / p190.second();
+        let p329 = T::Pair::splat(v328);
+        let p330 = p281 * p329;
+        let p331 = p279 - p330;
+        let p332 = T::Pair::splat(p331.first());
+        let p333 = p248 * p332;
+        let p334 = p247 - p333;
+        let p335 = p198 + p334;
+        let p336 = p1 * p335;
+        let p337 = p2 + p336;
+        let p338 = p195 + p331;
+        let p339 = p1 * p338;
+        let p340 = p204 + p339;
+        let p341 = T::Pair::join(p71.second(), p285.first());
+        let p342 = p341.flip();
+        let p343 = p342 * p331;
+        let p344 = T::Pair::join(p285.second(), p71.first());
+        let p345 = p344.flip();
+        let p346 = p331.swap();
+        let p347 = p345 * p346;
+        let p348 = p343 + p347;
+        let p349 = p302 - p348;
+        let p350 = p218 + p349;
+        let p351 = p1 * p350;
+        let p352 = p100 + p351;
+        let v353 = v250 * p331.second();
+        let v354 = v353 + p343.first();
+        let v355 = p276.second() - v354;
+        let v356 = acc_x3 + v355;
+        let v357 = Single::<T>::new(half_h) * v356;
+        let v358 = Single::<T>::new(at.v.x3) + v357;
+        let p359 = T::Pair::splat(p77.second());
+        let p360 = p38 * p359;
+        let p361 = T::Pair::splat(p192.second());
+        let p362 = p81 * p361;
+        let p363 = p360 - p362;
+        let p364 = T::Pair::splat(p363.first());
+        let p365 = p16 * p364;
+        let acc_x1 = v143 - p365.first();
+        let acc_y1 = p365.second() - p23.second();
+        let p368 = p210 * p363;
+        let p369 = p363.swap();
+        let p370 = p213 * p369;
+        let p371 = p368 + p370;
+        let acc_x2 = v114 - p371.first();
+        let acc_y2 = p371.second() - v121;
+        let v374 = v39 * p363.second();
+        let v375 = v374 + p368.first();
+        let v376 = v87 - v375;
+        let p377 = T::Pair::splat(Single::<T>::new(self.hoisted[17]));
+        let p378 = p377 * p75;
+        let v379 = Single::<T>::new(p378.first().get().abs());
+        let v380 = Single::<T>::new(v379.get().sqrt());
+        let v381 = Single::<T>::new(p378.second().get().abs());
+        let v382 = Single::<T>::new(v381.get().sqrt());
+        let v383 = v380 + v382;
+        let p384 = p133 * p365;
+        let lambda_crank_x = p384.first() - p145.second();
+        let p386 = p138.flip();
+        let lambda_crank_y = p386.second() - p384.second();
+        let p388 = p95 * p371;
+        let lambda_rod_x = p388.first() - p116.second();
+        let p390 = p125.flip();
+        let lambda_rod_y = p390.second() - p388.second();
+        let p392 = T::Pair::join(p180.first(), p161.first());
+        let p393 = p392 * p363;
+        let p394 = T::Pair::splat(p171.first());
+        let p395 = p394 * p369;
+        let p396 = p393 + p395;
+        let v397 = p127.second() - p396.second();
+        let v398 = p37.first() * v397;
+        let v399 = p152.second() - p396.first();
+        let v400 = p27.first() * v399;
+        let v401 = v398 + v400;
+        let lambda_guide = p75.first() * v401;
+        let v403 = Single::<T>::new(self.parameters.m3) * v375;
+        let lambda_slider = v403 - p89.second();
+        let p405 = p203 + p209;
+        let p406 = p405 + p223;
+        let p407 = p406 + p337;
+        let p408 = p407 + p340;
+        let p409 = p408 + p352;
+        let p410 = p409 + p363;
+        let v411 = v231 + v358;
+        let v412 = v411 + acc_x1;
+        let v413 = v412 + acc_y1;
+        let v414 = v413 + acc_x2;
+        let v415 = v414 + acc_y2;
+        let v416 = v415 + v376;
+        let v417 = v416 + p410.first();
+        let v418 = v417 + p410.second();
+        (
+            ::mbs_runtime::Stepped {
+                next: ::mbs_runtime::State {
+                    t: t_next,
+                    q: SliderCrankFreeCoordinates {
+                        x1: p203.first().get(),
+                        y1: p203.second().get(),
+                        theta1: p209.first().get(),
+                        x2: p223.first().get(),
+                        y2: p223.second().get(),
+                        theta2: p209.second().get(),
+                        x3: v231.get(),
+                    },
+                    v: SliderCrankFreeCoordinates {
+                        x1: p337.first().get(),
+                        y1: p337.second().get(),
+                        theta1: p340.first().get(),
+                        x2: p352.first().get(),
+                        y2: p352.second().get(),
+                        theta2: p340.second().get(),
+                        x3: v358.get(),
+                    },
+                },
+                growth: v383.get(),
+                sum: v418.get(),
+            },
+            ::mbs_runtime::Reactions {
+                acceleration: SliderCrankFreeCoordinates {
+                    x1: acc_x1.get(),
+                    y1: acc_y1.get(),
+                    theta1: p363.first().get(),
+                    x2: acc_x2.get(),
+                    y2: acc_y2.get(),
+                    theta2: p363.second().get(),
+                    x3: v376.get(),
+                },
+                multipliers: SliderCrankFreeConstraints {
+                    crank_x: lambda_crank_x.get(),
+                    crank_y: lambda_crank_y.get(),
+                    rod_x: lambda_rod_x.get(),
+                    rod_y: lambda_rod_y.get(),
+                    guide: lambda_guide.get(),
+                    slider: lambda_slider.get(),
+                },
+                growth: v380.get(),
+            },
+        )
     }
 }
 #[allow(unused_variables, clippy::all)]
@@ -3551,6 +4488,31 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
                 self.step_held(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage(at, inputs, gains, h, t_next)
+            },
+        )
+    }
+    #[inline(always)]
+    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+        gains: &::mbs_runtime::Gains<T>,
+        h: T,
+        t_next: T,
+    ) -> ::core::option::Option<
+        (
+            ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>>,
+            ::mbs_runtime::Reactions<
+                SliderCrankFreeCoordinates<T>,
+                SliderCrankFreeConstraints<T>,
+            >,
+        ),
+    > {
+        ::core::option::Option::Some(
+            if F::IS_HELD {
+                self.step_held_with_reactions(at, inputs, gains, h, t_next)
+            } else {
+                self.step_per_stage_with_reactions(at, inputs, gains, h, t_next)
             },
         )
     }

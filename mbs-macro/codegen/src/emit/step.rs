@@ -14,74 +14,130 @@ use super::program::{named, number_tokens, operation_tokens, symbol_tokens};
 use crate::model::Model;
 use crate::plan::Plan;
 
-/// The functions of both kinds of feedback; nothing if the mechanism is too large.
+/// The functions of both kinds of feedback, without and with the reactions; nothing
+/// if the mechanism is too large.
 pub fn functions(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let Some(step) = &plan.fused_step else { return TokenStream::new() };
-    let Names { mechanism, runtime, state, .. } = names;
+    let Names { mechanism, runtime, state, reactions, .. } = names;
     let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
     let fields = Fields::new(model);
-    let function = |doc: &str, name: &str, woven: &Woven| {
+    let function = |doc: &str, name: &str, result: &TokenStream, body: &TokenStream| {
         let name = Ident::new(name, Span::call_site());
-        let body = body(model, names, &fields, woven);
         quote! {
             #[doc = #doc]
             #[inline(always)]
-            fn #name(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #runtime::Stepped<#q> {
+            fn #name(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #result {
                 #body
             }
         }
     };
-    let held = function("A step with feedback held over it.", "step_held", &step.held);
-    let per_stage = function("A step with feedback in both stages.", "step_per_stage", &step.per_stage);
+    let stepped = quote!(#runtime::Stepped<#q>);
+    let alone = |doc: &str, name: &str, woven: &Woven| {
+        let Body { statements, stepped: value, .. } = Body::new(model, names, &fields, woven);
+        function(doc, name, &stepped, &quote!(#statements #value))
+    };
+    let held = alone("A step with feedback held over it.", "step_held", &step.alone.held);
+    let per_stage = alone("A step with feedback in both stages.", "step_per_stage", &step.alone.per_stage);
+    let both = quote!((#stepped, #reactions));
+    let with_reactions = |doc: &str, name: &str, woven: &Woven| {
+        let Body { statements, stepped, reactions } = Body::new(model, names, &fields, woven);
+        function(doc, name, &both, &quote!(#statements (#stepped, #reactions)))
+    };
+    let with_reactions = step.with_reactions.as_ref().map(|step| {
+        let held = with_reactions(
+            "A step with feedback held over it, and the reactions at its start.",
+            "step_held_with_reactions",
+            &step.held,
+        );
+        let per_stage = with_reactions(
+            "A step with feedback in both stages, and the reactions at its start.",
+            "step_per_stage_with_reactions",
+            &step.per_stage,
+        );
+        quote!(#held #per_stage)
+    });
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> {
             #held
             #per_stage
+            #with_reactions
         }
     }
 }
 
-/// The trait's function, which chooses between the two.
+/// The trait's functions, which choose between the two.
 pub fn choice(plan: &Plan, names: &Names) -> TokenStream {
-    if plan.fused_step.is_none() {
-        return TokenStream::new();
-    }
-    let Names { runtime, state, .. } = names;
+    let Some(step) = &plan.fused_step else { return TokenStream::new() };
+    let Names { runtime, state, reactions, .. } = names;
     let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
-    quote! {
-        #[inline(always)]
-        fn fused_step<F: #runtime::Feedback>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#runtime::Stepped<#q>> {
-            ::core::option::Option::Some(if F::IS_HELD {
-                self.step_held(at, inputs, gains, h, t_next)
-            } else {
-                self.step_per_stage(at, inputs, gains, h, t_next)
-            })
+    let choice = |suffix: &str, result: TokenStream| {
+        let [name, held, per_stage] =
+            ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{suffix}"));
+        quote! {
+            #[inline(always)]
+            fn #name<F: #runtime::Feedback>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
+                ::core::option::Option::Some(if F::IS_HELD {
+                    self.#held(at, inputs, gains, h, t_next)
+                } else {
+                    self.#per_stage(at, inputs, gains, h, t_next)
+                })
+            }
         }
-    }
+    };
+    let alone = choice("", quote!(#runtime::Stepped<#q>));
+    let with_reactions = step
+        .with_reactions
+        .as_ref()
+        .map(|_| choice("_with_reactions", quote!((#runtime::Stepped<#q>, #reactions))));
+    quote!(#alone #with_reactions)
 }
 
-fn body(model: &Model, names: &Names, fields: &Fields, woven: &Woven) -> TokenStream {
-    let runtime = &names.runtime;
-    let mut writer = Writer { model, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
-    let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
-    let value = |&output| {
-        let value = writer.scalar(output);
-        quote!(#value.get())
-    };
-    let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
-    let n = fields.coordinates.len();
-    let (positions, rest) = outputs.split_at(n);
-    let (velocities, health) = rest.split_at(n);
-    let of_coordinates = |values| named(&names.coordinates.of_t, &fields.coordinates, values);
-    let (q, v) = (of_coordinates(positions), of_coordinates(velocities));
-    quote! {
-        use #runtime::{Pair as _, Single as _};
-        type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
-        let half_h = T::from_f64(0.5) * h;
-        #statements
-        let [growth, sum] = [#(#health),*];
-        #runtime::Stepped { next: #runtime::State { t: t_next, q: #q, v: #v }, growth, sum }
+/// What a step's function does, and the values that it ends with.
+struct Body {
+    statements: TokenStream,
+    stepped: TokenStream,
+    /// Nothing if the program does not give them.
+    reactions: TokenStream,
+}
+
+impl Body {
+    fn new(model: &Model, names: &Names, fields: &Fields, woven: &Woven) -> Self {
+        let runtime = &names.runtime;
+        let mut writer =
+            Writer { model, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
+        let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
+        let value = |&output| {
+            let value = writer.scalar(output);
+            quote!(#value.get())
+        };
+        let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
+        let (n, m) = (fields.coordinates.len(), fields.rows.len());
+        let of_coordinates = |values| named(&names.coordinates.of_t, &fields.coordinates, values);
+        let (q, v) = (of_coordinates(&outputs[..n]), of_coordinates(&outputs[n..2 * n]));
+        let (reactions, growth) = match &outputs[2 * n..] {
+            [growth, _] => (TokenStream::new(), growth),
+            with_reactions => {
+                let acceleration = of_coordinates(&with_reactions[..n]);
+                let multipliers = named(&names.constraints.of_t, &fields.rows, &with_reactions[n + 1..][..m]);
+                let growth_here = &with_reactions[n + 1 + m];
+                let reactions = quote! {
+                    #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth_here }
+                };
+                (reactions, &with_reactions[n])
+            }
+        };
+        let sum = outputs.last();
+        let statements = quote! {
+            use #runtime::{Pair as _, Single as _};
+            type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
+            let half_h = T::from_f64(0.5) * h;
+            #statements
+        };
+        let stepped = quote! {
+            #runtime::Stepped { next: #runtime::State { t: t_next, q: #q, v: #v }, growth: #growth, sum: #sum }
+        };
+        Self { statements, stepped, reactions }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use mbs_symbolic::pairs::{Layout, Woven, weave};
-use mbs_symbolic::{Instruction, Operand, Operation, Program, Symbol};
+use mbs_symbolic::{Instruction, Number, Operand, Operation, Program, Symbol};
 
 use crate::model::{Direction, Meaning, Model};
 
@@ -11,18 +11,40 @@ use crate::model::{Direction, Meaning, Model};
 /// stack ends at about twice as many.
 const LONGEST: usize = 3072;
 
-/// A step with each kind of feedback.
+/// The steps of a mechanism that is small enough.
 pub struct FusedStep {
+    pub alone: Kinds,
+    /// That also give the reactions at their start.
+    pub with_reactions: Option<Kinds>,
+}
+
+/// A step with each kind of feedback.
+pub struct Kinds {
     pub held: Woven,
     pub per_stage: Woven,
 }
 
+/// The programs of a mechanism that a step is made of.
+#[derive(Clone, Copy)]
+pub struct Stages<'a> {
+    pub stabilized: &'a Program,
+    pub constrained: &'a Program,
+    pub reactions: &'a Program,
+}
+
 /// The fused step of a mechanism that is small enough.
-pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Option<FusedStep> {
+pub fn fused(model: &Model, stages: Stages<'_>) -> Option<FusedStep> {
+    let alone = kinds(model, stages, None)?;
+    Some(FusedStep { alone, with_reactions: kinds(model, stages, Some(stages.reactions)) })
+}
+
+fn kinds(model: &Model, stages: Stages<'_>, reactions: Option<&Program>) -> Option<Kinds> {
+    let Stages { stabilized, constrained, .. } = stages;
     if stabilized.instructions.len() > LONGEST {
         return None;
     }
-    let [held, per_stage] = [constrained, stabilized].map(|second| step(model, stabilized, second));
+    let [held, per_stage] =
+        [constrained, stabilized].map(|second| step(model, stabilized, second, reactions));
     if held.instructions.len().max(per_stage.instructions.len()) > LONGEST {
         return None;
     }
@@ -44,8 +66,11 @@ pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Opti
         _ => false,
     };
     let n = model.coordinates.len();
+    // What is finite only if a step is good: q⁺, v⁺, and the accelerations where they
+    // are given.
+    let finite = if reactions.is_some() { 3 * n } else { 2 * n };
     let are_written_together =
-        |a: usize, b: usize| is_place(a, b) || a >= n && b >= n && is_place(a - n, b - n);
+        |a: usize, b: usize| a.max(b) < finite && a / n == b / n && is_place(a % n, b % n);
     let is_constant = |symbol: Symbol| {
         !matches!(
             meaning(symbol),
@@ -59,15 +84,16 @@ pub fn fused(model: &Model, stabilized: &Program, constrained: &Program) -> Opti
     };
     let woven = |program: &Program| {
         let mut woven = weave(program, &layout);
-        woven.sum_outputs(2 * n);
+        woven.sum_outputs(finite);
         woven
     };
-    Some(FusedStep { held: woven(&held), per_stage: woven(&per_stage) })
+    Some(Kinds { held: woven(&held), per_stage: woven(&per_stage) })
 }
 
 /// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the
-/// first, or computes its own.
-fn step(model: &Model, first: &Program, second: &Program) -> Program {
+/// first, or computes its own. With reactions: q⁺, v⁺, q̈, the growth, λ and its own
+/// growth.
+fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Program>) -> Program {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
     let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
@@ -88,6 +114,11 @@ fn step(model: &Model, first: &Program, second: &Program) -> Program {
     stage.insert(model.symbols.time, Operand::Symbol(model.symbols.next_time));
     stage.extend(model.symbols.feedback.iter().copied().zip(feedback.iter().copied()));
     let there = steps.append(second, &stage);
+    // Without feedback; what agrees with the first stage is there already.
+    let zero = Operand::Number(Number::ZERO);
+    let none = model.symbols.feedback.iter().map(|&symbol| (symbol, zero)).collect();
+    let clean = reactions.map(|reactions| steps.append(reactions, &none)).unwrap_or_default();
+    let (clean_acceleration, multipliers) = clean.split_at(n.min(clean.len()));
 
     let mut outputs = Vec::new();
     for at in 0..n {
@@ -98,9 +129,11 @@ fn step(model: &Model, first: &Program, second: &Program) -> Program {
         let sum = steps.push(Operation::Add, here_acceleration[at], there[at], None);
         outputs.push(steps.axpy(half_h, sum, v[at]));
     }
+    outputs.extend(clean_acceleration);
     if let (Some(&here), Some(&there)) = (here.last(), there.last()) {
         outputs.push(steps.push(Operation::Add, here, there, None));
     }
+    outputs.extend(multipliers);
     Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
 }
 
@@ -113,10 +146,28 @@ struct Fusion {
 
 impl Fusion {
     fn push(&mut self, operation: Operation, a: Operand, b: Operand, name: Option<String>) -> Operand {
+        if let Some(known) = self.without_zero(operation, a, b) {
+            return known;
+        }
         *self.known.entry((operation, a, b)).or_insert_with(|| {
             self.instructions.push(Instruction { operation, a, b, name });
             Operand::Value(self.instructions.len() - 1)
         })
+    }
+
+    /// What is left of an operation on the zero that stands for feedback: the same up
+    /// to the sign of a zero where all is finite, and what is not finite shows in the
+    /// first stage, which has the feedback in this place.
+    fn without_zero(&mut self, operation: Operation, a: Operand, b: Operand) -> Option<Operand> {
+        let is_zero = |operand| matches!(operand, Operand::Number(number) if number == Number::ZERO);
+        match (operation, is_zero(a), is_zero(b)) {
+            (Operation::Add, true, _) => Some(b),
+            (Operation::Add | Operation::Sub, _, true) => Some(a),
+            (Operation::Sub, true, _) => Some(self.push(Operation::Neg, b, b, None)),
+            (Operation::Mul, true, _) | (Operation::Mul, _, true) => Some(Operand::Number(Number::ZERO)),
+            (Operation::Div | Operation::Neg, true, _) => Some(a),
+            _ => None,
+        }
     }
 
     /// y + a x
