@@ -1,6 +1,8 @@
 //! Blocks are the program, cut: written out again, they give its instructions
 //! and operands, and every operand is where the block says.
 
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
 use mbs_symbolic::{
     Block, Function, Instruction, Operand, Operation, Program, Repetition, Source, Stage, Symbol, lower_whole,
 };
