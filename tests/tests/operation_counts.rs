@@ -8,7 +8,9 @@ use std::path::Path;
 use std::{env, fs};
 
 use mbs_runtime::{Info, Mechanism};
-use models::{Pendulum, SliderCrank, SliderCrankFree};
+use models::{
+    NFourBar1, NFourBar10, NFourBar40, NPendulum10, NPendulum40, Pendulum, SliderCrank, SliderCrankFree,
+};
 
 fn table(info: &Info) -> String {
     let mut text = format!("{}\n", info.name);
@@ -53,5 +55,23 @@ fn right_hand_sides_cost_at_most_half_more_than_by_hand() {
         assert!(2 * count.mul <= 3 * mul, "{count:?}");
         assert!(2 * count.add <= 3 * add, "{count:?}");
         assert!(2 * count.div <= 3 * div && count.sin_cos <= 2 && count.other == 0, "{count:?}");
+    }
+}
+
+/// What a right-hand side of chains may cost, feedback included: bounds that hold for
+/// an elimination that sees their structure.
+#[test]
+fn chains_cost_what_their_structure_promises() {
+    for (info, most) in [
+        (NPendulum10::<f64>::INFO, 1_080),
+        (NPendulum40::<f64>::INFO, 4_710),
+        (NFourBar1::<f64>::INFO, 255),
+        (NFourBar10::<f64>::INFO, 2_200),
+        (NFourBar40::<f64>::INFO, 8_600),
+    ] {
+        let count = info.operations("stabilized").expect("a function");
+        let arithmetic = count.mul + count.add + count.div;
+        println!("{}: {arithmetic}", info.name);
+        assert!(arithmetic <= most, "{}: {arithmetic}", info.name);
     }
 }
