@@ -48,8 +48,8 @@
 //! # Errors
 //!
 //! Members do not touch each other. One that cannot start, meets a singular
-//! position or ceases to be finite ends with the [`Error`](mbs_runtime::Error) that
-//! its [`Simulation`](mbs_runtime::Simulation) gives alone; its final state is that
+//! position or ceases to be finite ends with the [`Error`] that
+//! its [`Simulation`] gives alone; its final state is that
 //! of the last good step. The others go on.
 //!
 //! # Same digits
