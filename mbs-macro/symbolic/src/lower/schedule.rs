@@ -15,9 +15,11 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
         operands: HashMap::new(),
         uses: count_uses(flat, &order),
         latencies: Vec::new(),
+        summands: Summands::new(flat, &order),
     };
     for &value in &order {
         schedule.emit(value);
+        schedule.gather(value);
     }
     schedule.program.outputs = outputs.iter().map(|value| schedule.operands[value]).collect();
     schedule.program
@@ -25,6 +27,10 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
 
 /// Rows with more terms or factors than this are gathered one after the other.
 const LONGEST_TREE: usize = 32;
+
+/// Programs of more values than this, which may become loops, are ordered by
+/// the pivots that they wait for.
+const LONGEST_ON_DEMAND: usize = 1024;
 
 struct Schedule<'a> {
     flat: &'a Flat,
@@ -34,6 +40,35 @@ struct Schedule<'a> {
     uses: HashMap<Value, usize>,
     /// Per instruction, how long its result takes from the inputs.
     latencies: Vec<u32>,
+    summands: Summands,
+}
+
+/// Very long sums, which grow as soon as a summand is there.
+struct Summands {
+    /// Value → the sums that it belongs to, and whether it is subtracted.
+    of: HashMap<Value, Vec<(Value, bool)>>,
+    /// The sum so far, and whether it is the negative of it.
+    gathered: HashMap<Value, (Operand, bool)>,
+}
+
+impl Summands {
+    fn new(flat: &Flat, order: &[Value]) -> Self {
+        let mut of: HashMap<Value, Vec<(Value, bool)>> = HashMap::new();
+        for &sum in order {
+            if let Some(row) = long_row(flat, sum) {
+                row.iter().for_each(|s| of.entry(s.value).or_default().push((sum, s.negative)));
+            }
+        }
+        Self { of, gathered: HashMap::new() }
+    }
+}
+
+/// The summands of a very long sum.
+fn long_row(flat: &Flat, value: Value) -> Option<&[Signed]> {
+    match &flat.definitions[value] {
+        Definition::Sum(row) if row.len() > LONGEST_TREE => Some(row),
+        _ => None,
+    }
 }
 
 impl Schedule<'_> {
@@ -41,7 +76,10 @@ impl Schedule<'_> {
         let operand = match &self.flat.definitions[value] {
             Definition::Leaf(operand) => *operand,
             Definition::Product(factors) => self.product(factors),
-            Definition::Sum(summands) => self.sum(summands),
+            Definition::Sum(summands) => match self.summands.gathered.remove(&value) {
+                Some(gathered) => self.positive(gathered),
+                None => self.sum(summands),
+            },
             Definition::Call(function, x) => {
                 let x = self.operands[x];
                 self.push(Operation::Call(*function), x, x)
@@ -101,15 +139,32 @@ impl Schedule<'_> {
     fn sum(&mut self, summands: &[Signed]) -> Operand {
         let operands =
             summands.iter().map(|summand| (self.operands[&summand.value], summand.negative)).collect();
-        let add = |schedule: &mut Self, (a, minus_a), (b, minus_b)| match (minus_a, minus_b) {
-            (false, true) => (schedule.push(Operation::Sub, a, b), false),
-            (true, false) => (schedule.push(Operation::Sub, b, a), false),
-            (_, both) => (schedule.push(Operation::Add, a, b), both),
-        };
-        match self.reduce(operands, add, |&(operand, _)| operand) {
-            Some((sum, true)) => self.push(Operation::Neg, sum, sum),
-            Some((sum, false)) => sum,
-            None => Operand::Number(Number::ZERO),
+        let sum = self.reduce(operands, Self::add, |&(operand, _)| operand);
+        sum.map_or(Operand::Number(Number::ZERO), |sum| self.positive(sum))
+    }
+
+    /// The sum of two values, each perhaps given as its negative.
+    fn add(&mut self, (a, minus_a): (Operand, bool), (b, minus_b): (Operand, bool)) -> (Operand, bool) {
+        match (minus_a, minus_b) {
+            (false, true) => (self.push(Operation::Sub, a, b), false),
+            (true, false) => (self.push(Operation::Sub, b, a), false),
+            (_, both) => (self.push(Operation::Add, a, b), both),
+        }
+    }
+
+    fn positive(&mut self, (value, is_negative): (Operand, bool)) -> Operand {
+        if is_negative { self.push(Operation::Neg, value, value) } else { value }
+    }
+
+    /// Adds a value to the very long sums that it belongs to: the same instruction
+    /// in every copy of what gives the summands.
+    fn gather(&mut self, value: Value) {
+        for (sum, negative) in self.summands.of.remove(&value).unwrap_or_default() {
+            let mut gathered = (self.operands[&value], negative);
+            if let Some(so_far) = self.summands.gathered.remove(&sum) {
+                gathered = self.add(so_far, gathered);
+            }
+            self.summands.gathered.insert(sum, gathered);
         }
     }
 
@@ -156,35 +211,84 @@ fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
         Definition::Call2(_, x, y) => is_leaf(x) && is_leaf(y),
         _ => false,
     };
-    let mut roots: Vec<Value> = order.into_iter().filter(of_inputs).collect();
-    roots.extend(outputs);
-    gather_early(flat, outputs, depth_first(flat, &roots))
+    let mut roots: Vec<Value> = order.iter().copied().filter(of_inputs).collect();
+    if order.len() <= LONGEST_ON_DEMAND {
+        roots.extend(outputs);
+        return depth_first(flat, &roots);
+    }
+    Eager::new(flat, order, depth_first(flat, &roots)).run()
 }
 
-/// Moves what only very long sums need to where its operands are: the watch over a
-/// pivot beside the pivot, where it fills the time that others wait for it.
-fn gather_early(flat: &Flat, outputs: &[Value], order: Vec<Value>) -> Vec<Value> {
-    let is_long =
-        |value: Value| matches!(&flat.definitions[value], Definition::Sum(row) if row.len() > LONGEST_TREE);
-    if !order.iter().any(|&value| is_long(value)) {
-        return order;
+/// Orders a long program for loops: what needs a pivot stands right behind what it
+/// waits for, short branches first, and the rest where it is first needed. Pivots
+/// wait for each other; the right-hand sides, the watch and the next link fill that time,
+/// and most results are used in the copy that computes them.
+struct Eager<'a> {
+    flat: &'a Flat,
+    /// Depth first.
+    values: Vec<Value>,
+    /// Whether a value needs a pivot.
+    is_late: Vec<bool>,
+    users: Vec<Vec<Value>>,
+    is_done: Vec<bool>,
+    order: Vec<Value>,
+}
+
+impl<'a> Eager<'a> {
+    fn new(flat: &'a Flat, values: Vec<Value>, first: Vec<Value>) -> Self {
+        let count = flat.definitions.len();
+        let mut is_late = vec![false; count];
+        let mut users = vec![Vec::new(); count];
+        for &value in &values {
+            let definition = &flat.definitions[value];
+            let operands = operands(definition);
+            is_late[value] =
+                matches!(definition, Definition::Reciprocal(_)) || operands.iter().any(|&o| is_late[o]);
+            operands.into_iter().for_each(|operand| users[operand].push(value));
+        }
+        // how many operations lie between a value and the last one that waits for it
+        let mut heights = vec![0_usize; count];
+        for &value in values.iter().rev() {
+            heights[value] = users[value].iter().map(|&user| heights[user] + 1).max().unwrap_or(0);
+        }
+        // what is tried last comes first
+        users.iter_mut().for_each(|users| users.sort_by_key(|&user| std::cmp::Reverse(heights[user])));
+        let mut is_done = vec![false; count];
+        first.iter().for_each(|&value| is_done[value] = true);
+        Self { flat, values, is_late, users, is_done, order: first }
     }
-    // users stand behind what they use
-    let mut is_needed = vec![false; flat.definitions.len()];
-    outputs.iter().for_each(|&output| is_needed[output] = true);
-    for &value in order.iter().rev().filter(|&&value| !is_long(value)) {
-        if is_needed[value] {
-            operands(&flat.definitions[value]).into_iter().for_each(|operand| is_needed[operand] = true);
+
+    fn run(mut self) -> Vec<Value> {
+        let values = std::mem::take(&mut self.values);
+        for &value in &values {
+            let mut stack = vec![value];
+            while let Some(value) = stack.pop() {
+                let operands = operands(&self.flat.definitions[value]);
+                let is_ready = operands.iter().all(|&operand| self.is_done[operand] || !self.is_late[operand]);
+                if !self.is_late[value] || self.is_done[value] || !is_ready {
+                    continue;
+                }
+                self.demand(value);
+                stack.extend(&self.users[value]);
+            }
+        }
+        values.into_iter().for_each(|value| self.demand(value));
+        self.order
+    }
+
+    /// The value, behind those of its operands that are not there yet.
+    fn demand(&mut self, value: Value) {
+        let mut stack = vec![(value, false)];
+        while let Some((value, operands_done)) = stack.pop() {
+            if operands_done {
+                self.order.push(value);
+            } else if !std::mem::replace(&mut self.is_done[value], true) {
+                stack.push((value, true));
+                let operands = operands(&self.flat.definitions[value]);
+                stack.extend(operands.into_iter().rev().map(|operand| (operand, false)));
+            }
         }
     }
-    let mut places = vec![0; flat.definitions.len()];
-    for (place, &value) in order.iter().enumerate() {
-        let behind = operands(&flat.definitions[value]).into_iter().map(|operand| places[operand]).max();
-        places[value] = if is_needed[value] { place } else { behind.unwrap_or(place) };
-    }
-    let mut order = order;
-    order.sort_by_key(|&value| places[value]);
-    order
 }
 
 pub(super) fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
