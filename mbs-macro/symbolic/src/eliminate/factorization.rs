@@ -24,6 +24,8 @@ pub struct WatchedPivot {
     pub coordinate: Option<usize>,
     /// Its growth.
     pub growth: Expr,
+    /// What of it is linear in 1/pivot, and the square of the rest.
+    parts: [Option<Expr>; 2],
     /// Whether the growth can signal a lost pivot before it is exactly 0.
     pub can_cancel: bool,
 }
@@ -49,6 +51,13 @@ pub struct Factorization {
     pub pivots: Vec<WatchedPivot>,
 }
 
+/// K_ii − K_ip²/K_pp, before it is subtracted.
+struct Reduction {
+    entry: Expr,
+    coupling: Expr,
+    pivot: Expr,
+}
+
 pub(super) struct Work<'a> {
     pub arena: &'a mut Arena,
     pub matrix: Kkt,
@@ -61,6 +70,8 @@ pub(super) struct Work<'a> {
     /// What a diagonal entry is measured against, in parameters alone; filled
     /// when the first diagonal pivot is taken.
     scales: Option<BTreeMap<Unknown, Expr>>,
+    /// What the pivot of the step before left of rows.
+    reductions: BTreeMap<Unknown, Reduction>,
     is_open: bool,
     pub(super) steps: Vec<Step>,
     order: Vec<Elimination>,
@@ -88,6 +99,7 @@ impl<'a> Work<'a> {
             gross,
             reduced: BTreeSet::new(),
             scales: None,
+            reductions: BTreeMap::new(),
             is_open,
             steps: Vec::new(),
             order: Vec::new(),
@@ -114,9 +126,10 @@ impl<'a> Work<'a> {
             _ => entry,
         };
         self.order.push(Elimination { unknowns: pivot.unknowns(), pivot: entry });
+        let reductions = std::mem::take(&mut self.reductions);
         match pivot {
             Pivot::Pair { row, coordinate } => self.eliminate_pair(row, coordinate),
-            Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown),
+            Pivot::Diagonal(unknown) => self.eliminate_diagonal(unknown, reductions.get(&unknown)),
             Pivot::Loop { row, coordinates } => self.eliminate_loop(row, coordinates),
         }
     }
@@ -178,14 +191,17 @@ impl<'a> Work<'a> {
     }
 
     /// K′_ij = K_ij − K_ip K_pj / K_pp
-    fn eliminate_diagonal(&mut self, unknown: Unknown) {
+    fn eliminate_diagonal(&mut self, unknown: Unknown, reduction: Option<&Reduction>) {
         if self.scales.is_none() {
             self.scales = Some(self.scales());
         }
         let zero = self.arena.zero();
         let pivot = self.matrix.get(unknown, unknown).unwrap_or(zero);
         let pivot = self.close(unknown, unknown, pivot);
-        let inverse = self.inverse(pivot);
+        let inverse = match reduction {
+            Some(reduction) => self.inverse_of_reduced(reduction),
+            None => self.inverse(pivot),
+        };
         let couplings: BTreeMap<_, _> = self
             .matrix
             .neighbours(unknown)
@@ -209,6 +225,9 @@ impl<'a> Work<'a> {
                 let updated = self.arena.sub(entry, product);
                 if i == j {
                     self.track(unknown, i, product);
+                    if !is_constant && [unknown, i].iter().all(|u| matches!(u, Unknown::Row(_))) {
+                        self.reductions.insert(i, Reduction { entry, coupling, pivot });
+                    }
                 }
                 let updated = self.close(i, j, updated);
                 self.matrix.set(self.arena, i, j, updated);
@@ -233,6 +252,19 @@ impl<'a> Work<'a> {
     /// 1/p, computed once.
     pub(super) fn inverse(&mut self, pivot: Expr) -> Expr {
         let inverse = self.arena.powi(pivot, -1);
+        self.arena.share(inverse)
+    }
+
+    /// 1/(k − c²/p) = p/(kp − c²), computed once: a division that does not wait for that
+    /// by p. The rows of a pin are eliminated one after the other, and chains of pins
+    /// would wait for two divisions each.
+    fn inverse_of_reduced(&mut self, reduction: &Reduction) -> Expr {
+        let Reduction { entry, coupling, pivot } = *reduction;
+        let product = self.arena.mul(entry, pivot);
+        let square = self.arena.powi(coupling, 2);
+        let determinant = self.arena.sub(product, square);
+        let inverse = self.inverse(determinant);
+        let inverse = self.arena.mul(pivot, inverse);
         self.arena.share(inverse)
     }
 
@@ -271,7 +303,7 @@ impl<'a> Work<'a> {
         let bound = self.arena.bound(pivot);
         let size = bound.unwrap_or_else(|| self.arena.share(pivot));
         let growth = self.ratio(size, inverse);
-        self.watch(Some(row), Some(coordinate), growth, bound.is_some());
+        self.watch(Some(row), Some(coordinate), [Some(growth), None], bound.is_some());
     }
 
     /// The size that diagonal entries have in a healthy position: of a mass,
@@ -310,49 +342,39 @@ impl<'a> Work<'a> {
         let is_reduced = self.reduced.contains(&unknown);
         let scale = self.scales.as_ref().and_then(|scales| scales.get(&unknown)).copied();
         let gross = self.gross.get(&unknown).copied().filter(|_| is_reduced);
-        let (row, coordinate, growth) = match unknown {
-            Unknown::Coordinate(_) => {
-                let size = scale.filter(|_| is_reduced).or(gross);
-                (None, Some(unknown), size.map(|size| self.ratio(size, inverse)))
-            }
-            Unknown::Row(_) => {
-                let vanished = scale.map(|scale| self.root_ratio(scale, inverse));
-                let cancelled = gross.map(|gross| self.ratio(gross, inverse));
-                let both = vanished.zip(cancelled).map(|(v, c)| self.arena.add(v, c));
-                (Some(unknown), None, both.or(vanished).or(cancelled))
-            }
+        let (row, coordinate, [linear, squared]) = match unknown {
+            Unknown::Coordinate(_) => (None, Some(unknown), [scale.filter(|_| is_reduced).or(gross), None]),
+            Unknown::Row(_) => (Some(unknown), None, [gross, scale]),
         };
-        let can_cancel = growth.is_some();
-        let growth = growth.unwrap_or_else(|| self.ratio(pivot, inverse));
-        self.watch(row, coordinate, growth, can_cancel);
+        let can_cancel = linear.or(squared).is_some();
+        let linear = if can_cancel { linear } else { Some(pivot) };
+        let parts = [linear, squared].map(|size| size.map(|size| self.ratio(size, inverse)));
+        self.watch(row, coordinate, parts, can_cancel);
     }
 
     /// |size/pivot|, kept from simplifying where both are the same.
+    ///
+    /// A pivot made of squares may be small without having lost digits: there the root of the
+    /// ratio, that of what was squared, is the growth.
     pub(super) fn ratio(&mut self, size: Expr, inverse: Expr) -> Expr {
         let size = self.arena.share(size);
         let ratio = self.arena.mul(size, inverse);
         self.arena.call(Function::Abs, ratio)
     }
 
-    /// The same for a pivot made of squares, which may be small without having
-    /// lost digits: √ of the ratio is that of what was squared.
-    pub(super) fn root_ratio(&mut self, size: Expr, inverse: Expr) -> Expr {
-        let ratio = self.ratio(size, inverse);
-        self.arena.call(Function::Sqrt, ratio)
-    }
-
     pub(super) fn watch(
         &mut self,
         row: Option<Unknown>,
         coordinate: Option<Unknown>,
-        growth: Expr,
+        parts: [Option<Expr>; 2],
         can_cancel: bool,
     ) {
         let index = |unknown| match unknown {
             Unknown::Row(index) | Unknown::Coordinate(index) => index,
         };
         let (row, coordinate) = (row.map(index), coordinate.map(index));
-        self.pivots.push(WatchedPivot { row, coordinate, growth, can_cancel });
+        let growth = total(self.arena, parts.map(|part| part.into_iter().collect()));
+        self.pivots.push(WatchedPivot { row, coordinate, growth, parts, can_cancel });
     }
 }
 
@@ -378,10 +400,23 @@ impl Factorization {
         solution
     }
 
-    /// Σ of the growth of the pivots that can cancel.
+    /// The growth of the pivots that can cancel, together: Σ, with one root over all that
+    /// stands under roots.
     pub fn growth(&self, arena: &mut Arena) -> Expr {
-        let terms: Vec<_> =
-            self.pivots.iter().filter(|p| p.can_cancel).map(|p| (p.growth, Number::ONE)).collect();
-        arena.sum(&terms)
+        let parts = |part: usize| {
+            let watched = self.pivots.iter().filter(|pivot| pivot.can_cancel);
+            watched.filter_map(|pivot| pivot.parts[part]).collect()
+        };
+        total(arena, [parts(0), parts(1)])
     }
+}
+
+/// Σ linear + √(Σ squared)
+fn total(arena: &mut Arena, [linear, squared]: [Vec<Expr>; 2]) -> Expr {
+    let sum = |arena: &mut Arena, terms: Vec<Expr>| {
+        arena.sum(&terms.into_iter().map(|term| (term, Number::ONE)).collect::<Vec<_>>())
+    };
+    let (linear, squared) = (sum(arena, linear), sum(arena, squared));
+    let root = arena.call(Function::Sqrt, squared);
+    arena.add(linear, root)
 }

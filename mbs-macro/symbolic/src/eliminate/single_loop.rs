@@ -73,8 +73,8 @@ impl Work<'_> {
         let [a, b] = entries.map(|entry| self.arena.bound(entry));
         let bound = a.zip(b).map(|(a, b)| inner(self.arena, [a, b], [a, b]));
         let size = bound.unwrap_or_else(|| inner(self.arena, entries, entries));
-        let growth = self.root_ratio(size, inverse);
-        self.watch(Some(row), Some(coordinates[1]), growth, bound.is_some());
+        let squared = self.ratio(size, inverse);
+        self.watch(Some(row), Some(coordinates[1]), [None, Some(squared)], bound.is_some());
     }
 }
 
