@@ -83,6 +83,8 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+#[doc(hidden)]
+pub mod arrays;
 mod baumgarte;
 mod components;
 mod derivation;

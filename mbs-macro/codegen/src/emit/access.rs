@@ -24,6 +24,7 @@ pub struct Access {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     State,
+    Arrays,
     Position,
     Parameters,
 }
@@ -48,6 +49,11 @@ impl Access {
         }
     }
 
+    /// In a method that takes `t` and arrays.
+    pub fn of_arrays() -> Self {
+        Self { time: quote!(t), kind: Kind::Arrays, ..Self::of_state() }
+    }
+
     /// In a method that takes `t` and `q`.
     pub fn of_position() -> Self {
         Self {
@@ -67,6 +73,11 @@ impl Access {
     /// Whether positions are a reference to the vector.
     pub fn is_borrowed(&self) -> bool {
         self.kind == Kind::Position
+    }
+
+    /// Whether coordinates, velocities and feedback are arguments that are arrays.
+    pub fn is_on_arrays(&self) -> bool {
+        self.kind == Kind::Arrays
     }
 
     /// The same in a function with the [`arguments`](Self::arguments).
@@ -106,13 +117,13 @@ impl Access {
                 .then(|| argument(quote!(parameters: &#parameters<T>), quote!(&parameters))),
             ((is_time || is_position || is_velocity) && of(Kind::State))
                 .then(|| argument(quote!(at: &#state), quote!(at))),
-            (is_time && of(Kind::Position)).then(|| argument(quote!(t: T), quote!(t))),
+            (is_time && (of(Kind::Position) || of(Kind::Arrays))).then(|| argument(quote!(t: T), quote!(t))),
             (is_position && of(Kind::Position)).then(|| argument(quote!(q: &#q), quote!(q))),
             means(|meaning| matches!(meaning, Meaning::Input(_)))
                 .then(|| argument(quote!(inputs: &#inputs), quote!(inputs))),
             means(|meaning| matches!(meaning, Meaning::MinusTwoAlpha | Meaning::MinusBetaSquared))
                 .then(|| argument(quote!(gains: &#runtime::Gains<T>), quote!(gains))),
-            means(|meaning| matches!(meaning, Meaning::Feedback(_)))
+            (means(|meaning| matches!(meaning, Meaning::Feedback(_))) && !of(Kind::Arrays))
                 .then(|| argument(quote!(feedback: &#rows), quote!(feedback))),
             means(|meaning| matches!(meaning, Meaning::Multiplier(_) | Meaning::Acceleration(_)))
                 .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),

@@ -12,6 +12,7 @@ use super::matrices;
 use super::names::{Names, field};
 use super::program::{Body, body};
 use super::sketch;
+use super::stages;
 use super::step;
 use crate::derive::Equations;
 use crate::model::Model;
@@ -143,7 +144,8 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let points = Literal::usize_unsuffixed(model.sketch.points.len());
     let places = sketch::places(&body(model, names, &plan.points, &Access::of_position()));
     let kernels = kernels(model, plan, names, &fields);
-    let fused_step = step::choice(plan, names);
+    let fused_step =
+        if stages::are_on_arrays(model, plan) { stages::step(names) } else { step::choice(plan, names) };
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
     let worst_pivot = worst_pivot(model, names, &plan.pivots);
@@ -215,9 +217,12 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
     let Names { runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
+    let are_on_arrays = stages::are_on_arrays(model, plan);
     let acceleration = |body: &Body| body.vector(q, &fields.coordinates, 0..n);
     let of_rows = |body: &Body| body.vector(rows, &fields.rows, n..n + m);
-    let stabilized = {
+    let stabilized = if are_on_arrays {
+        quote!(#runtime::arrays::stabilized(self, at, inputs, gains))
+    } else {
         let body = body(model, names, &plan.stabilized, &Access::of_state());
         let (statements, growth) = (&body.statements, body.outputs.last());
         let (acceleration, feedback) = (acceleration(&body), of_rows(&body));
@@ -228,7 +233,11 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenS
         let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), acceleration(&body));
         quote!(#statements #runtime::Accelerations { acceleration: #acceleration, growth: #growth })
     };
-    let constrained = accelerations(&plan.constrained, Access::of_state());
+    let constrained = if are_on_arrays {
+        quote!(#runtime::arrays::constrained(self, at, inputs, feedback))
+    } else {
+        accelerations(&plan.constrained, Access::of_state())
+    };
     let position_correction = accelerations(&plan.position_correction, Access::of_position());
     let velocity_correction = accelerations(&plan.velocity_correction, Access::of_position());
     let reactions_body = {

@@ -13,6 +13,7 @@ mod program;
 mod sketch;
 mod solver;
 mod splines;
+mod stages;
 mod step;
 mod types;
 
@@ -31,7 +32,11 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let construction = construction::emit(model, plan, &names);
     let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
-    let step = step::functions(model, plan, &names);
+    let step = if stages::are_on_arrays(model, plan) {
+        stages::implementation(model, plan, &names)
+    } else {
+        step::functions(model, plan, &names)
+    };
     let mechanism = functions::mechanism(model, equations, plan, &names);
     quote! {
         #types

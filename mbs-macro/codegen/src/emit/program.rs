@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
-use super::long::{self, Slots};
+use super::long::{self, Array, Slots};
 use super::names::{Names, field};
 use super::splines::spline_name;
 use crate::model::{Meaning, Model};
@@ -237,9 +237,16 @@ impl<'a> Writer<'a> {
 /// How generated code reads a symbol.
 pub fn symbol_tokens(model: &Model, access: &Access, symbol: Symbol) -> TokenStream {
     let Access { parameters, time, positions, velocities, .. } = access;
+    let meaning = model.meanings[symbol.index()];
+    if access.is_on_arrays()
+        && let Some((array, at)) = Array::of(meaning).filter(|(array, _)| array.is_given())
+    {
+        let (array, at) = (array.ident(), Literal::usize_unsuffixed(at));
+        return quote!(#array[#at]);
+    }
     let coordinate = |at: usize| field(&model.coordinates[at].quantity.name);
     let row = |at: usize| field(&model.constraints[at].name);
-    match model.meanings[symbol.index()] {
+    match meaning {
         Meaning::Time => time.clone(),
         Meaning::Parameter(at) => {
             let name = field(&model.parameters[at].quantity.name);

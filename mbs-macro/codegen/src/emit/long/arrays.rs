@@ -47,6 +47,11 @@ impl Array {
         })
     }
 
+    /// Whether stages on arrays are given the vector as one.
+    pub fn is_given(self) -> bool {
+        matches!(self, Self::Positions | Self::Velocities | Self::Feedback)
+    }
+
     pub fn ident(self) -> Ident {
         let name = match self {
             Self::Parameters => "parameter",
@@ -87,11 +92,17 @@ impl Array {
 
 impl Arrays {
     /// The array as an argument of a function.
-    pub fn argument(&mut self, array: Array, model: &Model) -> Argument {
-        let length = array.length(model);
-        self.lengths.insert(array, length);
-        let (ident, length) = (array.ident(), Literal::usize_unsuffixed(length));
-        Argument { declaration: quote!(#ident: &[T; #length]), value: quote!(&#ident) }
+    pub fn argument(&mut self, array: Array, model: &Model, access: &Access) -> Argument {
+        let (ident, length) = (array.ident(), array.length(model));
+        let is_given = access.is_on_arrays() && array.is_given();
+        let value = if is_given {
+            quote!(#ident)
+        } else {
+            self.lengths.insert(array, length);
+            quote!(&#ident)
+        };
+        let length = Literal::usize_unsuffixed(length);
+        Argument { declaration: quote!(#ident: &[T; #length]), value }
     }
 
     pub fn declarations(&self, names: &Names, access: &Access) -> TokenStream {

@@ -8,13 +8,14 @@ mod arrays;
 mod repeated;
 mod slots;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use mbs_symbolic::{Block, Operand, Program};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+pub use self::arrays::Array;
 use self::arrays::Arrays;
 pub use self::slots::Slots;
 use super::access::{Access, Argument};
@@ -95,7 +96,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     for (at, block) in blocks.iter().enumerate() {
         let number = at + 1;
         let part = match block {
-            Block::Straight(range) => straight(&context, range.clone(), format_ident!("part_{number}")),
+            Block::Straight(range) => straight(&context, range.clone(), &mut arrays, format_ident!("part_{number}")),
             Block::Repeated(repetition) => {
                 repeated::part(&context, *repetition, &mut arrays, format_ident!("repeated_{number}"))
             }
@@ -144,7 +145,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
 }
 
 /// Instructions that are written once.
-fn straight(context: &Context<'_>, range: Range<usize>, name: Ident) -> Part {
+fn straight(context: &Context<'_>, range: Range<usize>, arrays: &mut Arrays, name: Ident) -> Part {
     let Context { model, names, program, access, pairs, slots } = *context;
     let mut writer = Writer::new(model, program, access, pairs, range.clone()).with_slots(slots);
     range.clone().for_each(|at| writer.instruction(at));
@@ -155,6 +156,15 @@ fn straight(context: &Context<'_>, range: Range<usize>, name: Ident) -> Part {
     }
     let operands: Vec<Operand> =
         program.instructions[range].iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
-    let arguments = access.arguments(model, names, &operands);
+    let mut arguments = access.arguments(model, names, &operands);
+    if access.is_on_arrays() {
+        let vector = |operand: &Operand| match operand {
+            Operand::Symbol(symbol) => Array::of(model.meanings[symbol.index()]),
+            _ => None,
+        };
+        let given: BTreeSet<_> = operands.iter().filter_map(vector).map(|(array, _)| array).collect();
+        let given = given.into_iter().filter(|array| array.is_given());
+        arguments.extend(given.map(|array| arrays.argument(array, model, access)));
+    }
     Part { name, doc: None, statements: writer.statements, arguments }
 }

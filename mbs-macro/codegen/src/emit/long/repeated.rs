@@ -8,19 +8,21 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::arrays::{Array, Arrays};
+use super::slots::Kept;
 use super::{Context, Part};
 use crate::emit::program::Writer;
 
 /// A loop over the copies.
 pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, name: Ident) -> Part {
     let Context { model, names, program, access, pairs, slots } = *context;
+    let runtime = &names.runtime;
     let first_copy = repetition.start..repetition.start + repetition.length;
     let sources: Vec<[Source; 2]> =
         (0..repetition.length).map(|at| repetition.sources(program, at)).collect();
 
     let mut simple = Columns::new(context, repetition);
     if let Some(statements) = angles(context, &mut simple, &first_copy, &sources) {
-        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, model)).collect();
+        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, model, access)).collect();
         let doc = Some(format!(" {} angles.", repetition.count));
         return Part { name, doc, statements, arguments };
     }
@@ -32,27 +34,38 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
             writer.set_apart(at);
         }
     }
+    let (mut before, mut after) = (TokenStream::new(), TokenStream::new());
+    let mut kept = BTreeSet::new();
     for (at, sources) in first_copy.clone().zip(&sources) {
         let [a, b] = sources.each_ref().map(|source| columns.read(source));
         writer.statements.extend(std::mem::take(&mut columns.reads));
         writer.instruction_of(at, [a, b]);
-    }
-    let runtime = &names.runtime;
-    for at in first_copy.clone() {
-        let copies = (0..repetition.count).map(|copy| slots.of(at + copy * repetition.length));
-        if let (Some(places), Some(value)) = (copies.collect::<Option<Vec<_>>>(), writer.result(at)) {
-            let place = columns.place(places);
-            writer.statements.extend(quote!(#runtime::__private::write(slots, #place, #value);));
+        // a sine comes with its cosine
+        for at in [Some(at), pairs.partner(at)].into_iter().flatten() {
+            let Some(value) = writer.result(at).filter(|_| kept.insert(at)) else { continue };
+            match slots.of_copies(&repetition, at) {
+                Kept::No => {}
+                Kept::Each(places) => {
+                    let place = columns.place(places);
+                    writer.statements.extend(quote!(#runtime::__private::write(slots, #place, #value);));
+                }
+                Kept::Last(place) => {
+                    let (last, place) = (format_ident!("last_{}", kept.len()), Literal::usize_unsuffixed(place));
+                    before.extend(quote!(let mut #last = T::from_f64(0.0);));
+                    writer.statements.extend(quote!(#last = #value;));
+                    after.extend(quote!(slots[#place] = #last;));
+                }
+            }
         }
     }
-    let (before, after) = columns.carried_values(&writer);
+    let (first, next) = columns.carried_values(&writer);
     let head = columns.head();
     let body = writer.statements;
-    let statements = quote!(#before #head { #body #after });
+    let statements = quote!(#before #first #head { #body #next } #after);
 
     let operands: Vec<Operand> = sources.iter().flatten().filter_map(first_operand).collect();
     let mut arguments = access.arguments(model, names, &operands);
-    arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, model)));
+    arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, model, access)));
     let doc = format!(" {} instructions, {} times.", repetition.length, repetition.count);
     Part { name, doc: Some(doc), statements, arguments }
 }
@@ -77,8 +90,11 @@ fn angles(
     let runtime = &names.runtime;
     let mut kept = TokenStream::new();
     for (at, result) in first_copy.clone().zip(results) {
-        let copies = (0..columns.repetition.count).map(|copy| slots.of(at + 2 * copy));
-        if let Some(places) = copies.collect::<Option<Vec<_>>>() {
+        // of a last one alone the others would have to be left out
+        if let Kept::Last(_) = slots.of_copies(&columns.repetition, at) {
+            return None;
+        }
+        if let Kept::Each(places) = slots.of_copies(&columns.repetition, at) {
             let (place, result) = (columns.place(places), format_ident!("{result}"));
             kept.extend(quote!(#runtime::__private::write(slots, #place, #result);));
         }

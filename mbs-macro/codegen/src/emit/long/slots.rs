@@ -16,6 +16,14 @@ pub struct Slots {
     length: usize,
 }
 
+/// Which results of the copies of an instruction are kept, and where.
+pub enum Kept {
+    /// They do not leave their copy, but for the next.
+    No,
+    Last(usize),
+    Each(Vec<usize>),
+}
+
 impl Slots {
     pub fn new(program: &Program, blocks: &[Block]) -> Self {
         let readers = last_readers(program, blocks);
@@ -26,7 +34,13 @@ impl Slots {
                 Block::Straight(range) => range.clone().map(|value| vec![value]).collect(),
                 Block::Repeated(repetition) => results(repetition).collect(),
             };
-            for group in groups {
+            for mut group in groups {
+                let is_read = |value: &usize| readers.contains_key(value);
+                if let Some((last, before)) = group.split_last()
+                    && !before.iter().any(is_read)
+                {
+                    group = vec![*last];
+                }
                 let Some(last) = group.iter().filter_map(|value| readers.get(value)).max() else { continue };
                 let first = space.take(group.len(), *last);
                 slots.extend(group.into_iter().zip(first..));
@@ -43,6 +57,16 @@ impl Slots {
     /// Where the result of an instruction is kept.
     pub fn of(&self, value: usize) -> Option<usize> {
         self.slots.get(&value).copied()
+    }
+
+    /// Where the results of an instruction of a repetition are kept.
+    pub fn of_copies(&self, repetition: &Repetition, at: usize) -> Kept {
+        let Repetition { length, count, .. } = *repetition;
+        let copies = (0..count).map(|copy| self.of(at + copy * length));
+        match copies.collect::<Option<Vec<_>>>() {
+            Some(places) => Kept::Each(places),
+            None => self.of(at + (count - 1) * length).map_or(Kept::No, Kept::Last),
+        }
     }
 
     pub fn token(&self, value: usize) -> Option<TokenStream> {
