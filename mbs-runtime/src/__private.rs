@@ -51,6 +51,14 @@ pub fn gather<T: Real, const N: usize>(values: &[T], places: &[u32; N]) -> [T; N
     places.map(|place| read(values, place as usize))
 }
 
+/// The same into an array.
+#[inline]
+pub fn gather_into<T: Real, const N: usize>(values: &[T], places: &[u32; N], into: &mut [T; N]) {
+    for (into, &place) in into.iter_mut().zip(places) {
+        *into = read(values, place as usize);
+    }
+}
+
 /// x and y in turn as points.
 pub fn pairs<T: Real, const N: usize>(values: &[T]) -> [[T; 2]; N] {
     core::array::from_fn(|at| [read(values, 2 * at), read(values, 2 * at + 1)])

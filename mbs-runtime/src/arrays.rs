@@ -3,16 +3,34 @@
 //! step converts its state once.
 
 use crate::heun::{correct, predict};
-use crate::{Accelerations, Components, Feedback, Gains, Mechanism, Real, Stabilized, State, Stepped};
+use crate::mechanism::growth_limit;
+use crate::{Accelerations, Components, Feedback, Gains, Mechanism, Real, Stabilized, State};
 
 /// The coordinates of a mechanism as an array.
 pub type Coordinates<M> = <<M as Mechanism>::Coordinates as Components>::Array;
 /// One number per constraint as an array.
 pub type Constraints<M> = <<M as Mechanism>::Constraints as Components>::Array;
 
+/// What a step on arrays works with, all 0.
+pub struct Room<M: OnArrays> {
+    /// One vector of coordinates.
+    pub coordinates: Coordinates<M>,
+    /// One number per constraint.
+    pub constraints: Constraints<M>,
+    /// Results that loops hand to each other.
+    pub slots: M::Slots,
+}
+
 /// The stages of a mechanism whose programs became loops.
 pub trait OnArrays: Mechanism {
-    /// [`stabilized`](Mechanism::stabilized): q̈, the feedback and the growth.
+    /// An array for what loops hand to each other.
+    type Slots;
+
+    /// Zeros.
+    fn room() -> Room<Self>;
+
+    /// [`stabilized`](Mechanism::stabilized): q̈, the feedback, and as its value the growth.
+    #[allow(clippy::too_many_arguments, reason = "the arrays of one stage")]
     fn stabilized_on_arrays(
         &self,
         t: Self::Real,
@@ -20,9 +38,13 @@ pub trait OnArrays: Mechanism {
         v: &Coordinates<Self>,
         inputs: &Self::Inputs,
         gains: &Gains<Self::Real>,
-    ) -> (Coordinates<Self>, Constraints<Self>, Self::Real);
+        acceleration: &mut Coordinates<Self>,
+        feedback: &mut Constraints<Self>,
+        slots: &mut Self::Slots,
+    ) -> Self::Real;
 
-    /// [`constrained`](Mechanism::constrained): q̈ and the growth.
+    /// [`constrained`](Mechanism::constrained): q̈, and as its value the growth.
+    #[allow(clippy::too_many_arguments, reason = "the arrays of one stage")]
     fn constrained_on_arrays(
         &self,
         t: Self::Real,
@@ -30,7 +52,9 @@ pub trait OnArrays: Mechanism {
         v: &Coordinates<Self>,
         inputs: &Self::Inputs,
         feedback: &Constraints<Self>,
-    ) -> (Coordinates<Self>, Self::Real);
+        acceleration: &mut Coordinates<Self>,
+        slots: &mut Self::Slots,
+    ) -> Self::Real;
 }
 
 /// [`Mechanism::stabilized`] of such a mechanism.
@@ -40,9 +64,11 @@ pub fn stabilized<M: OnArrays>(
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
 ) -> Stabilized<M::Coordinates, M::Constraints> {
+    let Room { coordinates: mut a, constraints: mut feedback, mut slots } = M::room();
     let (q, v) = (at.q.into_array(), at.v.into_array());
-    let (acceleration, feedback, growth) = mechanism.stabilized_on_arrays(at.t, &q, &v, inputs, gains);
-    let (acceleration, feedback) = (Components::from_array(acceleration), Components::from_array(feedback));
+    let growth =
+        mechanism.stabilized_on_arrays(at.t, &q, &v, inputs, gains, &mut a, &mut feedback, &mut slots);
+    let (acceleration, feedback) = (Components::from_array(a), Components::from_array(feedback));
     Stabilized { acceleration, feedback, growth }
 }
 
@@ -53,37 +79,56 @@ pub fn constrained<M: OnArrays>(
     inputs: &M::Inputs,
     feedback: &M::Constraints,
 ) -> Accelerations<M::Coordinates> {
+    let Room { coordinates: mut a, mut slots, .. } = M::room();
     let (q, v, feedback) = (at.q.into_array(), at.v.into_array(), feedback.into_array());
-    let (acceleration, growth) = mechanism.constrained_on_arrays(at.t, &q, &v, inputs, &feedback);
-    Accelerations { acceleration: Components::from_array(acceleration), growth }
+    let growth = mechanism.constrained_on_arrays(at.t, &q, &v, inputs, &feedback, &mut a, &mut slots);
+    Accelerations { acceleration: Components::from_array(a), growth }
 }
 
-/// A step of Heun's method, in the operations of the stages one by one.
+/// A step of Heun's method in place, in the operations of the stages one by one. A state
+/// that is not good is left as it was, and the answer is no.
 #[inline(never)]
 pub fn step<M: OnArrays, F: Feedback>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    state: &mut State<M::Coordinates>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
-) -> Stepped<M::Coordinates> {
-    let (q, v) = (at.q.into_array(), at.v.into_array());
-    let (here, feedback, growth_here) = mechanism.stabilized_on_arrays(at.t, &q, &v, inputs, gains);
+) -> bool {
+    let Room { coordinates: zeros, mut constraints, mut slots } = M::room();
+    let (mut q, mut v, mut here, mut there) = (zeros, zeros, zeros, zeros);
+    state.q.copy_to(&mut q);
+    state.v.copy_to(&mut v);
+    let growth_here = mechanism.stabilized_on_arrays(
+        state.t,
+        &q,
+        &v,
+        inputs,
+        gains,
+        &mut here,
+        &mut constraints,
+        &mut slots,
+    );
     let (mut q_next, mut v_next) = (q, v);
     predict(h, here.as_ref(), q_next.as_mut(), v_next.as_mut());
-    let (there, growth_there) = if F::IS_HELD {
-        mechanism.constrained_on_arrays(t_next, &q_next, &v_next, inputs, &feedback)
+    let (t, q_there, v_there) = (t_next, &q_next, &v_next);
+    let growth_there = if F::IS_HELD {
+        let feedback = &constraints;
+        mechanism.constrained_on_arrays(t, q_there, v_there, inputs, feedback, &mut there, &mut slots)
     } else {
-        let (there, _, growth) = mechanism.stabilized_on_arrays(t_next, &q_next, &v_next, inputs, gains);
-        (there, growth)
+        let feedback = &mut constraints;
+        mechanism.stabilized_on_arrays(t, q_there, v_there, inputs, gains, &mut there, feedback, &mut slots)
     };
     correct(h, [q.as_ref(), v.as_ref()], [here.as_ref(), there.as_ref()], q_next.as_mut(), v_next.as_mut());
     let is_finite = |array: &[M::Real]| array.iter().fold(true, |finite, x| finite & x.is_finite());
-    let is_finite = is_finite(q_next.as_ref()) & is_finite(v_next.as_ref());
-    Stepped {
-        next: State { t: t_next, q: Components::from_array(q_next), v: Components::from_array(v_next) },
-        growth: growth_here + growth_there,
-        sum: M::Real::from_f64(if is_finite { 0.0 } else { f64::NAN }),
+    let growth = growth_here + growth_there;
+    // written so that a NaN fails the test
+    let is_good = growth < growth_limit() && is_finite(q_next.as_ref()) & is_finite(v_next.as_ref());
+    if is_good {
+        state.t = t_next;
+        state.q.copy_from(&q_next);
+        state.v.copy_from(&v_next);
     }
+    is_good
 }

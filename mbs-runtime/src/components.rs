@@ -21,6 +21,20 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     /// Every component equal to `value`.
     fn splat(value: Self::Real) -> Self;
 
+    /// Writes the components into an array.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn copy_to(&self, array: &mut Self::Array) {
+        *array = self.into_array();
+    }
+
+    /// Takes the components from an array.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn copy_from(&mut self, array: &Self::Array) {
+        *self = Self::from_array(*array);
+    }
+
     /// f of every component.
     #[inline(always)]
     #[must_use]

@@ -187,6 +187,21 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         None
     }
 
+    /// The step of a mechanism with long vectors, in place: whether there is one, and it
+    /// is good; if not, the state is left as it was.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn long_step<F: Feedback>(
+        &self,
+        _state: &mut State<Self::Coordinates>,
+        _inputs: &Self::Inputs,
+        _gains: &Gains<Self::Real>,
+        _h: Self::Real,
+        _t_next: Self::Real,
+    ) -> bool {
+        false
+    }
+
     /// Solves for q̈ and λ with γ + `feedback` below.
     fn reactions(
         &self,

@@ -84,6 +84,11 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             self.steps += 1;
             return Ok(());
         }
+        let Self { mechanism, state, inputs, gains, step, .. } = self;
+        if mechanism.long_step::<F>(state, inputs, gains, *step, t_next) {
+            self.steps += 1;
+            return Ok(());
+        }
         self.step_in_stages(t_next)
     }
 

@@ -20,6 +20,8 @@ pub struct Body {
     pub outputs: Vec<TokenStream>,
     /// Of a long program, the slots that hold them.
     pub places: Option<Vec<usize>>,
+    /// How many slots a long program has.
+    pub slots: usize,
     pub runtime: TokenStream,
 }
 
@@ -35,6 +37,17 @@ impl Body {
         quote! {{
             const PLACES: [::core::primitive::u32; #count] = [#(#places),*];
             #runtime::__private::gather(&slots, &PLACES)
+        }}
+    }
+
+    /// Statements that write some of the outputs of a long program into an array.
+    pub fn write(&self, array: &TokenStream, range: Range<usize>) -> TokenStream {
+        let (runtime, count) = (&self.runtime, Literal::usize_unsuffixed(range.len()));
+        let places = self.places.iter().flat_map(|places| &places[range.clone()]);
+        let places = places.map(|&place| Literal::usize_unsuffixed(place));
+        quote! {{
+            const PLACES: [::core::primitive::u32; #count] = [#(#places),*];
+            #runtime::__private::gather_into(slots, &PLACES, #array);
         }}
     }
 
@@ -71,7 +84,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) ->
     let mut writer = Writer::new(model, program, access, &pairs, range.clone());
     range.for_each(|at| writer.instruction(at));
     let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
-    Body { statements: writer.statements, outputs, places: None, runtime: names.runtime.clone() }
+    Body { statements: writer.statements, outputs, places: None, slots: 0, runtime: names.runtime.clone() }
 }
 
 /// Sine instruction ↔ cosine instruction of the same angle.

@@ -23,21 +23,44 @@ pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream 
     let Names { mechanism, runtime, .. } = names;
     let inputs = &names.inputs.of_t;
     let (n, m) = (model.coordinates.len(), model.constraints.len());
-    let [coordinates, constraints] = [n, m].map(|length| {
+    let stabilized = body(model, names, &plan.stabilized, &Access::of_arrays());
+    let constrained = body(model, names, &plan.constrained, &Access::of_arrays());
+    let [coordinates, constraints, slots] = [n, m, stabilized.slots.max(constrained.slots)].map(|length| {
         let length = Literal::usize_unsuffixed(length);
         quote!([T; #length])
     });
-    let stabilized = body(model, names, &plan.stabilized, &Access::of_arrays());
-    let (acceleration, feedback) = (stabilized.array(0..n), stabilized.array(n..n + m));
-    let Body { statements: stabilized, outputs, .. } = stabilized;
-    let growth_of_stabilized = outputs.last();
-    let constrained = body(model, names, &plan.constrained, &Access::of_arrays());
-    let constrained_acceleration = constrained.array(0..n);
-    let Body { statements: constrained, outputs, .. } = constrained;
-    let growth_of_constrained = outputs.last();
+    let slot_count = Literal::usize_unsuffixed(stabilized.slots.max(constrained.slots));
+    let stage = |body: &Body, results: &TokenStream| {
+        let (statements, growth) = (&body.statements, body.outputs.last());
+        quote! {
+            const SLOTS: ::core::primitive::usize = #slot_count;
+            #statements
+            #results
+            #growth
+        }
+    };
+    let acceleration = |body: &Body| body.write(&quote!(acceleration), 0..n);
+    let feedback = stabilized.write(&quote!(feedback), n..n + m);
+    let acceleration_of_stabilized = acceleration(&stabilized);
+    let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
+    let constrained = stage(&constrained, &acceleration(&constrained));
+    let zeros = |length: usize| {
+        let length = Literal::usize_unsuffixed(length);
+        quote!([T::from_f64(0.0); #length])
+    };
+    let (zero_coordinates, zero_constraints) = (zeros(n), zeros(m));
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #runtime::arrays::OnArrays for #mechanism<T> {
+            type Slots = #slots;
+            #[inline(always)]
+            fn room() -> #runtime::arrays::Room<Self> {
+                #runtime::arrays::Room {
+                    coordinates: #zero_coordinates,
+                    constraints: #zero_constraints,
+                    slots: [T::from_f64(0.0); #slot_count],
+                }
+            }
             fn stabilized_on_arrays(
                 &self,
                 t: T,
@@ -45,10 +68,10 @@ pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream 
                 velocity_array: &#coordinates,
                 inputs: &#inputs,
                 gains: &#runtime::Gains<T>,
-            ) -> (#coordinates, #constraints, T) {
-                #stabilized
-                (#acceleration, #feedback, #growth_of_stabilized)
-            }
+                acceleration: &mut #coordinates,
+                feedback: &mut #constraints,
+                slots: &mut #slots,
+            ) -> T { #stabilized }
             fn constrained_on_arrays(
                 &self,
                 t: T,
@@ -56,10 +79,9 @@ pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream 
                 velocity_array: &#coordinates,
                 inputs: &#inputs,
                 feedback_array: &#constraints,
-            ) -> (#coordinates, T) {
-                #constrained
-                (#constrained_acceleration, #growth_of_constrained)
-            }
+                acceleration: &mut #coordinates,
+                slots: &mut #slots,
+            ) -> T { #constrained }
         }
     }
 }
@@ -67,11 +89,11 @@ pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream 
 /// The trait's step, on arrays.
 pub fn step(names: &Names) -> TokenStream {
     let Names { runtime, state, .. } = names;
-    let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
+    let inputs = &names.inputs.of_t;
     quote! {
         #[inline(always)]
-        fn fused_step<F: #runtime::Feedback>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#runtime::Stepped<#q>> {
-            ::core::option::Option::Some(#runtime::arrays::step::<Self, F>(self, at, inputs, gains, h, t_next))
+        fn long_step<F: #runtime::Feedback>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::primitive::bool {
+            #runtime::arrays::step::<Self, F>(self, state, inputs, gains, h, t_next)
         }
     }
 }

@@ -156,6 +156,19 @@ fn components(
         true => quote!(#[inline(always)]),
         false => quote!(#[inline(never)]),
     };
+    let positions: Vec<_> = positions.collect();
+    let copies = (fields.len() > LARGEST_INLINED).then(|| {
+        quote! {
+            #[inline(never)]
+            fn copy_to(&self, array: &mut [T; #length]) {
+                #(array[#positions] = self.#idents;)*
+            }
+            #[inline(never)]
+            fn copy_from(&mut self, array: &[T; #length]) {
+                #(self.#idents = array[#positions];)*
+            }
+        }
+    });
     let (array, value) =
         if fields.is_empty() { (quote!(_), quote!(_)) } else { (quote!(array), quote!(value)) };
     quote! {
@@ -190,6 +203,7 @@ fn components(
             fn splat(#value: T) -> Self {
                 Self { #(#idents: value,)* #marker_value }
             }
+            #copies
         }
 
         impl<T: #runtime::Real> ::core::convert::From<#name<T>> for #nalgebra::SVector<T, #length> {

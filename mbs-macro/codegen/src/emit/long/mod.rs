@@ -85,13 +85,15 @@ struct Part {
     arguments: Vec<Argument>,
 }
 
-/// Definitions and calls of the functions, and the outputs.
+/// Definitions and calls of the functions, and the outputs. Where access is to arrays, the
+/// slots are given too, and `SLOTS` is how many.
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
     let slots = Slots::new(program, blocks);
     let pairs = Pairs::new(program);
     let inside = access.in_part(names);
     let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };
     let mut arrays = Arrays::default();
+    let given_slots = if access.is_on_arrays() { quote!(slots) } else { quote!(&mut slots) };
     let (mut definitions, mut calls) = (TokenStream::new(), TokenStream::new());
     for (at, block) in blocks.iter().enumerate() {
         let number = at + 1;
@@ -111,7 +113,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
             #[inline(never)]
             fn #name<T: #runtime::Real>(#(#declarations,)* slots: &mut [T; SLOTS]) { #statements }
         });
-        calls.extend(quote!(#name(#(#values,)* &mut slots);));
+        calls.extend(quote!(#name(#(#values,)* #given_slots);));
     }
     // outside the functions, symbols are read as the function around them reads them
     let outside = Writer::new(model, program, access, &pairs, 0..0).with_slots(&slots);
@@ -132,16 +134,16 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
             length - 1
         }));
     }
-    let length = Literal::usize_unsuffixed(length);
     let arrays = arrays.declarations(names, access);
-    let statements = quote! {
-        const SLOTS: ::core::primitive::usize = #length;
-        #definitions
-        #arrays
-        let mut slots = [T::from_f64(0.0); SLOTS];
-        #calls
-    };
-    Body { statements, outputs, places: Some(places), runtime: names.runtime.clone() }
+    let room = (!access.is_on_arrays()).then(|| {
+        let length = Literal::usize_unsuffixed(length);
+        quote! {
+            const SLOTS: ::core::primitive::usize = #length;
+            let mut slots = [T::from_f64(0.0); SLOTS];
+        }
+    });
+    let statements = quote!(#room #definitions #arrays #calls);
+    Body { statements, outputs, places: Some(places), slots: length, runtime: names.runtime.clone() }
 }
 
 /// Instructions that are written once.
