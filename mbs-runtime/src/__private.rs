@@ -51,11 +51,11 @@ pub fn gather<T: Real, const N: usize>(values: &[T], places: &[u32; N]) -> [T; N
     places.map(|place| read(values, place as usize))
 }
 
-/// The same into an array.
+/// Copies values from places of an array to places of another; see [`read`].
 #[inline]
-pub fn gather_into<T: Real, const N: usize>(values: &[T], places: &[u32; N], into: &mut [T; N]) {
-    for (into, &place) in into.iter_mut().zip(places) {
-        *into = read(values, place as usize);
+pub fn copy<T: Real>(from: &[T], to: &mut [T], places: &[[u32; 2]]) {
+    for &[here, there] in places {
+        write(to, there as usize, read(from, here as usize));
     }
 }
 

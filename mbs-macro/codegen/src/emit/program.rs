@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
-use super::long::{self, Array, Slots};
+use super::long::{self, Array, Kind, Place, Slots};
 use super::names::{Names, field};
 use super::splines::spline_name;
 use crate::model::{Meaning, Model};
@@ -18,8 +18,8 @@ pub struct Body {
     pub statements: TokenStream,
     /// As expressions.
     pub outputs: Vec<TokenStream>,
-    /// Of a long program, the slots that hold them.
-    pub places: Option<Vec<usize>>,
+    /// Of a long program, where they are kept.
+    pub places: Option<Vec<Place>>,
     /// How many slots a long program has.
     pub slots: usize,
     pub runtime: TokenStream,
@@ -33,21 +33,31 @@ impl Body {
             return quote!([#(#outputs),*]);
         };
         let (runtime, count) = (&self.runtime, Literal::usize_unsuffixed(range.len()));
-        let places = places[range].iter().map(|&place| Literal::usize_unsuffixed(place));
+        let places = places[range].iter().map(|place| Literal::usize_unsuffixed(place.at));
         quote! {{
             const PLACES: [::core::primitive::u32; #count] = [#(#places),*];
             #runtime::__private::gather(&slots, &PLACES)
         }}
     }
 
-    /// Statements that write some of the outputs of a long program into an array.
-    pub fn write(&self, array: &TokenStream, range: Range<usize>) -> TokenStream {
-        let (runtime, count) = (&self.runtime, Literal::usize_unsuffixed(range.len()));
-        let places = self.places.iter().flat_map(|places| &places[range.clone()]);
-        let places = places.map(|&place| Literal::usize_unsuffixed(place));
+    /// Statements that write those of the outputs of a long program into an array that are
+    /// not there yet.
+    pub fn write(&self, array: Kind, range: Range<usize>) -> TokenStream {
+        let runtime = &self.runtime;
+        let places = self.places.iter().flat_map(|places| places[range.clone()].iter().enumerate());
+        let literal = Literal::usize_unsuffixed;
+        let rows: Vec<_> = places
+            .filter(|(_, place)| place.array == Kind::Slots)
+            .map(|(to, place)| (literal(place.at), literal(to)))
+            .map(|(from, to)| quote!([#from, #to]))
+            .collect();
+        if rows.is_empty() {
+            return TokenStream::new();
+        }
+        let (array, count) = (array.ident(), literal(rows.len()));
         quote! {{
-            const PLACES: [::core::primitive::u32; #count] = [#(#places),*];
-            #runtime::__private::gather_into(slots, &PLACES, #array);
+            const PLACES: [[::core::primitive::u32; 2]; #count] = [#(#rows),*];
+            #runtime::__private::copy(slots, #array, &PLACES);
         }}
     }
 

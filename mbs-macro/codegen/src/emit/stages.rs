@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
-use super::long;
+use super::long::{self, Kind};
 use super::names::Names;
 use super::program::{Body, body};
 use crate::model::Model;
@@ -39,8 +39,8 @@ pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream 
             #growth
         }
     };
-    let acceleration = |body: &Body| body.write(&quote!(acceleration), 0..n);
-    let feedback = stabilized.write(&quote!(feedback), n..n + m);
+    let acceleration = |body: &Body| body.write(Kind::Acceleration, 0..n);
+    let feedback = stabilized.write(Kind::Feedback, n..n + m);
     let acceleration_of_stabilized = acceleration(&stabilized);
     let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
     let constrained = stage(&constrained, &acceleration(&constrained));

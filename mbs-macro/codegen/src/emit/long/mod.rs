@@ -17,7 +17,7 @@ use quote::{format_ident, quote};
 
 pub use self::arrays::Array;
 use self::arrays::Arrays;
-pub use self::slots::Slots;
+pub use self::slots::{Kind, Place, Slots};
 use super::access::{Access, Argument};
 use super::names::Names;
 use super::program::{Body, Pairs, Writer};
@@ -88,7 +88,8 @@ struct Part {
 /// Definitions and calls of the functions, and the outputs. Where access is to arrays, the
 /// slots are given too, and `SLOTS` is how many.
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
-    let slots = Slots::new(program, blocks);
+    let results = results(model, program, access);
+    let slots = Slots::new(program, blocks, &results);
     let pairs = Pairs::new(program);
     let inside = access.in_part(names);
     let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };
@@ -103,7 +104,11 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
                 repeated::part(&context, *repetition, &mut arrays, format_ident!("repeated_{number}"))
             }
         };
-        let Part { name, doc, statements, arguments } = part;
+        let Part { name, doc, statements, mut arguments } = part;
+        arguments.extend(results.iter().map(|(array, length)| {
+            let (array, length) = (array.ident(), Literal::usize_unsuffixed(*length));
+            Argument { declaration: quote!(#array: &mut [T; #length]), value: quote!(#array) }
+        }));
         let doc = doc.map(|doc| quote!(#[doc = #doc]));
         let declarations = arguments.iter().map(|argument| &argument.declaration);
         let values = arguments.iter().map(|argument| &argument.value);
@@ -120,18 +125,18 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     let outputs: Vec<_> = program.outputs.iter().map(|&output| outside.operand(output)).collect();
     let mut length = slots.len();
     let mut places = Vec::with_capacity(outputs.len());
-    let mut others: HashMap<Operand, usize> = HashMap::new();
+    let mut others: HashMap<Operand, Place> = HashMap::new();
     for (&output, value) in program.outputs.iter().zip(&outputs) {
         let place = match output {
             Operand::Value(at) => slots.of(at),
             other => others.get(&other).copied(),
         };
         places.push(place.unwrap_or_else(|| {
-            let place = Literal::usize_unsuffixed(length);
-            calls.extend(quote!(slots[#place] = #value;));
-            others.insert(output, length);
+            let (at, place) = (Literal::usize_unsuffixed(length), Place { array: Kind::Slots, at: length });
+            calls.extend(quote!(slots[#at] = #value;));
+            others.insert(output, place);
             length += 1;
-            length - 1
+            place
         }));
     }
     let arrays = arrays.declarations(names, access);
@@ -144,6 +149,17 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     });
     let statements = quote!(#room #definitions #arrays #calls);
     Body { statements, outputs, places: Some(places), slots: length, runtime: names.runtime.clone() }
+}
+
+/// The arrays of results that stages on arrays are given, and their lengths.
+fn results(model: &Model, program: &Program, access: &Access) -> Vec<(Kind, usize)> {
+    if !access.is_on_arrays() {
+        return Vec::new();
+    }
+    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let has_feedback = program.outputs.len() > n + m;
+    let feedback = has_feedback.then_some((Kind::Feedback, m));
+    [(Kind::Acceleration, n)].into_iter().chain(feedback).collect()
 }
 
 /// Instructions that are written once.

@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::arrays::{Array, Arrays};
-use super::slots::Kept;
+use super::slots::{Kept, Place};
 use super::{Context, Part};
 use crate::emit::program::Writer;
 
@@ -45,15 +45,16 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
             let Some(value) = writer.result(at).filter(|_| kept.insert(at)) else { continue };
             match slots.of_copies(&repetition, at) {
                 Kept::No => {}
-                Kept::Each(places) => {
-                    let place = columns.place(places);
-                    writer.statements.extend(quote!(#runtime::__private::write(slots, #place, #value);));
+                Kept::Each(array, places) => {
+                    let (array, place) = (array.ident(), columns.place(places));
+                    writer.statements.extend(quote!(#runtime::__private::write(#array, #place, #value);));
                 }
-                Kept::Last(place) => {
-                    let (last, place) = (format_ident!("last_{}", kept.len()), Literal::usize_unsuffixed(place));
+                Kept::Last(Place { array, at }) => {
+                    let last = format_ident!("last_{}", kept.len());
+                    let (array, place) = (array.ident(), Literal::usize_unsuffixed(at));
                     before.extend(quote!(let mut #last = T::from_f64(0.0);));
                     writer.statements.extend(quote!(#last = #value;));
-                    after.extend(quote!(slots[#place] = #last;));
+                    after.extend(quote!(#array[#place] = #last;));
                 }
             }
         }
@@ -94,9 +95,9 @@ fn angles(
         if let Kept::Last(_) = slots.of_copies(&columns.repetition, at) {
             return None;
         }
-        if let Kept::Each(places) = slots.of_copies(&columns.repetition, at) {
-            let (place, result) = (columns.place(places), format_ident!("{result}"));
-            kept.extend(quote!(#runtime::__private::write(slots, #place, #result);));
+        if let Kept::Each(array, places) = slots.of_copies(&columns.repetition, at) {
+            let (array, place, result) = (array.ident(), columns.place(places), format_ident!("{result}"));
+            kept.extend(quote!(#runtime::__private::write(#array, #place, #result);));
         }
     }
     // places from a table would need the loop
@@ -185,7 +186,11 @@ impl<'a> Columns<'a> {
         let mut places = Vec::with_capacity(operands.len());
         for &operand in operands {
             let place = match operand {
-                Operand::Value(value) => slots.of(value),
+                Operand::Value(value) => slots.of(value).map(|Place { array, at }| {
+                    let ident = array.ident();
+                    values = quote!(#ident);
+                    at
+                }),
                 Operand::Hoisted(at) => {
                     values = quote!(&#this.hoisted);
                     Some(at)

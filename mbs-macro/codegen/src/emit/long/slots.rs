@@ -6,13 +6,41 @@
 use std::collections::HashMap;
 
 use mbs_symbolic::{Block, Operand, Program, Repetition, Source};
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
 
-/// The slots of results that leave their block or their copy.
+/// Where a result is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    pub array: Kind,
+    pub at: usize,
+}
+
+/// The arrays that results are kept in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Reused as soon as nobody reads them any more.
+    Slots,
+    /// The result q̈ itself,
+    Acceleration,
+    /// and the feedback.
+    Feedback,
+}
+
+impl Kind {
+    pub fn ident(self) -> Ident {
+        match self {
+            Self::Slots => format_ident!("slots"),
+            Self::Acceleration => format_ident!("acceleration"),
+            Self::Feedback => format_ident!("feedback"),
+        }
+    }
+}
+
+/// The places of results that leave their block or their copy.
 pub struct Slots {
     /// By instruction.
-    slots: HashMap<usize, usize>,
+    places: HashMap<usize, Place>,
     length: usize,
 }
 
@@ -20,14 +48,16 @@ pub struct Slots {
 pub enum Kept {
     /// They do not leave their copy, but for the next.
     No,
-    Last(usize),
-    Each(Vec<usize>),
+    Last(Place),
+    Each(Kind, Vec<usize>),
 }
 
 impl Slots {
-    pub fn new(program: &Program, blocks: &[Block]) -> Self {
+    /// Outputs are kept in `arrays` at once, where there are any: as many of them in each as
+    /// it says, one array after the other.
+    pub fn new(program: &Program, blocks: &[Block], arrays: &[(Kind, usize)]) -> Self {
         let readers = last_readers(program, blocks);
-        let mut slots = HashMap::new();
+        let mut places = outputs(program, blocks, arrays);
         let mut space = Space::default();
         for (at, block) in blocks.iter().enumerate() {
             let groups: Vec<Vec<usize>> = match block {
@@ -42,12 +72,16 @@ impl Slots {
                     group = vec![*last];
                 }
                 let Some(last) = group.iter().filter_map(|value| readers.get(value)).max() else { continue };
+                if group.iter().all(|value| places.contains_key(value)) {
+                    continue;
+                }
                 let first = space.take(group.len(), *last);
-                slots.extend(group.into_iter().zip(first..));
+                let slots = (first..).map(|at| Place { array: Kind::Slots, at });
+                places.extend(group.into_iter().zip(slots));
             }
             space.release(at);
         }
-        Self { slots, length: space.length }
+        Self { places, length: space.length }
     }
 
     pub fn len(&self) -> usize {
@@ -55,23 +89,70 @@ impl Slots {
     }
 
     /// Where the result of an instruction is kept.
-    pub fn of(&self, value: usize) -> Option<usize> {
-        self.slots.get(&value).copied()
+    pub fn of(&self, value: usize) -> Option<Place> {
+        self.places.get(&value).copied()
     }
 
     /// Where the results of an instruction of a repetition are kept.
     pub fn of_copies(&self, repetition: &Repetition, at: usize) -> Kept {
         let Repetition { length, count, .. } = *repetition;
         let copies = (0..count).map(|copy| self.of(at + copy * length));
-        match copies.collect::<Option<Vec<_>>>() {
-            Some(places) => Kept::Each(places),
-            None => self.of(at + (count - 1) * length).map_or(Kept::No, Kept::Last),
+        match copies.collect::<Option<Vec<_>>>().as_deref() {
+            // those of all copies are in one array
+            Some(places @ [first, ..]) => {
+                Kept::Each(first.array, places.iter().map(|place| place.at).collect())
+            }
+            _ => self.of(at + (count - 1) * length).map_or(Kept::No, Kept::Last),
         }
     }
 
     pub fn token(&self, value: usize) -> Option<TokenStream> {
-        let slot = Literal::usize_unsuffixed(self.of(value)?);
-        Some(quote!(slots[#slot]))
+        let Place { array, at } = self.of(value)?;
+        let (array, at) = (array.ident(), Literal::usize_unsuffixed(at));
+        Some(quote!(#array[#at]))
+    }
+}
+
+/// The places of outputs in the arrays that are returned. A loop reads and writes one array
+/// by one rule: where only some of the results would be outputs, none of them is
+/// kept there; nor is one that is two outputs.
+fn outputs(program: &Program, blocks: &[Block], arrays: &[(Kind, usize)]) -> HashMap<usize, Place> {
+    let mut places = HashMap::new();
+    let all = arrays.iter().flat_map(|&(array, length)| (0..length).map(move |at| Place { array, at }));
+    let mut twice = Vec::new();
+    for (output, place) in program.outputs.iter().zip(all) {
+        if let Operand::Value(value) = *output
+            && places.insert(value, place).is_some()
+        {
+            twice.push(value);
+        }
+    }
+    places.retain(|value, _| !twice.contains(value));
+    let value = |operand: &Operand| match operand {
+        Operand::Value(value) => Some(*value),
+        _ => None,
+    };
+    let mut together: Vec<Vec<usize>> = Vec::new();
+    for block in blocks {
+        let Block::Repeated(repetition) = block else { continue };
+        together.extend(results(repetition));
+        for source in (0..repetition.length).flat_map(|at| repetition.sources(program, at)) {
+            if let Source::Each(operands) = source {
+                together.push(operands.iter().filter_map(value).collect());
+            }
+        }
+    }
+    loop {
+        let before = places.len();
+        for group in &together {
+            let array = |value: &usize| places.get(value).map(|place: &Place| place.array);
+            if group.iter().any(|value| array(value) != array(&group[0])) {
+                places.retain(|value, _| !group.contains(value));
+            }
+        }
+        if places.len() == before {
+            return places;
+        }
     }
 }
 
