@@ -6,29 +6,13 @@ use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
 use super::steps::Step;
 use super::unit;
+use super::watch::WatchedPivot;
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
-use crate::operators::Function;
 
 /// Matrix entries with more terms than this are computed once instead of
 /// being opened in the sums that use them.
 const LONGEST_OPEN_SUM: usize = 12;
-
-/// A pivot that may vanish, with its growth: the size of what it was made of
-/// over its own size.
-#[derive(Clone, Copy, Debug)]
-pub struct WatchedPivot {
-    /// The constraint of the pivot.
-    pub row: Option<usize>,
-    /// The coordinate of the pivot.
-    pub coordinate: Option<usize>,
-    /// Its growth.
-    pub growth: Expr,
-    /// What of it is linear in 1/pivot, and the square of the rest.
-    parts: [Option<Expr>; 2],
-    /// Whether the growth can signal a lost pivot before it is exactly 0.
-    pub can_cancel: bool,
-}
 
 /// One step of the elimination, for people to read.
 #[derive(Clone, Debug)]
@@ -64,18 +48,18 @@ pub(super) struct Work<'a> {
     unit: Expr,
     per_unit: Expr,
     /// Σ of the contributions to a diagonal entry that enlarge it.
-    gross: BTreeMap<Unknown, Expr>,
+    pub(super) gross: BTreeMap<Unknown, Expr>,
     /// Entries that were reduced by a later pivot of their own kind.
-    reduced: BTreeSet<Unknown>,
+    pub(super) reduced: BTreeSet<Unknown>,
     /// What a diagonal entry is measured against, in parameters alone; filled
     /// when the first diagonal pivot is taken.
-    scales: Option<BTreeMap<Unknown, Expr>>,
+    pub(super) scales: Option<BTreeMap<Unknown, Expr>>,
     /// What the pivot of the step before left of rows.
     reductions: BTreeMap<Unknown, Reduction>,
-    is_open: bool,
+    pub(super) is_open: bool,
     pub(super) steps: Vec<Step>,
     order: Vec<Elimination>,
-    pivots: Vec<WatchedPivot>,
+    pub(super) pivots: Vec<WatchedPivot>,
 }
 
 impl<'a> Work<'a> {
@@ -240,7 +224,7 @@ impl<'a> Work<'a> {
 
     /// The entry (i, j), computed once. That of a row with itself is made of
     /// negative squares, and its negative is what is computed.
-    fn close(&mut self, i: Unknown, j: Unknown, entry: Expr) -> Expr {
+    pub(super) fn close(&mut self, i: Unknown, j: Unknown, entry: Expr) -> Expr {
         if [i, j].iter().any(|unknown| matches!(unknown, Unknown::Coordinate(_))) {
             return self.arena.share(entry);
         }
@@ -269,112 +253,12 @@ impl<'a> Work<'a> {
     }
 
     /// Leaves a short entry open to algebra, closes a long one.
-    fn settle(&mut self, entry: Expr) -> Expr {
+    pub(super) fn settle(&mut self, entry: Expr) -> Expr {
         let length = match self.arena.node(entry) {
             Node::Sum(_, terms) => terms.len(),
             _ => 1,
         };
         if self.is_open && length <= LONGEST_OPEN_SUM { entry } else { self.arena.share(entry) }
-    }
-
-    fn enlarge(&mut self, unknown: Unknown, contribution: Expr) {
-        let gross = self.gross.get(&unknown).copied().unwrap_or(self.arena.zero());
-        let gross = self.arena.add(gross, contribution);
-        let gross = if self.is_open { self.settle(gross) } else { self.close(unknown, unknown, gross) };
-        self.gross.insert(unknown, gross);
-    }
-
-    /// A pivot of the other kind (a mass for a row) enlarges an entry of the
-    /// Schur complement, one of the same kind reduces it.
-    fn track(&mut self, pivot: Unknown, unknown: Unknown, contribution: Expr) {
-        let same_kind = matches!(pivot, Unknown::Row(_)) == matches!(unknown, Unknown::Row(_));
-        if same_kind {
-            self.reduced.insert(unknown);
-        } else {
-            let negative = self.arena.neg(contribution);
-            self.enlarge(unknown, negative);
-        }
-    }
-
-    fn watch_pair(&mut self, row: Unknown, coordinate: Unknown, pivot: Expr, inverse: Expr) {
-        if self.arena.as_number(pivot).is_some() {
-            return;
-        }
-        let bound = self.arena.bound(pivot);
-        let size = bound.unwrap_or_else(|| self.arena.share(pivot));
-        let growth = self.ratio(size, inverse);
-        self.watch(Some(row), Some(coordinate), [Some(growth), None], bound.is_some());
-    }
-
-    /// The size that diagonal entries have in a healthy position: of a mass,
-    /// what it never falls below before other masses reduce it; of a row, the
-    /// bound of Σ Φ_q²/M over its coordinates. Left out where coordinates enter
-    /// otherwise than through sines and cosines.
-    fn scales(&mut self) -> BTreeMap<Unknown, Expr> {
-        let mut scales = BTreeMap::new();
-        for unknown in self.matrix.unknowns().collect::<Vec<_>>() {
-            let diagonal = self.matrix.get(unknown, unknown);
-            let scale = match unknown {
-                Unknown::Coordinate(_) => diagonal.and_then(|mass| self.arena.anchor(mass)),
-                Unknown::Row(_) => self.row_scale(unknown),
-            };
-            scales.extend(scale.map(|scale| (unknown, scale)));
-        }
-        scales
-    }
-
-    pub(super) fn row_scale(&mut self, row: Unknown) -> Option<Expr> {
-        let mut terms = Vec::new();
-        for (coordinate, entry) in self.matrix.neighbours(row).collect::<Vec<_>>() {
-            let mass = self.matrix.get(coordinate, coordinate)?;
-            let (bound, mass) = (self.arena.bound(entry)?, self.arena.anchor(mass)?);
-            terms.push((self.arena.product(&[(bound, 2), (mass, -1)]), Number::ONE));
-        }
-        (!terms.is_empty()).then(|| self.arena.sum(&terms))
-    }
-
-    /// A mass that nothing reduced is positive, and needs no watch; a row can
-    /// vanish as a whole.
-    fn watch_diagonal(&mut self, unknown: Unknown, pivot: Expr, inverse: Expr) {
-        if self.arena.as_number(pivot).is_some() {
-            return;
-        }
-        let is_reduced = self.reduced.contains(&unknown);
-        let scale = self.scales.as_ref().and_then(|scales| scales.get(&unknown)).copied();
-        let gross = self.gross.get(&unknown).copied().filter(|_| is_reduced);
-        let (row, coordinate, [linear, squared]) = match unknown {
-            Unknown::Coordinate(_) => (None, Some(unknown), [scale.filter(|_| is_reduced).or(gross), None]),
-            Unknown::Row(_) => (Some(unknown), None, [gross, scale]),
-        };
-        let can_cancel = linear.or(squared).is_some();
-        let linear = if can_cancel { linear } else { Some(pivot) };
-        let parts = [linear, squared].map(|size| size.map(|size| self.ratio(size, inverse)));
-        self.watch(row, coordinate, parts, can_cancel);
-    }
-
-    /// |size/pivot|, kept from simplifying where both are the same.
-    ///
-    /// A pivot made of squares may be small without having lost digits: there the root of the
-    /// ratio, that of what was squared, is the growth.
-    pub(super) fn ratio(&mut self, size: Expr, inverse: Expr) -> Expr {
-        let size = self.arena.share(size);
-        let ratio = self.arena.mul(size, inverse);
-        self.arena.call(Function::Abs, ratio)
-    }
-
-    pub(super) fn watch(
-        &mut self,
-        row: Option<Unknown>,
-        coordinate: Option<Unknown>,
-        parts: [Option<Expr>; 2],
-        can_cancel: bool,
-    ) {
-        let index = |unknown| match unknown {
-            Unknown::Row(index) | Unknown::Coordinate(index) => index,
-        };
-        let (row, coordinate) = (row.map(index), coordinate.map(index));
-        let growth = total(self.arena, parts.map(|part| part.into_iter().collect()));
-        self.pivots.push(WatchedPivot { row, coordinate, growth, parts, can_cancel });
     }
 }
 
@@ -399,24 +283,4 @@ impl Factorization {
         }
         solution
     }
-
-    /// The growth of the pivots that can cancel, together: Σ, with one root over all that
-    /// stands under roots.
-    pub fn growth(&self, arena: &mut Arena) -> Expr {
-        let parts = |part: usize| {
-            let watched = self.pivots.iter().filter(|pivot| pivot.can_cancel);
-            watched.filter_map(|pivot| pivot.parts[part]).collect()
-        };
-        total(arena, [parts(0), parts(1)])
-    }
-}
-
-/// Σ linear + √(Σ squared)
-fn total(arena: &mut Arena, [linear, squared]: [Vec<Expr>; 2]) -> Expr {
-    let sum = |arena: &mut Arena, terms: Vec<Expr>| {
-        arena.sum(&terms.into_iter().map(|term| (term, Number::ONE)).collect::<Vec<_>>())
-    };
-    let (linear, squared) = (sum(arena, linear), sum(arena, squared));
-    let root = arena.call(Function::Sqrt, squared);
-    arena.add(linear, root)
 }

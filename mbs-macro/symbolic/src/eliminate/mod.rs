@@ -23,10 +23,12 @@ mod signs;
 mod single_loop;
 mod steps;
 mod unit;
+mod watch;
 
-pub use factorization::{Elimination, Factorization, WatchedPivot};
+pub use factorization::{Elimination, Factorization};
 pub use matrix::{Kkt, Unknown};
 pub use order::{Strategy, Undetermined};
+pub use watch::WatchedPivot;
 
 use crate::arena::{Arena, Expr};
 

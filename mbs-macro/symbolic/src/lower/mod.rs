@@ -9,6 +9,7 @@
 
 mod factoring;
 mod flatten;
+mod order;
 mod schedule;
 mod signs;
 

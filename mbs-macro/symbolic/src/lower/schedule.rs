@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::flatten::{Definition, Flat, Signed, Value};
+use super::order::{operands, order};
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -27,10 +28,6 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
 
 /// Rows with more terms or factors than this are gathered one after the other.
 const LONGEST_TREE: usize = 32;
-
-/// Programs of more values than this, which may become loops, are ordered by
-/// the pivots that they wait for.
-const LONGEST_ON_DEMAND: usize = 1024;
 
 struct Schedule<'a> {
     flat: &'a Flat,
@@ -197,126 +194,6 @@ impl Schedule<'_> {
             Operand::Value(at) => self.latencies[at],
             _ => 0,
         }
-    }
-}
-
-/// The values that the outputs need, operands before users; functions of inputs
-/// come first. A call in the middle would make the machine save every value that
-/// is alive across it.
-fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
-    let order = depth_first(flat, outputs);
-    let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
-    let of_inputs = |value: &Value| match flat.definitions[*value] {
-        Definition::Call(_, x) | Definition::Spline(.., x) => is_leaf(x),
-        Definition::Call2(_, x, y) => is_leaf(x) && is_leaf(y),
-        _ => false,
-    };
-    let mut roots: Vec<Value> = order.iter().copied().filter(of_inputs).collect();
-    if order.len() <= LONGEST_ON_DEMAND {
-        roots.extend(outputs);
-        return depth_first(flat, &roots);
-    }
-    Eager::new(flat, order, depth_first(flat, &roots)).run()
-}
-
-/// Orders a long program for loops: what needs a pivot stands right behind what it
-/// waits for, short branches first, and the rest where it is first needed. Pivots
-/// wait for each other; the right-hand sides, the watch and the next link fill that time,
-/// and most results are used in the copy that computes them.
-struct Eager<'a> {
-    flat: &'a Flat,
-    /// Depth first.
-    values: Vec<Value>,
-    /// Whether a value needs a pivot.
-    is_late: Vec<bool>,
-    users: Vec<Vec<Value>>,
-    is_done: Vec<bool>,
-    order: Vec<Value>,
-}
-
-impl<'a> Eager<'a> {
-    fn new(flat: &'a Flat, values: Vec<Value>, first: Vec<Value>) -> Self {
-        let count = flat.definitions.len();
-        let mut is_late = vec![false; count];
-        let mut users = vec![Vec::new(); count];
-        for &value in &values {
-            let definition = &flat.definitions[value];
-            let operands = operands(definition);
-            is_late[value] =
-                matches!(definition, Definition::Reciprocal(_)) || operands.iter().any(|&o| is_late[o]);
-            operands.into_iter().for_each(|operand| users[operand].push(value));
-        }
-        // how many operations lie between a value and the last one that waits for it
-        let mut heights = vec![0_usize; count];
-        for &value in values.iter().rev() {
-            heights[value] = users[value].iter().map(|&user| heights[user] + 1).max().unwrap_or(0);
-        }
-        // what is tried last comes first
-        users.iter_mut().for_each(|users| users.sort_by_key(|&user| std::cmp::Reverse(heights[user])));
-        let mut is_done = vec![false; count];
-        first.iter().for_each(|&value| is_done[value] = true);
-        Self { flat, values, is_late, users, is_done, order: first }
-    }
-
-    fn run(mut self) -> Vec<Value> {
-        let values = std::mem::take(&mut self.values);
-        for &value in &values {
-            let mut stack = vec![value];
-            while let Some(value) = stack.pop() {
-                let operands = operands(&self.flat.definitions[value]);
-                let is_ready = operands.iter().all(|&operand| self.is_done[operand] || !self.is_late[operand]);
-                if !self.is_late[value] || self.is_done[value] || !is_ready {
-                    continue;
-                }
-                self.demand(value);
-                stack.extend(&self.users[value]);
-            }
-        }
-        values.into_iter().for_each(|value| self.demand(value));
-        self.order
-    }
-
-    /// The value, behind those of its operands that are not there yet.
-    fn demand(&mut self, value: Value) {
-        let mut stack = vec![(value, false)];
-        while let Some((value, operands_done)) = stack.pop() {
-            if operands_done {
-                self.order.push(value);
-            } else if !std::mem::replace(&mut self.is_done[value], true) {
-                stack.push((value, true));
-                let operands = operands(&self.flat.definitions[value]);
-                stack.extend(operands.into_iter().rev().map(|operand| (operand, false)));
-            }
-        }
-    }
-}
-
-pub(super) fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
-    let mut order = Vec::new();
-    let mut seen = vec![false; flat.definitions.len()];
-    let mut stack: Vec<(Value, bool)> = roots.iter().rev().map(|&value| (value, false)).collect();
-    while let Some((value, operands_done)) = stack.pop() {
-        if operands_done {
-            order.push(value);
-        } else if !std::mem::replace(&mut seen[value], true) {
-            stack.push((value, true));
-            stack
-                .extend(operands(&flat.definitions[value]).into_iter().rev().map(|operand| (operand, false)));
-        }
-    }
-    order
-}
-
-pub(super) fn operands(definition: &Definition) -> Vec<Value> {
-    match definition {
-        Definition::Leaf(_) => Vec::new(),
-        Definition::Product(factors) => factors.clone(),
-        Definition::Sum(summands) => summands.iter().map(|summand| summand.value).collect(),
-        Definition::Call(_, x)
-        | Definition::Spline(.., x)
-        | Definition::Reciprocal(x)
-        | Definition::Negative(x) => vec![*x],
-        Definition::Call2(_, x, y) => vec![*x, *y],
     }
 }
 

@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 
 use super::flatten::{Definition, Flat, Signed, Value};
-use super::schedule::{depth_first, operands};
+use super::order::{depth_first, operands};
 use crate::operators::Function;
 
 /// Sweeps over all sums; the second one seldom finds any.

@@ -5,6 +5,7 @@
 //! Results that a later block needs are kept in an array of slots.
 
 mod arrays;
+mod columns;
 mod repeated;
 mod slots;
 
@@ -99,7 +100,9 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     for (at, block) in blocks.iter().enumerate() {
         let number = at + 1;
         let part = match block {
-            Block::Straight(range) => straight(&context, range.clone(), &mut arrays, format_ident!("part_{number}")),
+            Block::Straight(range) => {
+                straight(&context, range.clone(), &mut arrays, format_ident!("part_{number}"))
+            }
             Block::Repeated(repetition) => {
                 repeated::part(&context, *repetition, &mut arrays, format_ident!("repeated_{number}"))
             }
