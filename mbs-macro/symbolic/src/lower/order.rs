@@ -1,6 +1,8 @@
 //! The order in which values are computed.
 
 use super::flatten::{Definition, Flat, Value};
+use crate::operators::Function;
+use crate::program::Operand;
 
 /// Programs of more values than this, which may become loops, are ordered by
 /// the pivots that they wait for.
@@ -22,6 +24,16 @@ pub(super) fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
         roots.extend(outputs);
         return depth_first(flat, &roots);
     }
+    // sine and cosine of an angle side by side, the angles in the order of the components
+    let input = |&value: &Value| match operands(&flat.definitions[value])[..] {
+        [x] => match flat.definitions[x] {
+            Definition::Leaf(Operand::Symbol(symbol)) => symbol.index(),
+            _ => usize::MAX,
+        },
+        _ => usize::MAX,
+    };
+    let is_sine = |&value: &Value| matches!(flat.definitions[value], Definition::Call(Function::Sin, _));
+    roots.sort_by_key(|value| (input(value), !is_sine(value)));
     Eager::new(flat, order, depth_first(flat, &roots)).run()
 }
 
