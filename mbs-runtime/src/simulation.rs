@@ -80,7 +80,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             self.steps += 1;
             return Ok(());
         }
-        self.step_in_stages(t_next)
+        self.step_in_stages()
     }
 
     /// Advances by one step, and gives the [`reactions`](Self::reactions) at its start:
@@ -138,7 +138,9 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
 
     /// The step of mechanisms that have no other, and of those whose step failed:
     /// it finds out what went wrong, if anything did.
-    fn step_in_stages(&mut self, t_next: M::Real) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn step_in_stages(&mut self) -> Result<(), Error> {
+        let t_next = self.next_time();
         let Self { mechanism, state, inputs, gains, step, .. } = &*self;
         match heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next) {
             Ok(next) => {
