@@ -9,6 +9,7 @@
 
 use mbs_runtime::{Baumgarte, Error, PerStage, Simulation, mechanism};
 
+use crate::compare::Case;
 use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
@@ -36,6 +37,9 @@ fn baumgarte_decay() -> Result<(), Error> {
             let gains = Baumgarte::<PerStage>::new(alpha, beta)?;
             Simulation::builder(Pendulum::declared(), h).baumgarte(gains).as_declared().build()
         };
+        let mut case = Case::new("baumgarte_decay, start");
+        case.near("violation", start(2e-5)?.violation(), 0.0020009999999996975, 1e-15);
+        case.finish();
         through_every_path("baumgarte_decay", 2e-5, Single::Longer(50.0), start, |case, run| {
             let phi = |at: Instant<Pendulum>| Pendulum::declared().phi(at.t, &at.q).rod;
             for (t, reference) in [0.1, 0.5].into_iter().zip(reference) {
