@@ -4,7 +4,7 @@ use clap::{ArgMatches, Command};
 use mbs_workbench::number::significant;
 use mbs_workbench::{Settings, Summary, Table, say};
 
-use crate::library;
+use models::library;
 
 /// Steps of a run; twice as many with half the step.
 const STEPS: f64 = 20_000.0;

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 fn mbs(folder: &Path, arguments: &str) -> Output {
     let arguments = arguments.split_whitespace();
@@ -299,4 +300,57 @@ fn sweeps_that_are_asked_wrongly() {
     );
     refuses("sweep slider-crank --param l2=1mm..4mm:3 --plot a.pdf", &["a.pdf", ".svg or .png"]);
     refuses("sweep slider-crank --param l2=1mm..4mm:3 --out no/such/a.csv", &["cannot write no/such/a.csv"]);
+}
+
+/// In lanes and one by one: Ctrl-C keeps the rows of finished runs.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_keeps_what_is_finished() {
+    for sweep in ["slider-crank --param l1=50mm..60mm:500000", "pendulum --param length=1m..2m:500000"] {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = format!("sweep {sweep} --out out.csv");
+        let running = Command::new(env!("CARGO_BIN_EXE_mbs"))
+            .args(arguments.split_whitespace())
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let part = folder.path().join("out.csv.part");
+        // rows are written in pieces of some kilobytes
+        while !std::fs::metadata(&part).is_ok_and(|file| file.len() > 0) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let interrupt = format!("kill -INT {}", running.id());
+        assert!(Command::new("sh").args(["-c", &interrupt]).status().unwrap().success());
+        let output = running.wait_with_output().unwrap();
+
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(130), "{message}");
+        let rows = std::fs::read_to_string(&part).unwrap().lines().count() - 1;
+        let told =
+            format!("error: interrupted after {rows} of 500000 runs; their rows are in out.csv.part\n");
+        assert!(message.ends_with(&told) && rows > 0, "{message}, {rows} rows");
+        assert!(String::from_utf8(output.stdout).unwrap().contains("smallest peak"));
+        assert!(!folder.path().join("out.csv").exists());
+    }
+}
+
+#[test]
+fn long_lists_are_shortened() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &str| {
+        let output = mbs(folder.path(), &format!("simulate n-pendulum-10 --end 1ms {arguments}"));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (short, all) = (run("--out run.csv"), run("--all"));
+    let parts =
+        ["x_1 at the end", "theta_1 at the end", "theta_10 at the end", "der(x_1)", "hook_force at the end"];
+    for part in parts {
+        assert!(short.contains(part) && all.contains(part), "{part}: {short}");
+    }
+    assert_eq!(short.matches("… 24 more, with --all").count(), 2, "{short}");
+    assert!(!short.contains("x_5") && all.contains("x_5 at the end") && !all.contains('…'), "{all}");
+    let heading = std::fs::read_to_string(folder.path().join("run.csv")).unwrap();
+    assert!(heading.lines().next().unwrap().contains("der(theta_5)"), "{heading}");
 }

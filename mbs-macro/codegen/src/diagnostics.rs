@@ -180,9 +180,14 @@ pub fn described(dimension: Dimension) -> String {
     }
 }
 
-/// `a, b and c`
+/// `` `a`, `b` and `c` ``
 pub fn listing<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
-    let items: Vec<String> = items.into_iter().map(|item| format!("`{item}`")).collect();
+    joined(items.into_iter().map(|item| format!("`{item}`")))
+}
+
+/// a, b and c
+pub fn joined<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
+    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
     match items.split_last() {
         Some((last, [])) => last.clone(),
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),

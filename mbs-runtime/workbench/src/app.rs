@@ -8,7 +8,7 @@ use mbs_runtime::Mechanism;
 
 use crate::command::{explain, list, new, simulate, sweep};
 use crate::console::complain;
-use crate::{Error, Model, model};
+use crate::{Error, Model, interrupt, model};
 
 /// What a command of the embedding program does.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
@@ -107,7 +107,8 @@ impl App {
     }
 
     /// Runs what the program's arguments ask for. To be returned from `main`:
-    /// 0 if it went well, 2 if it was asked wrongly, 1 if it failed.
+    /// 0 if it went well, 2 if it was asked wrongly, 1 if it failed, 130 if it was
+    /// interrupted.
     pub fn run(self) -> ExitCode {
         self.run_from(std::env::args_os())
     }
@@ -126,7 +127,10 @@ impl App {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
                 complain(format_args!("error: {error}"));
-                ExitCode::FAILURE
+                match error {
+                    Error::Interrupted { .. } => ExitCode::from(interrupt::EXIT_CODE),
+                    _ => ExitCode::FAILURE,
+                }
             }
         }
     }

@@ -57,6 +57,16 @@ pub enum Error {
         /// Where the results up to then are, as a clause to append.
         kept: String,
     },
+    /// A sweep that was interrupted; the runs that it had finished were kept.
+    #[error("interrupted after {finished} of {of} runs{kept}")]
+    Interrupted {
+        /// The runs that were finished.
+        finished: usize,
+        /// How many runs there were to be.
+        of: usize,
+        /// Where the finished ones are, as a clause to append.
+        kept: String,
+    },
     /// Runs of a sweep that failed.
     #[error("{failed} of {of} runs failed, the first one at {first}: {cause}")]
     Sweep {

@@ -42,6 +42,7 @@ mod command;
 mod console;
 mod error;
 pub mod figure;
+mod interrupt;
 pub mod members;
 pub mod model;
 mod names;

@@ -1,8 +1,10 @@
 //! Many runs of one mechanism that differ in parameters, reduced to what each of its
 //! quantities was at least, at most and in the end.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use mbs_ensemble::lanes::{Lane, Lanes, ManyCoordinates, ManyOutputs, Snapshot, unpack};
-use mbs_ensemble::{Ensemble, Observe};
+use mbs_ensemble::{Cancelled, Ensemble, Observe};
 use mbs_runtime::{Components, Feedback, Held, Info, Mechanism, PerStage, Quantity, Simulation};
 use rayon::prelude::*;
 
@@ -21,6 +23,8 @@ pub struct Members<'a> {
     pub take: &'a mut dyn FnMut(usize, Member),
     /// Is called with the members that are done, now and then.
     pub progress: &'a (dyn Fn(usize) + Sync),
+    /// Ends the sweep soon after it is set.
+    pub cancel: &'a AtomicBool,
 }
 
 /// What every quantity of [`quantities`] was, or why the run did not reach its end.
@@ -52,19 +56,18 @@ pub(crate) fn in_lanes<M: Mechanism<Real = f64>>(
     if settings.feedback == FeedbackKind::PerStage {
         return one_by_one::<M>(settings, members);
     }
-    let Members { names, count, values, take, progress } = members;
+    let Members { names, count, values, take, progress, cancel } = members;
     let start = Start::<M, Held>::of(settings)?;
     check_names::<M>(&names)?;
     let scales = scales::<M>();
     let member = |index: usize| start.simulation(assigned::<M>(start.parameters, &names, &values(index)));
     let report = |done: usize, _: usize| progress(done);
-    let ensemble = Ensemble::new(settings.end).progress(&report);
+    let ensemble = Ensemble::new(settings.end).progress(&report).cancelled_by(cancel);
     let taken = ensemble.for_each(count, member, &Extents, |index, outcome| {
         let outcome = outcome.and_then(|run| run.ended.map_or(Ok(run.observed), Err));
         take(index, outcome.map(|extents| scaled(&extents, &scales)));
     });
-    // without a flag nobody cancels
-    taken.map_err(|cancelled| Error::Command(Box::new(cancelled)))
+    taken.map_err(|Cancelled { finished }| interrupted(finished, count))
 }
 
 /// Runs them one by one on all cores: some times slower, and no code of its own to be
@@ -83,18 +86,21 @@ fn each<M: Mechanism<Real = f64>, F: Feedback>(
     settings: &Settings,
     members: Members<'_>,
 ) -> Result<(), Error> {
-    let Members { names, count, values, take, progress } = members;
+    let Members { names, count, values, take, progress, cancel } = members;
     let start = Start::<M, F>::of(settings)?;
     check_names::<M>(&names)?;
     let scales = scales::<M>();
     let member = |index: usize| {
         let simulation = start.simulation(assigned::<M>(start.parameters, &names, &values(index)))?;
-        Ok(scaled(&extents(simulation, settings.end)?, &scales))
+        let extents = extents(simulation, settings.end, cancel)?;
+        Ok(extents.map(|extents| scaled(&extents, &scales)))
     };
     let at_once = AT_ONCE * rayon::current_num_threads();
     for first in (0..count).step_by(at_once) {
         let last = count.min(first + at_once);
-        let done: Vec<Member> = (first..last).into_par_iter().map(member).collect();
+        let done: Option<Vec<Member>> =
+            (first..last).into_par_iter().map(|index| member(index).transpose()).collect();
+        let done = done.ok_or_else(|| interrupted(first, count))?;
         done.into_iter().enumerate().for_each(|(at, member)| take(first + at, member));
         progress(last);
     }
@@ -104,13 +110,22 @@ fn each<M: Mechanism<Real = f64>, F: Feedback>(
 /// Members that are computed before they are handed over.
 const AT_ONCE: usize = 64;
 
+fn interrupted(finished: usize, of: usize) -> Error {
+    Error::Interrupted { finished, of, kept: String::new() }
+}
+
+/// `None` if it was cancelled.
 fn extents<M: Mechanism<Real = f64>, F: Feedback>(
     mut simulation: Simulation<M, F>,
     end: f64,
-) -> Result<Vec<Extent>, mbs_runtime::Error> {
+    cancel: &AtomicBool,
+) -> Result<Option<Vec<Extent>>, mbs_runtime::Error> {
     let steps = simulation.steps_to(end)?;
     let mut extents: Vec<Extent> = Vec::new();
     for taken in 0..=steps {
+        if taken.is_multiple_of(1024) && cancel.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
         let (q, outputs) = (simulation.state().q.into_array(), simulation.outputs()?.into_array());
         let now = q.as_ref().iter().chain(outputs.as_ref());
         if taken == 0 {
@@ -122,7 +137,7 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
             simulation.step()?;
         }
     }
-    Ok(extents)
+    Ok(Some(extents))
 }
 
 fn check_names<M: Mechanism>(names: &[String]) -> Result<(), Error> {

@@ -13,7 +13,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     Pendulum {
@@ -52,26 +52,33 @@ const SPRING: [(f64, [f64; 2]); 4] = [
 ];
 
 #[test]
-fn adams_joint_tests() -> Result<(), Error> {
-    let mut case = Case::new("adams_joint_tests");
-    let mut simulation = Simulation::new(Pendulum::declared(), 1e-4)?;
-    for (t, reference) in REVOLUTE {
-        simulation.advance_to(t)?;
-        let (q, lambda) = (simulation.state().q, simulation.reactions()?.multipliers);
-        case.all_near(
-            ["revolute x", "revolute z", "Fx", "Fz"],
-            t,
-            [q.x, q.y, lambda.pin_x, lambda.pin_y],
-            reference,
-            [1e-6, 1e-6, 1e-5, 1e-5],
-        );
-    }
-    let mut simulation = Simulation::new(Hanging::declared(), 1e-4)?;
-    for (t, reference) in SPRING {
-        simulation.advance_to(t)?;
-        let q = simulation.state().q;
-        case.all_near(["spring y", "spring z"], t, [q.x, q.y], reference, [1e-6; 2]);
-    }
-    case.finish();
-    Ok(())
+fn revolute_pendulum() -> Result<(), Error> {
+    let start = |h| Simulation::new(Pendulum::declared(), h);
+    through_every_path("adams_joint_tests, revolute", 1e-4, Single::Longer(20.0), start, |case, run| {
+        for (t, reference) in REVOLUTE {
+            run.advance_to(t)?;
+            let at = run.now()?;
+            case.all_near(
+                ["revolute x", "revolute z", "Fx", "Fz"],
+                t,
+                [at.q.x, at.q.y, at.multipliers.pin_x, at.multipliers.pin_y],
+                reference,
+                [1e-6, 1e-6, 1e-5, 1e-5],
+            );
+        }
+        Ok(())
+    })
+}
+
+#[test]
+fn spring_and_damper() -> Result<(), Error> {
+    let start = |h| Simulation::new(Hanging::declared(), h);
+    through_every_path("adams_joint_tests, spring", 1e-4, Single::Longer(10.0), start, |case, run| {
+        for (t, reference) in SPRING {
+            run.advance_to(t)?;
+            let q = run.now()?.q;
+            case.all_near(["spring y", "spring z"], t, [q.x, q.y], reference, [1e-6; 2]);
+        }
+        Ok(())
+    })
 }

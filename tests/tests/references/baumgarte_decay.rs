@@ -10,6 +10,7 @@
 use mbs_runtime::{Baumgarte, Error, PerStage, Simulation, mechanism};
 
 use crate::compare::Case;
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {
@@ -31,20 +32,23 @@ const VIOLATIONS: [(f64, f64, [f64; 2]); 4] = [
 
 #[test]
 fn baumgarte_decay() -> Result<(), Error> {
-    let mut case = Case::new("baumgarte_decay");
     for (alpha, beta, reference) in VIOLATIONS {
-        let mut simulation = Simulation::builder(Pendulum::declared(), 2e-5)
-            .baumgarte(Baumgarte::<PerStage>::new(alpha, beta)?)
-            .as_declared()
-            .build()?;
-        let phi = |s: &Simulation<Pendulum<f64>, PerStage>| s.mechanism().phi(s.time(), &s.state().q).rod;
-        case.near("at the start", phi(&simulation), 0.0020009999999996975, 1e-15);
-        for (t, reference) in [0.1, 0.5].into_iter().zip(reference) {
-            simulation.advance_to(t)?;
-            let what = format_args!("alpha = {alpha}, beta = {beta}, t = {t}").to_string();
-            case.near(what, phi(&simulation), reference, 1e-8);
-        }
+        let start = |h| {
+            let gains = Baumgarte::<PerStage>::new(alpha, beta)?;
+            Simulation::builder(Pendulum::declared(), h).baumgarte(gains).as_declared().build()
+        };
+        let mut case = Case::new("baumgarte_decay, start");
+        case.near("violation", start(2e-5)?.violation(), 0.0020009999999996975, 1e-15);
+        case.finish();
+        through_every_path("baumgarte_decay", 2e-5, Single::Longer(50.0), start, |case, run| {
+            let phi = |at: Instant<Pendulum>| Pendulum::declared().phi(at.t, &at.q).rod;
+            for (t, reference) in [0.1, 0.5].into_iter().zip(reference) {
+                run.advance_to(t)?;
+                let what = format_args!("alpha = {alpha}, beta = {beta}, t = {t}").to_string();
+                case.near(what, phi(run.now()?), reference, 1e-8);
+            }
+            Ok(())
+        })?;
     }
-    case.finish();
     Ok(())
 }

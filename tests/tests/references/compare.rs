@@ -1,10 +1,12 @@
-//! Numbers of a reference case against ours, and events between steps.
+//! Numbers of a reference case against ours.
 
-use mbs_runtime::{Baumgarte, Error, Held, Mechanism, Simulation};
+use mbs_runtime::Error;
 
 /// Collects the deviations of a case; [`Case::finish`] fails if one is too large.
 pub struct Case {
-    name: &'static str,
+    name: String,
+    /// By which tolerances are multiplied.
+    widening: f64,
     compared: usize,
     failures: Vec<String>,
     /// Largest deviation as a fraction of its tolerance, and where.
@@ -12,13 +14,20 @@ pub struct Case {
 }
 
 impl Case {
-    pub fn new(name: &'static str) -> Self {
-        Self { name, compared: 0, failures: Vec::new(), worst: (0.0, String::new()) }
+    pub fn new(name: &str) -> Self {
+        let name = name.to_owned();
+        Self { name, widening: 1.0, compared: 0, failures: Vec::new(), worst: (0.0, String::new()) }
+    }
+
+    /// With tolerances so many times as wide.
+    pub fn widened(self, widening: f64) -> Self {
+        Self { widening, ..self }
     }
 
     /// `ours` lies within `tolerance` of `reference`.
     pub fn near(&mut self, what: impl std::fmt::Display, ours: f64, reference: f64, tolerance: f64) {
         self.compared += 1;
+        let tolerance = tolerance * self.widening;
         let deviation = (ours - reference).abs();
         let message =
             format!("{what}: {ours} against {reference}, off by {deviation:.1e} of {tolerance:.0e}");
@@ -49,43 +58,10 @@ impl Case {
     /// # Panics
     /// If a number deviates, or none was compared.
     pub fn finish(self) {
-        let Self { name, compared, failures, worst } = self;
+        let Self { name, compared, failures, worst, .. } = self;
         println!("{name}: {compared} numbers, the worst is {}", worst.1);
         assert!(compared > 0, "{name}: nothing was compared");
         assert!(failures.is_empty(), "{name}:\n  {}", failures.join("\n  "));
-    }
-}
-
-/// Steps until `value` changes sign, then repeats the last step with the length
-/// at which it vanishes: the event is met to rounding, whatever the step.
-pub fn advance_to_zero<M: Mechanism<Real = f64>>(
-    simulation: &mut Simulation<M>,
-    value: impl Fn(&Simulation<M>) -> f64,
-) -> Result<Simulation<M>, Error> {
-    let h = simulation.step_size();
-    loop {
-        let before = *simulation;
-        let sign = value(&before).signum();
-        simulation.step()?;
-        if value(simulation).signum() == sign {
-            continue;
-        }
-        let shortened = |length: f64| {
-            let mut partial = Simulation::builder(*before.mechanism(), length)
-                .from_state(*before.state())
-                .inputs(*before.inputs())
-                .baumgarte(Baumgarte::<Held>::deadbeat(h))
-                .as_declared()
-                .build()?;
-            partial.step()?;
-            Ok::<_, Error>(partial)
-        };
-        let (mut low, mut high) = (0.0, h);
-        for _ in 0..50 {
-            let middle = f64::midpoint(low, high);
-            if value(&shortened(middle)?).signum() == sign { low = middle } else { high = middle }
-        }
-        return shortened(high);
     }
 }
 

@@ -13,7 +13,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::{Case, advance_to_zero};
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     DoubleFourBar {
@@ -68,25 +68,25 @@ const SAMPLES: [(f64, [f64; 4]); 3] = [
 
 #[test]
 fn double_fourbar_a02() -> Result<(), Error> {
-    let mut case = Case::new("double_fourbar_a02");
-    let start = Simulation::new(DoubleFourBar::declared(), 1.0 / 11_000.0)?;
-
-    let mut turning = start;
-    let once = advance_to_zero(&mut turning, |s| s.state().q.phi0 + 1.5 * std::f64::consts::PI)?.time();
-    case.near("revolution", once, 1.9425149226070837, 2e-7);
-
-    let mut simulation = start;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let head = simulation.outputs()?;
-        case.all_near(
-            ["x", "y", "vx", "vy"],
-            t,
-            [head.head_x, head.head_y, head.head_vx, head.head_vy],
-            reference,
-            [1e-6, 1e-6, 5e-6, 5e-6],
-        );
-    }
-    case.finish();
-    Ok(())
+    let (h, single) = (1.0 / 11_000.0, Single::LeftOut);
+    let start = |h| Simulation::new(DoubleFourBar::declared(), h);
+    through_every_path("double_fourbar_a02, a turn", h, single, start, |case, run| {
+        let once = run.advance_to_zero(|at| at.q.phi0 + 1.5 * std::f64::consts::PI)?.t;
+        case.near("revolution", once, 1.9425149226070837, 2e-7);
+        Ok(())
+    })?;
+    through_every_path("double_fourbar_a02", h, single, start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let head = run.now()?.outputs;
+            case.all_near(
+                ["x", "y", "vx", "vy"],
+                t,
+                [head.head_x, head.head_y, head.head_vx, head.head_vy],
+                reference,
+                [1e-6, 1e-6, 5e-6, 5e-6],
+            );
+        }
+        Ok(())
+    })
 }

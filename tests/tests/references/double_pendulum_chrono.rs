@@ -9,7 +9,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     DoublePendulum {
@@ -66,19 +66,19 @@ const SAMPLES: [(f64, [f64; 6]); 3] = [
 
 #[test]
 fn double_pendulum_chrono() -> Result<(), Error> {
-    let mut case = Case::new("double_pendulum_chrono");
-    let mut simulation = Simulation::new(DoublePendulum::declared(), 1e-5)?;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let (q, v) = (simulation.state().q, simulation.state().v);
-        case.all_near(
-            ["phi1", "phi2", "x2", "y2", "vx2", "vy2"],
-            t,
-            [q.phi1, q.phi2, q.x2, q.y2, v.x2, v.y2],
-            reference,
-            [1e-8; 6],
-        );
-    }
-    case.finish();
-    Ok(())
+    let start = |h| Simulation::new(DoublePendulum::declared(), h);
+    through_every_path("double_pendulum_chrono", 1e-5, Single::Longer(200.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let Instant { q, v, .. } = run.now()?;
+            case.all_near(
+                ["phi1", "phi2", "x2", "y2", "vx2", "vy2"],
+                t,
+                [q.phi1, q.phi2, q.x2, q.y2, v.x2, v.y2],
+                reference,
+                [1e-8; 6],
+            );
+        }
+        Ok(())
+    })
 }

@@ -9,7 +9,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     DoublePendulum {
@@ -52,21 +52,21 @@ const SAMPLES: [(f64, [f64; 6]); 2] = [
 
 #[test]
 fn double_pendulum_points_exudyn() -> Result<(), Error> {
-    let mut case = Case::new("double_pendulum_points_exudyn");
-    let mut simulation = Simulation::new(DoublePendulum::declared(), 1e-5)?;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let (q, lambda) = (simulation.state().q, simulation.reactions()?.multipliers);
-        case.all_near(
-            ["x1", "y1", "x2", "y2", "tension 1", "tension 2"],
-            t,
-            [q.x1, q.y1, q.x2, q.y2, lambda.link1, lambda.link2],
-            reference,
-            [1e-8, 1e-8, 1e-8, 1e-8, 2e-6, 2e-6],
-        );
-    }
-    let q = simulation.state().q;
-    case.near("x1 + y1 at 1", q.x1 + q.y1, -1.0825170405765017, 1e-8);
-    case.finish();
-    Ok(())
+    let start = |h| Simulation::new(DoublePendulum::declared(), h);
+    through_every_path("double_pendulum_points_exudyn", 1e-5, Single::Longer(100.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let (q, lambda) = (run.now()?.q, run.now()?.multipliers);
+            case.all_near(
+                ["x1", "y1", "x2", "y2", "tension 1", "tension 2"],
+                t,
+                [q.x1, q.y1, q.x2, q.y2, lambda.link1, lambda.link2],
+                reference,
+                [1e-8, 1e-8, 1e-8, 1e-8, 2e-6, 2e-6],
+            );
+        }
+        let q = run.now()?.q;
+        case.near("x1 + y1 at 1", q.x1 + q.y1, -1.0825170405765017, 1e-8);
+        Ok(())
+    })
 }

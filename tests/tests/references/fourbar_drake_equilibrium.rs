@@ -12,6 +12,7 @@
 use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
 
 use crate::compare::{Case, bisect};
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     FourBar {
@@ -44,10 +45,10 @@ mechanism! {
 }
 
 /// At rest with link A at `q` below the −x direction.
-fn at_rest(q: f64) -> Result<Simulation<FourBar<f64>>, Error> {
+fn at_rest(q: f64, step: f64) -> Result<Simulation<FourBar<f64>>, Error> {
     let mut start = FourBar::<f64>::declared().declared_start();
     start.q.angle_a = std::f64::consts::PI + q;
-    Simulation::builder(FourBar::declared(), 1e-4).from_state(start).build()
+    Simulation::builder(FourBar::declared(), step).from_state(start).build()
 }
 
 /// t, then the angle of link A and its rate.
@@ -56,10 +57,10 @@ const SAMPLES: [(f64, [f64; 2]); 2] =
 
 #[test]
 fn fourbar_drake_equilibrium() -> Result<(), Error> {
-    let mut case = Case::new("fourbar_drake_equilibrium");
-    let acceleration = |q: f64| Ok::<_, Error>(at_rest(q)?.reactions()?.acceleration.angle_a);
+    let mut case = Case::new("fourbar_drake_equilibrium, instants");
+    let acceleration = |q: f64| Ok::<_, Error>(at_rest(q, 1e-4)?.reactions()?.acceleration.angle_a);
     let equilibrium = bisect(1.2, 1.4, acceleration)?;
-    let hanging = at_rest(equilibrium)?.state().q;
+    let hanging = at_rest(equilibrium, 1e-4)?.state().q;
     case.near("angle of A", equilibrium.to_degrees(), 75.52248781407008, 1e-11);
     case.near("angle at B", (hanging.angle_b - hanging.angle_a).to_degrees(), 104.47751218592992, 1e-11);
 
@@ -69,18 +70,24 @@ fn fourbar_drake_equilibrium() -> Result<(), Error> {
     let omega = (-slope).sqrt();
     case.near("frequency", omega, 1.726511131738735, 1e-9);
     case.near("period", std::f64::consts::TAU / omega, 3.639238225386891, 1e-9);
+    case.finish();
 
     let exact = 15_f64.sqrt().atan();
-    let mut simulation = at_rest(exact + 0.3)?;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let ours = [simulation.state().q.angle_a - std::f64::consts::PI, simulation.state().v.angle_a];
-        case.all_near(["q", "q rate"], t, ours, reference, [5e-8; 2]);
-    }
+    let start = |h| at_rest(exact + 0.3, h);
+    through_every_path("fourbar_drake_equilibrium", 1e-4, Single::Longer(50.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let Instant { q, v, .. } = run.now()?;
+            let ours = [q.angle_a - std::f64::consts::PI, v.angle_a];
+            case.all_near(["q", "q rate"], t, ours, reference, [5e-8; 2]);
+        }
+        Ok(())
+    })?;
     // released in equilibrium, nothing moves
-    let mut resting = at_rest(exact)?;
-    resting.advance_to(3.0)?;
-    case.near("rest", resting.state().q.angle_a - std::f64::consts::PI, exact, 1e-12);
-    case.finish();
-    Ok(())
+    let start = |h| at_rest(exact, h);
+    through_every_path("fourbar_drake_equilibrium, at rest", 1e-4, Single::Rounding, start, |case, run| {
+        run.advance_to(3.0)?;
+        case.near("rest", run.now()?.q.angle_a - std::f64::consts::PI, exact, 1e-12);
+        Ok(())
+    })
 }

@@ -10,6 +10,7 @@
 use mbs_runtime::{Error, Simulation, mechanism};
 
 use crate::compare::Case;
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Line {
@@ -39,25 +40,32 @@ const PLANE: [(f64, [f64; 4]); 3] = [
 /// Place at t = 1 without truncation.
 const EXACT: [f64; 2] = [-0.6773694539488168, -0.9554932763949516];
 
-#[test]
-fn heun_oscillator() -> Result<(), Error> {
-    let mut case = Case::new("heun_oscillator");
-    let h = 0.01;
-    let mut line = Simulation::new(Line::declared(), h)?;
-    line.advance_to(1.0)?;
-    let (x, v) = (line.state().q.x, line.state().v.x);
-    case.near("x after 100 steps", x, -0.08309544211249274, 1e-14);
-    case.near("v after 100 steps", v, 0.558585576515391, 1e-13);
-    case.near("growth of the amplitude", x.hypot(v / 10.0) / 0.1, 1.001250765931337, 1e-13);
+const STEP: f64 = 0.01;
 
-    let mut plane = Simulation::new(Plane::declared(), h)?;
-    for (steps, reference) in PLANE {
-        plane.advance_to(steps * h)?;
-        let (q, v) = (plane.state().q, plane.state().v);
-        case.all_near(["x", "y", "vx", "vy"], steps, [q.x, q.y, v.x, v.y], reference, [1e-13; 4]);
-    }
-    case.finish();
-    Ok(())
+#[test]
+fn line() -> Result<(), Error> {
+    let start = |h| Simulation::new(Line::declared(), h);
+    through_every_path("heun_oscillator, line", STEP, Single::Rounding, start, |case, run| {
+        run.advance_to(1.0)?;
+        let Instant { q, v, .. } = run.now()?;
+        case.near("x after 100 steps", q.x, -0.08309544211249274, 1e-14);
+        case.near("v after 100 steps", v.x, 0.558585576515391, 1e-13);
+        case.near("growth of the amplitude", q.x.hypot(v.x / 10.0) / 0.1, 1.001250765931337, 1e-13);
+        Ok(())
+    })
+}
+
+#[test]
+fn plane() -> Result<(), Error> {
+    let start = |h| Simulation::new(Plane::declared(), h);
+    through_every_path("heun_oscillator, plane", STEP, Single::Rounding, start, |case, run| {
+        for (steps, reference) in PLANE {
+            run.advance_to(steps * STEP)?;
+            let Instant { q, v, .. } = run.now()?;
+            case.all_near(["x", "y", "vx", "vy"], steps, [q.x, q.y, v.x, v.y], reference, [1e-13; 4]);
+        }
+        Ok(())
+    })
 }
 
 /// Halving the step quarters the error.

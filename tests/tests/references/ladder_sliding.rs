@@ -10,7 +10,8 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::{Case, advance_to_zero};
+use crate::compare::Case;
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     Ladder {
@@ -36,37 +37,40 @@ const SAMPLES: [(f64, [f64; 2]); 2] =
 
 #[test]
 fn ladder_sliding() -> Result<(), Error> {
-    let mut case = Case::new("ladder_sliding");
     let (m, g) = (3.0, 9.81);
     let sin0 = 60_f64.to_radians().sin();
     let wall = |sin: f64, cos: f64| 0.75 * m * g * cos * (3.0 * sin - 2.0 * sin0);
     let floor = |sin: f64| m * g / 4.0 * (1.0 + 9.0 * sin * sin - 6.0 * sin * sin0);
 
-    let start = Simulation::new(Ladder::declared(), 1e-4)?;
-    let forces = start.outputs()?;
+    let mut case = Case::new("ladder_sliding, release");
+    let forces = Simulation::new(Ladder::declared(), 1e-4)?.outputs()?;
     case.near("wall force at release", forces.wall_force, wall(sin0, 0.5), 1e-12);
     case.near("floor force at release", forces.floor_force, floor(sin0), 1e-12);
-
-    let mut simulation = start;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let ours = [-simulation.state().q.phi, -simulation.state().v.phi];
-        case.all_near(["theta", "omega"], t, ours, reference, [2e-8, 1e-7]);
-    }
-
-    let theta = 30_f64.to_radians();
-    let (sin, cos) = theta.sin_cos();
-    let mut simulation = start;
-    let at = advance_to_zero(&mut simulation, |s| s.state().q.phi + theta)?;
-    let forces = at.outputs()?;
-    case.near("wall force at 30 degrees", forces.wall_force, wall(sin, cos), 1e-6);
-    case.near("floor force at 30 degrees", forces.floor_force, floor(sin), 1e-6);
-    case.near("rate at 30 degrees", -at.state().v.phi, -2.3207894813377656, 1e-7);
-
-    let mut simulation = start;
-    let at = advance_to_zero(&mut simulation, |s| s.outputs().map_or(f64::NAN, |o| o.wall_force))?;
-    case.near("angle without wall force", -at.state().q.phi, (2.0 / 3.0 * sin0).asin(), 1e-8);
-    case.near("time without wall force", at.time(), 0.45966282637738104, 1e-8);
     case.finish();
-    Ok(())
+
+    let (h, single) = (1e-4, Single::Longer(50.0));
+    let start = |h| Simulation::new(Ladder::declared(), h);
+    through_every_path("ladder_sliding", h, single, start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let at = run.now()?;
+            case.all_near(["theta", "omega"], t, [-at.q.phi, -at.v.phi], reference, [2e-8, 1e-7]);
+        }
+        Ok(())
+    })?;
+    through_every_path("ladder_sliding, at 30 degrees", h, single, start, |case, run| {
+        let theta = 30_f64.to_radians();
+        let (sin, cos) = theta.sin_cos();
+        let at = run.advance_to_zero(|at| at.q.phi + theta)?;
+        case.near("wall force", at.outputs.wall_force, wall(sin, cos), 1e-6);
+        case.near("floor force", at.outputs.floor_force, floor(sin), 1e-6);
+        case.near("rate", -at.v.phi, -2.3207894813377656, 1e-7);
+        Ok(())
+    })?;
+    through_every_path("ladder_sliding, off the wall", h, single, start, |case, run| {
+        let at = run.advance_to_zero(|at| at.outputs.wall_force)?;
+        case.near("angle", -at.q.phi, (2.0 / 3.0 * sin0).asin(), 1e-8);
+        case.near("time", at.t, 0.45966282637738104, 1e-8);
+        Ok(())
+    })
 }

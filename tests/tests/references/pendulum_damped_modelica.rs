@@ -10,7 +10,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {
@@ -36,13 +36,13 @@ const SAMPLES: [(f64, [f64; 2]); 6] = [
 
 #[test]
 fn pendulum_damped_modelica() -> Result<(), Error> {
-    let mut case = Case::new("pendulum_damped_modelica");
-    let mut simulation = Simulation::new(Pendulum::declared(), 1e-4)?;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let (q, v) = (simulation.state().q, simulation.state().v);
-        case.all_near(["phi", "omega"], t, [q.phi, v.phi], reference, [1e-6, 1e-5]);
-    }
-    case.finish();
-    Ok(())
+    let start = |h| Simulation::new(Pendulum::declared(), h);
+    through_every_path("pendulum_damped_modelica", 1e-4, Single::Longer(10.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let Instant { q, v, .. } = run.now()?;
+            case.all_near(["phi", "omega"], t, [q.phi, v.phi], reference, [1e-6, 1e-5]);
+        }
+        Ok(())
+    })
 }

@@ -10,7 +10,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::{Case, advance_to_zero};
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {
@@ -31,28 +31,32 @@ const SAMPLES: [(f64, [f64; 4]); 4] = [
 ];
 
 #[test]
-fn pendulum_sundials_period2() -> Result<(), Error> {
-    let mut case = Case::new("pendulum_sundials_period2");
-    let start = Simulation::new(Pendulum::declared(), 1e-4)?;
+fn period() -> Result<(), Error> {
+    let start = |h| Simulation::new(Pendulum::declared(), h);
+    through_every_path("pendulum_sundials_period2, period", 1e-4, Single::Longer(10.0), start, |case, run| {
+        let first = run.advance_to_zero(|at| at.q.x)?.t;
+        run.advance_to_zero(|at| at.q.x)?;
+        let third = run.advance_to_zero(|at| at.q.x)?.t;
+        case.near("period", third - first, 2.0, 3e-7);
+        Ok(())
+    })
+}
 
-    let mut swing = start;
-    let first = advance_to_zero(&mut swing, |s| s.state().q.x)?.time();
-    advance_to_zero(&mut swing, |s| s.state().q.x)?;
-    let third = advance_to_zero(&mut swing, |s| s.state().q.x)?.time();
-    case.near("period", third - first, 2.0, 3e-7);
-
-    let mut simulation = start;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let (q, v) = (simulation.state().q, simulation.state().v);
-        case.all_near(
-            ["x", "y", "vx", "vy"],
-            t,
-            [q.x, q.y, v.x, v.y],
-            reference,
-            if t > 1.0 { [1e-8, 5e-5, 1e-8, 5e-5] } else { [5e-7, 5e-7, 2e-6, 2e-6] },
-        );
-    }
-    case.finish();
-    Ok(())
+#[test]
+fn motion() -> Result<(), Error> {
+    let start = |h| Simulation::new(Pendulum::declared(), h);
+    through_every_path("pendulum_sundials_period2", 1e-4, Single::Longer(20.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let Instant { q, v, .. } = run.now()?;
+            case.all_near(
+                ["x", "y", "vx", "vy"],
+                t,
+                [q.x, q.y, v.x, v.y],
+                reference,
+                if t > 1.0 { [1e-8, 5e-5, 1e-8, 5e-5] } else { [5e-7, 5e-7, 2e-6, 2e-6] },
+            );
+        }
+        Ok(())
+    })
 }

@@ -10,7 +10,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::{Case, advance_to_zero};
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     Rod {
@@ -29,29 +29,28 @@ mechanism! {
 
 #[test]
 fn rod_pendulum_reactions() -> Result<(), Error> {
-    let mut case = Case::new("rod_pendulum_reactions");
     let (m, g, length) = (2.0, 9.81, 1.5);
-    let mut simulation = Simulation::new(Rod::declared(), 1e-4)?;
-    for degrees in [0.0_f64, 30.0, 45.0, 60.0, 90.0] {
-        let theta = degrees.to_radians();
-        let at = match degrees {
-            0.0 => simulation,
-            _ => advance_to_zero(&mut simulation, |s| s.state().q.phi + theta)?,
-        };
-        let (sin, cos) = theta.sin_cos();
-        let outputs = at.outputs()?;
-        case.all_near(
-            ["omega", "Rx", "Ry"],
-            degrees,
-            [-at.state().v.phi, outputs.force_x, outputs.force_y],
-            [
-                (3.0 * g * sin / length).sqrt(),
-                -9.0 / 4.0 * m * g * sin * cos,
-                m * g / 4.0 * (1.0 + 9.0 * sin * sin),
-            ],
-            [5e-7, 5e-6, 5e-6],
-        );
-    }
-    case.finish();
-    Ok(())
+    let start = |h| Simulation::new(Rod::declared(), h);
+    through_every_path("rod_pendulum_reactions", 1e-4, Single::Longer(20.0), start, |case, run| {
+        for degrees in [0.0_f64, 30.0, 45.0, 60.0, 90.0] {
+            let theta = degrees.to_radians();
+            let at = match degrees {
+                0.0 => run.now()?,
+                _ => run.advance_to_zero(|at| at.q.phi + theta)?,
+            };
+            let (sin, cos) = theta.sin_cos();
+            case.all_near(
+                ["omega", "Rx", "Ry"],
+                degrees,
+                [-at.v.phi, at.outputs.force_x, at.outputs.force_y],
+                [
+                    (3.0 * g * sin / length).sqrt(),
+                    -9.0 / 4.0 * m * g * sin * cos,
+                    m * g / 4.0 * (1.0 + 9.0 * sin * sin),
+                ],
+                [5e-7, 5e-6, 5e-6],
+            );
+        }
+        Ok(())
+    })
 }

@@ -11,7 +11,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Instant, Single, through_every_path};
 
 mechanism! {
     SliderCrank {
@@ -46,13 +46,13 @@ const SAMPLES: [(f64, [f64; 4]); 6] = [
 
 #[test]
 fn slider_crank_sundials() -> Result<(), Error> {
-    let mut case = Case::new("slider_crank_sundials");
-    let mut simulation = Simulation::new(SliderCrank::declared(), 1e-4)?;
-    for (t, reference) in SAMPLES {
-        simulation.advance_to(t)?;
-        let (q, v) = (simulation.state().q, simulation.state().v);
-        case.all_near(["q", "x", "p", "q rate"], t, [q.q, q.x, q.p, v.q], reference, [2e-8; 4]);
-    }
-    case.finish();
-    Ok(())
+    let start = |h| Simulation::new(SliderCrank::declared(), h);
+    through_every_path("slider_crank_sundials", 1e-4, Single::Longer(50.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let Instant { q, v, .. } = run.now()?;
+            case.all_near(["q", "x", "p", "q rate"], t, [q.q, q.x, q.p, v.q], reference, [2e-8; 4]);
+        }
+        Ok(())
+    })
 }

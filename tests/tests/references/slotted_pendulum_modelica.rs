@@ -13,7 +13,7 @@
 
 use mbs_runtime::{Error, Simulation, mechanism};
 
-use crate::compare::Case;
+use crate::paths::{Single, through_every_path};
 
 mechanism! {
     Arm {
@@ -59,21 +59,29 @@ const NAMES: [&str; 4] = ["s", "phi", "v", "omega"];
 const TOLERANCES: [f64; 4] = [3e-7, 3e-7, 1e-6, 1e-6];
 
 #[test]
-fn slotted_pendulum_modelica() -> Result<(), Error> {
-    let mut case = Case::new("slotted_pendulum_modelica");
-    let mut arm = Simulation::new(Arm::declared(), 1e-4)?;
-    let mut slot = Simulation::new(Slot::declared(), 1e-4)?;
-    for (t, reference) in SAMPLES {
-        arm.advance_to(t)?;
-        let (state, outputs) = (arm.state(), arm.outputs()?);
-        let ours = [outputs.distance, state.q.phi, outputs.speed, state.v.phi];
-        case.all_near(NAMES, format_args!("{t}, arm"), ours, reference, TOLERANCES);
+fn arm() -> Result<(), Error> {
+    let start = |h| Simulation::new(Arm::declared(), h);
+    through_every_path("slotted_pendulum_modelica, arm", 1e-4, Single::Longer(10.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let at = run.now()?;
+            let ours = [at.outputs.distance, at.q.phi, at.outputs.speed, at.v.phi];
+            case.all_near(NAMES, t, ours, reference, TOLERANCES);
+        }
+        Ok(())
+    })
+}
 
-        slot.advance_to(t)?;
-        let (state, outputs) = (slot.state(), slot.outputs()?);
-        let ours = [outputs.distance, state.q.phi, outputs.speed, state.v.phi];
-        case.all_near(NAMES, format_args!("{t}, slot"), ours, reference, TOLERANCES);
-    }
-    case.finish();
-    Ok(())
+#[test]
+fn slot() -> Result<(), Error> {
+    let start = |h| Simulation::new(Slot::declared(), h);
+    through_every_path("slotted_pendulum_modelica, slot", 1e-4, Single::Longer(10.0), start, |case, run| {
+        for (t, reference) in SAMPLES {
+            run.advance_to(t)?;
+            let at = run.now()?;
+            let ours = [at.outputs.distance, at.q.phi, at.outputs.speed, at.v.phi];
+            case.all_near(NAMES, t, ours, reference, TOLERANCES);
+        }
+        Ok(())
+    })
 }

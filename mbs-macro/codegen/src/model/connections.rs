@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use super::joints::{self, JointRow};
 use super::reactions::KnownJoint;
 use super::resolver::Resolver;
-use super::{Constraint, Meaning};
+use super::{Constraint, Meaning, Source};
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Joint, JointKind};
 
@@ -58,8 +58,16 @@ impl Resolver<'_> {
             }
             if let (Some(JointRow { phi, dimension }), true) = (row, is_restricting) {
                 let (name, doc, span) = (name.to_string(), doc.to_owned(), joint.name.span());
-                let (phi, dimension) = (*phi, *dimension);
-                self.constraints.push(Constraint { name, doc, span, is_drive: false, phi, dimension });
+                let (source, phi, dimension) = (source(joint), *phi, *dimension);
+                self.constraints.push(Constraint {
+                    name,
+                    source,
+                    doc,
+                    span,
+                    is_drive: false,
+                    phi,
+                    dimension,
+                });
             }
         }
     }
@@ -81,6 +89,11 @@ impl Resolver<'_> {
         let is_coordinate = |&symbol: &Symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_));
         self.scope.arena.symbols_in(phi).iter().filter(|symbol| is_coordinate(symbol)).count()
     }
+}
+
+fn source(joint: &Joint) -> Source {
+    let bodies = [&joint.first, &joint.second].map(|place| place.body.to_string());
+    Source { kind: "joint", name: joint.name.to_string(), bodies: Some(bodies) }
 }
 
 fn row_name(joint: &Joint, suffix: &str) -> Ident {

@@ -156,11 +156,21 @@ pub struct Body {
 
 pub struct Constraint {
     pub name: String,
+    pub source: Source,
     pub doc: String,
     pub span: Span,
     pub is_drive: bool,
     pub phi: Expr,
     pub dimension: Dimension,
+}
+
+/// The statement that a constraint comes from, in its own words.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Source {
+    pub kind: &'static str,
+    pub name: String,
+    /// The bodies that a joint connects.
+    pub bodies: Option<[String; 2]>,
 }
 
 /// A generalized force along a coordinate.

@@ -8,7 +8,7 @@ use super::declare::quantity;
 use super::formula::unit_help_for_products;
 use super::names::{Definition, Place, State, Typed, Value, duplicate};
 use super::resolver::Resolver;
-use super::{Constraint, Direction, Output, Requirement, Start};
+use super::{Constraint, Direction, Output, Requirement, Source, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::syntax::{self, Formula, Item, ItemKind, Role};
 
@@ -36,7 +36,13 @@ impl<'a> Resolver<'a> {
         let Some((phi, dimension)) = resolved else { return };
         let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
         let is_drive = *role == Role::Drive;
-        self.constraints.push(Constraint { name, doc, span, is_drive, phi, dimension });
+        let kind = match role {
+            Role::Constraint => "constraint",
+            Role::Drive => "drive",
+            Role::Coupler => "coupler",
+        };
+        let source = Source { kind, name: name.clone(), bodies: None };
+        self.constraints.push(Constraint { name, source, doc, span, is_drive, phi, dimension });
     }
 
     /// Φ = left − right with its dimension.

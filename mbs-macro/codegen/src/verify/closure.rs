@@ -6,7 +6,8 @@ use super::assembly::CLOSED;
 use super::echelon::row_echelon;
 use super::redundancy::does_not_fit;
 use super::sparse::{SparseRow, scale};
-use crate::diagnostics::{Diagnostic, Diagnostics, listing};
+use super::words::{Part, repeats};
+use crate::diagnostics::{Diagnostic, Diagnostics, joined};
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
 
@@ -55,8 +56,8 @@ pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
     Err(Diagnostic::new(
         constraint.span,
         format!(
-            "the mechanism does not close at its declared dimensions: `{}` stays violated by {violation:.1e}{}",
-            constraint.name,
+            "the mechanism does not close at its declared dimensions: {} stays violated by {violation:.1e}{}",
+            joined(Part::of(model, [row])),
             unit(constraint.dimension)
         ),
     )
@@ -85,15 +86,11 @@ fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
     let Some(constraint) = model.constraints.get(row) else {
         return Diagnostic::internal(model.name.span(), "an assembly without constraints is singular");
     };
-    let (name, others) =
-        (&constraint.name, others.iter().map(|&other| model.constraints[other].name.as_str()));
-    let what = match found {
-        Some((_, others)) if others.is_empty() => format!("`{name}` restricts no motion"),
-        Some((_, found)) => {
-            let say = if found.len() == 1 { "says" } else { "say" };
-            format!("`{name}` repeats what {} already {say}", listing(others))
-        }
-        None => format!("`{name}` and others are not independent"),
+    let part = Part::of(model, [row]);
+    let what = match (found, part.as_slice()) {
+        (Some(_), [part]) if others.is_empty() => format!("{part} restricts no motion"),
+        (Some(_), [part]) => repeats(part, &Part::of(model, others)),
+        _ => format!("{} and others are not independent", joined(&part)),
     };
     Diagnostic::new(constraint.span, format!("near the declared start, {what}"))
         .help("remove a constraint that is too many, or declare a start away from this singular position")

@@ -16,6 +16,7 @@ mod rounding;
 mod samples;
 mod sparse;
 mod validation;
+mod words;
 
 use mbs_symbolic::{Undetermined, Unknown};
 

@@ -7,6 +7,7 @@ use super::assembly::Assembly;
 use super::generic;
 use super::manifold::Manifold;
 use super::redundancy;
+use super::words::{Part, repeats};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::Model;
@@ -76,33 +77,38 @@ fn generic_dependence(model: &Model, equations: &Equations, samples: &Samples) -
     if sampled.len() > known.len() { sampled } else { known }
 }
 
-/// One error for each constraint that is too many.
+/// One error for each joint or equation that is too many.
 fn report(model: &Model, dependent: &[Dependent], whenever: &str, errors: &mut Diagnostics) {
-    for (row, combination) in dependent {
-        let constraint = &model.constraints[*row];
-        let others = || combination.iter().map(|&other| &model.constraints[other]);
-        let names: Vec<_> = others().map(|other| other.name.as_str()).collect();
-        let what = if constraint.is_drive { "drive" } else { "constraint" };
-        let say = if names.len() == 1 { "says" } else { "say" };
-        let message = if names.is_empty() {
-            format!("{what} `{}` does not restrict any motion{whenever}", constraint.name)
+    for part in Part::of(model, dependent.iter().map(|(row, _)| *row)) {
+        let Some(constraint) = part.row() else { continue };
+        let of_part = |row: usize| model.constraints[row].source == *part.source;
+        let combinations = dependent.iter().filter(|(row, _)| of_part(*row));
+        let rows: Vec<usize> = combinations.flat_map(|(_, rows)| rows.iter().copied()).collect();
+        // rows of its own are worth a word only where there are no others
+        let is_alone = rows.iter().all(|&row| of_part(row));
+        let others = Part::of(model, rows.into_iter().filter(|&row| is_alone || !of_part(row)));
+        let message = if others.is_empty() {
+            format!("{part} {} not restrict any motion{whenever}", part.verb("does", "do"))
         } else {
-            let others = listing(&names);
-            format!("{what} `{}` repeats what {others} already {say}{whenever}", constraint.name)
+            format!("{}{whenever}", repeats(&part, &others))
         };
         let mut error = Diagnostic::new(constraint.span, message);
-        for other in others() {
-            error = error.note(other.span, format!("`{}` is one of them", other.name));
+        for other in &others {
+            if let Some(row) = other.row() {
+                error = error.note(row.span, format!("`{}` is one of them", other.source.name));
+            }
         }
-        let remove = if names.is_empty() { "remove it" } else { "remove one of them" };
-        let on_purpose = if names.is_empty() || constraint.is_drive {
+        let remove = if others.is_empty() { "remove it" } else { "remove one of them" };
+        let correct = match part.source.bodies {
+            Some(_) => "correct the places of the one that was meant to join others",
+            None => "correct the equation that was meant to say something else",
+        };
+        let on_purpose = if others.is_empty() || constraint.is_drive {
             ""
         } else {
             "; if it is there on purpose, as a spare link is, add `redundant = minimum_norm;`"
         };
-        errors.push(error.help(format!(
-            "{remove}, or correct the equation that was meant to say something else{on_purpose}"
-        )));
+        errors.push(error.help(format!("{remove}, or {correct}{on_purpose}")));
     }
 }
 

@@ -9,7 +9,8 @@ use super::closure::unit;
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
 use super::rank::Rows;
-use crate::diagnostics::Diagnostic;
+use super::words::Part;
+use crate::diagnostics::{Diagnostic, joined};
 use crate::model::Model;
 
 /// The rows to solve for, in the order of declaration as long as each adds
@@ -95,12 +96,13 @@ fn largest_violation(
 /// are met, at the time `t`.
 pub fn does_not_fit(model: &Model, row: usize, violation: f64, t: f64) -> Diagnostic {
     let constraint = &model.constraints[row];
-    let (name, unit) = (&constraint.name, unit(constraint.dimension));
+    let unit = unit(constraint.dimension);
+    let what = joined(Part::of(model, [row]));
     let when = if t == 0.0 { String::new() } else { format!(" at t = {t:.2e} s") };
     Diagnostic::new(
         constraint.span,
         format!(
-            "redundant constraint `{name}` does not fit: it stays violated by {violation:.1e}{unit}{when} where \
+            "{what}, which is redundant, does not fit: it stays violated by {violation:.1e}{unit}{when} where \
              the others are met"
         ),
     )

@@ -1,5 +1,7 @@
 //! What a run shows: a table, curves, and a page with the mechanism in motion.
 
+use std::ops::Range;
+
 use mbs_runtime::Info;
 
 use crate::figure::{Axis, Figure, Panel, Series};
@@ -22,7 +24,7 @@ pub(super) fn page(name: &str, info: &Info, recording: &Recording, picture: &Pic
         lead: info.doc.to_owned(),
         sections: vec![
             Section::new("The mechanism").with(Block::Animation(animation)),
-            Section::new("The run").with(Block::Table(summary(name, recording))),
+            Section::new("The run").with(Block::Table(summary(name, recording, Shown::Some))),
             Section::new("Curves").with(Block::Figure { figure, caption: String::new(), files: Vec::new() }),
         ],
     }
@@ -57,8 +59,27 @@ fn readouts(info: &Info, recording: &Recording, picture: &Picture) -> Vec<Readou
     columns.map(readout).collect()
 }
 
+/// How many coordinates are shown.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shown {
+    All,
+    /// The first and the last of a long list, which in a chain are its ends.
+    Some,
+}
+
+impl Shown {
+    /// A list that is longer is long.
+    const MANY: usize = 12;
+    const ENDS: usize = 3;
+
+    /// Those of `count` that are not shown.
+    fn hidden(self, count: usize) -> Range<usize> {
+        if self == Self::All || count <= Self::MANY { 0..0 } else { Self::ENDS..count - Self::ENDS }
+    }
+}
+
 /// The figures of a run that one looks at first, and the values at its end.
-pub(super) fn summary(name: &str, recording: &Recording) -> Table {
+pub(super) fn summary(name: &str, recording: &Recording, shown: Shown) -> Table {
     let summary = &recording.summary;
     let mut table = Table::new([name, "", ""]);
     let mut row = |what: &str, value: String, unit: &str| table.row([what, &value, unit]);
@@ -66,9 +87,19 @@ pub(super) fn summary(name: &str, recording: &Recording) -> Table {
     row("max ‖Φ‖", significant(summary.max_phi, 4), "");
     row("max ‖Φ̇‖", significant(summary.max_phi_dot, 4), "1/s");
     row("energy change", significant(summary.energy_end - summary.energy_start, 6), "J");
-    for column in &recording.columns {
-        let shown = column.name != "violation" && !column.name.starts_with("lambda(");
-        if let Some(last) = column.values.last().filter(|_| shown) {
+    let hidden = shown.hidden(recording.coordinates);
+    for (at, column) in recording.columns.iter().enumerate() {
+        // behind the time, coordinates and then their rates
+        let place = at.checked_sub(1).filter(|&at| at < 2 * recording.coordinates);
+        let place = place.map(|at| at % recording.coordinates);
+        if place.is_some_and(|place| hidden.contains(&place)) {
+            if place == Some(hidden.start) {
+                row(&format!("… {} more, with --all", hidden.len()), String::new(), "");
+            }
+            continue;
+        }
+        let is_shown = column.name != "violation" && !column.name.starts_with("lambda(");
+        if let Some(last) = column.values.last().filter(|_| is_shown) {
             row(&format!("{} at the end", column.name), significant(*last, 7), &column.unit);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, ArgMatches, Command, value_parser};
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::options::{self, option, settings};
@@ -20,6 +20,12 @@ pub(crate) fn command() -> Command {
             option("every", "N", "Record every N-th step")
                 .value_parser(value_parser!(u64).range(1..))
                 .default_value("1"),
+        )
+        .arg(
+            Arg::new("all")
+                .long("all")
+                .action(ArgAction::SetTrue)
+                .help("Print all coordinates, however many there are"),
         )
         .arg(
             option("out", "FILE.csv", "Write everything that was recorded")
@@ -47,7 +53,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
     let files =
         Files { csv: path("out"), plot: path("plot"), sketch: path("sketch"), report: path("report") };
-    carry_out(name, model, &settings, &files)
+    let shown = if matches.get_flag("all") { page::Shown::All } else { page::Shown::Some };
+    carry_out(name, model, &settings, &files, shown)
 }
 
 /// What the program does without a command: the mechanism as it is declared,
@@ -61,7 +68,7 @@ pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<(), Error> {
         sketch: path("-mechanism.svg"),
         report: path(".html"),
     };
-    carry_out(name, model, &model.defaults(), &files)
+    carry_out(name, model, &model.defaults(), &files, page::Shown::Some)
 }
 
 /// What a run is to be written to.
@@ -72,7 +79,13 @@ struct Files {
     report: Option<PathBuf>,
 }
 
-fn carry_out(name: &str, model: &dyn Model, settings: &Settings, files: &Files) -> Result<(), Error> {
+fn carry_out(
+    name: &str,
+    model: &dyn Model,
+    settings: &Settings,
+    files: &Files,
+    shown: page::Shown,
+) -> Result<(), Error> {
     let Files { csv, plot, sketch, report } = files;
     let bar = ProgressBar::new(0).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left")
@@ -104,7 +117,7 @@ fn carry_out(name: &str, model: &dyn Model, settings: &Settings, files: &Files) 
     if let Some(cause) = recording.ended {
         return Err(Error::EndedEarly { cause, kept });
     }
-    say(page::summary(name, &recording).to_string().trim_end());
+    say(page::summary(name, &recording, shown).to_string().trim_end());
     for path in [csv, plot, sketch, report].into_iter().flatten() {
         say(format_args!("written: {}", path.display()));
     }

@@ -16,7 +16,7 @@ use crate::figure::{Axis, Figure, HeatMap, Panel, Series, Stroke};
 use crate::members::{Extent, Member, Members, quantities};
 use crate::number::significant;
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Table, say};
+use crate::{Error, Model, Settings, Table, interrupt, say};
 
 const EXAMPLE: &str = "\
 Example:
@@ -24,7 +24,8 @@ Example:
       --output drive_torque --end 0.6s --out sweep.csv --plot sweep.svg
 
 A run that fails is a gap in the picture and says why in the table. A file is there
-once the sweep is complete; one that was interrupted leaves FILE.part.";
+once the sweep is complete. Ctrl-C ends it early: the runs that are finished are summed
+up, their rows are in FILE.csv.part, and the exit code is 130.";
 
 pub(crate) fn command() -> Command {
     Command::new("sweep")
@@ -121,8 +122,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
         watched: &watched,
         shown,
     };
-    sweep.carry_out(name, model, &settings)?;
-    sweep.finish(name, text("show"), path("plot").map(PathBuf::as_path))
+    match sweep.carry_out(name, model, &settings) {
+        Err(Error::Interrupted { finished, of, .. }) => sweep.give_up(text("show"), finished, of),
+        Err(error) => Err(error),
+        Ok(()) => sweep.finish(name, text("show"), path("plot").map(PathBuf::as_path)),
+    }
 }
 
 /// The named quantities; all outputs if none are named, all coordinates if there are
@@ -169,10 +173,11 @@ impl Sweep<'_> {
                 }
             },
             progress: &|done| progress.reached(done),
+            cancel: interrupt::flag(),
         };
-        model.sweep(settings, members)?;
+        let swept = model.sweep(settings, members);
         progress.finish();
-        written
+        swept.and(written)
     }
 
     fn take(&mut self, index: usize, member: &Member) -> Result<(), Error> {
@@ -188,6 +193,16 @@ impl Sweep<'_> {
             Some(rows) => rows.write(self.grid, index, self.watched, member),
             None => Ok(()),
         }
+    }
+
+    /// What an interrupted sweep leaves behind.
+    fn give_up(self, shown: &str, finished: usize, of: usize) -> Result<(), Error> {
+        if self.failures < finished {
+            say(self.summary(shown).to_string().trim_end());
+        }
+        let part = self.rows.map(Rows::give_up).transpose()?;
+        let kept = part.map_or_else(String::new, |path| format!("; their rows are in {}", path.display()));
+        Err(Error::Interrupted { finished, of, kept })
     }
 
     fn finish(self, name: &str, shown: &str, plot: Option<&Path>) -> Result<(), Error> {

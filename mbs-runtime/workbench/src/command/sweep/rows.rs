@@ -58,6 +58,12 @@ impl Rows {
         self.writer.write_record(cells).map_err(|error| Error::file("write", &self.path)(error.into()))
     }
 
+    /// The unfinished file, complete up to the last row.
+    pub fn give_up(mut self) -> Result<PathBuf, Error> {
+        self.writer.flush().map_err(Error::file("write", &self.part))?;
+        Ok(self.part)
+    }
+
     /// Gives the file its name.
     pub fn finish(mut self) -> Result<PathBuf, Error> {
         self.writer.flush().map_err(Error::file("write", &self.path))?;

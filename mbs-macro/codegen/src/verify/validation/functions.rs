@@ -1,0 +1,99 @@
+//! Functions against their definitions, evaluated with jets. They agree within
+//! their running error bounds.
+
+use mbs_symbolic::Program;
+
+use super::super::jets::Jet;
+use super::super::rounding::Rounded;
+use super::{Check, DIRECTIONS, Point};
+
+impl Point<'_> {
+    /// Every function gives what its definition does.
+    pub(super) fn functions(&self) -> Check {
+        let (plan, model) = (self.plan, self.model);
+        let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
+        let in_time = self.phi(&|_| 0.0, &|_| 0.0, 1.0);
+        let rows = |of: &dyn Fn(&Jet) -> Rounded| motion.iter().map(of).collect::<Vec<_>>();
+        self.agree("phi", &plan.phi, &rows(&|row| row.value))?;
+        self.agree("phi_dot", &plan.phi_dot, &rows(&|row| row.first))?;
+        self.agree("gamma", &plan.gamma, &rows(&|row| -row.second))?;
+        self.agree("phi_t", &plan.phi_t, &in_time.iter().map(|row| row.first).collect::<Vec<_>>())?;
+        let feedback = self.feedback(&motion);
+        let rhs: Vec<_> = motion.iter().zip(&feedback).map(|(row, &f)| f - row.second).collect();
+        self.agree("baumgarte_rhs", &plan.baumgarte_rhs, &rhs)?;
+        self.jacobian()?;
+        let forces = self.known_forces();
+        self.agree("mass", &plan.mass, &self.bodies.masses)?;
+        // what depends on reactions is judged by the balance that it keeps
+        if model.reactive_loads.is_empty() {
+            self.agree("forces", &plan.forces, &forces)?;
+        }
+        let (kinetic, potential) = self.energies();
+        self.agree("kinetic_energy", &plan.kinetic_energy, &[kinetic])?;
+        self.agree("potential_energy", &plan.potential_energy, &[potential])?;
+        let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
+        self.agree("outputs", &plan.outputs, &outputs)
+    }
+
+    /// A program gives what is expected, as far as rounding lets one tell.
+    fn agree(&self, name: &str, program: &Program, expected: &[Rounded]) -> Check {
+        let found = self.run(program);
+        if found.len() != expected.len() {
+            return Err(format!("`{name}` has {} results instead of {}", found.len(), expected.len()));
+        }
+        let differs = |at: &usize| !is_close(found[*at], expected[*at]);
+        match (0..expected.len()).find(differs) {
+            None => Ok(()),
+            Some(at) => Err(format!(
+                "result {at} of `{name}` is {:e} where an independent evaluation gives {:e}",
+                found[at].value, expected[at].value
+            )),
+        }
+    }
+
+    /// Φ_q w along random w.
+    fn jacobian(&self) -> Check {
+        let entries = self.run(&self.plan.phi_q);
+        for direction in 0..DIRECTIONS {
+            let along = self.phi(&|at| self.weight(at, direction), &|_| 0.0, 0.0);
+            let mut products = vec![Rounded::default(); along.len()];
+            for (&(row, column), &entry) in self.plan.phi_q_places.iter().zip(&entries) {
+                products[row] = products[row] + entry * Rounded::exact(self.weight(column, direction));
+            }
+            for (row, (product, jet)) in products.iter().zip(&along).enumerate() {
+                if !is_close(*product, jet.first) {
+                    return Err(format!(
+                        "row {row} of `phi_q` is not the derivative of its constraint: {:e} instead of {:e}",
+                        product.value, jet.first.value
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn energies(&self) -> (Rounded, Rounded) {
+        let potentials = self.model.potentials.iter();
+        let mut potential = potentials.fold(Rounded::default(), |sum, &energy| sum + self.value(energy));
+        let mut kinetic = Rounded::default();
+        for (at, coordinate) in self.model.coordinates.iter().enumerate() {
+            let (mass, velocity) = (self.mass(at), Rounded::exact(self.velocity(at)));
+            kinetic = kinetic + Rounded::exact(0.5) * mass * velocity * velocity;
+            let position = Rounded::exact((self.symbol)(coordinate.position));
+            potential = potential - mass * self.gravity(at) * position;
+        }
+        (kinetic, potential)
+    }
+}
+
+/// Whether two values are the same to rounding. Where the expected one is not a
+/// number, or rounding leaves nothing of it, there is nothing to compare.
+fn is_close(found: Rounded, expected: Rounded) -> bool {
+    // Bounds are of first order; a factor covers the rest.
+    let bound = 4.0 * (found.error + expected.error) + f64::MIN_POSITIVE;
+    let is_unknown = |x: Rounded| x.value.is_finite() && !x.error.is_finite();
+    if !expected.value.is_finite() || is_unknown(expected) || is_unknown(found) {
+        return true;
+    }
+    (found.value - expected.value).abs() <= bound
+}
