@@ -6,11 +6,11 @@
 
 use core::array::from_fn;
 
-use crate::heun::trial;
+use crate::heun::{Trial, trial};
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
 use crate::straight::Straight;
-use crate::{Components, Feedback, Gains, Mechanism, Real, Simulation, State};
+use crate::{Components, Feedback, Gains, Mechanism, Real, Simulation, State, Stepped};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
 pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
@@ -158,16 +158,33 @@ fn trial_of_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
         let taken = now.steps.0[lane] + 1.0;
         let t = start_time + Straight::from_f64(taken) * step;
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
-        let trial = trial::<Each<M>, F>(&mechanism, &now.state_of(lane), &inputs, &gains, step, t);
-        let trouble = trouble_of(sum_of(trial.next.q) + sum_of(trial.next.v));
-        let is_healthy = (trial.here.1 + trial.there.1) + trouble < growth_limit();
+        let at = now.state_of(lane);
+        let stepped = match mechanism.fused_step::<F>(&at, &inputs, &gains, step, t) {
+            Some(stepped) => stepped,
+            None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
+        };
+        let is_healthy = stepped.growth + trouble_of(stepped.sum) < growth_limit();
         sick |= u64::from(!is_healthy);
         next.steps.0[lane] = taken;
         next.t.0[lane] = t.0;
-        put(&mut next.q, lane, trial.next.q);
-        put(&mut next.v, lane, trial.next.v);
+        put(&mut next.q, lane, stepped.next.q);
+        put(&mut next.v, lane, stepped.next.v);
     }
     sick == 0
+}
+
+/// A step stage by stage, of mechanisms that are too large for another.
+#[inline(always)]
+fn staged_step<M: Mechanism, F: Feedback>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    gains: &Gains<M::Real>,
+    h: M::Real,
+    t_next: M::Real,
+) -> Stepped<M::Coordinates> {
+    let Trial { next, here, there, .. } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
+    Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
 }
 
 /// What does not change while simulations advance: what they are,
