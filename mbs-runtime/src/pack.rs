@@ -98,7 +98,9 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         let mut taken = 0;
         while taken < steps {
             let mut next = now;
-            if !trial_of_all::<M, F, N>(instances, pace, &now, &mut next) {
+            let health = trial_of_all::<M, F, N>(instances, pace, &now, &mut next);
+            let health = health.zip_map(next.trouble(), |a, b| a + b);
+            if !(health < Lanes([growth_limit(); N])) {
                 break;
             }
             now = next;
@@ -109,6 +111,38 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         }
         self.now = now;
         taken
+    }
+
+    /// Blind
+    #[inline(always)]
+    pub fn run(&mut self, steps: u64) -> u64 {
+        let mut taken = 0;
+        while taken < steps {
+            let count = (steps - taken).min(64);
+            if !self.chunk(count) {
+                return taken + self.advance(count, |_| true);
+            }
+            taken += count;
+        }
+        taken
+    }
+
+    #[inline(always)]
+    fn chunk(&mut self, steps: u64) -> bool {
+        let Self { instances, pace, .. } = self;
+        let mut now = self.now;
+        let mut total = Lanes::default();
+        for _ in 0..steps {
+            let mut next = now;
+            let health = trial_of_all::<M, F, N>(instances, pace, &now, &mut next);
+            total = total + health;
+            now = next;
+        }
+        let good = total + now.trouble() < Lanes([growth_limit(); N]);
+        if good {
+            self.now = now;
+        }
+        good
     }
 
     /// A step lane after lane, with all that a scalar can compute.
@@ -151,8 +185,8 @@ fn trial_of_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
     pace: &Pace<M::Real, N>,
     now: &Moment<M, N>,
     next: &mut Moment<M, N>,
-) -> bool {
-    let mut sick = 0_u64;
+) -> Lanes<M::Real, N> {
+    let mut health = Lanes::default();
     for lane in 0..N {
         let (gains, step, start_time) = pace.of_lane(lane);
         let taken = now.steps.0[lane] + 1.0;
@@ -163,14 +197,13 @@ fn trial_of_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
             Some(stepped) => stepped,
             None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
         };
-        let is_healthy = stepped.growth + trouble_of(stepped.sum) < growth_limit();
-        sick |= u64::from(!is_healthy);
+        health.0[lane] = stepped.growth.0;
         next.steps.0[lane] = taken;
         next.t.0[lane] = t.0;
         put(&mut next.q, lane, stepped.next.q);
         put(&mut next.v, lane, stepped.next.v);
     }
-    sick == 0
+    health
 }
 
 /// A step stage by stage, of mechanisms that are too large for another.
@@ -274,6 +307,18 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
         }
     }
 
+    #[inline(always)]
+    fn trouble(&self) -> Lanes<M::Real, N> {
+        let mut trouble = Lanes::default();
+        for lane in 0..N {
+            let mut sum = M::Real::default();
+            for x in self.q.as_ref().iter().chain(self.v.as_ref()) {
+                sum = sum + x.0[lane];
+            }
+            trouble.0[lane] = trouble_of(sum);
+        }
+        trouble
+    }
     #[inline(always)]
     fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::Coordinates> {
         State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }

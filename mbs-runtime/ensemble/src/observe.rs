@@ -58,6 +58,8 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
     /// What comes out for a member.
     type Result: Send;
 
+    /// Blind
+    const BLIND: bool = false;
     /// The notes before anything was seen.
     fn begin<const N: usize>(&self) -> Self::Notes<N>;
 
@@ -77,6 +79,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
 impl<M: Mechanism<Real: Lane>> Observe<M> for () {
     type Notes<const N: usize> = ();
     type Result = ();
+    const BLIND: bool = true;
 
     fn begin<const N: usize>(&self) {}
     #[inline(always)]
