@@ -11,8 +11,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use crate::pack::{Many, ManyCoordinates, ManyOutputs, Pack, Snapshot, and, unpack};
 
-use crate::Real;
 use crate::spline::Spline;
+use crate::{Real, Two};
 
 /// `N` scalars side by side, one per instance of a mechanism: generated code that
 /// computes with `Lanes<f64, 8>` runs eight instances at once.
@@ -43,6 +43,9 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
+    /// The same of two.
+    #[doc(hidden)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>);
 }
 
 mod sealed {
@@ -56,6 +59,10 @@ impl Lane for f64 {
     fn straight_sin_cos(self) -> (Self, Self) {
         crate::sincos::straight_sin_cos(self)
     }
+    #[inline(always)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        crate::sincos::straight_sin_cos_of_two(angles)
+    }
 }
 
 impl Lane for f32 {
@@ -63,6 +70,11 @@ impl Lane for f32 {
     fn straight_sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = f64::from(self).straight_sin_cos();
         (sine as Self, cosine as Self)
+    }
+    #[inline(always)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        let (s, c) = f64::straight_sin_cos_of_two(Two(f64::from(angles.0), f64::from(angles.1)));
+        (Two(s.0 as Self, s.1 as Self), Two(c.0 as Self, c.1 as Self))
     }
 }
 
@@ -203,7 +215,7 @@ macro_rules! lane_by_lane {
 }
 
 impl<T: Lane, const N: usize> Real for Lanes<T, N> {
-    type Pair = crate::Two<Self>;
+    type Pair = Two<Self>;
     const EPSILON: Self = Self([T::EPSILON; N]);
 
     #[inline(always)]
