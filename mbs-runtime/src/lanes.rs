@@ -43,7 +43,11 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
-    /// The same of two.
+    /// The larger of two numbers that are not negative; NaN if one is.
+    #[doc(hidden)]
+    #[must_use]
+    fn worse(self, other: Self) -> Self;
+    /// Sines and cosines of two angles, in turns.
     #[doc(hidden)]
     fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>);
 }
@@ -55,6 +59,12 @@ mod sealed {
 }
 
 impl Lane for f64 {
+    // Their bits are in the order of the numbers, and NaN has larger ones. That is one
+    // instruction of a vector; `max` that keeps a NaN is two.
+    #[inline(always)]
+    fn worse(self, other: Self) -> Self {
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
         crate::sincos::straight_sin_cos(self)
@@ -66,6 +76,12 @@ impl Lane for f64 {
 }
 
 impl Lane for f32 {
+    // Their bits are in the order of the numbers, and NaN has larger ones. That is one
+    // instruction of a vector; `max` that keeps a NaN is two.
+    #[inline(always)]
+    fn worse(self, other: Self) -> Self {
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = f64::from(self).straight_sin_cos();

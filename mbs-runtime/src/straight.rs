@@ -3,9 +3,9 @@
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::{Real, Two};
 use crate::lanes::Lane;
 use crate::spline::Spline;
+use crate::{Real, Two};
 
 /// A scalar whose sine and cosine have no branch: a loop over instances that
 /// computes with it can become vector instructions.
