@@ -31,10 +31,10 @@ pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordin
 /// The outputs of `N` instances.
 pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 
-/// Steps that nobody looks at until they are over: what is done once for all of them
-/// costs less than a hundredth of a step each, and few have to be repeated where one
-/// goes wrong.
-const STRIDE: u64 = 256;
+/// Steps that are tested for health together: the first ones, and the most. What is done
+/// once for all of them costs as much as one step.
+const FIRST_STRIDE: u64 = 128;
+const LONGEST_STRIDE: u64 = 1024;
 
 /// `N` simulations that advance by a step at once, one in each lane: parameters,
 /// inputs, states, gains, steps and times are their own.
@@ -92,27 +92,30 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// Advances every lane by a step; those that did. What a step of
     /// [`simulation`](Self::simulation) says is why another did not.
     pub fn step(&mut self) -> [bool; N] {
-        if self.advance_one_by_one(1) == 1 { [true; N] } else { self.step_each() }
+        if self.stride(1) { [true; N] } else { self.step_each() }
     }
 
     /// Advances all lanes together by up to a number of steps, and says by how many: up
     /// to one before one that not every lane can make, or not with what lanes can compute.
     ///
-    /// Steps are looked at many at a time. A lane that has ceased to be finite stays so,
-    /// because a step adds to what there is; and the worst growth is kept. If something
-    /// went wrong, the steps are taken again, one by one.
+    /// Steps are tested for health many at a time. That finds all that has gone wrong: what
+    /// has ceased to be finite stays so, because a step adds to what there is, and the worst
+    /// growth is kept. Then the steps up to the bad one are found by bisection, and taken
+    /// again.
     #[inline(always)]
     pub fn advance(&mut self, steps: u64) -> u64 {
-        let mut taken = 0;
-        while taken < steps {
-            let stride = STRIDE.min(steps - taken);
-            if !self.stride(stride) {
-                let good = self.advance_one_by_one(stride);
-                if good < stride {
-                    return taken + good;
-                }
+        let (mut taken, mut good) = (0, steps);
+        let mut stride = FIRST_STRIDE;
+        while taken < good {
+            let next = stride.min(good - taken);
+            if self.stride(next) {
+                taken += next;
+            } else {
+                // one of them is bad
+                good = taken + next - 1;
             }
-            taken += stride;
+            let is_longer = good == steps;
+            stride = if is_longer { LONGEST_STRIDE.min(2 * stride) } else { (good - taken).div_ceil(2) };
         }
         taken
     }
@@ -139,13 +142,6 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         }
         self.now = now;
         taken
-    }
-
-    /// Not inlined: it is there to find the step that went wrong.
-    #[cold]
-    #[inline(never)]
-    fn advance_one_by_one(&mut self, steps: u64) -> u64 {
-        self.advance_and_look(steps, |_| true)
     }
 
     /// Advances by a number of steps, if all of them are good.
