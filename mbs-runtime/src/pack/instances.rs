@@ -104,6 +104,14 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
         State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }
     }
 
+    /// Counts steps that were taken.
+    #[inline(always)]
+    pub fn count(&mut self, steps: f64) {
+        for lane in 0..N {
+            self.steps.0[lane] += steps;
+        }
+    }
+
     #[inline(always)]
     pub fn put(&mut self, lane: usize, state: State<<Each<M> as Mechanism>::Coordinates>) {
         self.t.0[lane] = state.t.0;

@@ -130,7 +130,8 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         while taken < steps {
             let mut next = now;
             let mut growth = Lanes::default();
-            step_all::<M, F, N>(instances, pace, &mut next, &mut growth);
+            step_all::<M, F, N>(instances, pace, 1.0, &mut next, &mut growth);
+            next.count(1.0);
             if !is_healthy(&growth, &next) {
                 break;
             }
@@ -150,9 +151,12 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         let Self { instances, pace, .. } = self;
         let mut now = self.now;
         let mut growth = Lanes::default();
+        let mut taken = 0.0;
         for _ in 0..steps {
-            step_all::<M, F, N>(instances, pace, &mut now, &mut growth);
+            taken += 1.0;
+            step_all::<M, F, N>(instances, pace, taken, &mut now, &mut growth);
         }
+        now.count(taken);
         let is_good = is_healthy(&growth, &now);
         if is_good {
             self.now = now;
@@ -199,12 +203,13 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
 fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
     instances: &Instances<M, N>,
     pace: &Pace<M::Real, N>,
+    uncounted: f64,
     now: &mut Moment<M, N>,
     growth: &mut Lanes<M::Real, N>,
 ) {
     for lane in 0..N {
         let (gains, step, start_time) = pace.of_lane(lane);
-        let taken = now.steps.0[lane] + 1.0;
+        let taken = now.steps.0[lane] + uncounted;
         let t = start_time + Straight::from_f64(taken) * step;
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
         let at = now.state_of(lane);
@@ -213,7 +218,6 @@ fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
             None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
         };
         growth.0[lane] = growth.0[lane].worse(stepped.growth.0);
-        now.steps.0[lane] = taken;
         now.put(lane, stepped.next);
     }
 }
