@@ -43,7 +43,7 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
-    /// The larger of two numbers that are not negative; NaN if one is.
+    /// The larger of magnitudes `self` and |`other`|; NaN if one is.
     #[doc(hidden)]
     #[must_use]
     fn worse(self, other: Self) -> Self;
@@ -59,11 +59,10 @@ mod sealed {
 }
 
 impl Lane for f64 {
-    // Their bits are in the order of the numbers, and NaN has larger ones. That is one
-    // instruction of a vector; `max` that keeps a NaN is two.
+    // Bits of magnitudes are in their order, and those of NaN beyond: no choice is needed.
     #[inline(always)]
     fn worse(self, other: Self) -> Self {
-        Self::from_bits(self.to_bits().max(other.to_bits()))
+        Self::from_bits(self.to_bits().max(other.abs().to_bits()))
     }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
@@ -76,11 +75,10 @@ impl Lane for f64 {
 }
 
 impl Lane for f32 {
-    // Their bits are in the order of the numbers, and NaN has larger ones. That is one
-    // instruction of a vector; `max` that keeps a NaN is two.
+    // Bits of magnitudes are in their order, and those of NaN beyond: no choice is needed.
     #[inline(always)]
     fn worse(self, other: Self) -> Self {
-        Self::from_bits(self.to_bits().max(other.to_bits()))
+        Self::from_bits(self.to_bits().max(other.abs().to_bits()))
     }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
@@ -272,7 +270,7 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
     reason = "comparisons of lanes are tested"
 )]
 mod tests {
-    use super::Lanes;
+    use super::{Lane, Lanes};
     use crate::Real;
 
     #[test]
@@ -283,6 +281,15 @@ mod tests {
         assert_eq!(low.partial_cmp(&Lanes([0.0, 3.0])), None);
         assert!(!Lanes([0.0, f64::INFINITY]).is_finite() && low.is_finite());
         assert_eq!(low.select([true, false], high), Lanes([1.0, 3.0]));
+    }
+
+    #[test]
+    fn a_nan_is_worst() {
+        let numbers = [0.0, -0.0, 1.0, -2.0, f64::INFINITY, f64::NAN, -f64::NAN];
+        let worst = |upto: usize| numbers[..=upto].iter().fold(0.0, |worst: f64, &x| worst.worse(x));
+        assert_eq!([worst(1), worst(2), worst(3), worst(4)], [0.0, 1.0, 2.0, f64::INFINITY]);
+        assert!(worst(5).is_nan() && worst(6).is_nan() && f64::NAN.worse(1.0).is_nan());
+        assert!(2.0_f32.worse(f32::NAN).is_nan() && 2.0_f32.worse(-3.0) == 3.0);
     }
 
     #[test]

@@ -50,19 +50,24 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 /// NaN subtracted from it, which is decided while the sum is computed.
 #[inline(always)]
 pub(crate) fn straight_sin_cos(x: f64) -> (f64, f64) {
-    reduced(x, if x.abs() <= RANGE { SHIFT } else { f64::NAN })
+    reduced(x, straight_shift(x))
 }
 
-/// The same of two angles in turns, so that a processor that looks only some operations
-/// ahead always has two to do.
+/// The same of two angles in turns, so that a processor, which looks only some
+/// operations ahead, finds two that do not wait for each other.
 #[inline(always)]
 pub(crate) fn straight_sin_cos_of_two(x: Two<f64>) -> (Two<f64>, Two<f64>) {
-    let back = |x: f64| if x.abs() <= RANGE { SHIFT } else { f64::NAN };
-    let shift_back = Two(back(x.0), back(x.1));
+    let Two(first, second) = x;
+    let shift_back = Two(straight_shift(first), straight_shift(second));
     let Octant { shifted, sine, cosine } = octant(x, shift_back, |constant| Two(constant, constant));
     let (s, c) = turned(Octant { shifted: shifted.0, sine: sine.0, cosine: cosine.0 });
-    let (s1, c1) = turned(Octant { shifted: shifted.1, sine: sine.1, cosine: cosine.1 });
-    (Two(s, s1), Two(c, c1))
+    let (s_second, c_second) = turned(Octant { shifted: shifted.1, sine: sine.1, cosine: cosine.1 });
+    (Two(s, s_second), Two(c, c_second))
+}
+
+#[inline(always)]
+fn straight_shift(x: f64) -> f64 {
+    if x.abs() <= RANGE { SHIFT } else { f64::NAN }
 }
 
 /// Adding 3·2⁵¹ leaves the nearest integer in the low bits of the mantissa.

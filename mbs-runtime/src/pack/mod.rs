@@ -32,7 +32,7 @@ pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordin
 pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 
 /// Steps that are tested for health together: the first ones, and the most. What is done
-/// once for all of them costs as much as one step.
+/// once for all of them costs about as much as a step.
 const FIRST_STRIDE: u64 = 128;
 const LONGEST_STRIDE: u64 = 1024;
 
@@ -98,10 +98,9 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     /// Advances all lanes together by up to a number of steps, and says by how many: up
     /// to one before one that not every lane can make, or not with what lanes can compute.
     ///
-    /// Steps are tested for health many at a time. That finds all that has gone wrong: what
-    /// has ceased to be finite stays so, because a step adds to what there is, and the worst
-    /// growth is kept. Then the steps up to the bad one are found by bisection, and taken
-    /// again.
+    /// Steps are tested for health many at a time. That misses nothing: what has ceased to
+    /// be finite stays so, because a step adds to what there is, and the worst growth is
+    /// kept. Where something has gone wrong, bisection finds the steps before.
     #[inline(always)]
     pub fn advance(&mut self, steps: u64) -> u64 {
         let (mut taken, mut good) = (0, steps);
@@ -120,11 +119,10 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
         taken
     }
 
-    /// The same, and ends after a step too after which `look` does not want more.
+    /// The same, a step at a time, up to one after which `look` does not want more.
     #[inline(always)]
     pub fn advance_and_look(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
         let Self { instances, pace, .. } = self;
-        // In this loop the numbers are nobody else's, so they can stay in registers.
         let mut now = self.now;
         let mut taken = 0;
         while taken < steps {
@@ -146,6 +144,8 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     }
 
     /// Advances by a number of steps, if all of them are good.
+    ///
+    /// In this loop the numbers are nobody else's, so they can stay in registers.
     #[inline(always)]
     fn stride(&mut self, steps: u64) -> bool {
         let Self { instances, pace, .. } = self;
@@ -194,8 +194,8 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     }
 }
 
-/// A step of every lane; what `growth` was comes out as large as that of the step at
-/// least.
+/// A step of every lane, the worst growth so far, and the time after as many steps as
+/// `now` does not count yet.
 ///
 /// The scalar's step in a loop over lanes: compilers make better vectors of that than
 /// of a step of which every operation is a loop.
@@ -233,8 +233,7 @@ fn staged_step<M: Mechanism, F: Feedback>(
     t_next: M::Real,
 ) -> Stepped<M::Coordinates> {
     let Trial { next, here, there, .. } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
-    // Nobody asks for the sum.
-    Stepped { next, growth: here.1 + there.1, sum: M::Real::default() }
+    Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
 }
 
 /// Whether no growth reaches its limit, and all is finite, in every lane.
