@@ -43,10 +43,14 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
-    /// The larger of magnitudes `self` and |`other`|; NaN if one is.
+    /// The larger of two magnitudes; NaN if one is. What has a minus sign is larger than
+    /// what has none, even a zero.
     #[doc(hidden)]
     #[must_use]
     fn worse(self, other: Self) -> Self;
+    /// Whether `other` is [`worse`](Self::worse), and not the same.
+    #[doc(hidden)]
+    fn is_below(self, other: Self) -> bool;
     /// Sines and cosines of two angles, in turns.
     #[doc(hidden)]
     fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>);
@@ -59,10 +63,15 @@ mod sealed {
 }
 
 impl Lane for f64 {
-    // Bits of magnitudes are in their order, and those of NaN beyond: no choice is needed.
+    // Bits are in the order of magnitudes, and those of NaN beyond. That is an instruction
+    // of a vector; a `max` that keeps NaN is two.
     #[inline(always)]
     fn worse(self, other: Self) -> Self {
-        Self::from_bits(self.to_bits().max(other.abs().to_bits()))
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self.to_bits() < other.to_bits()
     }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
@@ -75,10 +84,15 @@ impl Lane for f64 {
 }
 
 impl Lane for f32 {
-    // Bits of magnitudes are in their order, and those of NaN beyond: no choice is needed.
+    // Bits are in the order of magnitudes, and those of NaN beyond. That is an instruction
+    // of a vector; a `max` that keeps NaN is two.
     #[inline(always)]
     fn worse(self, other: Self) -> Self {
-        Self::from_bits(self.to_bits().max(other.abs().to_bits()))
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self.to_bits() < other.to_bits()
     }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
@@ -285,11 +299,14 @@ mod tests {
 
     #[test]
     fn a_nan_is_worst() {
-        let numbers = [0.0, -0.0, 1.0, -2.0, f64::INFINITY, f64::NAN, -f64::NAN];
+        let numbers = [0.0, 1.0, 0.5, f64::INFINITY, f64::NAN, 2.0];
         let worst = |upto: usize| numbers[..=upto].iter().fold(0.0, |worst: f64, &x| worst.worse(x));
-        assert_eq!([worst(1), worst(2), worst(3), worst(4)], [0.0, 1.0, 2.0, f64::INFINITY]);
-        assert!(worst(5).is_nan() && worst(6).is_nan() && f64::NAN.worse(1.0).is_nan());
-        assert!(2.0_f32.worse(f32::NAN).is_nan() && 2.0_f32.worse(-3.0) == 3.0);
+        assert_eq!([worst(0), worst(1), worst(2), worst(3)], [0.0, 1.0, 1.0, f64::INFINITY]);
+        assert!(worst(4).is_nan() && worst(5).is_nan());
+        assert!(0.0.is_below(1.0) && 1.0_f32.is_below(1.5) && !1.5.is_below(1.5));
+        for no_magnitude in [f64::INFINITY, f64::NAN, -f64::NAN, -0.0, -1.0] {
+            assert!(!1.0.worse(no_magnitude).worse(1.0).is_below(2.0), "{no_magnitude}");
+        }
     }
 
     #[test]

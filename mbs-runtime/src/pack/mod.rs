@@ -245,9 +245,8 @@ fn is_healthy<M: Mechanism<Real: Lane>, const N: usize>(
     let mut sick = 0_u64;
     for lane in 0..N {
         let State { q, v, .. } = at.state_of(lane);
-        let trouble = trouble_of(sum_of(q) + sum_of(v));
-        let is_healthy = growth.0[lane] + trouble.0 < growth_limit();
-        sick |= u64::from(!is_healthy);
+        let is_finite = trouble_of(sum_of(q) + sum_of(v)).0 < growth_limit();
+        sick |= u64::from(!(is_finite & growth.0[lane].is_below(growth_limit())));
     }
     sick == 0
 }
