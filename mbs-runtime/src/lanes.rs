@@ -11,8 +11,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use crate::pack::{Many, ManyCoordinates, ManyOutputs, Pack, Snapshot, and, unpack};
 
-use crate::Real;
 use crate::spline::Spline;
+use crate::{Real, Two};
 
 /// `N` scalars side by side, one per instance of a mechanism: generated code that
 /// computes with `Lanes<f64, 8>` runs eight instances at once.
@@ -43,6 +43,17 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
+    /// The larger of two magnitudes; NaN if one is. What has a minus sign is larger than
+    /// what has none, even a zero.
+    #[doc(hidden)]
+    #[must_use]
+    fn worse(self, other: Self) -> Self;
+    /// Whether `other` is [`worse`](Self::worse), and not the same.
+    #[doc(hidden)]
+    fn is_below(self, other: Self) -> bool;
+    /// Sines and cosines of two angles, in turns.
+    #[doc(hidden)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>);
 }
 
 mod sealed {
@@ -52,17 +63,46 @@ mod sealed {
 }
 
 impl Lane for f64 {
+    // Bits are in the order of magnitudes, and those of NaN beyond. That is an instruction
+    // of a vector; a `max` that keeps NaN is two.
+    #[inline(always)]
+    fn worse(self, other: Self) -> Self {
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self.to_bits() < other.to_bits()
+    }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
         crate::sincos::straight_sin_cos(self)
     }
+    #[inline(always)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        crate::sincos::straight_sin_cos_of_two(angles)
+    }
 }
 
 impl Lane for f32 {
+    // Bits are in the order of magnitudes, and those of NaN beyond. That is an instruction
+    // of a vector; a `max` that keeps NaN is two.
+    #[inline(always)]
+    fn worse(self, other: Self) -> Self {
+        Self::from_bits(self.to_bits().max(other.to_bits()))
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self.to_bits() < other.to_bits()
+    }
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = f64::from(self).straight_sin_cos();
         (sine as Self, cosine as Self)
+    }
+    #[inline(always)]
+    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        let (s, c) = f64::straight_sin_cos_of_two(Two(f64::from(angles.0), f64::from(angles.1)));
+        (Two(s.0 as Self, s.1 as Self), Two(c.0 as Self, c.1 as Self))
     }
 }
 
@@ -203,7 +243,7 @@ macro_rules! lane_by_lane {
 }
 
 impl<T: Lane, const N: usize> Real for Lanes<T, N> {
-    type Pair = crate::Two<Self>;
+    type Pair = Two<Self>;
     const EPSILON: Self = Self([T::EPSILON; N]);
 
     #[inline(always)]
@@ -244,7 +284,7 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
     reason = "comparisons of lanes are tested"
 )]
 mod tests {
-    use super::Lanes;
+    use super::{Lane, Lanes};
     use crate::Real;
 
     #[test]
@@ -255,6 +295,18 @@ mod tests {
         assert_eq!(low.partial_cmp(&Lanes([0.0, 3.0])), None);
         assert!(!Lanes([0.0, f64::INFINITY]).is_finite() && low.is_finite());
         assert_eq!(low.select([true, false], high), Lanes([1.0, 3.0]));
+    }
+
+    #[test]
+    fn a_nan_is_worst() {
+        let numbers = [0.0, 1.0, 0.5, f64::INFINITY, f64::NAN, 2.0];
+        let worst = |upto: usize| numbers[..=upto].iter().fold(0.0, |worst: f64, &x| worst.worse(x));
+        assert_eq!([worst(0), worst(1), worst(2), worst(3)], [0.0, 1.0, 1.0, f64::INFINITY]);
+        assert!(worst(4).is_nan() && worst(5).is_nan());
+        assert!(0.0.is_below(1.0) && 1.0_f32.is_below(1.5) && !1.5.is_below(1.5));
+        for no_magnitude in [f64::INFINITY, f64::NAN, -f64::NAN, -0.0, -1.0] {
+            assert!(!1.0.worse(no_magnitude).worse(1.0).is_below(2.0), "{no_magnitude}");
+        }
     }
 
     #[test]

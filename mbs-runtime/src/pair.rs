@@ -83,7 +83,7 @@ impl Neg for Low {
 
 /// A pair of any scalars, computed one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Two<T>(T, T);
+pub struct Two<T>(pub(crate) T, pub(crate) T);
 
 macro_rules! lane_by_lane {
     ($($Operator:ident $operator:ident),*) => {$(
@@ -147,8 +147,7 @@ impl<T: Real> Pair<T> for Two<T> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let ((s, c), (sine, cosine)) = (self.0.sin_cos(), self.1.sin_cos());
-        (Self(s, sine), Self(c, cosine))
+        T::sin_cos_of_two(self)
     }
 }
 

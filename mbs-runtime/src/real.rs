@@ -43,6 +43,13 @@ pub trait Real:
 
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
+    /// Sines and cosines of two angles.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        let ((s, c), (sine, cosine)) = (angles.0.sin_cos(), angles.1.sin_cos());
+        (Two(s, sine), Two(c, cosine))
+    }
     /// Sine of an angle in rad.
     #[inline(always)]
     fn sin(self) -> Self {

@@ -9,6 +9,8 @@ use core::ops::{Add, Mul, Sub};
 
 use wide::f64x2;
 
+use crate::Two;
+
 /// Up to here the reduction below is exact enough; mechanisms that turn further
 /// than that fall back to the library.
 pub(crate) const RANGE: f64 = 1.0e5;
@@ -48,7 +50,24 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 /// NaN subtracted from it, which is decided while the sum is computed.
 #[inline(always)]
 pub(crate) fn straight_sin_cos(x: f64) -> (f64, f64) {
-    reduced(x, if x.abs() <= RANGE { SHIFT } else { f64::NAN })
+    reduced(x, straight_shift(x))
+}
+
+/// The same of two angles in turns, so that a processor, which looks only some
+/// operations ahead, finds two that do not wait for each other.
+#[inline(always)]
+pub(crate) fn straight_sin_cos_of_two(x: Two<f64>) -> (Two<f64>, Two<f64>) {
+    let Two(first, second) = x;
+    let shift_back = Two(straight_shift(first), straight_shift(second));
+    let Octant { shifted, sine, cosine } = octant(x, shift_back, |constant| Two(constant, constant));
+    let (s, c) = turned(Octant { shifted: shifted.0, sine: sine.0, cosine: cosine.0 });
+    let (s_second, c_second) = turned(Octant { shifted: shifted.1, sine: sine.1, cosine: cosine.1 });
+    (Two(s, s_second), Two(c, c_second))
+}
+
+#[inline(always)]
+fn straight_shift(x: f64) -> f64 {
+    if x.abs() <= RANGE { SHIFT } else { f64::NAN }
 }
 
 /// Adding 3·2⁵¹ leaves the nearest integer in the low bits of the mantissa.
@@ -58,7 +77,13 @@ const SHIFT: f64 = 6_755_399_441_055_744.0;
 /// reduction, polynomials in r, and a quarter turn per unit of n.
 #[inline(always)]
 fn reduced(x: f64, shift_back: f64) -> (f64, f64) {
-    let Octant { shifted, sine, cosine } = octant(x, shift_back, |constant| constant);
+    turned(octant(x, shift_back, |constant| constant))
+}
+
+/// Sine and cosine of the whole angle.
+#[inline(always)]
+fn turned(octant: Octant<f64>) -> (f64, f64) {
+    let Octant { shifted, sine, cosine } = octant;
     let quadrant = shifted.to_bits();
     let swap = quadrant & 1 == 1;
     let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };

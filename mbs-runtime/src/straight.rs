@@ -3,9 +3,9 @@
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::Real;
 use crate::lanes::Lane;
 use crate::spline::Spline;
+use crate::{Real, Two};
 
 /// A scalar whose sine and cosine have no branch: a loop over instances that
 /// computes with it can become vector instructions.
@@ -59,7 +59,7 @@ macro_rules! of_the_scalar {
 }
 
 impl<T: Lane> Real for Straight<T> {
-    type Pair = crate::Two<Self>;
+    type Pair = Two<Self>;
     const EPSILON: Self = Self(T::EPSILON);
 
     #[inline(always)]
@@ -78,6 +78,11 @@ impl<T: Lane> Real for Straight<T> {
     fn sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = self.0.straight_sin_cos();
         (Self(sine), Self(cosine))
+    }
+    #[inline(always)]
+    fn sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+        let (sines, cosines) = T::straight_sin_cos_of_two(Two(angles.0.0, angles.1.0));
+        (Two(Self(sines.0), Self(sines.1)), Two(Self(cosines.0), Self(cosines.1)))
     }
     of_the_scalar!(
         tan asin acos atan sqrt exp ln tanh abs sign;

@@ -231,23 +231,44 @@ fn a_failing_lane_disturbs_nobody() {
     }
 }
 
-/// To the same end as its simulation alone: state, steps and error.
+/// To the same end as its simulation alone, whether somebody looks or not: state, steps
+/// and error.
 fn same_end<M: Mechanism<Real = f64>>(
     count: usize,
     end: f64,
     member: impl Fn(usize) -> Result<Simulation<M>, Error> + Sync,
 ) -> Vec<Option<Error>> {
     let outcomes = Ensemble::new(end).run(count, &member, &Violation).expect("nobody cancels");
-    let ended = outcomes.into_iter().enumerate().map(|(index, outcome)| {
-        let run = outcome.expect("a start");
+    let unseen = Ensemble::new(end).run(count, &member, &()).expect("nobody cancels");
+    let ended = outcomes.into_iter().zip(unseen).enumerate().map(|(index, (outcome, unseen))| {
+        let (run, unseen) = (outcome.expect("a start"), unseen.expect("a start"));
         let mut simulation = member(index).expect("a start");
         let alone = simulation.advance_to(end).err();
         // as text: a growth may be NaN
         assert_eq!(format!("{:?}", run.ended), format!("{alone:?}"), "{} {index}", M::INFO.name);
+        assert_eq!(format!("{:?}", unseen.ended), format!("{alone:?}"), "{} {index}", M::INFO.name);
         assert_eq!((run.state, run.steps), (*simulation.state(), simulation.steps()));
+        assert_eq!((unseen.state, unseen.steps), (run.state, run.steps));
         run.ended
     });
     ended.collect()
+}
+
+/// Cranks get stuck after a few steps and after thousands, so that steps which nobody looks
+/// at, and which are tested together, have a bad one first, in the middle, and last.
+#[test]
+fn every_bad_step_is_found() {
+    let steps =
+        [1, 2, 3, 30, 126, 127, 128, 129, 130, 255, 256, 300, 383, 384, 385, 1000, 1023, 1024, 1025, 2000];
+    let ended = same_end(steps.len() + 1, 1.25, |index| {
+        // the crank is stuck at sin θ1 = l2/l1
+        let steps = steps.get(index).map_or(5000.0, |&steps| f64::from(steps));
+        let omega = (0.03_f64 / 0.04).asin() / (steps * H);
+        let parameters = SliderCrankParameters { l1: 0.04, l2: 0.03, omega, ..Default::default() };
+        Simulation::new(SliderCrank::new(parameters)?, H)
+    });
+    let stuck = |ended: &Option<Error>| ended.is_some();
+    assert_eq!(ended.iter().map(stuck).collect::<Vec<_>>(), [vec![true; steps.len()], vec![false]].concat());
 }
 
 /// Steps that end on θ = 0, ±90° and 180°, to rounding, for three turns.
@@ -335,16 +356,11 @@ fn angles_beyond_the_range_of_the_lanes() {
         1 => fast(1e-7, 1.05e9),
         _ => fast(1e-7, 100.0),
     };
-    let outcomes = Ensemble::new(1e-4).run(3, member, &Violation).expect("nobody cancels");
-    for (index, outcome) in outcomes.into_iter().enumerate() {
-        let mut simulation = member(index).expect("a start");
-        let end = simulation.advance_to(1e-4);
-        let run = outcome.expect("a start");
-        assert_eq!((run.ended, run.state, run.steps), (end.err(), *simulation.state(), simulation.steps()));
-        if index == 1 {
-            assert!(run.state.q.theta1 > 1e5 || run.ended.is_some());
-        }
-    }
+    let ended = same_end(3, 1e-4, member);
+    let mut fast = member(1).expect("a start");
+    let end = fast.advance_to(1e-4);
+    assert_eq!(end.err(), ended[1]);
+    assert!(fast.state().q.theta1 > 1e5 || ended[1].is_some());
 }
 
 #[test]

@@ -217,10 +217,14 @@ where
     // would lie across two lines of the cache.
     std::hint::black_box(&mut Lanes([0.0_f64; 8]));
     let mut seen = [true; N];
-    let taken = pack.advance(steps, |at| {
-        seen = observer.observe(notes, at);
-        seen == [true; N]
-    });
+    let taken = if O::LOOKS {
+        pack.advance_and_look(steps, |at| {
+            seen = observer.observe(notes, at);
+            seen == [true; N]
+        })
+    } else {
+        pack.advance(steps)
+    };
     let stop = match seen == [true; N] {
         false => Stop::Unseen { seen },
         true if taken < steps => Stop::Stuck,

@@ -58,6 +58,10 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
     /// What comes out for a member.
     type Result: Send;
 
+    /// Whether it looks at anything. Steps that nobody looks at are tested for health
+    /// many at a time.
+    const LOOKS: bool = true;
+
     /// The notes before anything was seen.
     fn begin<const N: usize>(&self) -> Self::Notes<N>;
 
@@ -77,6 +81,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
 impl<M: Mechanism<Real: Lane>> Observe<M> for () {
     type Notes<const N: usize> = ();
     type Result = ();
+    const LOOKS: bool = false;
 
     fn begin<const N: usize>(&self) {}
     #[inline(always)]
@@ -90,6 +95,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for () {
 impl<M: Mechanism<Real: Lane>, A: Observe<M>, B: Observe<M>> Observe<M> for (A, B) {
     type Notes<const N: usize> = (A::Notes<N>, B::Notes<N>);
     type Result = (A::Result, B::Result);
+    const LOOKS: bool = A::LOOKS || B::LOOKS;
 
     fn begin<const N: usize>(&self) -> Self::Notes<N> {
         (self.0.begin(), self.1.begin())

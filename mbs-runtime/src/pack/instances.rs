@@ -1,0 +1,178 @@
+//! What the lanes of a pack are, and where.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
+)]
+
+use super::{Each, Many, ManyCoordinates};
+use crate::lanes::{Lane, Lanes};
+use crate::straight::Straight;
+use crate::{Components, Feedback, Gains, Mechanism, Simulation, State};
+
+/// Coordinate by coordinate, the lanes.
+type Array<M, const N: usize> = <ManyCoordinates<M, N> as Components>::Array;
+
+/// What does not change while simulations advance: what they are,
+#[derive(Clone, Copy)]
+pub(super) struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
+    pub mechanism: Many<M, N>,
+    // As arrays, which a loop over lanes reads in place.
+    parameters: <<Many<M, N> as Mechanism>::Parameters as Components>::Array,
+    pub inputs: <<Many<M, N> as Mechanism>::Inputs as Components>::Array,
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
+    pub fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let parameters: <Many<M, N> as Mechanism>::Parameters =
+            pack(|lane| *members[lane].mechanism().parameters());
+        let inputs: <Many<M, N> as Mechanism>::Inputs = pack(|lane| *members[lane].inputs());
+        let hoisted = members.each_ref().map(|member| member.mechanism().hoisted());
+        Self {
+            mechanism: Many::<M, N>::from_hoisted(parameters, |at| Lanes(hoisted.map(|hoisted| hoisted[at]))),
+            parameters: parameters.into_array(),
+            inputs: inputs.into_array(),
+        }
+    }
+
+    #[inline(always)]
+    pub fn mechanism_of(&self, lane: usize) -> Each<M> {
+        let hoisted = self.mechanism.hoisted();
+        Each::<M>::from_hoisted(take(&self.parameters, lane), |at| Straight(hoisted[at].0[lane]))
+    }
+
+    #[inline(always)]
+    pub fn inputs_of(&self, lane: usize) -> <Each<M> as Mechanism>::Inputs {
+        take(&self.inputs, lane)
+    }
+}
+
+/// and how they advance.
+#[derive(Clone, Copy)]
+pub(super) struct Pace<T, const N: usize> {
+    gains: Gains<Lanes<T, N>>,
+    step: Lanes<T, N>,
+    start_time: Lanes<T, N>,
+}
+
+impl<T: Lane, const N: usize> Pace<T, N> {
+    pub fn of<M: Mechanism<Real = T>, F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let gains = members.each_ref().map(|member| member.baumgarte().gains());
+        Self {
+            gains: Gains {
+                minus_two_alpha: Lanes(gains.map(|gains: Gains<T>| gains.minus_two_alpha)),
+                minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
+            },
+            step: Lanes(members.each_ref().map(Simulation::step_size)),
+            start_time: Lanes(members.each_ref().map(Simulation::start_time)),
+        }
+    }
+
+    #[inline(always)]
+    pub fn of_lane(&self, lane: usize) -> (Gains<Straight<T>>, Straight<T>, Straight<T>) {
+        let gains = Gains {
+            minus_two_alpha: Straight(self.gains.minus_two_alpha.0[lane]),
+            minus_beta_squared: Straight(self.gains.minus_beta_squared.0[lane]),
+        };
+        (gains, Straight(self.step.0[lane]), Straight(self.start_time.0[lane]))
+    }
+}
+
+/// Where simulations are.
+#[derive(Clone, Copy)]
+pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
+    pub t: Lanes<M::Real, N>,
+    pub q: Array<M, N>,
+    pub v: Array<M, N>,
+    /// Steps since the start; exact, and a number that vectors can compute with.
+    pub steps: Lanes<f64, N>,
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
+    pub fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+        let q: ManyCoordinates<M, N> = pack(|lane| members[lane].state().q);
+        let v: ManyCoordinates<M, N> = pack(|lane| members[lane].state().v);
+        Self {
+            t: Lanes(members.each_ref().map(|member| member.state().t)),
+            q: q.into_array(),
+            v: v.into_array(),
+            steps: Lanes(members.each_ref().map(|member| member.steps() as f64)),
+        }
+    }
+
+    #[inline(always)]
+    pub fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::Coordinates> {
+        State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }
+    }
+
+    /// Counts steps that were taken.
+    #[inline(always)]
+    pub fn count(&mut self, steps: f64) {
+        for lane in 0..N {
+            self.steps.0[lane] += steps;
+        }
+    }
+
+    #[inline(always)]
+    pub fn put(&mut self, lane: usize, state: State<<Each<M> as Mechanism>::Coordinates>) {
+        self.t.0[lane] = state.t.0;
+        put(&mut self.q, lane, state.q);
+        put(&mut self.v, lane, state.v);
+    }
+}
+
+/// Components of all lanes from those of each.
+fn pack<C, S, T, const N: usize>(of_lane: impl Fn(usize) -> S) -> C
+where
+    T: Lane,
+    S: Components<Real = T>,
+    C: Components<Real = Lanes<T, N>>,
+{
+    let mut packed = C::splat(Lanes::default()).into_array();
+    for lane in 0..N {
+        let scalars = of_lane(lane).into_array();
+        for (lanes, scalar) in packed.as_mut().iter_mut().zip(scalars.as_ref()) {
+            lanes.0[lane] = *scalar;
+        }
+    }
+    C::from_array(packed)
+}
+
+/// The components of one lane, for a loop over lanes.
+#[inline(always)]
+fn take<S, T, const N: usize>(packed: &impl AsRef<[Lanes<T, N>]>, lane: usize) -> S
+where
+    T: Lane,
+    S: Components<Real = Straight<T>>,
+{
+    let mut scalars = S::splat(Straight(T::default())).into_array();
+    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.as_ref()) {
+        scalar.0 = lanes.0[lane];
+    }
+    S::from_array(scalars)
+}
+
+/// And back.
+#[inline(always)]
+pub(super) fn put<S, T, const N: usize>(packed: &mut impl AsMut<[Lanes<T, N>]>, lane: usize, scalars: S)
+where
+    T: Lane,
+    S: Components<Real = Straight<T>>,
+{
+    for (lanes, scalar) in packed.as_mut().iter_mut().zip(scalars.into_array().as_ref()) {
+        lanes.0[lane] = scalar.0;
+    }
+}
+
+/// The components of one lane; 0 beyond the last one.
+pub fn unpack<S, C, T, const N: usize>(packed: C, lane: usize) -> S
+where
+    T: Lane,
+    S: Components<Real = T>,
+    C: Components<Real = Lanes<T, N>>,
+{
+    let mut scalars = S::splat(T::default()).into_array();
+    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.into_array().as_ref()) {
+        *scalar = lanes.0.get(lane).copied().unwrap_or_default();
+    }
+    S::from_array(scalars)
+}

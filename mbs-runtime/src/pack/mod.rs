@@ -1,0 +1,267 @@
+//! Several simulations of one mechanism that advance together.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
+)]
+
+mod instances;
+mod snapshot;
+
+use core::array::from_fn;
+
+pub use instances::unpack;
+pub use snapshot::{Snapshot, and};
+
+use crate::heun::{Trial, trial};
+use crate::lanes::{Lane, Lanes};
+use crate::mechanism::growth_limit;
+use crate::straight::Straight;
+use crate::{Components, Feedback, Gains, Mechanism, Real, Simulation, State, Stepped};
+use instances::{Instances, Moment, Pace};
+
+/// The mechanism `M` over `N` lanes of its own scalar.
+pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
+
+/// The mechanism `M` in a loop over lanes.
+type Each<M> = <M as Mechanism>::Over<Straight<<M as Mechanism>::Real>>;
+
+/// The coordinates of `N` instances.
+pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
+
+/// The outputs of `N` instances.
+pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
+
+/// Steps that are tested for health together: the first ones, and the most. What is done
+/// once for all of them costs about as much as a step.
+const FIRST_STRIDE: u64 = 128;
+const LONGEST_STRIDE: u64 = 1024;
+
+/// `N` simulations that advance by a step at once, one in each lane: parameters,
+/// inputs, states, gains, steps and times are their own.
+///
+/// In `f64` a lane does what its [`Simulation`] would do alone, bit for bit; in `f32`
+/// within what [`Lanes`] says. A lane that cannot make a step stays where it is and
+/// does not touch the others.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Pack, Simulation, mechanism};
+///
+/// mechanism! {
+///     /// A weight on a massless rod.
+///     pub Pendulum {
+///         dof = 1;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         constraint rod: x^2 + y^2 = length^2;
+///         start { x = length; guess y = 0; }
+///     }
+/// }
+///
+/// let lengths = [0.5, 1.0, 1.5, 2.0];
+/// let mut alone = [Simulation::new(Pendulum::declared(), 1e-3)?; 4];
+/// for (run, length) in alone.iter_mut().zip(lengths) {
+///     *run = Simulation::new(Pendulum::new(PendulumParameters { length })?, 1e-3)?;
+/// }
+/// let mut pack = Pack::new(alone);
+/// for _ in 0..500 {
+///     assert_eq!(pack.step(), [true; 4]);
+/// }
+/// alone[2].advance_to(0.5)?;
+/// assert_eq!(pack.simulation(2).state(), alone[2].state());
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
+    /// As they were packed, or put into their lanes.
+    members: [Simulation<M, F>; N],
+    instances: Instances<M, N>,
+    pace: Pace<M::Real, N>,
+    now: Moment<M, N>,
+}
+
+impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
+    /// The simulations, each from where it is.
+    pub fn new(members: [Simulation<M, F>; N]) -> Self {
+        let now = Moment::of(&members);
+        let (instances, pace) = (Instances::of(&members), Pace::of(&members));
+        Self { members, instances, pace, now }
+    }
+
+    /// Advances every lane by a step; those that did. What a step of
+    /// [`simulation`](Self::simulation) says is why another did not.
+    pub fn step(&mut self) -> [bool; N] {
+        if self.stride(1) { [true; N] } else { self.step_each() }
+    }
+
+    /// Advances all lanes together by up to a number of steps, and says by how many: up
+    /// to one before one that not every lane can make, or not with what lanes can compute.
+    ///
+    /// Steps are tested for health many at a time. That misses nothing: what has ceased to
+    /// be finite stays so, because a step adds to what there is, and the worst growth is
+    /// kept. Where something has gone wrong, bisection finds the steps before.
+    #[inline(always)]
+    pub fn advance(&mut self, steps: u64) -> u64 {
+        let (mut taken, mut good) = (0, steps);
+        let mut stride = FIRST_STRIDE;
+        while taken < good {
+            let next = stride.min(good - taken);
+            if self.stride(next) {
+                taken += next;
+            } else {
+                // one of them is bad
+                good = taken + next - 1;
+            }
+            let is_longer = good == steps;
+            stride = if is_longer { LONGEST_STRIDE.min(2 * stride) } else { (good - taken).div_ceil(2) };
+        }
+        taken
+    }
+
+    /// The same, a step at a time, up to one after which `look` does not want more.
+    #[inline(always)]
+    pub fn advance_and_look(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
+        let Self { instances, pace, .. } = self;
+        let mut now = self.now;
+        let mut taken = 0;
+        while taken < steps {
+            let mut next = now;
+            let mut growth = Lanes::default();
+            step_all::<M, F, N>(instances, pace, 1.0, &mut next, &mut growth);
+            next.count(1.0);
+            if !is_healthy(&growth, &next) {
+                break;
+            }
+            now = next;
+            taken += 1;
+            if !look(&Snapshot { instances, moment: &now }) {
+                break;
+            }
+        }
+        self.now = now;
+        taken
+    }
+
+    /// Advances by a number of steps, if all of them are good.
+    ///
+    /// In this loop the numbers are nobody else's, so they can stay in registers.
+    #[inline(always)]
+    fn stride(&mut self, steps: u64) -> bool {
+        let Self { instances, pace, .. } = self;
+        let mut now = self.now;
+        let mut growth = Lanes::default();
+        let mut taken = 0.0;
+        for _ in 0..steps {
+            taken += 1.0;
+            step_all::<M, F, N>(instances, pace, taken, &mut now, &mut growth);
+        }
+        now.count(taken);
+        let is_good = is_healthy(&growth, &now);
+        if is_good {
+            self.now = now;
+        }
+        is_good
+    }
+
+    /// A step lane after lane, with all that a scalar can compute.
+    #[cold]
+    #[inline(never)]
+    fn step_each(&mut self) -> [bool; N] {
+        let mut members = from_fn(|lane| self.simulation(lane));
+        let healthy = members.each_mut().map(|member| member.step().is_ok());
+        self.now = Moment::of(&members);
+        healthy
+    }
+
+    /// Puts a copy of what is in one lane into another.
+    pub fn copy(&mut self, from: usize, to: usize) {
+        *self = Self::new(from_fn(|lane| self.simulation(if lane == to { from } else { lane })));
+    }
+
+    /// The simulation in a lane, as it is now: the last one, beyond the last lane.
+    pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
+        let lane = lane.min(N - 1);
+        let State { t, q, v } = self.snapshot().state();
+        let state = State { t: t.0[lane], q: unpack(q, lane), v: unpack(v, lane) };
+        self.members[lane].moved_to(state, self.now.steps.0[lane] as u64)
+    }
+
+    /// What can be observed of all lanes.
+    #[inline(always)]
+    pub fn snapshot(&self) -> Snapshot<'_, M, N> {
+        Snapshot { instances: &self.instances, moment: &self.now }
+    }
+}
+
+/// A step of every lane, the worst growth so far, and the time after as many steps as
+/// `now` does not count yet.
+///
+/// The scalar's step in a loop over lanes: compilers make better vectors of that than
+/// of a step of which every operation is a loop.
+#[inline(always)]
+fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
+    instances: &Instances<M, N>,
+    pace: &Pace<M::Real, N>,
+    uncounted: f64,
+    now: &mut Moment<M, N>,
+    growth: &mut Lanes<M::Real, N>,
+) {
+    for lane in 0..N {
+        let (gains, step, start_time) = pace.of_lane(lane);
+        let taken = now.steps.0[lane] + uncounted;
+        let t = start_time + Straight::from_f64(taken) * step;
+        let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
+        let at = now.state_of(lane);
+        let stepped = match mechanism.fused_step::<F>(&at, &inputs, &gains, step, t) {
+            Some(stepped) => stepped,
+            None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
+        };
+        growth.0[lane] = growth.0[lane].worse(stepped.growth.0);
+        now.put(lane, stepped.next);
+    }
+}
+
+/// A step stage by stage, of mechanisms that are too large for another.
+#[inline(always)]
+fn staged_step<M: Mechanism, F: Feedback>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    gains: &Gains<M::Real>,
+    h: M::Real,
+    t_next: M::Real,
+) -> Stepped<M::Coordinates> {
+    let Trial { next, here, there, .. } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
+    Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
+}
+
+/// Whether no growth reaches its limit, and all is finite, in every lane.
+#[inline(always)]
+fn is_healthy<M: Mechanism<Real: Lane>, const N: usize>(
+    growth: &Lanes<M::Real, N>,
+    at: &Moment<M, N>,
+) -> bool {
+    let mut sick = 0_u64;
+    for lane in 0..N {
+        let State { q, v, .. } = at.state_of(lane);
+        let is_finite = trouble_of(sum_of(q) + sum_of(v)).0 < growth_limit();
+        sick |= u64::from(!(is_finite & growth.0[lane].is_below(growth_limit())));
+    }
+    sick == 0
+}
+
+/// 0 if a sum is finite, else NaN, which is below no limit.
+#[inline(always)]
+#[allow(clippy::eq_op, reason = "infinity minus infinity is not 0")]
+fn trouble_of<T: Real>(sum: T) -> T {
+    sum - sum
+}
+
+/// Not finite if a component is not.
+#[inline(always)]
+fn sum_of<C: Components>(components: C) -> C::Real {
+    let array = components.into_array();
+    let sum = array.as_ref().iter().copied().reduce(|sum, x| sum + x);
+    sum.unwrap_or_default()
+}

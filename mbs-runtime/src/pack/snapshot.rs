@@ -1,0 +1,111 @@
+//! What can be observed of a pack.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
+)]
+
+use super::instances::{Instances, Moment, put};
+use super::{Each, Many, ManyCoordinates, ManyOutputs, sum_of, trouble_of};
+use crate::lanes::{Lane, Lanes};
+use crate::mechanism::growth_limit;
+use crate::straight::Straight;
+use crate::{Components, Mechanism, State};
+
+/// `N` instances at an instant.
+#[derive(Clone, Copy)]
+pub struct Snapshot<'a, M: Mechanism<Real: Lane>, const N: usize> {
+    pub(super) instances: &'a Instances<M, N>,
+    pub(super) moment: &'a Moment<M, N>,
+}
+
+impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
+    /// The instances, in lanes.
+    pub fn mechanism(&self) -> &'a Many<M, N> {
+        &self.instances.mechanism
+    }
+
+    /// Time, positions and velocities.
+    #[inline(always)]
+    pub fn state(&self) -> State<ManyCoordinates<M, N>> {
+        let Moment { t, q, v, .. } = *self.moment;
+        State { t, q: Components::from_array(q), v: Components::from_array(v) }
+    }
+
+    /// The time in s.
+    #[inline(always)]
+    pub fn time(&self) -> Lanes<M::Real, N> {
+        self.moment.t
+    }
+
+    /// The inputs.
+    #[inline(always)]
+    pub fn inputs(&self) -> <Many<M, N> as Mechanism>::Inputs {
+        Components::from_array(self.instances.inputs)
+    }
+
+    /// Constraint violations ‖Φ‖.
+    #[inline(always)]
+    pub fn violation(&self) -> Lanes<M::Real, N> {
+        if N == 1 {
+            let State { t, q, .. } = self.state();
+            return self.mechanism().phi(t, &q).norm();
+        }
+        let mut norms = Lanes::default();
+        for lane in 0..N {
+            let State { t, q, .. } = self.moment.state_of(lane);
+            norms.0[lane] = self.instances.mechanism_of(lane).phi(t, &q).norm().0;
+        }
+        norms
+    }
+
+    /// Constraint violations in velocities ‖Φ̇‖.
+    #[inline(always)]
+    pub fn velocity_violation(&self) -> Lanes<M::Real, N> {
+        if N == 1 {
+            return self.mechanism().phi_dot(&self.state()).norm();
+        }
+        let mut norms = Lanes::default();
+        for lane in 0..N {
+            let at = self.moment.state_of(lane);
+            norms.0[lane] = self.instances.mechanism_of(lane).phi_dot(&at).norm().0;
+        }
+        norms
+    }
+
+    /// The declared outputs, and the lanes in which the position has any.
+    #[inline(always)]
+    pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
+        if N == 1 {
+            return self.outputs_of_one();
+        }
+        let mut outputs = ManyOutputs::<M, N>::splat(Lanes::default()).into_array();
+        let mut healthy = [false; N];
+        let none = <Each<M> as Mechanism>::Constraints::splat(Straight::default());
+        for lane in 0..N {
+            let (mechanism, inputs) = (self.instances.mechanism_of(lane), self.instances.inputs_of(lane));
+            let at = self.moment.state_of(lane);
+            let reactions = mechanism.reactions(&at, &inputs, &none);
+            put(&mut outputs, lane, mechanism.outputs(&at, &inputs, &reactions));
+            healthy[lane] = reactions.growth + trouble_of(sum_of(reactions.acceleration)) < growth_limit();
+        }
+        (ManyOutputs::<M, N>::from_array(outputs), healthy)
+    }
+
+    /// A single lane may branch: it has all that a scalar can compute.
+    fn outputs_of_one(&self) -> (ManyOutputs<M, N>, [bool; N]) {
+        let (at, inputs) = (self.state(), self.inputs());
+        let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
+        let reactions = self.mechanism().reactions(&at, &inputs, &none);
+        let is_healthy = reactions.growth < growth_limit() && reactions.acceleration.is_finite();
+        (self.mechanism().outputs(&at, &inputs, &reactions), [is_healthy; N])
+    }
+}
+
+/// Where both are set.
+#[inline(always)]
+pub fn and<const N: usize>(mut mask: [bool; N], other: [bool; N]) -> [bool; N] {
+    for lane in 0..N {
+        mask[lane] &= other[lane];
+    }
+    mask
+}
