@@ -149,7 +149,8 @@ where
 mod tests {
     use wide::f64x2;
 
-    use super::{RANGE, sin_cos, sin_cos_of_two};
+    use super::{RANGE, sin_cos, sin_cos_of_two, straight_sin_cos_of_two};
+    use crate::Two;
 
     /// Distance in units in the last place of the expected value.
     fn ulps(found: f64, expected: f64) -> f64 {
@@ -202,12 +203,17 @@ mod tests {
         for _ in 0..100_000 {
             let x = [angle(), angle()];
             let (s, c) = sin_cos_of_two(f64x2::new(x));
+            let (Two(s_first, s_second), Two(c_first, c_second)) = straight_sin_cos_of_two(Two(x[0], x[1]));
+            let in_turns = [(s_first, c_first), (s_second, c_second)];
             for (lane, x) in x.into_iter().enumerate() {
                 let (sine, cosine) = sin_cos(x);
+                assert_eq!(in_turns[lane], (sine, cosine), "{x} in turns");
                 assert_eq!(s.to_array()[lane].to_bits(), sine.to_bits(), "sine of {x}");
                 assert_eq!(c.to_array()[lane].to_bits(), cosine.to_bits(), "cosine of {x}");
             }
         }
         assert!(sin_cos_of_two(f64x2::splat(f64::NAN)).0.to_array()[1].is_nan());
+        let (Two(near, far), Two(_, c_far)) = straight_sin_cos_of_two(Two(1.0, 1.1 * RANGE));
+        assert!(near == sin_cos(1.0).0 && far.is_nan() && c_far.is_nan());
     }
 }
