@@ -198,7 +198,7 @@ where
     fn advance(&mut self, steps: u64) -> Result<(), Error> {
         let mut taken = 0;
         while taken < steps {
-            taken += self.0.advance(steps - taken, |_| true);
+            taken += self.0.advance(steps - taken);
             if taken < steps {
                 self.step_apart()?;
                 taken += 1;
