@@ -8,7 +8,7 @@ use mbs_ensemble::{Cancelled, Ensemble, Observe};
 use mbs_runtime::{Components, Feedback, Held, Info, Mechanism, PerStage, Quantity, Simulation};
 use rayon::prelude::*;
 
-use crate::model::{Start, coordinate_unit, output_unit};
+use crate::model::{Start, coordinate_unit, output_unit, seen, step};
 use crate::{Error, FeedbackKind, Settings};
 
 /// What happens to the members of a sweep.
@@ -126,7 +126,7 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
         if taken.is_multiple_of(1024) && cancel.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        let (q, outputs) = (simulation.state().q.into_array(), simulation.outputs()?.into_array());
+        let (q, outputs) = (simulation.state().q.into_array(), seen(&simulation)?.1.into_array());
         let now = q.as_ref().iter().chain(outputs.as_ref());
         if taken == 0 {
             extents.extend(now.map(|&x| Extent { low: x, high: x, last: x }));
@@ -134,7 +134,7 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
             extents.iter_mut().zip(now).for_each(|(extent, &x)| extent.see(x));
         }
         if taken < steps {
-            simulation.step()?;
+            step(&mut simulation)?;
         }
     }
     Ok(Some(extents))

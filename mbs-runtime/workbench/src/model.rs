@@ -215,7 +215,7 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
         if taken == steps {
             break;
         }
-        if let Err(error) = simulation.step() {
+        if let Err(error) = step(&mut simulation) {
             ended = Some(error);
             break;
         }
@@ -266,15 +266,31 @@ pub(crate) fn coordinate_unit(coordinate: &Quantity) -> String {
     }
 }
 
+/// A step. Runs and sweeps share the code of it, which is long for each mechanism.
+#[inline(never)]
+pub(crate) fn step<M: Mechanism, F: Feedback>(
+    simulation: &mut Simulation<M, F>,
+) -> Result<(), mbs_runtime::Error> {
+    simulation.step()
+}
+
+/// Multipliers and outputs; shared as well.
+#[inline(never)]
+pub(crate) fn seen<M: Mechanism, F: Feedback>(
+    simulation: &Simulation<M, F>,
+) -> Result<(M::Constraints, M::Outputs), mbs_runtime::Error> {
+    let reactions = simulation.reactions()?;
+    let outputs = simulation.mechanism().outputs(simulation.state(), simulation.inputs(), &reactions);
+    Ok((reactions.multipliers, outputs))
+}
+
 fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
     simulation: &Simulation<M, F>,
     columns: &mut [Column],
 ) -> Result<(), mbs_runtime::Error> {
     let state = simulation.state();
-    let reactions = simulation.reactions()?;
-    let outputs = simulation.mechanism().outputs(state, simulation.inputs(), &reactions);
-    let (q, v, multipliers) =
-        (state.q.into_array(), state.v.into_array(), reactions.multipliers.into_array());
+    let (multipliers, outputs) = seen(simulation)?;
+    let (q, v, multipliers) = (state.q.into_array(), state.v.into_array(), multipliers.into_array());
     let outputs = outputs.into_array();
     let row = [state.t]
         .into_iter()

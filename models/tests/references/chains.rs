@@ -1,4 +1,4 @@
-//! Chains of N equal parts, for every N from the same code.
+//! Chains of N equal parts, for every N from the same code; the longest ones are loops.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -151,4 +151,14 @@ fn n_pendulum_has_its_slowest_mode() {
     // rods of 1/40 of the rope: their own inertia matters to the square of that
     let rope = 2.404825557695773_f64.powi(2) / 4.0 * G / 40.0;
     near("rope", forty / rope, 1.0, 1.0 / 1600.0);
+}
+
+/// So the references above hold for straight lines and for loops.
+#[test]
+fn long_chains_are_loops_and_short_ones_straight_lines() {
+    fn has_loops<M: Mechanism>() -> bool {
+        M::INFO.functions.iter().any(|function| function.loops > 0)
+    }
+    assert!(has_loops::<NFourBar40>() && has_loops::<NPendulum40>());
+    assert!(!has_loops::<NFourBar2>() && !has_loops::<NPendulum2>());
 }
