@@ -47,8 +47,10 @@ pub fn through_every_path<M: Mechanism<Real = f64>, F: Feedback>(
 struct Path<M: Mechanism<Real = f64>, F: Feedback> {
     name: &'static str,
     is_single: bool,
-    start: fn(&Simulation<M, F>) -> Result<Box<dyn Steps<M>>, Error>,
+    start: Start<M, F>,
 }
+
+type Start<M, F> = fn(&Simulation<M, F>) -> Result<Box<dyn Steps<M>>, Error>;
 
 impl<M: Mechanism<Real = f64>, F: Feedback> Clone for Path<M, F> {
     fn clone(&self) -> Self {
