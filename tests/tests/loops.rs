@@ -2,7 +2,10 @@
 //! is done on the same operands, so that results agree to the bit.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-use mbs_runtime::{Components, Mechanism, Simulation, State, mechanism};
+use mbs_runtime::{
+    Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, State, mechanism,
+};
+use models::{NFourBar40, NPendulum40};
 
 /// The same declaration with loops wherever they pay, and without any.
 macro_rules! both {
@@ -108,4 +111,69 @@ fn the_description_tells_loops_from_straight_lines() {
     let loops = |info: &mbs_runtime::Info| info.functions.iter().any(|function| function.loops > 0);
     assert!(loops(<PendulumLoops>::INFO) && loops(<FourBarLoops>::INFO));
     assert!(!loops(<PendulumStraight>::INFO) && !loops(<FourBarStraight>::INFO));
+}
+
+mechanism! {
+    /// Long, and without any constraint.
+    pub Springs {
+        dof = 160;
+        const N = 80;
+        param k = 200 [N/m];
+        param m = 0.3 [kg];
+        gravity = (0, -9.81) [m/s^2];
+        for i in 1..=N {
+            body mass[i] (x[i], y[i]) { mass = m; }
+            if i == 1 { spring string[i] (ground, mass[i]) { stiffness = k; damping = 1 [N*s/m]; length = 0.2 [m]; } }
+            if i > 1 { spring string[i] (mass[i-1], mass[i]) { stiffness = k; damping = 1 [N*s/m]; length = 0.2 [m]; } }
+            start { x[i] = (0.25*i) [m]; y[i] = (0.01*sin(i)) [m]; }
+        }
+    }
+}
+
+/// Runs steps whole, and in stages, as errors are looked for.
+fn whole_and_in_stages<M: Mechanism<Real = f64>, F: Feedback>(feedback: fn(f64) -> Baumgarte<F>) {
+    let mechanism = M::new(M::Parameters::default()).expect("declared values are valid");
+    let mut whole = Simulation::builder(mechanism, 1e-3)
+        .baumgarte(feedback(1e-3))
+        .build()
+        .expect("the start is consistent");
+    let mut stages = whole;
+    let bits = |simulation: &Simulation<M, F>| {
+        let State { t, q, v } = *simulation.state();
+        let (q, v) = (q.into_array(), v.into_array());
+        let all = q.as_ref().iter().chain(v.as_ref()).chain([&t]).map(|x| x.to_bits());
+        all.collect::<Vec<_>>()
+    };
+    for _ in 0..100 {
+        whole.step().expect("no step ends in a singular position");
+        stages.step_in_stages().expect("nor in stages");
+        assert_eq!(bits(&whole), bits(&stages));
+    }
+}
+
+/// Long steps convert their state to arrays once; in stages it is converted for each.
+#[test]
+fn long_steps_are_those_in_stages() {
+    assert!(Springs::<f64>::OPERATIONS > 1024);
+    whole_and_in_stages::<NPendulum40, Held>(Baumgarte::deadbeat);
+    whole_and_in_stages::<NPendulum40, PerStage>(Baumgarte::deadbeat);
+    whole_and_in_stages::<NFourBar40, Held>(Baumgarte::deadbeat);
+    whole_and_in_stages::<NFourBar40, PerStage>(Baumgarte::deadbeat);
+    whole_and_in_stages::<Springs, Held>(Baumgarte::deadbeat);
+    whole_and_in_stages::<Springs, PerStage>(Baumgarte::deadbeat);
+}
+
+/// A long step that is no good leaves the state alone, and the error is that of a stage.
+#[test]
+fn a_bad_long_step_changes_nothing() {
+    let mut start = *Simulation::new(NPendulum40::declared(), 1e-3).expect("consistent").state();
+    start.v.theta_7 = 1e200;
+    let mut simulation = Simulation::builder(NPendulum40::declared(), 1e-3)
+        .from_state(start)
+        .as_declared()
+        .build()
+        .expect("large, but finite");
+    assert!(matches!(simulation.step(), Err(Error::NonFinite { .. })));
+    assert_eq!(*simulation.state(), start);
+    assert_eq!(simulation.steps(), 0);
 }

@@ -126,22 +126,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
     // outside the functions, symbols are read as the function around them reads them
     let outside = Writer::new(model, program, access, &pairs, 0..0).with_slots(&slots);
     let outputs: Vec<_> = program.outputs.iter().map(|&output| outside.operand(output)).collect();
-    let mut length = slots.len();
-    let mut places = Vec::with_capacity(outputs.len());
-    let mut others: HashMap<Operand, Place> = HashMap::new();
-    for (&output, value) in program.outputs.iter().zip(&outputs) {
-        let place = match output {
-            Operand::Value(at) => slots.of(at),
-            other => others.get(&other).copied(),
-        };
-        places.push(place.unwrap_or_else(|| {
-            let (at, place) = (Literal::usize_unsuffixed(length), Place { array: Kind::Slots, at: length });
-            calls.extend(quote!(slots[#at] = #value;));
-            others.insert(output, place);
-            length += 1;
-            place
-        }));
-    }
+    let Outputs { places, length, statements: rest } = Outputs::new(program, &slots, &outputs);
     let arrays = arrays.declarations(names, access);
     let room = (!access.is_on_arrays()).then(|| {
         let length = Literal::usize_unsuffixed(length);
@@ -150,8 +135,40 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
             let mut slots = [T::from_f64(0.0); SLOTS];
         }
     });
-    let statements = quote!(#room #definitions #arrays #calls);
+    let statements = quote!(#room #definitions #arrays #calls #rest);
     Body { statements, outputs, places: Some(places), slots: length, runtime: names.runtime.clone() }
+}
+
+/// Where outputs are kept.
+struct Outputs {
+    places: Vec<Place>,
+    /// How many slots there are with those of outputs that no instruction computes,
+    length: usize,
+    /// and what fills these.
+    statements: TokenStream,
+}
+
+impl Outputs {
+    fn new(program: &Program, slots: &Slots, values: &[TokenStream]) -> Self {
+        let (mut length, mut statements) = (slots.len(), TokenStream::new());
+        let mut others: HashMap<Operand, Place> = HashMap::new();
+        let place = |(&output, value): (&Operand, &TokenStream)| {
+            let known = match output {
+                Operand::Value(at) => slots.of(at),
+                other => others.get(&other).copied(),
+            };
+            known.unwrap_or_else(|| {
+                let (at, place) =
+                    (Literal::usize_unsuffixed(length), Place { array: Kind::Slots, at: length });
+                statements.extend(quote!(slots[#at] = #value;));
+                others.insert(output, place);
+                length += 1;
+                place
+            })
+        };
+        let places = program.outputs.iter().zip(values).map(place).collect();
+        Self { places, length, statements }
+    }
 }
 
 /// The arrays of results that stages on arrays are given, and their lengths.
@@ -160,7 +177,7 @@ fn results(model: &Model, program: &Program, access: &Access) -> Vec<(Kind, usiz
         return Vec::new();
     }
     let (n, m) = (model.coordinates.len(), model.constraints.len());
-    let has_feedback = program.outputs.len() > n + m;
+    let has_feedback = m > 0 && program.outputs.len() > n + m;
     let feedback = has_feedback.then_some((Kind::Feedback, m));
     [(Kind::Acceleration, n)].into_iter().chain(feedback).collect()
 }
