@@ -1,7 +1,8 @@
 //! Hash-consed expressions: equal expressions are the same node.
 
-use std::collections::HashMap;
 use std::rc::Rc;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::number::Number;
 use crate::operators::Function;
@@ -93,9 +94,9 @@ impl Arena {
         let mut arena = Self {
             nodes: Vec::new(),
             stages: Vec::new(),
-            index: HashMap::new(),
+            index: HashMap::default(),
             symbols: Vec::new(),
-            labels: HashMap::new(),
+            labels: HashMap::default(),
             splines: Vec::new(),
         };
         // `zero` and `one` rely on these two being the first.

@@ -4,8 +4,10 @@
 //! Instructions are compared by what they do and by the kind of their operands;
 //! where the sequence repeats itself with some period, it is cut into copies.
 
-use std::collections::{BTreeMap, BinaryHeap, HashMap};
+use std::collections::{BTreeMap, BinaryHeap};
 use std::ops::Range;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::arena::Symbol;
 use crate::program::{Operand, Operation, Program};
@@ -163,7 +165,7 @@ impl Program {
             Operand::Hoisted(_) => Kind::Hoisted,
             Operand::Value(_) => Kind::Value,
         };
-        let mut numbers: HashMap<(Operation, Kind, Kind), usize> = HashMap::new();
+        let mut numbers: HashMap<(Operation, Kind, Kind), usize> = HashMap::default();
         let number = self.instructions.iter().map(|instruction| {
             let next = numbers.len();
             *numbers.entry((instruction.operation, kind(instruction.a), kind(instruction.b))).or_insert(next)
@@ -266,7 +268,7 @@ impl PartialOrd for Run {
 
 /// Distances at which windows recur often enough to be worth a look.
 fn periods(kinds: &[usize]) -> Vec<usize> {
-    let mut last: HashMap<&[usize], usize> = HashMap::new();
+    let mut last: HashMap<&[usize], usize> = HashMap::default();
     let mut recurrences: BTreeMap<usize, usize> = BTreeMap::new();
     for (at, window) in kinds.windows(WINDOW).enumerate() {
         if let Some(before) = last.insert(window, at) {

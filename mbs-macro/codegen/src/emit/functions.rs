@@ -132,7 +132,13 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
 }
 
 /// The implementation of the runtime's trait.
-pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Names) -> TokenStream {
+pub fn mechanism(
+    model: &Model,
+    equations: &Equations,
+    plan: &Plan,
+    names: &Names,
+    are_on_arrays: bool,
+) -> TokenStream {
     let Names { mechanism, runtime, parameters, state, reactions, .. } = names;
     let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
@@ -143,9 +149,8 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
     let sketch = sketch::emit(&model.sketch, names);
     let points = Literal::usize_unsuffixed(model.sketch.points.len());
     let places = sketch::places(&body(model, names, &plan.points, &Access::of_position()));
-    let kernels = kernels(model, plan, names, &fields);
-    let fused_step =
-        if stages::are_on_arrays(model, plan) { stages::step(names) } else { step::choice(plan, names) };
+    let kernels = kernels(model, plan, names, &fields, are_on_arrays);
+    let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(plan, names) };
     let start = declared_start(model, plan, names, &fields);
     let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
     let worst_pivot = worst_pivot(model, names, &plan.pivots);
@@ -213,11 +218,10 @@ pub fn mechanism(model: &Model, equations: &Equations, plan: &Plan, names: &Name
 }
 
 /// The functions that solve the constrained system.
-fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenStream {
+fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields, are_on_arrays: bool) -> TokenStream {
     let Names { runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
-    let are_on_arrays = stages::are_on_arrays(model, plan);
     let acceleration = |body: &Body| body.vector(q, &fields.coordinates, 0..n);
     let of_rows = |body: &Body| body.vector(rows, &fields.rows, n..n + m);
     let stabilized = if are_on_arrays {

@@ -32,12 +32,13 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let construction = construction::emit(model, plan, &names);
     let solver = solver::emit(model, plan, &names);
     let functions = functions::inherent(model, equations, plan, &names);
-    let step = if stages::are_on_arrays(model, plan) {
+    let are_on_arrays = stages::are_on_arrays(model, plan);
+    let step = if are_on_arrays {
         stages::implementation(model, plan, &names)
     } else {
         step::functions(model, plan, &names)
     };
-    let mechanism = functions::mechanism(model, equations, plan, &names);
+    let mechanism = functions::mechanism(model, equations, plan, &names, are_on_arrays);
     quote! {
         #types
         #construction

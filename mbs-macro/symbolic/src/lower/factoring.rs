@@ -5,7 +5,9 @@
 //! NP-hard; this is the usual heuristic, after Breuer 1969.)
 
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::flatten::{Definition, Flat, Signed, Value};
 
@@ -84,7 +86,7 @@ fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
     let mut work = Work {
         can_recur: can_recur(&rows),
         rows: vec![None; rows.len()],
-        holders: HashMap::new(),
+        holders: HashMap::default(),
         queue: BinaryHeap::new(),
     };
     for (value, row) in rows.into_iter().enumerate() {

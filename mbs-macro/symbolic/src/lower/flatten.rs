@@ -1,6 +1,8 @@
 //! Expressions as rows of factors and rows of signed summands.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Hoisted;
 use crate::arena::{Arena, Expr, Node, Stage};
@@ -105,7 +107,7 @@ impl Flat {
 }
 
 pub(super) fn flatten(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Flat {
-    let mut flattening = Flattening { arena, hoisted, flat: Flat::default(), known: HashMap::new() };
+    let mut flattening = Flattening { arena, hoisted, flat: Flat::default(), known: HashMap::default() };
     // Operands first, so that no recursion is deeper than one node.
     for expr in flattening.arena.reachable(outputs) {
         if flattening.is_computed_whole(expr) {

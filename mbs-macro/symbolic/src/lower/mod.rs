@@ -13,7 +13,7 @@ mod order;
 mod schedule;
 mod signs;
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::arena::{Arena, Expr};
 use crate::program::Program;

@@ -1,6 +1,6 @@
 //! Values in order, as binary instructions.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::flatten::{Definition, Flat, Signed, Value};
 use super::order::{operands, order};
@@ -13,7 +13,7 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
         flat,
         outputs,
         program: Program::default(),
-        operands: HashMap::new(),
+        operands: HashMap::default(),
         uses: count_uses(flat, &order),
         latencies: Vec::new(),
         summands: Summands::new(flat, &order),
@@ -50,13 +50,13 @@ struct Summands {
 
 impl Summands {
     fn new(flat: &Flat, order: &[Value]) -> Self {
-        let mut of: HashMap<Value, Vec<(Value, bool)>> = HashMap::new();
+        let mut of: HashMap<Value, Vec<(Value, bool)>> = HashMap::default();
         for &sum in order {
             if let Some(row) = long_row(flat, sum) {
                 row.iter().for_each(|s| of.entry(s.value).or_default().push((sum, s.negative)));
             }
         }
-        Self { of, gathered: HashMap::new() }
+        Self { of, gathered: HashMap::default() }
     }
 }
 
@@ -200,7 +200,7 @@ impl Schedule<'_> {
 /// How often each value is used in products; a use elsewhere counts twice, so
 /// that it never looks like a single use in a product.
 fn count_uses(flat: &Flat, order: &[Value]) -> HashMap<Value, usize> {
-    let mut uses = HashMap::new();
+    let mut uses = HashMap::default();
     for &value in order {
         let definition = &flat.definitions[value];
         let weight = if matches!(definition, Definition::Product(_)) { 1 } else { 2 };

@@ -25,6 +25,8 @@ const EXTRACT: f32 = 0.25;
 const WRITE: f32 = 0.8;
 /// A cycle that a lane waits for the other.
 const WAIT: f32 = 0.02;
+/// Lanes that wait longer lose more than the operation that they save.
+const LONGEST_WAIT: u32 = 50;
 /// How far a seed grows.
 const DEPTH: usize = 8;
 
@@ -91,7 +93,8 @@ impl<'a> Chooser<'a> {
         let mut seeds: BinaryHeap<Seed> = BinaryHeap::new();
         for class in self.classes() {
             for (at, &x) in class.iter().enumerate() {
-                for &y in &class[at + 1..] {
+                let is_near = |y: &&usize| self.latencies[x].abs_diff(self.latencies[**y]) <= LONGEST_WAIT;
+                for &y in class[at + 1..].iter().filter(is_near) {
                     let seed = self.judge(x, y).0;
                     if seed.gain > 0.0 {
                         seeds.push(seed);
@@ -190,10 +193,9 @@ impl<'a> Chooser<'a> {
         let likely = |alignment: &[(Operand, Operand); 2]| -> f32 {
             alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, 2)).sum()
         };
-        let all = alignments(left, right);
-        let best =
-            all.into_iter().reduce(|best, next| if likely(&next) > likely(&best) { next } else { best });
-        for (a, b) in best.into_iter().flatten() {
+        let all = alignments(left, right).map(|alignment| (likely(&alignment), alignment));
+        let best = all.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        for (a, b) in best.into_iter().flat_map(|(_, alignment)| alignment) {
             gain += self.of_operands(a, b, trial, depth);
         }
         gain
@@ -256,7 +258,7 @@ impl<'a> Chooser<'a> {
             };
             let [left, right] = [user, partner.other].map(|at| &self.program.instructions[at]);
             let wanted = (Operand::Value(x), Operand::Value(y));
-            if alignments(left, right).iter().any(|alignment| alignment.contains(&wanted)) {
+            if alignments(left, right).any(|alignment| alignment.contains(&wanted)) {
                 gain += JOIN;
                 break;
             }
@@ -301,7 +303,7 @@ impl<'a> Chooser<'a> {
         let of = |alignment: [(Operand, Operand); 2]| -> f32 {
             alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, depth - 1)).sum()
         };
-        1.0 + alignments(left, right).into_iter().map(of).fold(f32::MIN, f32::max) / 2.0
+        1.0 + alignments(left, right).map(of).fold(f32::MIN, f32::max) / 2.0
     }
 
     fn take(&mut self, trial: &Trial) {

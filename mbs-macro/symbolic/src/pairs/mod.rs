@@ -160,19 +160,17 @@ fn is_sine_or_cosine(instruction: &Instruction) -> bool {
 /// The ways to line up the operands of two instructions of one kind: first with
 /// first and second with second, or crossed where an instruction commutes. The
 /// first operand of a difference is what is subtracted from.
-fn alignments(x: &Instruction, y: &Instruction) -> Vec<[(Operand, Operand); 2]> {
+fn alignments(x: &Instruction, y: &Instruction) -> impl Iterator<Item = [(Operand, Operand); 2]> + use<> {
     let commutes = |i: &Instruction| matches!(i.operation, Operation::Add | Operation::Mul);
-    let mut alignments = vec![[(x.a, y.a), (x.b, y.b)]];
-    if commutes(x) {
-        alignments.push([(x.b, y.a), (x.a, y.b)]);
-    }
-    if commutes(y) {
-        alignments.push([(x.a, y.b), (x.b, y.a)]);
-    }
-    if commutes(x) && commutes(y) && x.operation != Operation::Mul {
-        alignments.push([(x.b, y.b), (x.a, y.a)]);
-    }
-    alignments
+    let both = commutes(x) && commutes(y) && x.operation != Operation::Mul;
+    [
+        Some([(x.a, y.a), (x.b, y.b)]),
+        commutes(x).then_some([(x.b, y.a), (x.a, y.b)]),
+        commutes(y).then_some([(x.a, y.b), (x.b, y.a)]),
+        both.then_some([(x.b, y.b), (x.a, y.a)]),
+    ]
+    .into_iter()
+    .flatten()
 }
 
 impl Woven {
