@@ -206,8 +206,8 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     }
 
     /// The same run, that many steps after its start.
-    pub(crate) fn moved_to(self, state: State<M::Coordinates>, steps: u64) -> Self {
-        Self { state, steps, ..self }
+    pub(crate) fn moved_to(&self, state: State<M::Coordinates>, steps: u64) -> Self {
+        Self { state, steps, ..*self }
     }
 
     /// Steps taken since the start.

@@ -2,6 +2,7 @@
 #![allow(clippy::needless_range_loop, reason = "lanes are counted through several arrays")]
 #![allow(clippy::type_complexity, reason = "an outcome per lane, where there is one, unless cancelled")]
 
+use std::array::from_fn;
 use std::ops::Range;
 
 use mbs_runtime::lanes::{Lane, Pack};
@@ -12,48 +13,44 @@ use crate::{Observe, Outcome, Run};
 /// Steps between two looks at the cancelling flag.
 const STEPS_AT_ONCE: u64 = 4096;
 
-/// The outcomes of these members, at most `N`, in order; `None` if cancelled.
+/// The outcomes of these members, at most `N`, in order, none of them `None`; or nothing if
+/// cancelled.
 pub fn run<M, F, O, const N: usize>(
     indices: Range<usize>,
     member: &(impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync),
     observer: &O,
     end: f64,
     is_cancelled: &dyn Fn() -> bool,
-) -> Option<Vec<Outcome<M, O::Result>>>
+) -> Option<Vec<Option<Outcome<M, O::Result>>>>
 where
     M: Mechanism<Real: Lane>,
     F: Feedback,
     O: Observe<M>,
 {
-    let ready = |index| {
-        let simulation = member(index)?;
-        Ok((simulation, simulation.steps_to(end)?))
-    };
-    let members: Vec<Result<_, Error>> = indices.map(ready).collect();
-    let started = |lane: usize| members.get(lane).and_then(|member| member.as_ref().ok());
-    let filler = members.iter().flatten().next();
-    let in_lane = |lane: usize| started(lane).or(filler);
-    let mut runs = match filler {
-        Some((filler, _)) => {
-            let simulations =
-                std::array::from_fn(|lane| in_lane(lane).map_or(*filler, |(simulation, _)| *simulation));
-            let left = std::array::from_fn(|lane| started(lane).map(|(_, steps)| *steps));
-            Block::<M, F, O, N>::together(simulations, left, observer, is_cancelled)?
+    let members: Vec<Result<_, Error>> = indices.map(member).collect();
+    let in_lane = |lane: usize| members.get(lane).and_then(|member| member.as_ref().ok());
+    let steps_in = |lane: usize| in_lane(lane).and_then(|simulation| simulation.steps_to(end).ok());
+    let mut runs: Vec<_> = members.iter().map(|_| None).collect();
+    if let Some(filler) = members.iter().flatten().next() {
+        let simulations = from_fn(|lane| in_lane(lane).unwrap_or(filler));
+        Block::<_, _, _, N>::together(simulations, from_fn(steps_in), observer, is_cancelled, &mut runs)?;
+    }
+    for (member, run) in members.iter().zip(&mut runs) {
+        if run.is_none() {
+            *run = Some(match member {
+                Ok(simulation) => alone(simulation, end, observer, is_cancelled)?,
+                Err(error) => Err(*error),
+            });
         }
-        None => [const { None }; N],
-    };
-    let outcomes = members.into_iter().zip(&mut runs).map(|(member, run)| match (member, run.take()) {
-        (Err(error), _) => Some(Err(error)),
-        (Ok(_), Some(run)) => Some(run),
-        (Ok((simulation, steps)), None) => alone(simulation, steps, observer, is_cancelled),
-    });
-    outcomes.collect()
+    }
+    Some(runs)
 }
 
-/// A member that left the range of the lanes, by itself from its start on.
+/// A member that left the range of the lanes, or has no steps to take: by itself from its
+/// start on.
 fn alone<M, F, O>(
-    simulation: Simulation<M, F>,
-    steps: u64,
+    simulation: &Simulation<M, F>,
+    end: f64,
     observer: &O,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Outcome<M, O::Result>>
@@ -62,29 +59,35 @@ where
     F: Feedback,
     O: Observe<M>,
 {
-    let [run] = Block::<M, F, O, 1>::together([simulation], [Some(steps)], observer, is_cancelled)?;
-    Some(run.unwrap_or_else(|| Err(not_computable(&simulation))))
+    let steps = match simulation.steps_to(end) {
+        Ok(steps) => steps,
+        Err(error) => return Some(Err(error)),
+    };
+    let mut run = [None];
+    Block::together([simulation], [Some(steps)], observer, is_cancelled, &mut run)?;
+    let [run] = run;
+    Some(run.unwrap_or_else(|| Err(not_computable(simulation))))
 }
 
 struct Block<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> {
-    pack: Pack<M, F, N>,
+    pack: Pack<M, F, N, &'a Simulation<M, F>>,
     observer: &'a O,
     notes: O::Notes<N>,
     /// The steps to go; `None` where nobody is running any more.
     left: [Option<u64>; N],
-    runs: [Option<Outcome<M, O::Result>>; N],
+    runs: &'a mut [Option<Outcome<M, O::Result>>],
 }
 
-impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block<'_, M, F, O, N> {
-    /// Runs lanes with steps to go to their ends. Without an outcome are those that
-    /// had none, and those that have to be run alone.
+impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block<'a, M, F, O, N> {
+    /// Runs lanes with steps to go to their ends; `None` if cancelled. Without an outcome
+    /// are then those that had none, and those that have to be run alone.
     fn together(
-        simulations: [Simulation<M, F>; N],
+        simulations: [&'a Simulation<M, F>; N],
         left: [Option<u64>; N],
-        observer: &O,
+        observer: &'a O,
         is_cancelled: &dyn Fn() -> bool,
-    ) -> Option<[Option<Outcome<M, O::Result>>; N]> {
-        let runs = [const { None }; N];
+        runs: &'a mut [Option<Outcome<M, O::Result>>],
+    ) -> Option<()> {
         let pack = Pack::new(simulations);
         let mut block = Block { pack, observer, notes: observer.begin(), left, runs };
         block.look();
@@ -94,7 +97,7 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
             }
             block.advance(steps.min(STEPS_AT_ONCE));
         }
-        Some(block.runs)
+        Some(())
     }
 
     /// How far all that are running can go together; ends those that are there.
@@ -115,7 +118,7 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
             Stop::Stuck => {
                 let moved = self.pack.step();
                 self.count(1, moved);
-                self.end_where_not(moved, |pack, lane| pack.simulation(lane).step().err());
+                self.end_where_not(moved, |block, lane| block.pack.simulation(lane).step().err());
                 self.look();
             }
             Stop::Unseen { seen } => self.end_unseen(seen),
@@ -138,17 +141,17 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
     }
 
     fn end_unseen(&mut self, seen: [bool; N]) {
-        self.end_where_not(seen, |pack, lane| pack.simulation(lane).outputs().err());
+        self.end_where_not(seen, |block, lane| block.pack.simulation(lane).outputs().err());
     }
 
     /// Ends lanes that are not in a mask, with what the scalar says is the cause. If
     /// it finds none, it can compute what lanes cannot.
-    fn end_where_not(&mut self, mask: [bool; N], cause: impl Fn(&Pack<M, F, N>, usize) -> Option<Error>) {
+    fn end_where_not(&mut self, mask: [bool; N], cause: impl Fn(&Self, usize) -> Option<Error>) {
         for lane in 0..N {
             if mask[lane] || self.left[lane].is_none() {
                 continue;
             }
-            match cause(&self.pack, lane) {
+            match cause(self, lane) {
                 Some(error) => self.end(lane, Some(error)),
                 None if N == 1 => self.end(lane, Some(not_computable(&self.pack.simulation(lane)))),
                 None => self.left[lane] = None,
@@ -158,11 +161,12 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block
     }
 
     fn end(&mut self, lane: usize, ended: Option<Error>) {
-        let simulation = self.pack.simulation(lane);
         let observed = self.observer.finish(&self.notes, lane);
-        let run = Run { state: *simulation.state(), steps: simulation.steps(), ended, observed };
+        let run = Run { state: self.pack.state(lane), steps: self.pack.steps(lane), ended, observed };
         self.left[lane] = None;
-        self.runs[lane] = Some(Ok(run));
+        if let Some(slot) = self.runs.get_mut(lane) {
+            *slot = Some(Ok(run));
+        }
     }
 
     /// Lanes that nobody needs any more do what one does that is still running, so
@@ -203,7 +207,7 @@ enum Stop<const N: usize> {
     "x86_64+avx+avx2+fma",
 ))]
 fn advance<M, F, O, const N: usize>(
-    pack: &mut Pack<M, F, N>,
+    pack: &mut Pack<M, F, N, &Simulation<M, F>>,
     observer: &O,
     notes: &mut O::Notes<N>,
     steps: u64,

@@ -225,9 +225,11 @@ impl<'a, const N: usize> Ensemble<'a, N> {
             let last = blocks.min(first + at_once);
             let outcomes: Option<Vec<_>> = (first..last).into_par_iter().map(run_block).collect();
             let outcomes = outcomes.ok_or(Cancelled { finished: index })?;
-            for outcome in outcomes.into_iter().flatten() {
-                take(index, outcome);
-                index += 1;
+            for block in outcomes {
+                for outcome in block.into_iter().flatten() {
+                    take(index, outcome);
+                    index += 1;
+                }
             }
         }
         Ok(())

@@ -22,11 +22,11 @@ pub(super) struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
-    pub fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+    pub fn of<F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
         let parameters: <Many<M, N> as Mechanism>::Parameters =
             pack(|lane| *members[lane].mechanism().parameters());
         let inputs: <Many<M, N> as Mechanism>::Inputs = pack(|lane| *members[lane].inputs());
-        let hoisted = members.each_ref().map(|member| member.mechanism().hoisted());
+        let hoisted = members.map(|member| member.mechanism().hoisted());
         Self {
             mechanism: Many::<M, N>::from_hoisted(parameters, |at| Lanes(hoisted.map(|hoisted| hoisted[at]))),
             parameters: parameters.into_array(),
@@ -55,15 +55,15 @@ pub(super) struct Pace<T, const N: usize> {
 }
 
 impl<T: Lane, const N: usize> Pace<T, N> {
-    pub fn of<M: Mechanism<Real = T>, F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
-        let gains = members.each_ref().map(|member| member.baumgarte().gains());
+    pub fn of<M: Mechanism<Real = T>, F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
+        let gains = members.map(|member| member.baumgarte().gains());
         Self {
             gains: Gains {
                 minus_two_alpha: Lanes(gains.map(|gains: Gains<T>| gains.minus_two_alpha)),
                 minus_beta_squared: Lanes(gains.map(|gains| gains.minus_beta_squared)),
             },
-            step: Lanes(members.each_ref().map(Simulation::step_size)),
-            start_time: Lanes(members.each_ref().map(Simulation::start_time)),
+            step: Lanes(members.map(Simulation::step_size)),
+            start_time: Lanes(members.map(Simulation::start_time)),
         }
     }
 
@@ -88,20 +88,35 @@ pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
-    pub fn of<F: Feedback>(members: &[Simulation<M, F>; N]) -> Self {
+    pub fn of<F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
         let q: ManyCoordinates<M, N> = pack(|lane| members[lane].state().q);
         let v: ManyCoordinates<M, N> = pack(|lane| members[lane].state().v);
         Self {
-            t: Lanes(members.each_ref().map(|member| member.state().t)),
+            t: Lanes(members.map(|member| member.state().t)),
             q: q.into_array(),
             v: v.into_array(),
-            steps: Lanes(members.each_ref().map(|member| member.steps() as f64)),
+            steps: Lanes(members.map(|member| member.steps() as f64)),
         }
+    }
+
+    /// The state in one lane.
+    #[inline]
+    pub fn scalar_state(&self, lane: usize) -> State<M::Coordinates> {
+        State { t: self.t.0[lane], q: scalars_of(&self.q, lane), v: scalars_of(&self.v, lane) }
     }
 
     #[inline(always)]
     pub fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::Coordinates> {
         State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }
+    }
+
+    /// Moves a lane to where another is.
+    pub fn copy(&mut self, from: usize, to: usize) {
+        self.t.0[to] = self.t.0[from];
+        self.steps.0[to] = self.steps.0[from];
+        for lanes in self.q.as_mut().iter_mut().chain(self.v.as_mut()) {
+            lanes.0[to] = lanes.0[from];
+        }
     }
 
     /// Counts steps that were taken.
@@ -164,14 +179,25 @@ where
 }
 
 /// The components of one lane; 0 beyond the last one.
+#[inline]
 pub fn unpack<S, C, T, const N: usize>(packed: C, lane: usize) -> S
 where
     T: Lane,
     S: Components<Real = T>,
     C: Components<Real = Lanes<T, N>>,
 {
+    scalars_of(&packed.into_array(), lane)
+}
+
+/// The same, of an array that stays where it is.
+#[inline]
+fn scalars_of<S, T, const N: usize>(packed: &impl AsRef<[Lanes<T, N>]>, lane: usize) -> S
+where
+    T: Lane,
+    S: Components<Real = T>,
+{
     let mut scalars = S::splat(T::default()).into_array();
-    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.into_array().as_ref()) {
+    for (scalar, lanes) in scalars.as_mut().iter_mut().zip(packed.as_ref()) {
         *scalar = lanes.0.get(lane).copied().unwrap_or_default();
     }
     S::from_array(scalars)

@@ -8,6 +8,8 @@ mod instances;
 mod snapshot;
 
 use core::array::from_fn;
+use core::borrow::Borrow;
+use core::marker::PhantomData;
 
 pub use instances::unpack;
 pub use snapshot::{Snapshot, and};
@@ -72,21 +74,31 @@ const LONGEST_STRIDE: u64 = 1024;
 /// assert_eq!(pack.simulation(2).state(), alone[2].state());
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
+///
+/// The simulations may also be borrowed, `Pack::new([&first, &second])`, which spares copies
+/// of them; they then stay as they are.
 #[derive(Clone, Copy)]
-pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> {
-    /// As they were packed, or put into their lanes.
-    members: [Simulation<M, F>; N],
+pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize, S = Simulation<M, F>> {
+    /// As they were packed.
+    members: [S; N],
     instances: Instances<M, N>,
     pace: Pace<M::Real, N>,
     now: Moment<M, N>,
+    feedback: PhantomData<F>,
 }
 
-impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
+impl<M, F, const N: usize, S> Pack<M, F, N, S>
+where
+    M: Mechanism<Real: Lane>,
+    F: Feedback,
+    S: Borrow<Simulation<M, F>> + Copy,
+{
     /// The simulations, each from where it is.
-    pub fn new(members: [Simulation<M, F>; N]) -> Self {
-        let now = Moment::of(&members);
-        let (instances, pace) = (Instances::of(&members), Pace::of(&members));
-        Self { members, instances, pace, now }
+    #[inline]
+    pub fn new(members: [S; N]) -> Self {
+        let each = from_fn(|lane| members[lane].borrow());
+        let (instances, pace, now) = (Instances::of(each), Pace::of(each), Moment::of(each));
+        Self { members, instances, pace, now, feedback: PhantomData }
     }
 
     /// Advances every lane by a step; those that did. What a step of
@@ -170,21 +182,36 @@ impl<M: Mechanism<Real: Lane>, F: Feedback, const N: usize> Pack<M, F, N> {
     fn step_each(&mut self) -> [bool; N] {
         let mut members = from_fn(|lane| self.simulation(lane));
         let healthy = members.each_mut().map(|member| member.step().is_ok());
-        self.now = Moment::of(&members);
+        self.now = Moment::of(members.each_ref());
         healthy
     }
 
-    /// Puts a copy of what is in one lane into another.
+    /// Puts a copy of what is in one lane into another; beyond the last lane, the last one
+    /// is meant.
     pub fn copy(&mut self, from: usize, to: usize) {
-        *self = Self::new(from_fn(|lane| self.simulation(if lane == to { from } else { lane })));
+        let (from, to) = (from.min(N - 1), to.min(N - 1));
+        let mut now = self.now;
+        now.copy(from, to);
+        let mut members = self.members;
+        members[to] = members[from];
+        *self = Self { now, ..Self::new(members) };
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
     pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
-        let lane = lane.min(N - 1);
-        let State { t, q, v } = self.snapshot().state();
-        let state = State { t: t.0[lane], q: unpack(q, lane), v: unpack(v, lane) };
-        self.members[lane].moved_to(state, self.now.steps.0[lane] as u64)
+        self.members[lane.min(N - 1)].borrow().moved_to(self.state(lane), self.steps(lane))
+    }
+
+    /// Time, positions and velocities in a lane: the last one, beyond the last lane.
+    #[inline]
+    pub fn state(&self, lane: usize) -> State<M::Coordinates> {
+        self.now.scalar_state(lane.min(N - 1))
+    }
+
+    /// Steps since the start in a lane: the last one, beyond the last lane.
+    #[inline]
+    pub fn steps(&self, lane: usize) -> u64 {
+        self.now.steps.0[lane.min(N - 1)] as u64
     }
 
     /// What can be observed of all lanes.

@@ -18,7 +18,7 @@ use by_hand::{Hand, N, Seven};
 use mbs_ensemble::{Ensemble, Violation};
 use mbs_runtime::{Baumgarte, Components, Error, Held, Mechanism, PerStage, Simulation};
 use models::{SliderCrank, SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::ThreadPoolBuilder;
 
 const H: f64 = 0.5e-3;
 const STEPS: u64 = 600;
@@ -64,7 +64,8 @@ fn hand<M: Mechanism<Real = f64>>(runs: &[Simulation<M>], first: usize) -> (Hand
     (hand, from_fn(|i| of(&|run| run.state().q, i)), from_fn(|i| of(&|run| run.state().v, i)))
 }
 
-/// Seconds of one, and what the crank's angles add up to.
+/// Seconds of one, and what the crank's angles add up to. An ensemble is timed on a thread of
+/// its pool: to wake that up takes tens of microseconds, once.
 fn timed(work: impl FnOnce() -> f64) -> (f64, f64) {
     let start = Instant::now();
     let sum = black_box(work());
@@ -80,9 +81,8 @@ fn alone<M: Mechanism<Real = f64>>(runs: &[Simulation<M>]) -> f64 {
     angles.sum()
 }
 
-fn together<M: Mechanism<Real = f64>>(runs: &[Simulation<M>], pool: &ThreadPool) -> f64 {
-    let outcomes =
-        pool.install(|| Ensemble::new(END).run(runs.len(), |index| Ok(black_box(runs[index])), &()));
+fn together<M: Mechanism<Real = f64>>(runs: &[Simulation<M>]) -> f64 {
+    let outcomes = Ensemble::new(END).run(runs.len(), |index| Ok(black_box(runs[index])), &());
     outcomes.into_iter().flatten().flatten().map(|run| angle(run.state.q)).sum()
 }
 
@@ -115,10 +115,10 @@ fn compare<M: Mechanism<Real = f64>, const DRIVEN: bool>(
     for _ in 0..repetitions {
         let results = [
             timed(|| alone(&runs[..ALONE])),
-            timed(|| together(&runs, &one)),
+            one.install(|| timed(|| together(&runs))),
             timed(|| by_hand::<M, DRIVEN, false>(&runs)),
             timed(|| by_hand::<M, DRIVEN, true>(&runs)),
-            timed(|| together(&runs, &two)),
+            two.install(|| timed(|| together(&runs))),
         ];
         for (at, (time, result)) in results.into_iter().enumerate() {
             let members = if at == 0 { ALONE } else { MEMBERS };
@@ -175,7 +175,7 @@ fn million() {
 }
 
 /// Figure 11 of the paper: the largest violation over 37 × 37 gains, one turn each.
-fn paper(pool: &ThreadPool) -> f64 {
+fn paper() -> f64 {
     let member = |index: usize| {
         let gain = |k: usize| 200.0 + 50.0 * k as f64;
         let gains = Baumgarte::<PerStage>::new(gain(index % 37), gain(index / 37))?;
@@ -185,13 +185,13 @@ fn paper(pool: &ThreadPool) -> f64 {
             .allow_unstable()
             .build()
     };
-    let runs = pool.install(|| Ensemble::new(END).run(37 * 37, member, &Violation));
+    let runs = Ensemble::new(END).run(37 * 37, member, &Violation);
     runs.into_iter().flatten().flatten().map(|run| run.observed.phi).sum()
 }
 
 fn time_paper() -> Result<(), Box<dyn std::error::Error>> {
     let pool = ThreadPoolBuilder::new().num_threads(1).build()?;
-    let times = (0..REPETITIONS).map(|_| timed(|| paper(&pool)).0);
+    let times = (0..REPETITIONS).map(|_| pool.install(|| timed(paper)).0);
     let least = times.fold(f64::INFINITY, f64::min);
     println!("37 x 37 gains, {STEPS} steps, violations observed, one thread: {:.1} ms", least * 1e3);
     Ok(())
