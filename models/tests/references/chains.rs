@@ -1,11 +1,13 @@
 //! Chains of N equal parts, for every N from the same code; the longest ones are loops.
 
+use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use mbs_runtime::{Components, Mechanism, Simulation, State};
+use mbs_runtime::{Components, Error, Held, Mechanism, Simulation, State};
 use models::{
     NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
 };
+use paths::{Case, Run, through_double_paths};
 
 use crate::near;
 
@@ -40,48 +42,63 @@ fn n_four_bar_rate_squared(n: f64) -> f64 {
 /// speeds are not compared: what is lost there would show behind it. What
 /// rounding leaves between uprights grows as they come near to a flat position,
 /// to within 3e-5 at these steps: (N + 1) ε/3e-5 < 1e-9.
-fn turn<M: Mechanism<Real = f64>>(mechanism: M, n: f64, step: f64) -> f64 {
+fn turn<M: Mechanism<Real = f64>>(
+    case: &mut Case,
+    run: &mut Run<M, Held>,
+    n: f64,
+    step: f64,
+) -> Result<f64, Error> {
     let rate_squared = n_four_bar_rate_squared(n);
-    let mut simulation = Simulation::new(mechanism, step).unwrap();
     loop {
-        simulation.step().unwrap();
-        let state = *simulation.state();
-        let lean = FRAC_PI_2 - named(state.q, "phi_0");
-        let speed = -named(state.v, "phi_0");
+        run.advance(1)?;
+        let now = run.now()?;
+        let lean = FRAC_PI_2 - named(now.q, "phi_0");
+        let speed = -named(now.v, "phi_0");
         let speed_squared = 1.0 + 2.0 * rate_squared * (1.0 - lean.cos());
         if lean.cos().abs() > 0.05 {
             let tolerance = (step * (1.0 + 4.0 * rate_squared)).powi(2);
-            near("speed squared", speed * speed, speed_squared, tolerance);
+            case.near("speed squared", speed * speed, speed_squared, tolerance);
         }
-        let last = named(state.q, &format!("phi_{n}"));
-        near("parallel", FRAC_PI_2 - last, lean, 1e-9);
+        let last = named(now.q, &format!("phi_{n}"));
+        case.near("parallel", FRAC_PI_2 - last, lean, 1e-9);
         if lean >= TAU {
             // upright nothing accelerates, so the speed is constant to h²
-            return state.t - (lean - TAU) / speed;
+            return Ok(now.t - (lean - TAU) / speed);
         }
     }
 }
 
 /// Within (Ωh)², in s as Ω is some 1/s; what is left after extrapolation to h = 0
 /// is the next term, (Ωh)³, which grows by Ω/ω₀ on the way from the slow start.
-fn turns_in_time<M: Mechanism<Real = f64>>(mechanism: M, n: f64) {
+fn turns_in_time<M: Mechanism<Real = f64>>(mechanism: M, n: f64) -> Result<(), Error> {
     const STEP: f64 = 1.0 / 11_000.0;
-    let rate_squared = n_four_bar_rate_squared(n);
-    let reference = TAU / agm(1.0, (1.0 + 4.0 * rate_squared).sqrt());
-    let [coarse, fine] = [STEP, STEP / 2.0].map(|h| turn(mechanism, n, h));
-    let fastest = (1.0 + 4.0 * rate_squared).sqrt();
-    let small = STEP * fastest;
-    near("a turn", coarse, reference, small.powi(2));
-    near("a turn", fine, reference, small.powi(2) / 4.0);
-    near("a turn, extrapolated", (4.0 * fine - coarse) / 3.0, reference, fastest * small.powi(3));
+    let fastest = (1.0 + 4.0 * n_four_bar_rate_squared(n)).sqrt();
+    let reference = TAU / agm(1.0, fastest);
+    let start = |step| Simulation::new(mechanism, step);
+    // of every path
+    let times = |step: f64| {
+        let times = RefCell::new(Vec::new());
+        through_double_paths(&format!("a row of {n} four-bars"), step, start, |case, run| {
+            let time = turn(case, run, n, step)?;
+            case.near("a turn", time, reference, (step * fastest).powi(2));
+            times.borrow_mut().push(time);
+            Ok(())
+        })?;
+        Ok::<_, Error>(times.into_inner())
+    };
+    for (coarse, fine) in times(STEP)?.into_iter().zip(times(STEP / 2.0)?) {
+        let extrapolated = (4.0 * fine - coarse) / 3.0;
+        near("a turn, extrapolated", extrapolated, reference, fastest * (STEP * fastest).powi(3));
+    }
+    Ok(())
 }
 
 #[test]
-fn n_four_bar_is_a_pendulum() {
-    turns_in_time(NFourBar1::declared(), 1.0);
-    turns_in_time(NFourBar2::declared(), 2.0);
-    turns_in_time(NFourBar10::declared(), 10.0);
-    turns_in_time(NFourBar40::declared(), 40.0);
+fn n_four_bar_is_a_pendulum() -> Result<(), Error> {
+    turns_in_time(NFourBar1::declared(), 1.0)?;
+    turns_in_time(NFourBar2::declared(), 2.0)?;
+    turns_in_time(NFourBar10::declared(), 10.0)?;
+    turns_in_time(NFourBar40::declared(), 40.0)
 }
 
 /// ω² and angles of the slowest mode of a hanging chain, for rods of 1 m and 1 kg.
@@ -106,7 +123,7 @@ fn slowest_mode(n: usize) -> (f64, Vec<f64>) {
 /// What is not linear is smaller by some tens of the amplitude's square, and
 /// rounding of forces of 400 N is 1e-8 of what accelerates the lightest mode.
 /// Heun's phase error in a turn is (ωh)² π/3 = 6e-7 for the slowest mode.
-fn swings_in_its_mode<M: Mechanism<Real = f64>>(mechanism: M, n: usize) -> f64 {
+fn swings_in_its_mode<M: Mechanism<Real = f64>>(mechanism: M, n: usize) -> Result<f64, Error> {
     const AMPLITUDE: f64 = 1e-4;
     const LIMIT: f64 = 2e-6;
     let (omega_squared, mode) = slowest_mode(n);
@@ -119,38 +136,40 @@ fn swings_in_its_mode<M: Mechanism<Real = f64>>(mechanism: M, n: usize) -> f64 {
         }
         (x, y) = (x + sin, y - cos);
     }
-    let start = State { t: 0.0, q, v: M::Coordinates::splat(0.0) };
+    let at_rest = State { t: 0.0, q, v: M::Coordinates::splat(0.0) };
     let period = TAU / omega_squared.sqrt();
-    let mut simulation = Simulation::builder(mechanism, period / 8192.0).from_state(start).build().unwrap();
+    let start = |step| Simulation::builder(mechanism, step).from_state(at_rest).build();
 
-    let angles = |values: M::Coordinates| -> Vec<f64> {
-        (1..=n).map(|i| named(values, &format!("theta_{i}")) / AMPLITUDE).collect()
-    };
-    let compare = |what: &str, ours: &[f64], factor: f64, limit: f64| {
-        for (ours, part) in ours.iter().zip(&mode) {
-            near(what, *ours, factor * part, limit);
+    let compare = |case: &mut Case, what: &str, ours: M::Coordinates, factor: f64, limit: f64| {
+        for (i, part) in mode.iter().enumerate() {
+            let angle = named(ours, &format!("theta_{}", i + 1)) / AMPLITUDE;
+            case.near(format_args!("{what}, rod {}", i + 1), angle, factor * part, limit);
         }
     };
-    let acceleration = simulation.reactions().unwrap().acceleration;
-    compare("acceleration", &angles(acceleration), -omega_squared, LIMIT * omega_squared);
-    simulation.advance_to(period / 4.0).unwrap();
-    compare("after a quarter", &angles(simulation.state().q), 0.0, LIMIT);
-    simulation.advance_to(period).unwrap();
-    compare("after a period", &angles(simulation.state().q), 1.0, LIMIT);
-    omega_squared
+    through_double_paths(&format!("{n} hanging rods"), period / 8192.0, start, |case, run| {
+        let acceleration = run.now()?.acceleration;
+        compare(case, "acceleration", acceleration, -omega_squared, LIMIT * omega_squared);
+        run.advance_to(period / 4.0)?;
+        compare(case, "after a quarter", run.now()?.q, 0.0, LIMIT);
+        run.advance_to(period)?;
+        compare(case, "after a period", run.now()?.q, 1.0, LIMIT);
+        Ok(())
+    })?;
+    Ok(omega_squared)
 }
 
 #[test]
-fn n_pendulum_has_its_slowest_mode() {
-    let one = swings_in_its_mode(NPendulum1::declared(), 1);
+fn n_pendulum_has_its_slowest_mode() -> Result<(), Error> {
+    let one = swings_in_its_mode(NPendulum1::declared(), 1)?;
     near("N = 1", one, 1.5 * G, 1e-12);
-    let two = swings_in_its_mode(NPendulum2::declared(), 2);
+    let two = swings_in_its_mode(NPendulum2::declared(), 2)?;
     near("N = 2", two, (3.0 - 6.0 / 7_f64.sqrt()) * G, 1e-12);
-    swings_in_its_mode(NPendulum10::declared(), 10);
-    let forty = swings_in_its_mode(NPendulum40::declared(), 40);
+    swings_in_its_mode(NPendulum10::declared(), 10)?;
+    let forty = swings_in_its_mode(NPendulum40::declared(), 40)?;
     // rods of 1/40 of the rope: their own inertia matters to the square of that
     let rope = 2.404825557695773_f64.powi(2) / 4.0 * G / 40.0;
     near("rope", forty / rope, 1.0, 1.0 / 1600.0);
+    Ok(())
 }
 
 /// So the references above hold for straight lines and for loops.

@@ -12,8 +12,7 @@
 //! h = 1e-4 s, deadbeat feedback, held. Limit: Heun's truncation.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Single, through_every_path};
+use paths::{Single, through_every_path};
 
 mechanism! {
     Pendulum {

@@ -12,9 +12,7 @@
 //! enlarged by the near-singular positions that it passes.
 
 use mbs_runtime::{Error, Simulation};
-
-use crate::compare::Case;
-use crate::paths::{Single, through_every_path};
+use paths::{Case, Single, through_every_path};
 
 declared! {
     Squeezer {

@@ -8,9 +8,7 @@
 //! Limit: Heun's truncation, in that equation and along the circle.
 
 use mbs_runtime::{Baumgarte, Error, PerStage, Simulation, mechanism};
-
-use crate::compare::Case;
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Case, Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {

@@ -9,9 +9,7 @@
 //! (b) h = 1e-5 s, deadbeat feedback, held. Limit: Heun's truncation.
 
 use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
-
-use crate::compare::Case;
-use crate::paths::{Single, through_every_path};
+use paths::{Case, Single, through_every_path};
 
 mechanism! {
     CartPendulum {

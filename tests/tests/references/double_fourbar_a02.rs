@@ -12,8 +12,7 @@
 //! 1e-6 rad from it, where ten bits of the pivots are left.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Single, through_every_path};
+use paths::through_double_paths;
 
 mechanism! {
     DoubleFourBar {
@@ -68,14 +67,14 @@ const SAMPLES: [(f64, [f64; 4]); 3] = [
 
 #[test]
 fn double_fourbar_a02() -> Result<(), Error> {
-    let (h, single) = (1.0 / 11_000.0, Single::LeftOut);
+    let h = 1.0 / 11_000.0;
     let start = |h| Simulation::new(DoubleFourBar::declared(), h);
-    through_every_path("double_fourbar_a02, a turn", h, single, start, |case, run| {
+    through_double_paths("double_fourbar_a02, a turn", h, start, |case, run| {
         let once = run.advance_to_zero(|at| at.q.phi0 + 1.5 * std::f64::consts::PI)?.t;
         case.near("revolution", once, 1.9425149226070837, 2e-7);
         Ok(())
     })?;
-    through_every_path("double_fourbar_a02", h, single, start, |case, run| {
+    through_double_paths("double_fourbar_a02", h, start, |case, run| {
         for (t, reference) in SAMPLES {
             run.advance_to(t)?;
             let head = run.now()?.outputs;

@@ -8,8 +8,7 @@
 //! h = 1e-5 s, deadbeat feedback, held. Limit: Heun's truncation.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Instant, Single, through_every_path};
 
 mechanism! {
     DoublePendulum {

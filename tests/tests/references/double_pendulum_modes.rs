@@ -9,8 +9,7 @@
 //! from the sine's cubic term, 1e-11 from rounding.
 
 use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
-
-use crate::compare::Case;
+use paths::Case;
 
 mechanism! {
     Points {

@@ -10,9 +10,7 @@
 //! frequency (1e-10), Heun's truncation for the motion.
 
 use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
-
-use crate::compare::{Case, bisect};
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Case, Instant, Single, bisect, through_every_path};
 
 mechanism! {
     FourBar {

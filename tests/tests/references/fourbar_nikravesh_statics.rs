@@ -10,8 +10,7 @@
 //! One instant, no step and no feedback. Limit: rounding.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::compare::Case;
+use paths::Case;
 
 mechanism! {
     /// The crank is driven; masses play no part.

@@ -11,9 +11,7 @@
 //! truncation).
 
 use mbs_runtime::{Components, Error, Kinematics, Simulation, mechanism};
-
-use crate::compare::Case;
-use crate::paths::{Single, through_every_path};
+use paths::{Case, Single, through_every_path};
 
 mechanism! {
     FourBar {

@@ -8,9 +8,7 @@
 //! give other numbers. Limit: rounding.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::compare::Case;
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Case, Instant, Single, through_every_path};
 
 mechanism! {
     Line {

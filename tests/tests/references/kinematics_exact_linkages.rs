@@ -7,8 +7,7 @@
 //! No integration: kinematic analysis. Limit: rounding.
 
 use mbs_runtime::{Error, Kinematics, Mechanism, mechanism};
-
-use crate::compare::{Case, bisect};
+use paths::{Case, bisect};
 
 mechanism! {
     ScotchYoke {

@@ -12,8 +12,7 @@
 //! guess's.
 
 use mbs_runtime::{Error, Kinematics, mechanism};
-
-use crate::compare::{Case, bisect};
+use paths::{Case, bisect};
 
 mechanism! {
     FourBar {

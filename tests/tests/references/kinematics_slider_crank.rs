@@ -8,8 +8,7 @@
 //! No integration: kinematic analysis. Limit: rounding.
 
 use mbs_runtime::{Error, Kinematics, mechanism};
-
-use crate::compare::{Case, bisect};
+use paths::{Case, bisect};
 
 mechanism! {
     SliderCrank {

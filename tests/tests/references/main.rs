@@ -5,7 +5,7 @@
 //! The feedback is the default, deadbeat and held, except for baumgarte_decay
 //! (per stage). The error is the largest in units of its tolerance.
 //!
-//! A case with steps goes through every path that a step can take (`paths`): in
+//! A case with steps goes through every path that a step can take (crate `paths`): in
 //! stages, fused, in packs of 4 and 8 lanes and, in single precision, alone and in
 //! packs of 8 and 16 lanes. In `f64` all of them meet the same tolerance. In `f32` h
 //! is so small that rounding would be all: there steps are longer by the factor in
@@ -63,7 +63,6 @@ mod adams_joint_tests;
 mod andrews_squeezer;
 mod baumgarte_decay;
 mod cart_npendulum_sympy;
-mod compare;
 mod double_fourbar_a02;
 mod double_pendulum_chrono;
 mod double_pendulum_modes;
@@ -78,7 +77,6 @@ mod kinematics_exact_linkages;
 mod kinematics_fourbar;
 mod kinematics_slider_crank;
 mod ladder_sliding;
-mod paths;
 mod pendulum_damped_modelica;
 mod pendulum_iftomm_a01;
 mod pendulum_period_table;

@@ -9,8 +9,7 @@
 //! with time, so the specification's 1e-3 m at 2000 s asks for this step.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {

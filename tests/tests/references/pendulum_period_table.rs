@@ -8,8 +8,7 @@
 //! h = 1e-4 s, deadbeat feedback, held. Limit: Heun's phase error.
 
 use mbs_runtime::{Error, Mechanism, Simulation, State, mechanism};
-
-use crate::paths::{Single, through_every_path};
+use paths::{Single, through_every_path};
 
 mechanism! {
     /// The angle is counted from the downward vertical.

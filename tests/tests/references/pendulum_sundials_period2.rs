@@ -9,8 +9,7 @@
 //! h = 1e-4 s, deadbeat feedback, held. Limit: Heun's phase error.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Instant, Single, through_every_path};
 
 mechanism! {
     Pendulum {

@@ -9,8 +9,7 @@
 //! O(h²); the reactions inherit it through the centripetal force.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Single, through_every_path};
+use paths::{Single, through_every_path};
 
 mechanism! {
     Rod {

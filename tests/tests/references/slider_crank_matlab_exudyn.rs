@@ -11,8 +11,7 @@
 //! held. Limit: Heun's truncation at 100 rad/s.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Instant, Single, through_every_path};
+use paths::{Instant, Single, through_every_path};
 
 mechanism! {
     SliderCrank {

@@ -12,8 +12,7 @@
 //! Limit: Heun's truncation.
 
 use mbs_runtime::{Error, Simulation, mechanism};
-
-use crate::paths::{Single, through_every_path};
+use paths::{Single, through_every_path};
 
 mechanism! {
     Arm {

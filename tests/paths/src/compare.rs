@@ -1,12 +1,24 @@
 //! Numbers of a reference case against ours.
 
+use std::fmt;
+
 use mbs_runtime::Error;
+
+/// By how much tolerances are wider than in double precision.
+#[derive(Clone, Copy)]
+pub(crate) struct Widening {
+    pub of_truncation: f64,
+    pub of_rounding: f64,
+}
+
+impl Widening {
+    pub const NONE: Self = Self { of_truncation: 1.0, of_rounding: 1.0 };
+}
 
 /// Collects the deviations of a case; [`Case::finish`] fails if one is too large.
 pub struct Case {
     name: String,
-    /// By which tolerances are multiplied.
-    widening: f64,
+    widening: Widening,
     compared: usize,
     failures: Vec<String>,
     /// Largest deviation as a fraction of its tolerance, and where.
@@ -14,20 +26,33 @@ pub struct Case {
 }
 
 impl Case {
+    /// Nothing is compared yet.
     pub fn new(name: &str) -> Self {
-        let name = name.to_owned();
-        Self { name, widening: 1.0, compared: 0, failures: Vec::new(), worst: (0.0, String::new()) }
+        Self::widened(name, Widening::NONE)
     }
 
-    /// With tolerances so many times as wide.
-    pub fn widened(self, widening: f64) -> Self {
-        Self { widening, ..self }
+    pub(crate) fn widened(name: &str, widening: Widening) -> Self {
+        let name = name.to_owned();
+        Self { name, widening, compared: 0, failures: Vec::new(), worst: (0.0, String::new()) }
     }
 
     /// `ours` lies within `tolerance` of `reference`.
-    pub fn near(&mut self, what: impl std::fmt::Display, ours: f64, reference: f64, tolerance: f64) {
+    pub fn near(&mut self, what: impl fmt::Display, ours: f64, reference: f64, tolerance: f64) {
+        self.near_within(what, ours, reference, tolerance, 0.0);
+    }
+
+    /// `ours` lies within what truncation and what rounding may make of `reference`.
+    pub fn near_within(
+        &mut self,
+        what: impl fmt::Display,
+        ours: f64,
+        reference: f64,
+        truncation: f64,
+        rounding: f64,
+    ) {
         self.compared += 1;
-        let tolerance = tolerance * self.widening;
+        let Widening { of_truncation, of_rounding } = self.widening;
+        let tolerance = truncation * of_truncation + rounding * of_rounding;
         let deviation = (ours - reference).abs();
         let message =
             format!("{what}: {ours} against {reference}, off by {deviation:.1e} of {tolerance:.0e}");
@@ -45,7 +70,7 @@ impl Case {
     pub fn all_near<const N: usize>(
         &mut self,
         names: [&str; N],
-        at: impl std::fmt::Display,
+        at: impl fmt::Display,
         ours: [f64; N],
         reference: [f64; N],
         tolerances: [f64; N],
@@ -55,6 +80,8 @@ impl Case {
         }
     }
 
+    /// Tells the largest deviation.
+    ///
     /// # Panics
     /// If a number deviates, or none was compared.
     pub fn finish(self) {
@@ -66,6 +93,9 @@ impl Case {
 }
 
 /// Where `value` changes sign between `low` and `high`.
+///
+/// # Errors
+/// Those of `value`.
 pub fn bisect(
     mut low: f64,
     mut high: f64,
