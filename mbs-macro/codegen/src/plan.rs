@@ -122,7 +122,7 @@ pub fn plan(
         return Err(Unsolvable::Shared);
     }
     label(model, equations);
-    let Solver { strategy, factorization, forces, .. } = cheapest(model, equations, rows, samples)?;
+    let Solver { strategy, factorization, forces } = cheapest(model, equations, rows, samples)?;
     let (positions, mut start_pivots) = correction(model, equations, rows, strategy, samples, false)?;
     let (velocities, more) = correction(model, equations, rows, strategy, samples, true)?;
     start_pivots.extend(
@@ -244,8 +244,6 @@ fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usi
 
 /// An eliminated system, and the forces that it is solved for.
 struct Solver {
-    /// Operations of the function that runs most.
-    cost: u32,
     strategy: Strategy,
     factorization: Factorization,
     forces: Forces,
@@ -260,8 +258,9 @@ fn cheapest(
 ) -> Result<Solver, Unsolvable> {
     let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
-    let mut best: Option<Solver> = None;
-    for strategy in Strategy::ALL {
+    let mut best: Option<(u32, Solver)> = None;
+    let last = Strategy::ALL.len() - 1;
+    for (at, strategy) in Strategy::ALL.into_iter().enumerate() {
         let most = match strategy {
             Strategy::NullSpace => LARGEST_FILL * unknowns,
             Strategy::Cheapest => usize::MAX,
@@ -270,14 +269,19 @@ fn cheapest(
         let factorization = factor_within(&mut model.arena, &kkt, strategy, &magnitude, most)?;
         let Some(factorization) = factorization else { continue };
         let forces = reactive::forces(model, equations, &factorization)?;
-        let roots = stabilized(model, equations, rows, &forces, &factorization);
+        let solver = Solver { strategy, factorization, forces };
+        if best.is_none() && at == last {
+            // nothing to compare with
+            return Ok(solver);
+        }
+        let roots = stabilized(model, equations, rows, &solver.forces, &solver.factorization);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
         let cost = program.operations_for(roots.len() - 1).total();
-        if best.as_ref().is_none_or(|best| cost < best.cost) {
-            best = Some(Solver { cost, strategy, factorization, forces });
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, solver));
         }
     }
-    best.ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
+    best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
 }
 
 /// q̈, the feedback and the growth, with feedback from the state.

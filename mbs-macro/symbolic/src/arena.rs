@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use rustc_hash::FxHashMap as HashMap;
+use indexmap::IndexSet;
+use rustc_hash::{FxBuildHasher, FxHashMap as HashMap};
 
 use crate::number::Number;
 use crate::operators::Function;
@@ -74,9 +75,9 @@ struct SymbolEntry {
 
 /// Holds expressions, each once.
 pub struct Arena {
-    nodes: Vec<Node>,
+    /// In the order of their handles.
+    nodes: IndexSet<Node, FxBuildHasher>,
     stages: Vec<Stage>,
-    index: HashMap<Node, Expr>,
     symbols: Vec<SymbolEntry>,
     labels: HashMap<Expr, String>,
     pub(crate) splines: Vec<Rc<Spline>>,
@@ -92,9 +93,8 @@ impl Arena {
     /// An empty arena.
     pub fn new() -> Self {
         let mut arena = Self {
-            nodes: Vec::new(),
+            nodes: IndexSet::default(),
             stages: Vec::new(),
-            index: HashMap::default(),
             symbols: Vec::new(),
             labels: HashMap::default(),
             splines: Vec::new(),
@@ -198,14 +198,11 @@ impl Arena {
 
     /// The node's one handle. Only canonical nodes may come here.
     pub(crate) fn intern(&mut self, node: Node) -> Expr {
-        if let Some(&known) = self.index.get(&node) {
-            return known;
+        let (at, is_new) = self.nodes.insert_full(node);
+        if is_new {
+            self.stages.push(self.stage_of(&self.nodes[at]));
         }
-        let expr = Expr(self.nodes.len() as u32);
-        self.stages.push(self.stage_of(&node));
-        self.nodes.push(node.clone());
-        self.index.insert(node, expr);
-        expr
+        Expr(at as u32)
     }
 
     fn stage_of(&self, node: &Node) -> Stage {
@@ -222,27 +219,42 @@ impl Arena {
 
     /// The operands of an expression.
     pub fn operands(&self, expr: Expr) -> Vec<Expr> {
+        let mut operands = Vec::new();
+        self.for_each_operand(expr, |operand| operands.push(operand));
+        operands
+    }
+
+    fn for_each_operand(&self, expr: Expr, mut each: impl FnMut(Expr)) {
         match self.node(expr) {
-            Node::Number(_) | Node::Symbol(_) => Vec::new(),
-            Node::Sum(_, terms) => terms.iter().map(|(term, _)| *term).collect(),
-            Node::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
-            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => vec![*x],
-            Node::Call2(_, x, y) => vec![*x, *y],
+            Node::Number(_) | Node::Symbol(_) => {}
+            Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| each(*term)),
+            Node::Product(factors) => factors.iter().for_each(|(factor, _)| each(*factor)),
+            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => each(*x),
+            Node::Call2(_, x, y) => [*x, *y].into_iter().for_each(each),
         }
     }
 
     /// Every expression that `roots` are made of, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
         let mut order = Vec::new();
-        // operands have smaller indices than their users
-        let mut seen = vec![false; roots.iter().map(|root| root.index() + 1).max().unwrap_or(0)];
+        // a bit each: operands have smaller indices than their users
+        let last = roots.iter().map(|root| root.index()).max().unwrap_or(0);
+        let mut seen = vec![0_u64; last / 64 + 1];
+        let mut is_new = |expr: Expr| {
+            let (word, bit) = (&mut seen[expr.index() / 64], 1 << (expr.index() % 64));
+            let is_new = *word & bit == 0;
+            *word |= bit;
+            is_new
+        };
         let mut stack: Vec<(Expr, bool)> = roots.iter().rev().map(|&root| (root, false)).collect();
         while let Some((expr, operands_done)) = stack.pop() {
             if operands_done {
                 order.push(expr);
-            } else if !std::mem::replace(&mut seen[expr.0 as usize], true) {
+            } else if is_new(expr) {
                 stack.push((expr, true));
-                stack.extend(self.operands(expr).into_iter().rev().map(|operand| (operand, false)));
+                let first = stack.len();
+                self.for_each_operand(expr, |operand| stack.push((operand, false)));
+                stack[first..].reverse();
             }
         }
         order

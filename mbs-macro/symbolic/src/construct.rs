@@ -3,9 +3,8 @@
 //! Each rule names its condition. Rules marked *generic* hold wherever the
 //! original is defined and may extend it where it is not (x/x is 1 at x = 0).
 
-use std::collections::BTreeMap;
-
 use crate::arena::{Arena, Expr, Node};
+use crate::collected::Collected;
 use crate::number::Number;
 use crate::operators::{Function, Parity};
 use crate::spline::SplineId;
@@ -38,13 +37,13 @@ impl Arena {
     /// c sin²x·r + d cos²x·r becomes d·r + (c − d) sin²x·r (always valid).
     pub fn sum(&mut self, terms: &[(Expr, Number)]) -> Expr {
         let mut constant = Number::ZERO;
-        let mut collected = BTreeMap::new();
+        let mut collected = Collected::with_capacity(terms.len());
         for &(term, coefficient) in terms {
             self.collect_term(term, coefficient, &mut constant, &mut collected);
         }
         self.merge_squares(&mut constant, &mut collected);
-        collected.retain(|_, coefficient| !coefficient.is_zero());
-        let terms: Vec<_> = collected.into_iter().collect();
+        collected.retain(|coefficient| !coefficient.is_zero());
+        let terms = collected.into_vec();
         match terms[..] {
             [] => self.number(constant),
             [(term, coefficient)] if constant.is_zero() && coefficient.is_one() => term,
@@ -57,10 +56,10 @@ impl Arena {
         term: Expr,
         coefficient: Number,
         constant: &mut Number,
-        collected: &mut BTreeMap<Expr, Number>,
+        collected: &mut Collected<Number>,
     ) {
         let mut collect = |term, coefficient: Number| {
-            let sum = collected.entry(term).or_insert(Number::ZERO);
+            let sum = collected.entry(term, Number::ZERO);
             *sum = *sum + coefficient;
         };
         match self.node(term) {
@@ -76,13 +75,14 @@ impl Arena {
     }
 
     /// sin² + cos² = 1 on all pairs of terms that differ in just that.
-    fn merge_squares(&mut self, constant: &mut Number, collected: &mut BTreeMap<Expr, Number>) {
-        let candidates: Vec<Expr> = collected.keys().copied().collect();
-        for term in candidates {
-            let Some(&of_cosine) = collected.get(&term) else { continue };
+    fn merge_squares(&mut self, constant: &mut Number, collected: &mut Collected<Number>) {
+        let is_square = |&(term, _): &(Expr, Number)| matches!(self.node(term), Node::Product(_));
+        let candidates: Vec<_> = collected.iter().filter(is_square).collect();
+        for (term, _) in candidates {
+            let Some(of_cosine) = collected.get(term) else { continue };
             for (partner, rest) in self.square_partners(term) {
-                let Some(&of_sine) = collected.get(&partner) else { continue };
-                collected.remove(&term);
+                let Some(of_sine) = collected.get(partner) else { continue };
+                collected.remove(term);
                 collected.insert(partner, of_sine + of_cosine * Number::MINUS_ONE);
                 self.collect_term(rest, of_cosine, constant, collected);
                 break;
@@ -131,12 +131,12 @@ impl Arena {
     /// (*generic*: for x < 0 the original is undefined).
     pub fn product(&mut self, factors: &[(Expr, i32)]) -> Expr {
         let mut coefficient = Number::ONE;
-        let mut collected = BTreeMap::new();
+        let mut collected = Collected::with_capacity(factors.len());
         for &(factor, exponent) in factors {
             self.collect_factor(factor, exponent.into(), &mut coefficient, &mut collected);
         }
         while self.merge_roots(&mut coefficient, &mut collected) {}
-        collected.retain(|_, exponent| *exponent != 0);
+        collected.retain(|exponent| exponent != 0);
         if coefficient.is_zero() {
             return self.zero();
         }
@@ -154,13 +154,13 @@ impl Arena {
         factor: Expr,
         exponent: i64,
         coefficient: &mut Number,
-        collected: &mut BTreeMap<Expr, i64>,
+        collected: &mut Collected<i64>,
     ) {
         if exponent == 0 {
             return;
         }
         let mut collect = |factor, exponent: i64| {
-            let sum = collected.entry(factor).or_insert(0);
+            let sum = collected.entry(factor, 0);
             *sum = sum.saturating_add(exponent);
         };
         match self.node(factor) {
@@ -180,10 +180,10 @@ impl Arena {
     }
 
     /// (√x)² = x once on every factor; whether there was one.
-    fn merge_roots(&mut self, coefficient: &mut Number, collected: &mut BTreeMap<Expr, i64>) -> bool {
+    fn merge_roots(&mut self, coefficient: &mut Number, collected: &mut Collected<i64>) -> bool {
         let roots: Vec<_> = collected
             .iter()
-            .filter_map(|(&factor, &exponent)| match self.node(factor) {
+            .filter_map(|(factor, exponent)| match self.node(factor) {
                 Node::Call(Function::Sqrt, inner) if exponent.abs() >= 2 => Some((factor, *inner, exponent)),
                 _ => None,
             })
@@ -197,9 +197,9 @@ impl Arena {
 
     /// Factors with exponents that are worth multiplying out; larger ones
     /// become powers.
-    fn limit_exponents(&mut self, collected: BTreeMap<Expr, i64>) -> Vec<(Expr, i32)> {
-        let mut factors = BTreeMap::new();
-        for (factor, exponent) in collected {
+    fn limit_exponents(&mut self, collected: Collected<i64>) -> Vec<(Expr, i32)> {
+        let mut factors = Collected::with_capacity(0);
+        for (factor, exponent) in collected.into_vec() {
             let (factor, exponent) = match i32::try_from(exponent) {
                 Ok(small) if exponent.abs() <= LARGEST_EXPONENT => (factor, small),
                 _ => {
@@ -207,9 +207,9 @@ impl Arena {
                     (self.call2(Function::Pow, factor, exponent), 1)
                 }
             };
-            *factors.entry(factor).or_insert(0) += exponent;
+            *factors.entry(factor, 0) += exponent;
         }
-        factors.into_iter().collect()
+        factors.into_vec()
     }
 
     /// xʸ: integer and half-integer constant exponents become products and

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use rustc_hash::FxHashMap;
+
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::spline::next_order;
@@ -12,7 +14,7 @@ impl Arena {
     ///
     /// Symbols without a direction are held constant.
     pub fn derivative(&mut self, expr: Expr, direction: &HashMap<Symbol, Expr>) -> Expr {
-        let mut known: HashMap<Expr, Expr> = HashMap::new();
+        let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
         for operand in self.reachable(&[expr]) {
             let derivative = self.derivative_of_node(operand, direction, &known);
             known.insert(operand, derivative);
@@ -30,7 +32,7 @@ impl Arena {
         &mut self,
         expr: Expr,
         direction: &HashMap<Symbol, Expr>,
-        known: &HashMap<Expr, Expr>,
+        known: &FxHashMap<Expr, Expr>,
     ) -> Expr {
         match self.node(expr).clone() {
             Node::Number(_) => self.zero(),

@@ -34,6 +34,7 @@
 #![forbid(unsafe_code)]
 
 mod arena;
+mod collected;
 mod construct;
 mod differentiate;
 mod display;

@@ -36,6 +36,9 @@ impl Number {
     }
 
     fn reduced(numerator: i128, denominator: i128) -> Self {
+        if let (Ok(n), 1) = (i64::try_from(numerator), denominator) {
+            return Self::Rational(n, 1);
+        }
         let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs()).max(1) as i128;
         let sign = if denominator < 0 { -1 } else { 1 };
         let (n, d) = (sign * numerator / divisor, sign * denominator / divisor);
@@ -82,7 +85,10 @@ impl Number {
 
     /// Exactly 0.
     pub fn is_zero(self) -> bool {
-        self.to_f64() == 0.0
+        match self {
+            Self::Rational(n, _) => n == 0,
+            Self::Float(x) => x == 0.0,
+        }
     }
 
     /// Exactly 1.
@@ -92,7 +98,10 @@ impl Number {
 
     /// Below 0.
     pub fn is_negative(self) -> bool {
-        self.to_f64() < 0.0
+        match self {
+            Self::Rational(n, _) => n < 0,
+            Self::Float(x) => x < 0.0,
+        }
     }
 
     /// |x|

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use rustc_hash::FxHashMap;
+
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::operators::Function;
@@ -12,7 +14,7 @@ impl Arena {
     ///
     /// The result is canonical; what holds no such symbol stays the same node.
     pub fn substitute(&mut self, expr: Expr, values: &HashMap<Symbol, Expr>) -> Expr {
-        let mut known: HashMap<Expr, Expr> = HashMap::new();
+        let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
         for operand in self.reachable(&[expr]) {
             let substituted = self.substitute_in_node(operand, values, &known);
             known.insert(operand, substituted);
@@ -24,7 +26,7 @@ impl Arena {
         &mut self,
         expr: Expr,
         values: &HashMap<Symbol, Expr>,
-        known: &HashMap<Expr, Expr>,
+        known: &FxHashMap<Expr, Expr>,
     ) -> Expr {
         if let Node::Symbol(symbol) = self.node(expr) {
             return values.get(symbol).copied().unwrap_or(expr);

@@ -35,6 +35,18 @@ pub(super) enum Definition {
     Negative(Value),
 }
 
+impl Definition {
+    pub fn for_each_operand(&self, mut each: impl FnMut(Value)) {
+        match self {
+            Self::Leaf(_) => {}
+            Self::Product(factors) => factors.iter().copied().for_each(each),
+            Self::Sum(summands) => summands.iter().for_each(|summand| each(summand.value)),
+            Self::Call(_, x) | Self::Spline(.., x) | Self::Reciprocal(x) | Self::Negative(x) => each(*x),
+            Self::Call2(_, x, y) => [*x, *y].into_iter().for_each(each),
+        }
+    }
+}
+
 /// A value or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Signed {
@@ -158,17 +170,20 @@ impl Flattening<'_> {
     }
 
     fn new_value(&mut self, expr: Expr) -> Signed {
-        match self.arena.node(expr).clone() {
+        match *self.arena.node(expr) {
             Node::Number(number) => self.constant(number),
             Node::Symbol(symbol) => self.leaf(Operand::Symbol(symbol)),
-            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+            Node::Sum(constant, ref terms) if constant.is_zero() && terms.len() == 1 => {
                 let (term, coefficient) = terms[0];
                 self.product(coefficient, term)
             }
             Node::Product(_) => self.product(Number::ONE, expr),
             _ if self.is_hoisted(expr) => self.hoist(expr),
             Node::Shared(x) => self.value(x),
-            Node::Sum(constant, terms) => self.sum(constant, &terms),
+            Node::Sum(constant, ref terms) => {
+                let terms = terms.clone();
+                self.sum(constant, terms)
+            }
             Node::Call(function, x) => {
                 let x = self.value(x);
                 let is_even = function.row().parity == Parity::Even;
@@ -240,9 +255,8 @@ impl Flattening<'_> {
         Signed { value, negative }
     }
 
-    fn sum(&mut self, constant: Number, terms: &[(Expr, Number)]) -> Signed {
-        let (early, late): (Vec<_>, Vec<_>) =
-            terms.iter().copied().partition(|(term, _)| self.is_hoisted(*term));
+    fn sum(&mut self, constant: Number, terms: Terms) -> Signed {
+        let (early, late): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(term, _)| self.is_hoisted(*term));
         let mut values = Vec::new();
         if early.is_empty() {
             if !constant.is_zero() {

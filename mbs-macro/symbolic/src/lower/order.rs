@@ -25,8 +25,8 @@ pub(super) fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
         return depth_first(flat, &roots);
     }
     // sine and cosine of an angle side by side, the angles in the order of the components
-    let input = |&value: &Value| match operands(&flat.definitions[value])[..] {
-        [x] => match flat.definitions[x] {
+    let input = |&value: &Value| match flat.definitions[value] {
+        Definition::Call(_, x) | Definition::Spline(.., x) => match flat.definitions[x] {
             Definition::Leaf(Operand::Symbol(symbol)) => symbol.index(),
             _ => usize::MAX,
         },
@@ -59,10 +59,12 @@ impl<'a> Eager<'a> {
         let mut users = vec![Vec::new(); count];
         for &value in &values {
             let definition = &flat.definitions[value];
-            let operands = operands(definition);
-            is_late[value] =
-                matches!(definition, Definition::Reciprocal(_)) || operands.iter().any(|&o| is_late[o]);
-            operands.into_iter().for_each(|operand| users[operand].push(value));
+            let mut waits = matches!(definition, Definition::Reciprocal(_));
+            definition.for_each_operand(|operand| {
+                waits |= is_late[operand];
+                users[operand].push(value);
+            });
+            is_late[value] = waits;
         }
         // how many operations lie between a value and the last one that waits for it
         let mut heights = vec![0_usize; count];
@@ -81,10 +83,14 @@ impl<'a> Eager<'a> {
         for &value in &values {
             let mut stack = vec![value];
             while let Some(value) = stack.pop() {
-                let operands = operands(&self.flat.definitions[value]);
-                let is_ready =
-                    operands.iter().all(|&operand| self.is_done[operand] || !self.is_late[operand]);
-                if !self.is_late[value] || self.is_done[value] || !is_ready {
+                if !self.is_late[value] || self.is_done[value] {
+                    continue;
+                }
+                let mut is_ready = true;
+                self.flat.definitions[value].for_each_operand(|operand| {
+                    is_ready &= self.is_done[operand] || !self.is_late[operand];
+                });
+                if !is_ready {
                     continue;
                 }
                 self.demand(value);
@@ -103,8 +109,7 @@ impl<'a> Eager<'a> {
                 self.order.push(value);
             } else if !std::mem::replace(&mut self.is_done[value], true) {
                 stack.push((value, true));
-                let operands = operands(&self.flat.definitions[value]);
-                stack.extend(operands.into_iter().rev().map(|operand| (operand, false)));
+                push_operands(self.flat, value, &mut stack);
             }
         }
     }
@@ -119,22 +124,15 @@ pub(super) fn depth_first(flat: &Flat, roots: &[Value]) -> Vec<Value> {
             order.push(value);
         } else if !std::mem::replace(&mut seen[value], true) {
             stack.push((value, true));
-            stack
-                .extend(operands(&flat.definitions[value]).into_iter().rev().map(|operand| (operand, false)));
+            push_operands(flat, value, &mut stack);
         }
     }
     order
 }
 
-pub(super) fn operands(definition: &Definition) -> Vec<Value> {
-    match definition {
-        Definition::Leaf(_) => Vec::new(),
-        Definition::Product(factors) => factors.clone(),
-        Definition::Sum(summands) => summands.iter().map(|summand| summand.value).collect(),
-        Definition::Call(_, x)
-        | Definition::Spline(.., x)
-        | Definition::Reciprocal(x)
-        | Definition::Negative(x) => vec![*x],
-        Definition::Call2(_, x, y) => vec![*x, *y],
-    }
+/// The operands of a value, the first one on top.
+fn push_operands(flat: &Flat, value: Value, stack: &mut Vec<(Value, bool)>) {
+    let first = stack.len();
+    flat.definitions[value].for_each_operand(|operand| stack.push((operand, false)));
+    stack[first..].reverse();
 }

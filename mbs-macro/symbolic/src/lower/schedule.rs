@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use super::flatten::{Definition, Flat, Signed, Value};
-use super::order::{operands, order};
+use super::order::order;
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -13,7 +13,8 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
         flat,
         outputs,
         program: Program::default(),
-        operands: HashMap::default(),
+        // none is asked for before it is there
+        operands: vec![Operand::Number(Number::ZERO); flat.definitions.len()],
         uses: count_uses(flat, &order),
         latencies: Vec::new(),
         summands: Summands::new(flat, &order),
@@ -22,7 +23,7 @@ pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
         schedule.emit(value);
         schedule.gather(value);
     }
-    schedule.program.outputs = outputs.iter().map(|value| schedule.operands[value]).collect();
+    schedule.program.outputs = outputs.iter().map(|&value| schedule.operands[value]).collect();
     schedule.program
 }
 
@@ -33,8 +34,8 @@ struct Schedule<'a> {
     flat: &'a Flat,
     outputs: &'a [Value],
     program: Program,
-    operands: HashMap<Value, Operand>,
-    uses: HashMap<Value, usize>,
+    operands: Vec<Operand>,
+    uses: Vec<usize>,
     /// Per instruction, how long its result takes from the inputs.
     latencies: Vec<u32>,
     summands: Summands,
@@ -78,32 +79,32 @@ impl Schedule<'_> {
                 None => self.sum(summands),
             },
             Definition::Call(function, x) => {
-                let x = self.operands[x];
+                let x = self.operands[*x];
                 self.push(Operation::Call(*function), x, x)
             }
             Definition::Call2(function, x, y) => {
-                let (x, y) = (self.operands[x], self.operands[y]);
+                let (x, y) = (self.operands[*x], self.operands[*y]);
                 self.push(Operation::Call2(*function), x, y)
             }
             Definition::Spline(spline, order, x) => {
-                let x = self.operands[x];
+                let x = self.operands[*x];
                 self.push(Operation::Spline(*spline, *order), x, x)
             }
             // Used in one product alone, it becomes that product's division.
             Definition::Reciprocal(_) if self.is_folded(value) => return,
             Definition::Reciprocal(x) => {
-                let x = self.operands[x];
+                let x = self.operands[*x];
                 self.push(Operation::Div, Operand::Number(Number::ONE), x)
             }
             Definition::Negative(x) => {
-                let x = self.operands[x];
+                let x = self.operands[*x];
                 self.push(Operation::Neg, x, x)
             }
         };
         if let (Operand::Value(at), Some(name)) = (operand, self.flat.names.get(&value)) {
             self.program.instructions[at].name.get_or_insert_with(|| name.clone());
         }
-        self.operands.insert(value, operand);
+        self.operands[value] = operand;
     }
 
     fn push(&mut self, operation: Operation, a: Operand, b: Operand) -> Operand {
@@ -114,19 +115,19 @@ impl Schedule<'_> {
 
     fn is_folded(&self, value: Value) -> bool {
         matches!(self.flat.definitions[value], Definition::Reciprocal(_))
-            && self.uses.get(&value) == Some(&1)
+            && self.uses[value] == 1
             && !self.outputs.contains(&value)
     }
 
     fn product(&mut self, factors: &[Value]) -> Operand {
         let (below, above): (Vec<_>, Vec<_>) = factors.iter().partition(|&&factor| self.is_folded(factor));
-        let above: Vec<_> = above.into_iter().map(|factor| self.operands[factor]).collect();
+        let above: Vec<_> = above.into_iter().map(|&factor| self.operands[factor]).collect();
         let multiply = |schedule: &mut Self, a, b| schedule.push(Operation::Mul, a, b);
         let product = self.reduce(above, multiply, |&factor| factor);
         let mut product = product.unwrap_or(Operand::Number(Number::ONE));
         for factor in below {
             if let Definition::Reciprocal(x) = &self.flat.definitions[*factor] {
-                let divisor = self.operands[x];
+                let divisor = self.operands[*x];
                 product = self.push(Operation::Div, product, divisor);
             }
         }
@@ -135,7 +136,7 @@ impl Schedule<'_> {
 
     fn sum(&mut self, summands: &[Signed]) -> Operand {
         let operands =
-            summands.iter().map(|summand| (self.operands[&summand.value], summand.negative)).collect();
+            summands.iter().map(|summand| (self.operands[summand.value], summand.negative)).collect();
         let sum = self.reduce(operands, Self::add, |&(operand, _)| operand);
         sum.map_or(Operand::Number(Number::ZERO), |sum| self.positive(sum))
     }
@@ -157,7 +158,7 @@ impl Schedule<'_> {
     /// in every copy of what gives the summands.
     fn gather(&mut self, value: Value) {
         for (sum, negative) in self.summands.of.remove(&value).unwrap_or_default() {
-            let mut gathered = (self.operands[&value], negative);
+            let mut gathered = (self.operands[value], negative);
             if let Some(so_far) = self.summands.gathered.remove(&sum) {
                 gathered = self.add(so_far, gathered);
             }
@@ -199,14 +200,12 @@ impl Schedule<'_> {
 
 /// How often each value is used in products; a use elsewhere counts twice, so
 /// that it never looks like a single use in a product.
-fn count_uses(flat: &Flat, order: &[Value]) -> HashMap<Value, usize> {
-    let mut uses = HashMap::default();
+fn count_uses(flat: &Flat, order: &[Value]) -> Vec<usize> {
+    let mut uses = vec![0; flat.definitions.len()];
     for &value in order {
         let definition = &flat.definitions[value];
         let weight = if matches!(definition, Definition::Product(_)) { 1 } else { 2 };
-        for operand in operands(definition) {
-            *uses.entry(operand).or_insert(0) += weight;
-        }
+        definition.for_each_operand(|operand| uses[operand] += weight);
     }
     uses
 }

@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 
 use super::flatten::{Definition, Flat, Signed, Value};
-use super::order::{depth_first, operands};
+use super::order::depth_first;
 use crate::operators::Function;
 
 /// Sweeps over all sums; the second one seldom finds any.
@@ -68,14 +68,16 @@ fn sinks(flat: &Flat, order: &[Value]) -> Vec<Vec<Sink>> {
                 }
             }
             definition @ (Definition::Product(_) | Definition::Reciprocal(_)) => {
-                let is_leaf = |value: &Value| matches!(flat.definitions[*value], Definition::Leaf(_));
-                for operand in operands(definition).into_iter().filter(|operand| !is_leaf(operand)) {
-                    let handed_on = sinks[user].clone();
-                    sinks[operand].extend(handed_on);
-                }
+                let handed_on = std::mem::take(&mut sinks[user]);
+                definition.for_each_operand(|operand| {
+                    if !matches!(flat.definitions[operand], Definition::Leaf(_)) {
+                        sinks[operand].extend(&handed_on);
+                    }
+                });
+                sinks[user] = handed_on;
             }
             definition => {
-                operands(definition).into_iter().for_each(|operand| sinks[operand].push(Sink::Fixed));
+                definition.for_each_operand(|operand| sinks[operand].push(Sink::Fixed));
             }
         }
     }
