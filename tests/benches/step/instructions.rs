@@ -71,7 +71,10 @@ fn collected(kernel: &Kernel, steps: u32) -> Result<u64, String> {
     collected
         .filter(|_| output.status.success())
         .and_then(|(_, number)| number.trim().parse().ok())
-        .ok_or_else(|| format!("callgrind says nothing about {}: {log}", kernel.name()))
+        .ok_or_else(|| {
+            let instructions = "is it built for instructions that valgrind does not know?";
+            format!("callgrind could not run {}; {instructions}", kernel.name())
+        })
 }
 
 fn compare(counts: &BTreeMap<String, u64>) -> bool {
