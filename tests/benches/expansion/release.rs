@@ -19,6 +19,17 @@ mbs-runtime = { path = "RUNTIME" }
 [workspace]
 "#;
 
+/// What `mbs new` writes, and the documentation advises.
+const OPTIMISED: &str = "
+[profile.release.package]
+mbs-macro.opt-level = 3
+mbs-codegen.opt-level = 3
+mbs-symbolic.opt-level = 3
+proc-macro2.opt-level = 3
+quote.opt-level = 3
+syn.opt-level = 3
+";
+
 const MAIN: &str = r#"//! A chain that falls.
 
 mbs_runtime::mechanism! { DECLARATION }
@@ -32,26 +43,29 @@ fn main() -> Result<(), mbs_runtime::Error> {
 "#;
 
 /// Prints seconds and the memory of the largest process of `cargo build --release`,
-/// what the crate depends on being compiled already.
-pub fn print<'a>(chains: impl Iterator<Item = &'a Chain>) -> Result<(), Box<dyn Error>> {
+/// what the crate depends on being compiled already: by cargo's defaults, with which the
+/// compiler of mechanisms itself is not optimised, and with that optimised.
+pub fn print<'a>(chains: impl Iterator<Item = &'a Chain> + Clone) -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let runtime = root.join("mbs-runtime").canonicalize()?;
     fs::create_dir(folder.path().join("src"))?;
-    fs::write(folder.path().join("Cargo.toml"), MANIFEST.replace("RUNTIME", &runtime.to_string_lossy()))?;
+    let manifest = MANIFEST.replace("RUNTIME", &runtime.to_string_lossy());
     // the versions of this workspace, so that nothing has to be fetched
     fs::copy(root.join("Cargo.lock"), folder.path().join("Cargo.lock"))?;
     let main = folder.path().join("src/main.rs");
-    fs::write(&main, "fn main() {}")?;
-    build(folder.path())?;
-
-    println!("\ncargo build --release, dependencies there");
-    println!("{:14} {:>8} {:>12}", "", "s", "peak MB");
-    for chain in chains {
-        fs::write(&main, MAIN.replace("DECLARATION", chain.text))?;
-        let (seconds, memory) = build(folder.path())?;
-        let memory = memory.map_or_else(|| "not measured".into(), |kilobytes| (kilobytes / 1000).to_string());
-        println!("{:14} {seconds:8.1} {memory:>12}", format!("{} {}", chain.name, chain.n));
+    for (what, profile) in [("cargo's defaults", ""), ("macro optimised", OPTIMISED)] {
+        fs::write(folder.path().join("Cargo.toml"), format!("{manifest}{profile}"))?;
+        fs::write(&main, "fn main() {}")?;
+        let (seconds, _) = build(folder.path())?;
+        println!("\ncargo build --release, {what}: {seconds:.0} s for what it depends on, then");
+        println!("{:14} {:>8} {:>12}", "", "s", "peak MB");
+        for chain in chains.clone() {
+            fs::write(&main, MAIN.replace("DECLARATION", chain.text))?;
+            let (seconds, memory) = build(folder.path())?;
+            let memory = memory.map_or("not measured".into(), |kilobytes| (kilobytes / 1000).to_string());
+            println!("{:14} {seconds:8.1} {memory:>12}", format!("{} {}", chain.name, chain.n));
+        }
     }
     Ok(())
 }
