@@ -8,7 +8,9 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};
 
-use super::{Angles, Kind, Lane, Layout, Partner, alignments, is_sine_or_cosine, kind};
+use super::ancestors::Ancestors;
+use super::trial::Trial;
+use super::{Angles, Kind, Lane, Layout, Partner, is_sine_or_cosine, kind, matchings};
 use crate::program::{Instruction, Operand, Program};
 
 /// What moves cost, in operations: those into both lanes are used again and again,
@@ -53,9 +55,6 @@ struct Chooser<'a> {
     turns: Vec<usize>,
 }
 
-/// Pairs that are tried out.
-type Trial = Vec<(usize, usize)>;
-
 impl<'a> Chooser<'a> {
     fn new(program: &'a Program, angles: &Angles, layout: &'a Layout<'a>) -> Self {
         let length = program.instructions.len();
@@ -91,11 +90,12 @@ impl<'a> Chooser<'a> {
     /// Takes seeds until none gains; whether there was any.
     fn pass(&mut self) -> bool {
         let mut seeds: BinaryHeap<Seed> = BinaryHeap::new();
+        let mut trial = Trial::new(self.partners.len());
         for class in self.classes() {
             for (at, &x) in class.iter().enumerate() {
                 let is_near = |y: &&usize| self.latencies[x].abs_diff(self.latencies[**y]) <= LONGEST_WAIT;
                 for &y in class[at + 1..].iter().filter(is_near) {
-                    let seed = self.judge(x, y).0;
+                    let seed = self.judge(x, y, &mut trial);
                     if seed.gain > 0.0 {
                         seeds.push(seed);
                     }
@@ -104,14 +104,14 @@ impl<'a> Chooser<'a> {
         }
         let mut is_changed = false;
         while let Some(seed) = seeds.pop() {
-            let (judged, trial) = self.judge(seed.x, seed.y);
+            let judged = self.judge(seed.x, seed.y, &mut trial);
             if judged.gain <= 0.0 {
                 continue;
             }
             if seeds.peek().is_some_and(|next| next.gain > judged.gain) {
                 seeds.push(judged);
-            } else if self.is_acyclic_with(&trial) {
-                self.take(&trial);
+            } else if self.is_acyclic_with(trial.pairs()) {
+                self.take(trial.pairs());
                 is_changed = true;
             }
         }
@@ -153,36 +153,35 @@ impl<'a> Chooser<'a> {
         format!("{name}({}{})", operands[0], operands[1])
     }
 
-    fn judge(&self, x: usize, y: usize) -> (Seed, Trial) {
-        let mut trial = Trial::new();
-        let gain = if self.can_pair(x, y, &trial) { self.grow(x, y, &mut trial, 0) } else { 0.0 };
-        (Seed { gain, x, y }, trial)
+    /// What a seed gains; the trial is then what grows from it.
+    fn judge(&self, x: usize, y: usize, trial: &mut Trial) -> Seed {
+        trial.truncate(0);
+        let gain = if self.can_pair(x, y, trial) { self.grow(x, y, trial, 0) } else { 0.0 };
+        Seed { gain, x, y }
     }
 
     fn can_pair(&self, x: usize, y: usize, trial: &Trial) -> bool {
-        let is_free = |at: usize| {
-            self.partners[at].is_none() && trial.iter().all(|&(first, second)| at != first && at != second)
-        };
         x != y
             && self.kinds[x].is_some()
             && self.kinds[x] == self.kinds[y]
-            && is_free(x)
-            && is_free(y)
+            && !self.is_paired(x, trial)
+            && !self.is_paired(y, trial)
             && !self.ancestors.has(x, y)
             && !self.ancestors.has(y, x)
     }
 
     fn are_paired(&self, x: usize, y: usize, trial: &Trial) -> bool {
-        self.partners[x] == Some(Partner { other: y, lane: Lane::First }) || trial.contains(&(x, y))
+        let partner = Some(Partner { other: y, lane: Lane::First });
+        self.partners[x] == partner || trial.partner(x) == partner
     }
 
     fn is_paired(&self, x: usize, trial: &Trial) -> bool {
-        self.partners[x].is_some() || trial.iter().any(|&(first, second)| x == first || x == second)
+        self.partners[x].is_some() || trial.partner(x).is_some()
     }
 
     /// What the pair gains with the best of what its operands can do.
     fn grow(&self, x: usize, y: usize, trial: &mut Trial, depth: usize) -> f32 {
-        trial.push((x, y));
+        trial.push(x, y);
         let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
         let mut gain = 1.0;
         if left.operation != right.operation {
@@ -190,20 +189,20 @@ impl<'a> Chooser<'a> {
         }
         gain -= WAIT * self.latencies[x].abs_diff(self.latencies[y]) as f32;
         gain += self.of_users(x, y, trial);
-        let likely = |alignment: &[(Operand, Operand); 2]| -> f32 {
-            alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, 2)).sum()
+        let likely = |matching: &[(&Operand, &Operand); 2]| -> f32 {
+            matching.iter().map(|&(a, b)| self.likeness(a, b, trial, 2)).sum()
         };
-        let all = alignments(left, right).map(|alignment| (likely(&alignment), alignment));
+        let all = matchings(left, right).map(|matching| (likely(&matching), matching));
         let best = all.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        for (a, b) in best.into_iter().flat_map(|(_, alignment)| alignment) {
+        for (a, b) in best.into_iter().flat_map(|(_, matching)| matching) {
             gain += self.of_operands(a, b, trial, depth);
         }
         gain
     }
 
     /// What using these two as a pair costs, or gains if they become one.
-    fn of_operands(&self, a: Operand, b: Operand, trial: &mut Trial, depth: usize) -> f32 {
-        let (Operand::Value(x), Operand::Value(y)) = (a, b) else {
+    fn of_operands(&self, a: &Operand, b: &Operand, trial: &mut Trial, depth: usize) -> f32 {
+        let (&Operand::Value(x), &Operand::Value(y)) = (a, b) else {
             return -self.cost_of_given(a, b);
         };
         if x == y {
@@ -216,7 +215,7 @@ impl<'a> Chooser<'a> {
             return -SWAP;
         }
         if depth < DEPTH && self.can_pair(x, y, trial) {
-            let before = trial.len();
+            let before = trial.pairs().len();
             let gain = self.grow(x, y, trial, depth + 1);
             if gain > -JOIN {
                 return gain;
@@ -226,15 +225,15 @@ impl<'a> Chooser<'a> {
         -JOIN
     }
 
-    fn cost_of_given(&self, a: Operand, b: Operand) -> f32 {
-        let is_constant = |operand| match operand {
+    fn cost_of_given(&self, a: &Operand, b: &Operand) -> f32 {
+        let is_constant = |operand: &Operand| match *operand {
             Operand::Number(_) | Operand::Hoisted(_) => true,
             Operand::Symbol(symbol) => (self.layout.is_constant)(symbol),
             Operand::Value(_) => false,
         };
         match (a, b) {
             (Operand::Number(_), Operand::Number(_)) => 0.0,
-            (Operand::Symbol(x), Operand::Symbol(y)) if (self.layout.are_neighbours)(x, y) => 0.0,
+            (&Operand::Symbol(x), &Operand::Symbol(y)) if (self.layout.are_neighbours)(x, y) => 0.0,
             _ if a == b => {
                 if is_constant(a) {
                     0.0
@@ -257,8 +256,8 @@ impl<'a> Chooser<'a> {
                 continue;
             };
             let [left, right] = [user, partner.other].map(|at| &self.program.instructions[at]);
-            let wanted = (Operand::Value(x), Operand::Value(y));
-            if alignments(left, right).any(|alignment| alignment.contains(&wanted)) {
+            let wanted = (&Operand::Value(x), &Operand::Value(y));
+            if matchings(left, right).any(|matching| matching.contains(&wanted)) {
                 gain += JOIN;
                 break;
             }
@@ -275,8 +274,8 @@ impl<'a> Chooser<'a> {
     }
 
     /// How well two operands seem to go together.
-    fn likeness(&self, a: Operand, b: Operand, trial: &Trial, depth: usize) -> f32 {
-        let (Operand::Value(x), Operand::Value(y)) = (a, b) else {
+    fn likeness(&self, a: &Operand, b: &Operand, trial: &Trial, depth: usize) -> f32 {
+        let (&Operand::Value(x), &Operand::Value(y)) = (a, b) else {
             return if matches!((a, b), (Operand::Value(_), _) | (_, Operand::Value(_))) {
                 -1.0
             } else {
@@ -300,14 +299,14 @@ impl<'a> Chooser<'a> {
             return 1.0;
         }
         let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
-        let of = |alignment: [(Operand, Operand); 2]| -> f32 {
-            alignment.iter().map(|&(a, b)| self.likeness(a, b, trial, depth - 1)).sum()
+        let of = |matching: [(&Operand, &Operand); 2]| -> f32 {
+            matching.iter().map(|&(a, b)| self.likeness(a, b, trial, depth - 1)).sum()
         };
-        1.0 + alignments(left, right).map(of).fold(f32::MIN, f32::max) / 2.0
+        1.0 + matchings(left, right).map(of).fold(f32::MIN, f32::max) / 2.0
     }
 
-    fn take(&mut self, trial: &Trial) {
-        for &(first, second) in trial {
+    fn take(&mut self, pairs: &[(usize, usize)]) {
+        for &(first, second) in pairs {
             self.partners[first] = Some(Partner { other: second, lane: Lane::First });
             self.partners[second] = Some(Partner { other: first, lane: Lane::Second });
         }
@@ -315,7 +314,7 @@ impl<'a> Chooser<'a> {
 
     /// Whether pairs can be computed one after the other: each alone joins
     /// independent instructions, but two together may wait for each other.
-    fn is_acyclic_with(&self, trial: &Trial) -> bool {
+    fn is_acyclic_with(&self, pairs: &[(usize, usize)]) -> bool {
         let length = self.partners.len();
         // Instructions that are computed at once are known by one of them.
         let mut node = self.turns.clone();
@@ -324,7 +323,7 @@ impl<'a> Chooser<'a> {
                 node[at] = at.min(partner.other);
             }
         }
-        for &(first, second) in trial {
+        for &(first, second) in pairs {
             node[first] = first.min(second);
             node[second] = first.min(second);
         }
@@ -383,34 +382,5 @@ impl Ord for Seed {
 impl PartialOrd for Seed {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
-    }
-}
-
-/// Which instructions wait for which others, a bit each.
-struct Ancestors {
-    words: usize,
-    bits: Vec<u64>,
-}
-
-impl Ancestors {
-    fn new(program: &Program) -> Self {
-        let length = program.instructions.len();
-        let words = length.div_ceil(64);
-        let mut bits = vec![0; words * length];
-        for (at, instruction) in program.instructions.iter().enumerate() {
-            for operand in [instruction.a, instruction.b] {
-                let Operand::Value(value) = operand else { continue };
-                for word in 0..words {
-                    bits[at * words + word] |= bits[value * words + word];
-                }
-                bits[at * words + value / 64] |= 1 << (value % 64);
-            }
-        }
-        Self { words, bits }
-    }
-
-    /// Whether `at` waits for `value`.
-    fn has(&self, at: usize, value: usize) -> bool {
-        self.bits[at * self.words + value / 64] >> (value % 64) & 1 == 1
     }
 }

@@ -11,7 +11,9 @@
 //! do the same operations on the same operands. Where one lane adds and the other
 //! subtracts, an operand is held with one lane negated, which is exact.
 
+mod ancestors;
 mod choose;
+mod trial;
 mod weave;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -161,7 +163,6 @@ fn is_sine_or_cosine(instruction: &Instruction) -> bool {
 /// first and second with second, or crossed where an instruction commutes. The
 /// first operand of a difference is what is subtracted from.
 fn alignments(x: &Instruction, y: &Instruction) -> impl Iterator<Item = [(Operand, Operand); 2]> + use<> {
-    let commutes = |i: &Instruction| matches!(i.operation, Operation::Add | Operation::Mul);
     let both = commutes(x) && commutes(y) && x.operation != Operation::Mul;
     [
         Some([(x.a, y.a), (x.b, y.b)]),
@@ -171,6 +172,23 @@ fn alignments(x: &Instruction, y: &Instruction) -> impl Iterator<Item = [(Operan
     ]
     .into_iter()
     .flatten()
+}
+
+/// Those among them in which different operands stand together, whatever their order.
+fn matchings<'a>(
+    x: &'a Instruction,
+    y: &'a Instruction,
+) -> impl Iterator<Item = [(&'a Operand, &'a Operand); 2]> {
+    let crossed = if commutes(x) {
+        Some([(&x.b, &y.a), (&x.a, &y.b)])
+    } else {
+        commutes(y).then_some([(&x.a, &y.b), (&x.b, &y.a)])
+    };
+    std::iter::once([(&x.a, &y.a), (&x.b, &y.b)]).chain(crossed)
+}
+
+fn commutes(instruction: &Instruction) -> bool {
+    matches!(instruction.operation, Operation::Add | Operation::Mul)
 }
 
 impl Woven {
