@@ -73,6 +73,25 @@
 //! accelerations are not determined: that is a typed error, found by watching
 //! the pivots of the elimination, not a wrong number.
 //!
+//! # Compile time
+//!
+//! Cargo does not optimise macros, not even for `--release`. Where mechanisms are large,
+//! have it do so for this one, in the manifest of the workspace, and the same under
+//! `[profile.release.package]`:
+//!
+//! ```toml
+//! [profile.dev.package]
+//! mbs-macro.opt-level = 3
+//! mbs-codegen.opt-level = 3
+//! mbs-symbolic.opt-level = 3
+//! proc-macro2.opt-level = 3
+//! quote.opt-level = 3
+//! syn.opt-level = 3
+//! ```
+//!
+//! A slider-crank then takes less than 0.1 s, a chain of ten rods 0.3 s instead of 4 s, a
+//! row of two hundred four-bars 1.5 s instead of 9 s. Crates made by `mbs new` have it.
+//!
 //! # Features
 //!
 //! `std` (default): elementary functions from the standard library. Without it

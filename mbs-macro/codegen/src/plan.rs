@@ -1,6 +1,7 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
+mod correction;
 mod minimum_norm;
 mod step;
 
@@ -8,13 +9,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
     Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
-    WatchedPivot, factor, factor_within, lower, lower_whole,
+    WatchedPivot, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
+use correction::correction;
 pub use step::FusedStep;
 
 /// An order that changes more entries than this per unknown fills the matrix of a
@@ -352,56 +354,6 @@ fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<E
         roots.push(acceleration);
     }
     roots
-}
-
-/// Δ and growth of a correction that keeps what `start` prescribes, as far as
-/// the constraints leave it free.
-fn correction(
-    model: &mut Model,
-    equations: &Equations,
-    rows: &Rows,
-    strategy: Strategy,
-    samples: &Samples,
-    of_velocities: bool,
-) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
-    let held = held(model, equations, rows, samples, of_velocities);
-    let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
-    let kkt = system(model, equations, rows, &held);
-    let factorization = match factor(&mut model.arena, &kkt, strategy, &magnitude) {
-        // The rank with these coordinates held was misjudged: scales are too far
-        // apart. Without holding any there is a correction.
-        Err(_) if !held.is_empty() => {
-            let kkt = system(model, equations, rows, &BTreeSet::new());
-            factor(&mut model.arena, &kkt, strategy, &magnitude)?
-        }
-        result => result?,
-    };
-    let mut rhs = BTreeMap::new();
-    for &at in &rows.basis {
-        rhs.insert(Unknown::Row(at), model.arena.variable(model.symbols.feedback[at]));
-    }
-    let solution = factorization.solve(&mut model.arena, &rhs);
-    let mut roots: Vec<Expr> = (0..model.coordinates.len())
-        .map(|at| solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero()))
-        .collect();
-    roots.push(factorization.growth(&mut model.arena));
-    Ok((roots, factorization.pivots))
-}
-
-/// The coordinates that keep their start values: in the order of declaration,
-/// as long as the constraints can be met by moving the others. Judged at the
-/// declared start, where x² + y² = l² cannot be met by moving y if y = 0; or,
-/// should the start be singular as it is declared, at a random position.
-fn held(
-    model: &Model,
-    equations: &Equations,
-    rows: &Rows,
-    samples: &Samples,
-    of_velocities: bool,
-) -> BTreeSet<usize> {
-    let declared = model.start.iter().filter(|start| start.is_rate == of_velocities && !start.is_guess);
-    let coordinates: Vec<usize> = declared.map(|start| start.coordinate).collect();
-    samples.holdable(model, equations, &rows.basis, &coordinates)
 }
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {

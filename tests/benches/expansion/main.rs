@@ -87,7 +87,7 @@ fn print(with_compilation: bool) -> Result<(), Box<dyn Error>> {
             count(expansion)
         );
     }
-    if with_compilation { release::print(CHAINS.iter().filter(|chain| chain.n >= 40)) } else { Ok(()) }
+    if with_compilation { release::print(CHAINS.iter().filter(|chain| chain.n >= 10)) } else { Ok(()) }
 }
 
 /// Seconds from the tokens of a declaration to those of its solver, and these.
