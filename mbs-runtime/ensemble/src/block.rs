@@ -46,8 +46,8 @@ where
     Some(runs)
 }
 
-/// A member that left the range of the lanes, or has no steps to take: by itself from its
-/// start on.
+/// A member that left the range of the lanes, by itself from its start on; or why it cannot
+/// come to the end.
 fn alone<M, F, O>(
     simulation: &Simulation<M, F>,
     end: f64,

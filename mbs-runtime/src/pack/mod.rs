@@ -72,11 +72,13 @@ const LONGEST_STRIDE: u64 = 1024;
 /// }
 /// alone[2].advance_to(0.5)?;
 /// assert_eq!(pack.simulation(2).state(), alone[2].state());
+///
+/// // borrowed, which spares copies of them
+/// let mut pair = Pack::new([&alone[0], &alone[3]]);
+/// pair.step();
+/// assert_eq!((pair.steps(1), alone[3].steps()), (1, 0));
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
-///
-/// The simulations may also be borrowed, `Pack::new([&first, &second])`, which spares copies
-/// of them; they then stay as they are.
 #[derive(Clone, Copy)]
 pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize, S = Simulation<M, F>> {
     /// As they were packed.
@@ -96,6 +98,7 @@ where
     /// The simulations, each from where it is.
     #[inline]
     pub fn new(members: [S; N]) -> Self {
+        const { assert!(N > 0, "a pack needs a lane") };
         let each = from_fn(|lane| members[lane].borrow());
         let (instances, pace, now) = (Instances::of(each), Pace::of(each), Moment::of(each));
         Self { members, instances, pace, now, feedback: PhantomData }
