@@ -15,8 +15,7 @@ const G: f64 = 9.81;
 
 /// The value of a component by its name.
 fn named<C: Components<Real = f64>>(values: C, name: &str) -> f64 {
-    let at = C::NAMES.iter().position(|n| *n == name).unwrap();
-    values.into_array().as_ref()[at]
+    values.get(name).unwrap()
 }
 
 /// Arithmetic–geometric mean.

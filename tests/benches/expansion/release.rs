@@ -19,16 +19,8 @@ mbs-runtime = { path = "RUNTIME" }
 [workspace]
 "#;
 
-/// What `mbs new` writes, and the documentation advises.
-const OPTIMISED: &str = "
-[profile.release.package]
-mbs-macro.opt-level = 3
-mbs-codegen.opt-level = 3
-mbs-symbolic.opt-level = 3
-proc-macro2.opt-level = 3
-quote.opt-level = 3
-syn.opt-level = 3
-";
+/// The manifest that `mbs new` writes.
+const TEMPLATE: &str = include_str!("../../../mbs-runtime/workbench/template/Cargo.toml.in");
 
 const MAIN: &str = r#"//! A chain that falls.
 
@@ -54,7 +46,11 @@ pub fn print<'a>(chains: impl Iterator<Item = &'a Chain> + Clone) -> Result<(), 
     // the versions of this workspace, so that nothing has to be fetched
     fs::copy(root.join("Cargo.lock"), folder.path().join("Cargo.lock"))?;
     let main = folder.path().join("src/main.rs");
-    for (what, profile) in [("cargo's defaults", ""), ("macro optimised", OPTIMISED)] {
+    let (_, profile) =
+        TEMPLATE.split_once("[profile.release.package]").ok_or("no profile in the template")?;
+    let (levels, _) = profile.split_once("\n\n").ok_or("no end of the profile in the template")?;
+    let optimised = format!("\n[profile.release.package]{levels}\n");
+    for (what, profile) in [("cargo's defaults", ""), ("macro optimised", &*optimised)] {
         fs::write(folder.path().join("Cargo.toml"), format!("{manifest}{profile}"))?;
         fs::write(&main, "fn main() {}")?;
         let (seconds, _) = build(folder.path())?;
