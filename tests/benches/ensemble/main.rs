@@ -15,6 +15,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use by_hand::{Hand, N, Seven};
+use indicatif::ProgressBar;
 use mbs_ensemble::{Ensemble, Violation};
 use mbs_runtime::{Baumgarte, Components, Error, Held, Mechanism, PerStage, Simulation};
 use models::{SliderCrank, SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
@@ -158,11 +159,14 @@ fn peak() -> Option<f64> {
 }
 
 fn million() {
+    const COUNT: usize = 1_000_000;
     let mut sum = 0.0;
+    let bar = ProgressBar::new(COUNT as u64);
+    let report = |done: usize, _: usize| bar.set_position(done as u64);
     let start = Instant::now();
     let before = peak();
-    let outcome = Ensemble::new(END).for_each(
-        1_000_000,
+    let outcome = Ensemble::new(END).progress(&report).for_each(
+        COUNT,
         |index| free(index % MEMBERS),
         &(),
         |_, outcome| {
@@ -170,6 +174,7 @@ fn million() {
         },
     );
     let seconds = start.elapsed().as_secs_f64();
+    bar.finish_and_clear();
     println!("a million free members, {STEPS} steps, with their starts: {seconds:.1} s {outcome:?} {sum:.3}");
     println!("peak memory: {before:?} MB before, {:?} MB after", peak());
 }
