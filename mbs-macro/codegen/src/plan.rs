@@ -8,7 +8,7 @@ mod step;
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
+    Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
     WatchedPivot, factor_within, lower, lower_whole,
 };
 
@@ -123,8 +123,13 @@ pub fn plan(
     if rows.basis.len() < equations.phi.len() && !model.reactive_loads.is_empty() {
         return Err(Unsolvable::Shared);
     }
+    let unknowns = samples.undetermined(model, equations, &rows.basis);
+    if !unknowns.is_empty() {
+        let unknowns = unknowns.into_iter().map(Unknown::Coordinate).collect();
+        return Err(Undetermined { unknowns }.into());
+    }
     label(model, equations);
-    let Solver { strategy, factorization, forces } = cheapest(model, equations, rows, samples)?;
+    let Solver { strategy, factorization, forces } = cheapest(model, equations, rows)?;
     let (positions, mut start_pivots) = correction(model, equations, rows, strategy, samples, false)?;
     let (velocities, more) = correction(model, equations, rows, strategy, samples, true)?;
     start_pivots.extend(
@@ -256,7 +261,6 @@ fn cheapest(
     model: &mut Model,
     equations: &Equations,
     rows: &Rows,
-    samples: &Samples,
 ) -> Result<Solver, Unsolvable> {
     let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
@@ -267,8 +271,7 @@ fn cheapest(
             Strategy::NullSpace => LARGEST_FILL * unknowns,
             Strategy::Cheapest => usize::MAX,
         };
-        let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
-        let factorization = factor_within(&mut model.arena, &kkt, strategy, &magnitude, most)?;
+        let factorization = factor_within(&mut model.arena, &kkt, strategy, most)?;
         let Some(factorization) = factorization else { continue };
         let forces = reactive::forces(model, equations, &factorization)?;
         let solver = Solver { strategy, factorization, forces };

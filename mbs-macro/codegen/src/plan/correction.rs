@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::{Arena, Expr, Strategy, Undetermined, Unknown, WatchedPivot, factor};
+use mbs_symbolic::{Expr, Strategy, Undetermined, Unknown, WatchedPivot, factor};
 
 use super::system;
 use crate::derive::Equations;
@@ -20,14 +20,13 @@ pub(super) fn correction(
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
     let held = held(model, equations, rows, samples, of_velocities);
-    let magnitude = |arena: &Arena, expr| samples.smallest_magnitude(arena, expr);
     let kkt = system(model, equations, rows, &held);
-    let factorization = match factor(&mut model.arena, &kkt, strategy, &magnitude) {
+    let factorization = match factor(&mut model.arena, &kkt, strategy) {
         // The rank with these coordinates held was misjudged: scales are too far
         // apart. Without holding any there is a correction.
         Err(_) if !held.is_empty() => {
             let kkt = system(model, equations, rows, &BTreeSet::new());
-            factor(&mut model.arena, &kkt, strategy, &magnitude)?
+            factor(&mut model.arena, &kkt, strategy)?
         }
         result => result?,
     };

@@ -6,7 +6,8 @@
 use mbs_symbolic::Tape;
 
 use super::correction::least_correction;
-use super::samples::typical_length;
+use super::samples::units;
+use super::size::sizes;
 use super::sparse::{SparseRow, scale};
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
@@ -21,11 +22,30 @@ const LEAST_DAMPING: f64 = 1e-13;
 /// what the emitted programs are held to as well.
 pub const CLOSED: f64 = 1e-10;
 
+/// A residual is rounding below this share of the terms that it is made of: some ten
+/// operations, each to ε.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// A row whose slope over a typical length falls below this share of its terms
+/// restricts nothing: far below that of an eccentric of a micrometre at a metre, far
+/// above what Newton's iteration leaves of a double root.
+const FLAT: f64 = 1e-9;
+
 /// Coordinates and time.
 #[derive(Clone, Debug)]
 pub struct Position {
     pub q: Vec<f64>,
     pub t: f64,
+}
+
+impl Position {
+    fn value(&self, meaning: Meaning) -> f64 {
+        match meaning {
+            Meaning::Time => self.t,
+            Meaning::Coordinate(coordinate) => self.q[coordinate],
+            _ => f64::NAN,
+        }
+    }
 }
 
 /// Where an assembly ended.
@@ -52,9 +72,7 @@ pub struct Assembly<'a> {
 
 impl<'a> Assembly<'a> {
     pub fn new(model: &'a Model, equations: &Equations) -> Self {
-        let length = typical_length(model);
         let entries: Vec<_> = equations.phi_q.iter().flat_map(|row| row.values().copied()).collect();
-        let is_angle = |at: usize| model.coordinates[at].quantity.dimension == Default::default();
         Self {
             model,
             phi: Tape::new(&model.arena, &equations.phi),
@@ -62,16 +80,12 @@ impl<'a> Assembly<'a> {
             pattern: equations.phi_q.iter().map(|row| row.keys().copied().collect()).collect(),
             phi_t: Tape::new(&model.arena, &equations.phi_t),
             depends_on_time: equations.phi_t.iter().any(|&rate| !model.arena.is_zero(rate)),
-            units: (0..model.coordinates.len()).map(|at| if is_angle(at) { 1.0 } else { length }).collect(),
+            units: units(model),
         }
     }
 
     fn evaluate(&self, tape: &Tape, at: &Position) -> Vec<f64> {
-        let values = self.model.values(|meaning| match meaning {
-            Meaning::Time => at.t,
-            Meaning::Coordinate(coordinate) => at.q[coordinate],
-            _ => f64::NAN,
-        });
+        let values = self.model.values(|meaning| at.value(meaning));
         tape.evaluate(&self.model.arena, &values)
     }
 
@@ -116,6 +130,35 @@ impl<'a> Assembly<'a> {
     pub fn distance(&self, a: &Position, b: &Position) -> f64 {
         let apart = a.q.iter().zip(&b.q).zip(&self.units).map(|((a, b), unit)| ((a - b) / unit).abs());
         apart.fold(0.0, f64::max)
+    }
+
+    /// Whether every one of these rows is met: by its residual as a distance in the
+    /// coordinates, or to the rounding of its terms.
+    pub fn are_met(&self, rows: &[usize], at: &Position) -> bool {
+        let phi = self.phi(at);
+        let scales = self.jacobian(at).1;
+        let sizes = self.sizes(at);
+        let limit = CLOSED * (1.0 + self.size(at));
+        rows.iter().all(|&row| {
+            let violation = phi[row].abs();
+            violation <= limit * scales[row] || violation <= ROUNDING * sizes[row]
+        })
+    }
+
+    /// Σ|terms| of every row of Φ.
+    fn sizes(&self, at: &Position) -> Vec<f64> {
+        let rows: Vec<_> = self.model.constraints.iter().map(|constraint| constraint.phi).collect();
+        let values = self.model.values(|meaning| at.value(meaning));
+        sizes(&self.model.arena, &rows, &values)
+    }
+
+    /// The rows whose derivatives vanish against what they compare: they restrict no
+    /// motion there, as (x − y)² = 0 where it is met.
+    pub fn flat_rows(&self, at: &Position) -> Vec<usize> {
+        let slopes = self.jacobian(at).1;
+        let sizes = self.sizes(at);
+        let is_flat = |row: &usize| slopes[*row] <= FLAT * sizes[*row];
+        (0..sizes.len()).filter(is_flat).collect()
     }
 
     /// Whether a row is met where others were assembled.

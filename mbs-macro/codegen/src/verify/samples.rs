@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Arena, Expr, Symbol};
 
 use super::assembly::Position;
 use super::echelon::{Echelon, row_echelon};
+use super::size::sizes;
 use super::sparse::{SparseRow, scale};
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
@@ -17,15 +19,17 @@ const POSITIONS: usize = 5;
 /// same declaration always compiles to the same code.
 pub struct Samples {
     values: Vec<Vec<f64>>,
-    /// The declared start: coordinates that it leaves out at 0, t = 0.
+    /// The declared start: coordinates that it leaves out at 0.
     start: Vec<f64>,
+    /// What counts as 1 in each coordinate.
+    units: Vec<f64>,
 }
 
 impl Samples {
     /// Random coordinates, velocities and times; declared parameters.
     pub fn new(model: &Model) -> Self {
         let mut generator = Generator::new();
-        let length = typical_length(model);
+        let units = units(model);
         let values = (0..POSITIONS)
             .map(|_| {
                 model
@@ -33,30 +37,21 @@ impl Samples {
                     .iter()
                     .map(|&meaning| match meaning {
                         Meaning::Parameter(at) => model.parameters[at].value,
-                        Meaning::Coordinate(at)
-                            if model.coordinates[at].quantity.dimension != Default::default() =>
-                        {
-                            length * generator.symmetric()
-                        }
                         // angles all around; rates, times and the rest of order 1
-                        Meaning::Coordinate(_) => 3.0 * generator.symmetric(),
+                        Meaning::Coordinate(at) if is_angle(model, at) => 3.0 * generator.symmetric(),
+                        Meaning::Coordinate(at) => units[at] * generator.symmetric(),
                         _ => generator.symmetric(),
                     })
                     .collect()
             })
             .collect();
-        Self { values, start: declared_start(model) }
+        Self { values, start: declared_start(model), units }
     }
 
-    /// Coordinates at the declared start, t = 0.
+    /// Coordinates and time of the declared start.
     pub fn start_position(&self, model: &Model) -> Position {
         let q = model.coordinates.iter().map(|coordinate| self.start[coordinate.position.index()]).collect();
-        Position { q, t: 0.0 }
-    }
-
-    /// The values of expressions at one of the positions.
-    pub fn evaluate(&self, arena: &Arena, roots: &[Expr], position: usize) -> Vec<f64> {
-        evaluate_at(arena, roots, &self.values[position])
+        Position { q, t: self.start[model.symbols.time.index()] }
     }
 
     /// The value of a symbol at one of the positions.
@@ -67,15 +62,6 @@ impl Samples {
     /// The number of positions.
     pub fn positions(&self) -> std::ops::Range<usize> {
         0..self.values.len()
-    }
-
-    /// The smallest |e| over the positions; 0 where it is not finite.
-    pub fn smallest_magnitude(&self, arena: &Arena, expr: Expr) -> f64 {
-        let magnitude = |position| {
-            let value = self.evaluate(arena, &[expr], position)[0].abs();
-            if value.is_finite() { value } else { 0.0 }
-        };
-        self.positions().map(magnitude).fold(f64::INFINITY, f64::min)
     }
 
     /// Which of `coordinates` can be held, in this order, such that these rows of
@@ -91,7 +77,7 @@ impl Samples {
     ) -> BTreeSet<usize> {
         let units = coordinates.iter().map(|&at| vec![(at, 1.0)]);
         let with_units = |sample: &Vec<f64>| {
-            let jacobian = jacobian_at(model, equations, rows, &BTreeSet::new(), sample);
+            let jacobian = self.jacobian_at(model, equations, rows, &BTreeSet::new(), sample);
             row_echelon(jacobian.into_iter().chain(units.clone()).collect())
         };
         let rank = |echelon: &Echelon| {
@@ -105,6 +91,32 @@ impl Samples {
         coordinates.iter().enumerate().filter(is_holdable).map(|(_, &at)| at).collect()
     }
 
+    /// The coordinates without mass that these rows of Φ_q do not determine, at any
+    /// of the positions: their columns depend on those of others without mass.
+    pub fn undetermined(&self, model: &Model, equations: &Equations, rows: &[usize]) -> Vec<usize> {
+        let is_massless = |at: &usize| model.arena.is_zero(equations.mass[*at]);
+        let massless: Vec<usize> = (0..equations.mass.len()).filter(is_massless).collect();
+        let dependent = |sample: &Vec<f64>| {
+            let jacobian = self.jacobian_at(model, equations, rows, &BTreeSet::new(), sample);
+            let column = |&at: &usize| {
+                let entry_in = |row: &SparseRow<f64>| {
+                    row.iter().find_map(|&(column, entry)| (column == at && entry != 0.0).then_some(entry))
+                };
+                let entries = jacobian.iter().enumerate();
+                let mut column: SparseRow<f64> =
+                    entries.filter_map(|(row, entries)| Some((row, entry_in(entries)?))).collect();
+                scale(&mut column);
+                column
+            };
+            let dependent = row_echelon(massless.iter().map(column).collect()).dependent;
+            dependent.into_iter().map(|(at, _)| massless[at]).collect::<Vec<_>>()
+        };
+        if massless.is_empty() {
+            return Vec::new();
+        }
+        self.values.iter().map(dependent).min_by_key(Vec::len).unwrap_or_default()
+    }
+
     /// The rank of these rows of Φ_q without the columns in `held`: the largest
     /// over the positions, which is the generic one.
     pub fn rank(
@@ -114,49 +126,43 @@ impl Samples {
         rows: &[usize],
         held: &BTreeSet<usize>,
     ) -> usize {
-        let rank = |sample: &Vec<f64>| rank_at(model, equations, rows, held, sample);
+        let rank = |sample: &Vec<f64>| {
+            row_echelon(self.jacobian_at(model, equations, rows, held, sample)).rank()
+        };
         self.values.iter().map(rank).max().unwrap_or(0)
     }
 
     /// All of Φ_q at a position, in echelon form.
     pub fn echelon(&self, model: &Model, equations: &Equations, position: usize) -> Echelon {
         let rows: Vec<usize> = (0..equations.phi.len()).collect();
-        row_echelon(jacobian_at(model, equations, &rows, &BTreeSet::new(), &self.values[position]))
+        row_echelon(self.jacobian_at(model, equations, &rows, &BTreeSet::new(), &self.values[position]))
     }
-}
 
-fn rank_at(
-    model: &Model,
-    equations: &Equations,
-    rows: &[usize],
-    held: &BTreeSet<usize>,
-    sample: &[f64],
-) -> usize {
-    row_echelon(jacobian_at(model, equations, rows, held, sample)).rank()
+    /// Rows of Φ_q in the units of the coordinates, each scaled to a largest entry of 1.
+    fn jacobian_at(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        rows: &[usize],
+        held: &BTreeSet<usize>,
+        sample: &[f64],
+    ) -> Vec<SparseRow<f64>> {
+        let entries = rows.iter().flat_map(|&row| equations.phi_q[row].values().copied());
+        let mut values = evaluate_at(&model.arena, &entries.collect::<Vec<_>>(), sample).into_iter();
+        let mut row = |at: &usize| {
+            let entries = equations.phi_q[*at].keys().copied().zip(values.by_ref());
+            let in_units = entries.map(|(column, entry)| (column, entry * self.units[column]));
+            let is_kept = |(column, entry): &(usize, f64)| entry.is_finite() && !held.contains(column);
+            let mut row: SparseRow<f64> = in_units.filter(is_kept).collect();
+            scale(&mut row);
+            row
+        };
+        rows.iter().map(&mut row).collect()
+    }
 }
 
 fn evaluate_at(arena: &Arena, roots: &[Expr], sample: &[f64]) -> Vec<f64> {
     arena.evaluate(roots, &|symbol: Symbol| sample.get(symbol.index()).copied().unwrap_or(0.0))
-}
-
-/// Rows of Φ_q, each scaled to a largest entry of 1.
-fn jacobian_at(
-    model: &Model,
-    equations: &Equations,
-    rows: &[usize],
-    held: &BTreeSet<usize>,
-    sample: &[f64],
-) -> Vec<SparseRow<f64>> {
-    let entries = rows.iter().flat_map(|&row| equations.phi_q[row].values().copied());
-    let mut values = evaluate_at(&model.arena, &entries.collect::<Vec<_>>(), sample).into_iter();
-    let mut row = |at: &usize| {
-        let entries = equations.phi_q[*at].keys().copied().zip(values.by_ref());
-        let is_kept = |(column, value): &(usize, f64)| value.is_finite() && !held.contains(column);
-        let mut row: SparseRow<f64> = entries.filter(is_kept).collect();
-        scale(&mut row);
-        row
-    };
-    rows.iter().map(&mut row).collect()
 }
 
 /// Symbol values at the declared start.
@@ -169,17 +175,48 @@ fn declared_start(model: &Model) -> Vec<f64> {
     let value = |&meaning: &Meaning| match meaning {
         Meaning::Parameter(at) => model.parameters[at].value,
         Meaning::Coordinate(at) => position(at),
+        Meaning::Time => model.arena.evaluate(&[model.start_time], &parameters)[0],
         _ => 0.0,
     };
     model.meanings.iter().map(value).collect()
 }
 
-/// The size of the mechanism: the largest parameter that is a length, or 1 m.
+/// The size of the mechanism in m: the largest length that its constraints compare,
+/// which are angles and given lengths where all coordinates that are lengths are 0.
+/// Without any, the largest parameter that is a length, or 1 m.
 pub fn typical_length(model: &Model) -> f64 {
-    let lengths =
-        model.parameters.iter().filter(|p| p.quantity.dimension == mbs_symbolic::units::Dimension::LENGTH);
-    let largest = lengths.map(|p| p.value.abs()).fold(0.0, f64::max);
-    if largest > 0.0 && largest.is_finite() { largest } else { 1.0 }
+    let is_usable = |length: &f64| *length > 0.0 && length.is_finite();
+    let mut generator = Generator::new();
+    let values: Vec<f64> = model
+        .meanings
+        .iter()
+        .map(|&meaning| match meaning {
+            Meaning::Parameter(at) => model.parameters[at].value,
+            Meaning::Coordinate(at) if is_angle(model, at) => generator.symmetric(),
+            _ => 0.0,
+        })
+        .collect();
+    let of_dimension = |dimension: Dimension| {
+        let rows = model.constraints.iter().filter(|constraint| constraint.dimension == dimension);
+        let rows: Vec<Expr> = rows.map(|constraint| constraint.phi).collect();
+        let value = |symbol: Symbol| values.get(symbol.index()).copied().unwrap_or(0.0);
+        sizes(&model.arena, &rows, &value)
+    };
+    let squares = of_dimension(Dimension::LENGTH.times(Dimension::LENGTH)).into_iter().map(f64::sqrt);
+    let compared = of_dimension(Dimension::LENGTH).into_iter().chain(squares).filter(is_usable);
+    let parameters = model.parameters.iter().filter(|p| p.quantity.dimension == Dimension::LENGTH);
+    let parameters = parameters.map(|p| p.value.abs()).filter(is_usable);
+    compared.reduce(f64::max).or_else(|| parameters.reduce(f64::max)).unwrap_or(1.0)
+}
+
+/// What counts as 1 in each coordinate: a typical length, a radian.
+pub fn units(model: &Model) -> Vec<f64> {
+    let length = typical_length(model);
+    (0..model.coordinates.len()).map(|at| if is_angle(model, at) { 1.0 } else { length }).collect()
+}
+
+fn is_angle(model: &Model, coordinate: usize) -> bool {
+    model.coordinates[coordinate].quantity.dimension == Dimension::NONE
 }
 
 /// A small fixed generator (SplitMix64, Steele et al. 2014).

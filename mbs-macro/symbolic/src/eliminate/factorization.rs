@@ -163,9 +163,6 @@ impl<'a> Work<'a> {
                 let entry = self.arena.sum(&terms);
                 let entry = self.settle(entry);
                 self.matrix.set(self.arena, i, j, entry);
-                if let (Unknown::Coordinate(at), true) = (i, i == j && self.arena.is_positive(entry)) {
-                    self.matrix.mark_massive(at);
-                }
             }
         }
         self.watch_pair(row, coordinate, pivot, inverse);

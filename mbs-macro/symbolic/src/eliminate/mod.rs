@@ -1,6 +1,6 @@
 //! Elimination of the constrained system at compile time.
 //!
-//! The matrix ⎡M Φ_qᵀ; Φ_q 0⎤ is symmetric. It is eliminated by two kinds of
+//! The matrix ⎡M Φ_qᵀ; Φ_q 0⎤ is symmetric. It is eliminated by
 //! pivots that are safe in every regular position:
 //!
 //! * a *pair* of a constraint row and a coordinate that this row determines:
@@ -12,10 +12,15 @@
 //! * a row with its last two coordinates at once (`single_loop`): the one degree
 //!   of freedom that a closed loop leaves.
 //!
+//! Coordinates without mass have no safe diagonal entry. Where pairs do not
+//! determine them, their rows are added to the mass block first
+//! (`augmentation`), which makes it positive definite.
+//!
 //! [`factor`] fixes the order and the multipliers for the matrix;
 //! [`Factorization::solve`] then gives the solution for any right-hand side,
 //! as expressions.
 
+mod augmentation;
 mod factorization;
 mod matrix;
 mod order;
@@ -30,27 +35,23 @@ pub use matrix::{Kkt, Unknown};
 pub use order::{Strategy, Undetermined};
 pub use watch::WatchedPivot;
 
-use crate::arena::{Arena, Expr};
+use crate::arena::Arena;
+use order::Next;
 
 /// Eliminates the matrix in the order that `strategy` chooses.
 ///
-/// `magnitude` tells how small an expression becomes over sampled positions;
-/// it decides between pivots of which none is safe by its form.
-///
 /// # Errors
 /// [`Undetermined`] names the unknowns for which no pivot is left.
-pub fn factor(
-    arena: &mut Arena,
-    kkt: &Kkt,
-    strategy: Strategy,
-    magnitude: &dyn Fn(&Arena, Expr) -> f64,
-) -> Result<Factorization, Undetermined> {
-    let factorization = factor_within(arena, kkt, strategy, magnitude, usize::MAX)?;
+pub fn factor(arena: &mut Arena, kkt: &Kkt, strategy: Strategy) -> Result<Factorization, Undetermined> {
+    let factorization = factor_within(arena, kkt, strategy, usize::MAX)?;
     factorization.ok_or_else(|| Undetermined { unknowns: kkt.unknowns().collect() })
 }
 
 /// The same, as long as no more than `most` entries of the matrix change on the
 /// way: `None` where the order fills the matrix.
+///
+/// The loop ends: a pivot takes out at least one unknown, and rows are added to
+/// masses only while some mass is uncertain, which none is afterwards.
 ///
 /// # Errors
 /// As those of [`factor`].
@@ -58,20 +59,28 @@ pub fn factor_within(
     arena: &mut Arena,
     kkt: &Kkt,
     strategy: Strategy,
-    magnitude: &dyn Fn(&Arena, Expr) -> f64,
     most: usize,
 ) -> Result<Option<Factorization>, Undetermined> {
     let mut work = factorization::Work::new(arena, kkt, strategy);
     let mut order = order::Order::new(work.arena, &work.matrix, strategy);
     let mut changed = 0;
-    while let Some(pivot) = order.choose(work.arena, &work.matrix, magnitude)? {
-        let taken = pivot.unknowns();
-        let touched = work.matrix.touched_by(&taken);
+    while let Some(next) = order.choose(work.arena, &work.matrix)? {
+        let (taken, touched) = match &next {
+            Next::Pivot(pivot) => {
+                let taken = pivot.unknowns();
+                let touched = work.matrix.touched_by(&taken);
+                (taken, touched)
+            }
+            Next::Augmentation(rows) => (Vec::new(), work.matrix.touched_by(rows)),
+        };
         changed += touched.len() * (touched.len() + 1) / 2;
         if changed > most {
             return Ok(None);
         }
-        work.eliminate(pivot);
+        match next {
+            Next::Pivot(pivot) => work.eliminate(pivot),
+            Next::Augmentation(rows) => work.augment(&rows),
+        }
         order.update(work.arena, &work.matrix, &taken, &touched);
     }
     Ok(Some(work.finish()))

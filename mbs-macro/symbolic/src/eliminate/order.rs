@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::matrix::{Kkt, Unknown};
-use crate::arena::{Arena, Expr, Stage};
+use crate::arena::Arena;
 use crate::number::Number;
 
 /// In which order pivots are taken. Any order gives the same solution; they
@@ -29,6 +29,13 @@ pub(super) enum Pivot {
     Pair { row: Unknown, coordinate: Unknown },
     Diagonal(Unknown),
     Loop { row: Unknown, coordinates: [Unknown; 2] },
+}
+
+/// What is done next.
+pub(super) enum Next {
+    Pivot(Pivot),
+    /// These rows are added to the mass block, see [`super::augmentation`].
+    Augmentation(Vec<Unknown>),
 }
 
 impl Pivot {
@@ -82,8 +89,8 @@ type Key = (bool, (usize, usize), Unknown);
 #[derive(Clone, Copy)]
 struct Candidate {
     class: Class,
-    /// A massless coordinate has to find its row before rows lose their zero
-    /// diagonal entry.
+    /// A coordinate without a mass of its own has to find its row before rows lose
+    /// their zero diagonal entry.
     is_urgent: bool,
     cost: usize,
     pivot: Pivot,
@@ -105,13 +112,18 @@ pub(super) struct Order {
     strategy: Strategy,
     candidates: BTreeMap<Unknown, Candidate>,
     queue: BTreeSet<(Key, Unknown)>,
-    massless: BTreeSet<Unknown>,
+    /// Coordinates without a mass of their own: where a combination of their
+    /// accelerations moves no mass, only the constraints determine it. The mass
+    /// block is positive definite over all other coordinates, in any position.
+    uncertain: BTreeSet<Unknown>,
 }
 
 impl Order {
     pub fn new(arena: &Arena, matrix: &Kkt, strategy: Strategy) -> Self {
-        let (candidates, queue, massless) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let mut order = Self { strategy, candidates, queue, massless };
+        let is_uncertain =
+            |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(_)) && !matrix.is_massive(*unknown);
+        let uncertain = matrix.unknowns().filter(is_uncertain).collect();
+        let mut order = Self { strategy, candidates: BTreeMap::new(), queue: BTreeSet::new(), uncertain };
         for unknown in matrix.unknowns() {
             order.judge(arena, matrix, unknown);
         }
@@ -121,6 +133,9 @@ impl Order {
     /// Judges again what a step may have changed: the unknowns that it took out,
     /// those that it touched, and the rows that are coupled to these.
     pub fn update(&mut self, arena: &Arena, matrix: &Kkt, taken: &[Unknown], touched: &BTreeSet<Unknown>) {
+        taken.iter().for_each(|unknown| {
+            self.uncertain.remove(unknown);
+        });
         let coordinates = touched.iter().filter(|unknown| matches!(unknown, Unknown::Coordinate(_)));
         let rows = coordinates.flat_map(|&unknown| matrix.neighbours(unknown)).map(|(other, _)| other);
         let rows = rows.filter(|other| matches!(other, Unknown::Row(_)));
@@ -134,49 +149,125 @@ impl Order {
         if let Some(known) = self.candidates.remove(&unknown) {
             self.queue.remove(&(known.key(self.strategy), unknown));
         }
-        self.massless.remove(&unknown);
         if !matrix.contains(unknown) {
             return;
         }
-        if is_massless(arena, matrix, unknown) {
-            self.massless.insert(unknown);
-        }
-        let candidates = candidates(arena, matrix, unknown);
+        let candidates = self.candidates_of(arena, matrix, unknown);
         if let Some(best) = candidates.into_iter().min_by_key(|candidate| candidate.key(self.strategy)) {
             self.queue.insert((best.key(self.strategy), unknown));
             self.candidates.insert(unknown, best);
         }
     }
 
-    /// The next pivot; `None` when nothing is left.
-    pub fn choose(
-        &self,
-        arena: &Arena,
-        matrix: &Kkt,
-        magnitude: &dyn Fn(&Arena, Expr) -> f64,
-    ) -> Result<Option<Pivot>, Undetermined> {
-        let best = self.queue.first().and_then(|(_, unknown)| self.candidates.get(unknown));
-        let is_pair = best.is_some_and(|candidate| candidate.class <= Class::LastPair);
-        if let (false, Some(pivot)) = (is_pair, single_loop(matrix)) {
-            return Ok(Some(pivot));
+    /// What is done next; `None` when nothing is left.
+    ///
+    /// Pairs come first as long as a mass is uncertain: a mass that is eliminated
+    /// leaves no 0 on the diagonal of its rows.
+    pub fn choose(&mut self, arena: &Arena, matrix: &Kkt) -> Result<Option<Next>, Undetermined> {
+        if let Some(pair) = self.best().filter(|candidate| candidate.class <= Class::LastPair) {
+            return Ok(Some(Next::Pivot(pair.pivot)));
         }
-        match best {
-            Some(candidate) if is_pair || self.massless.is_empty() => Ok(Some(candidate.pivot)),
-            best => {
-                if let Some(pivot) = largest_pair(arena, matrix, magnitude) {
-                    return Ok(Some(pivot));
-                }
-                if let Some(candidate) = best {
-                    return Ok(Some(candidate.pivot));
-                }
-                if let Some(pivot) = largest_mass(arena, matrix, magnitude) {
-                    return Ok(Some(pivot));
-                }
-                let unknowns: Vec<_> = matrix.unknowns().collect();
-                if unknowns.is_empty() { Ok(None) } else { Err(Undetermined { unknowns }) }
+        if let Some(pivot) = single_loop(matrix) {
+            return Ok(Some(Next::Pivot(pivot)));
+        }
+        if !self.uncertain.is_empty() {
+            let rows = self.make_certain(arena, matrix)?;
+            if !rows.is_empty() {
+                return Ok(Some(Next::Augmentation(rows)));
+            }
+        }
+        match self.best() {
+            Some(candidate) => Ok(Some(Next::Pivot(candidate.pivot))),
+            None if matrix.unknowns().next().is_none() => Ok(None),
+            None => Err(Undetermined { unknowns: matrix.unknowns().collect() }),
+        }
+    }
+
+    fn best(&self) -> Option<&Candidate> {
+        self.queue.first().and_then(|(_, unknown)| self.candidates.get(unknown))
+    }
+
+    /// Leaves no mass uncertain; gives the rows that have to be added to the mass
+    /// block for that. Without any, a regular system has a definite mass block.
+    fn make_certain(&mut self, arena: &Arena, matrix: &Kkt) -> Result<Vec<Unknown>, Undetermined> {
+        let uncertain = without_certain(arena, matrix, std::mem::take(&mut self.uncertain));
+        let nothing = |unknown: &Unknown| {
+            matrix.get(*unknown, *unknown).is_none() && matrix.neighbours(*unknown).next().is_none()
+        };
+        let undetermined: Vec<_> = uncertain.iter().copied().filter(nothing).collect();
+        if !undetermined.is_empty() {
+            return Err(Undetermined { unknowns: undetermined });
+        }
+        let neighbours = uncertain.iter().flat_map(|&unknown| matrix.neighbours(unknown));
+        let rows = neighbours.map(|(other, _)| other).filter(|other| matches!(other, Unknown::Row(_)));
+        let rows: BTreeSet<_> = rows.collect();
+        // all masses are candidates now, and no pair is urgent
+        for unknown in matrix.unknowns() {
+            self.judge(arena, matrix, unknown);
+        }
+        Ok(rows.into_iter().collect())
+    }
+
+    fn candidates_of(&self, arena: &Arena, matrix: &Kkt, unknown: Unknown) -> Vec<Candidate> {
+        match unknown {
+            Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => {
+                self.pair_candidates(arena, matrix, unknown)
+            }
+            Unknown::Row(_) => {
+                let is_coupled =
+                    matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_)));
+                if is_coupled { Vec::new() } else { vec![diagonal(matrix, unknown, Class::SchurRow)] }
+            }
+            Unknown::Coordinate(_) => {
+                let is_safe = matrix.get(unknown, unknown).is_some() && !self.uncertain.contains(&unknown);
+                if is_safe { vec![diagonal(matrix, unknown, Class::Mass)] } else { Vec::new() }
             }
         }
     }
+
+    fn pair_candidates(&self, arena: &Arena, matrix: &Kkt, row: Unknown) -> Vec<Candidate> {
+        let mut candidates = Vec::new();
+        let neighbours: Vec<_> = matrix.neighbours(row).collect();
+        let size = |entry| arena.as_number(entry).map(|number| number.abs().to_f64());
+        let largest = neighbours.iter().filter_map(|&(_, entry)| size(entry)).fold(0.0, f64::max);
+        for &(coordinate, entry) in &neighbours {
+            if !matches!(coordinate, Unknown::Coordinate(_)) {
+                continue;
+            }
+            let class = match size(entry) {
+                // a small one beside a large one would cost digits
+                Some(size) if size * LARGEST_WEIGHT < largest => continue,
+                Some(_) => Class::ConstantPair,
+                None if neighbours.len() == 1 => Class::LastPair,
+                None => continue,
+            };
+            let is_unit = arena.as_number(entry).is_some_and(|n| n.abs() == Number::ONE);
+            candidates.push(Candidate {
+                class,
+                is_urgent: self.uncertain.contains(&coordinate),
+                cost: pair_cost(matrix, row, coordinate) + usize::from(!is_unit),
+                pivot: Pivot::Pair { row, coordinate },
+            });
+        }
+        candidates
+    }
+}
+
+/// Those whose mass is not certain: a reduced mass that cannot vanish is, if
+/// it is coupled to none that is uncertain.
+///
+/// With M ≥ 0 in the quadratic sense, xᵀMx = 0 for x over the uncertain ones
+/// implies Mx = 0, and the row of such a coordinate reads M_zz x_z = 0. Ends
+/// since every round takes one out.
+fn without_certain(arena: &Arena, matrix: &Kkt, mut uncertain: BTreeSet<Unknown>) -> BTreeSet<Unknown> {
+    let is_certain = |uncertain: &BTreeSet<Unknown>, unknown: Unknown| {
+        let is_positive = matrix.get(unknown, unknown).is_some_and(|mass| arena.is_positive(mass));
+        is_positive && matrix.neighbours(unknown).all(|(other, _)| !uncertain.contains(&other))
+    };
+    while let Some(certain) = uncertain.iter().copied().find(|&unknown| is_certain(&uncertain, unknown)) {
+        uncertain.remove(&certain);
+    }
+    uncertain
 }
 
 fn first_unknown(pivot: Pivot) -> Unknown {
@@ -201,55 +292,6 @@ fn single_loop(matrix: &Kkt) -> Option<Pivot> {
     (fits && !is_set(row, row)).then_some(Pivot::Loop { row, coordinates: [first, second] })
 }
 
-fn candidates(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> Vec<Candidate> {
-    match unknown {
-        Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => pair_candidates(arena, matrix, unknown),
-        Unknown::Row(_) => {
-            let is_coupled =
-                matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_)));
-            if is_coupled { Vec::new() } else { vec![diagonal(matrix, unknown, Class::SchurRow)] }
-        }
-        Unknown::Coordinate(_) => {
-            let is_safe = matrix.get(unknown, unknown).is_some() && !is_massless(arena, matrix, unknown);
-            if is_safe { vec![diagonal(matrix, unknown, Class::Mass)] } else { Vec::new() }
-        }
-    }
-}
-
-/// A coordinate whose mass is not positive for certain.
-fn is_massless(arena: &Arena, matrix: &Kkt, unknown: Unknown) -> bool {
-    let reduced_mass_is_constant =
-        || matrix.get(unknown, unknown).is_some_and(|mass| arena.stage(mass) <= Stage::Parameter);
-    matches!(unknown, Unknown::Coordinate(_)) && !matrix.is_massive(unknown) && !reduced_mass_is_constant()
-}
-
-fn pair_candidates(arena: &Arena, matrix: &Kkt, row: Unknown) -> Vec<Candidate> {
-    let mut candidates = Vec::new();
-    let neighbours: Vec<_> = matrix.neighbours(row).collect();
-    let size = |entry| arena.as_number(entry).map(|number| number.abs().to_f64());
-    let largest = neighbours.iter().filter_map(|&(_, entry)| size(entry)).fold(0.0, f64::max);
-    for &(coordinate, entry) in &neighbours {
-        if !matches!(coordinate, Unknown::Coordinate(_)) {
-            continue;
-        }
-        let class = match size(entry) {
-            // a small one beside a large one would cost digits
-            Some(size) if size * LARGEST_WEIGHT < largest => continue,
-            Some(_) => Class::ConstantPair,
-            None if neighbours.len() == 1 => Class::LastPair,
-            None => continue,
-        };
-        let is_unit = arena.as_number(entry).is_some_and(|n| n.abs() == Number::ONE);
-        candidates.push(Candidate {
-            class,
-            is_urgent: is_massless(arena, matrix, coordinate),
-            cost: pair_cost(matrix, row, coordinate) + usize::from(!is_unit),
-            pivot: Pivot::Pair { row, coordinate },
-        });
-    }
-    candidates
-}
-
 /// Entries that change when the pair is eliminated, each counted in one half.
 fn pair_cost(matrix: &Kkt, row: Unknown, coordinate: Unknown) -> usize {
     let is_other = |other: &Unknown| *other != row && *other != coordinate;
@@ -264,35 +306,4 @@ fn diagonal(matrix: &Kkt, unknown: Unknown, class: Class) -> Candidate {
     let neighbours = matrix.neighbours(unknown).count();
     let cost = neighbours * (neighbours + 1) / 2;
     Candidate { class, is_urgent: false, cost, pivot: Pivot::Diagonal(unknown) }
-}
-
-/// For the massless coordinates: the pair whose coefficient stays largest over
-/// the sampled positions. Not safe by its form; pivot growth is watched.
-fn largest_pair(arena: &Arena, matrix: &Kkt, magnitude: &dyn Fn(&Arena, Expr) -> f64) -> Option<Pivot> {
-    let mut best: Option<(f64, Pivot)> = None;
-    for row in matrix.unknowns() {
-        if !matches!(row, Unknown::Row(_)) || matrix.get(row, row).is_some() {
-            continue;
-        }
-        for (coordinate, entry) in matrix.neighbours(row) {
-            if !is_massless(arena, matrix, coordinate) {
-                continue;
-            }
-            let size = magnitude(arena, entry);
-            if best.is_none_or(|(largest, _)| size > largest) {
-                best = Some((size, Pivot::Pair { row, coordinate }));
-            }
-        }
-    }
-    best.filter(|(size, _)| *size > 0.0).map(|(_, pivot)| pivot)
-}
-
-/// The last resort of a massless coordinate: the reduced mass that stays
-/// largest over the sampled positions.
-fn largest_mass(arena: &Arena, matrix: &Kkt, magnitude: &dyn Fn(&Arena, Expr) -> f64) -> Option<Pivot> {
-    let is_coordinate = |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(_));
-    let sized = |unknown| Some((magnitude(arena, matrix.get(unknown, unknown)?), unknown));
-    let largest =
-        matrix.unknowns().filter(is_coordinate).filter_map(sized).max_by(|a, b| a.0.total_cmp(&b.0));
-    largest.filter(|(size, _)| *size > 0.0).map(|(_, unknown)| Pivot::Diagonal(unknown))
 }

@@ -28,6 +28,12 @@ pub(super) enum Step {
     },
     /// The last row and its two coordinates, see [`super::single_loop`].
     Loop(SingleLoop),
+    /// f ← f + GᵀWh, see [`super::augmentation`].
+    Augmentation {
+        row: Unknown,
+        /// W_r G_rj
+        weighted: BTreeMap<Unknown, Expr>,
+    },
     /// u = b/d − Σ lⱼ uⱼ
     Diagonal { unknown: Unknown, inverse: Expr, multipliers: BTreeMap<Unknown, Expr> },
 }
@@ -54,6 +60,14 @@ impl Step {
                 [g, f, zero, zero]
             }
             Self::Loop(single_loop) => single_loop.forward(arena, b),
+            Self::Augmentation { row, weighted } => {
+                let of_row = b.get(row).copied().unwrap_or(zero);
+                let negative = arena.neg(of_row);
+                for (other, factor) in weighted {
+                    subtract_product(arena, b, *other, *factor, negative);
+                }
+                [zero; 4]
+            }
             Self::Diagonal { unknown, inverse, multipliers } => {
                 let own = b.remove(unknown).unwrap_or(zero);
                 let own = arena.share(own);
@@ -83,6 +97,8 @@ impl Step {
                 solution.insert(*row, multiplier);
             }
             Self::Loop(single_loop) => single_loop.backward(arena, half, solution),
+            // it has changed the right-hand side, not the solution
+            Self::Augmentation { .. } => {}
             Self::Diagonal { unknown, multipliers, .. } => {
                 let correction = inner_product(arena, multipliers, solution);
                 let u = arena.sub(half[0], correction);
