@@ -49,7 +49,7 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     let rows = verify::check_equations(&model, &equations, &samples)?;
     let plan = plan::plan(&mut model, &equations, &rows, &samples)
         .map_err(|error| verify::unsolvable(&model, &error))?;
-    verify::check_closure(&model, &plan)?;
+    verify::check_closure(&model, &equations, &plan)?;
     verify::check_limit(&model, &plan)?;
     verify::check_programs(&model, &equations, &plan, &samples)?;
     Ok(emit::emit(&model, &equations, &plan))

@@ -36,7 +36,7 @@ pub struct Plan {
     /// left − right and value of every requirement, then masses and inertias,
     /// then properties of elements.
     pub requirements: Program,
-    /// Declared positions and velocities.
+    /// Declared positions, velocities and time of the start.
     pub start: Program,
     pub phi: Program,
     pub phi_dot: Program,
@@ -246,7 +246,24 @@ fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usi
             kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
         }
     }
+    if let Some(unit) = extreme_mass(model, equations) {
+        kkt.set_mass_unit(unit.into());
+    }
     kkt
+}
+
+/// Elimination multiplies up to four masses or their reciprocals: within these powers
+/// of ten the products are doubles.
+const LARGEST_MASS_EXPONENT: f64 = 60.0;
+
+/// A power of two near the geometric mean of the declared masses and inertias, if that
+/// is so large or so small that their products would leave the range of a double.
+fn extreme_mass(model: &Model, equations: &Equations) -> Option<f64> {
+    let masses = model.arena.evaluate(&equations.mass, &model.values(|_| f64::NAN));
+    let exponents: Vec<f64> =
+        masses.into_iter().filter(|mass| *mass > 0.0 && mass.is_finite()).map(f64::log10).collect();
+    let mean = exponents.iter().sum::<f64>() / exponents.len() as f64;
+    (mean.abs() > LARGEST_MASS_EXPONENT).then(|| (mean / 2_f64.log10()).round().exp2())
 }
 
 /// An eliminated system, and the forces that it is solved for.
@@ -257,11 +274,7 @@ struct Solver {
 }
 
 /// The elimination that costs least in the function that runs most.
-fn cheapest(
-    model: &mut Model,
-    equations: &Equations,
-    rows: &Rows,
-) -> Result<Solver, Unsolvable> {
+fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result<Solver, Unsolvable> {
     let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<(u32, Solver)> = None;
@@ -372,5 +385,6 @@ fn declared_start(model: &Model) -> Vec<Expr> {
         start.map_or(model.arena.zero(), |start| start.value)
     };
     let n = model.coordinates.len();
-    (0..n).map(|at| value(at, false)).chain((0..n).map(|at| value(at, true))).collect()
+    let positions = (0..n).map(|at| value(at, false));
+    positions.chain((0..n).map(|at| value(at, true))).chain([model.start_time]).collect()
 }

@@ -271,8 +271,8 @@ fn declared_start(model: &Model, plan: &Plan, names: &Names, fields: &Fields) ->
     let body = body(model, names, &plan.start, &Access::of_position());
     let (positions, velocities) =
         (body.vector(q, &fields.coordinates, 0..n), body.vector(q, &fields.coordinates, n..2 * n));
-    let statements = &body.statements;
-    quote!(#statements #runtime::State { t: T::from_f64(0.0), q: #positions, v: #velocities })
+    let (statements, time) = (&body.statements, body.outputs.last());
+    quote!(#statements #runtime::State { t: #time, q: #positions, v: #velocities })
 }
 
 fn worst_pivot(model: &Model, names: &Names, pivots: &Program) -> TokenStream {

@@ -63,6 +63,8 @@ pub struct Model {
     /// Energies of springs.
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
+    /// The time at which it starts in s.
+    pub start_time: Expr,
     pub outputs: Vec<Output>,
     pub sketch: Sketch,
 }

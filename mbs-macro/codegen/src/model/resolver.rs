@@ -67,6 +67,8 @@ pub(super) struct Resolver<'a> {
     pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
     pub starts: Vec<Start>,
+    /// The time of the start, and where it is declared.
+    pub start_time: Option<(Expr, Span)>,
     pub outputs: Vec<Output>,
     pub output_spans: Vec<(String, Span)>,
 }
@@ -98,6 +100,7 @@ impl<'a> Resolver<'a> {
             potentials: Vec::new(),
             load_names: Vec::new(),
             starts: Vec::new(),
+            start_time: None,
             outputs: Vec::new(),
             output_spans: Vec::new(),
         }
@@ -192,6 +195,7 @@ impl<'a> Resolver<'a> {
             checks: self.checks,
             potentials: self.potentials,
             start: self.starts,
+            start_time: self.start_time.map_or(zero, |(time, _)| time),
             outputs: self.outputs,
             sketch,
         };

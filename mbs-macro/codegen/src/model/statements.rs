@@ -280,6 +280,10 @@ impl<'a> Resolver<'a> {
 
     fn resolve_start(&mut self, entry: &syntax::StartEntry) {
         let text = entry.coordinate.to_string();
+        if text == "t" && entry.prefix.is_empty() {
+            self.resolve_start_time(entry);
+            return;
+        }
         let Some(coordinate) = self.coordinates.iter().position(|c| c.quantity.name == text) else {
             let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
             let hint = match nearest(&text, names.iter().copied()) {
@@ -311,6 +315,25 @@ impl<'a> Resolver<'a> {
             let (is_rate, is_guess, span) = (entry.is_rate, entry.is_guess, entry.coordinate.span());
             self.starts.push(Start { coordinate, is_rate, is_guess, value, span });
         }
+    }
+
+    /// `t = 1 [s];` in `start`.
+    fn resolve_start_time(&mut self, entry: &syntax::StartEntry) {
+        let span = entry.coordinate.span();
+        if entry.is_rate || entry.is_guess {
+            self.errors.push(
+                Diagnostic::new(span, "the time of the start is a value")
+                    .help("write `t = 1 [s];`, without `guess` or `der`"),
+            );
+            return;
+        }
+        if let Some((_, earlier)) = self.start_time {
+            self.repeated("the time of the start", span, earlier);
+            return;
+        }
+        let what = ("the time of the start", Dimension::TIME);
+        let value = self.scope.formula_of(&entry.value, Place::Property, what, &mut self.errors);
+        self.start_time = value.map(|value| (value, span));
     }
 
     fn resolve_output(

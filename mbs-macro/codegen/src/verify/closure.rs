@@ -1,87 +1,177 @@
-//! The assembly at the declared dimensions.
+//! The assembly at the declared dimensions, from the declared start.
 
 use mbs_symbolic::units::Dimension;
 
-use super::assembly::CLOSED;
+use super::assembly::{CLOSED, Position};
 use super::echelon::row_echelon;
+use super::programs::{Closing, Declared, Programs};
 use super::redundancy::does_not_fit;
-use super::sparse::{SparseRow, scale};
+use super::samples::Generator;
+use super::start;
 use super::words::{Part, repeats};
+use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, joined};
-use crate::model::{Meaning, Model};
+use crate::model::Model;
 use crate::plan::Plan;
 
-const ITERATIONS: usize = 50;
-const HALVINGS: usize = 10;
+/// Other starts that are tried where the declared one leads nowhere, and how far
+/// from it the last of them lies, in units of the coordinates.
+const ATTEMPTS: usize = 12;
+const FARTHEST: f64 = 1.5;
 
-/// Positions on Φ = 0 at t = 0, found with the very programs that are emitted.
+/// The mechanism is assembled from its declared start, is regular there, and starts
+/// with the values that are declared; found with the very programs that are emitted.
 ///
 /// # Errors
-/// The constraint that cannot be met.
-pub fn check_closure(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
-    let assembly = Assembly::new(model, plan);
-    let mut q = assembly.start.clone();
-    let mut phi = assembly.phi(&q);
-    let mut best = phi.clone();
-    for _ in 0..ITERATIONS {
-        if norm(&phi) < norm(&best) {
-            best.clone_from(&phi);
-        }
-        let delta = assembly.correction(&q, &phi);
-        let size = largest(&delta).1;
-        if !size.is_finite() {
-            return Err(dependent(&assembly, &q, largest(&phi).0).into());
-        }
-        if size <= 1e-12 * (1.0 + largest(&q).1) {
-            return check_redundant(model, plan, &q, &phi);
-        }
-        let mut length = 1.0;
-        for _ in 0..=HALVINGS {
-            let next: Vec<f64> = q.iter().zip(&delta).map(|(q, d)| q + length * d).collect();
-            let next_phi = assembly.phi(&next);
-            let improves = norm(&next_phi) < norm(&phi);
-            if improves || length < 1.0 / f64::from(1 << (HALVINGS - 1)) {
-                (q, phi) = (next, next_phi);
-                break;
+/// The constraint that cannot be met, the position that is singular, or the values
+/// that cannot be kept.
+pub fn check_closure(model: &Model, equations: &Equations, plan: &Plan) -> Result<(), Diagnostics> {
+    let programs = Programs::new(model, equations, plan);
+    let declared = programs.declared();
+    let (at, phi) = match programs.close(&declared.at) {
+        Closing::Closed(at, phi) => (at, phi),
+        failure => return Err(failed(model, &programs, &declared, failure).into()),
+    };
+    check_redundant(model, plan, &programs, &at, &phi)?;
+    if let Some(error) = flat(model, &programs, &at) {
+        return Err(error.into());
+    }
+    if let Some(pivot) = programs.lost_pivot(&at) {
+        return Err(start::singular(model, pivot, away(model, &programs, &declared)).into());
+    }
+    start::check_kept(model, &programs, &declared, &at)
+}
+
+/// The error where the declared start leads to no assembly; with another start that
+/// does, if one is found.
+fn failed(model: &Model, programs: &Programs<'_>, declared: &Declared, failure: Closing) -> Diagnostic {
+    let elsewhere = away(model, programs, declared);
+    match failure {
+        Closing::Singular(at, row) if elsewhere.is_some() => dependent(programs, model, &at, row, elsewhere),
+        // Where no start leads to a closed position, the least violation is the reason.
+        Closing::Singular(at, row) => {
+            let open = starts(model, programs, declared).filter_map(|start| match programs.close(&start) {
+                Closing::Open(row, violation) => Some((row, violation)),
+                _ => None,
+            });
+            match open.min_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some((row, violation)) if violation.is_finite() => {
+                    does_not_close(model, row, violation, None)
+                }
+                _ => dependent(programs, model, &at, row, None),
             }
-            length *= 0.5;
         }
+        Closing::Open(row, violation) => does_not_close(model, row, violation, elsewhere),
+        Closing::Closed(..) => Diagnostic::internal(model.name.span(), "an assembly failed and did not"),
     }
-    // The iteration wanders where there is nothing to find: its best is said.
-    let (row, violation) = largest(&best);
-    if violation.is_finite() && violation <= CLOSED * (1.0 + largest(&q).1) {
-        return Ok(());
-    }
-    let Some(constraint) = model.constraints.get(row) else { return Ok(()) };
-    Err(Diagnostic::new(
+}
+
+fn does_not_close(model: &Model, row: usize, violation: f64, elsewhere: Option<String>) -> Diagnostic {
+    let Some(constraint) = model.constraints.get(row) else {
+        return Diagnostic::internal(model.name.span(), "an assembly without constraints stays open");
+    };
+    let (from, help) = match elsewhere {
+        Some(guess) => (" from its declared start", format!("start closer, for example with `{guess}`")),
+        None => (
+            "",
+            "check the lengths (can the links reach each other?), or give closer `guess` values in `start`"
+                .to_owned(),
+        ),
+    };
+    let unit = unit(constraint.dimension);
+    // where terms vanish only at infinity, the violation is small and all there is
+    let share = if violation < CLOSED { ", which is all that its terms amount to" } else { "" };
+    Diagnostic::new(
         constraint.span,
         format!(
-            "the mechanism does not close at its declared dimensions: {} stays violated by {violation:.1e}{}",
+            "the mechanism does not close at its declared dimensions{from}: {} stays violated by {violation:.1e}{unit}{share}",
             joined(Part::of(model, [row])),
-            unit(constraint.dimension)
         ),
     )
-    .help("check the lengths (can the links reach each other?), or give closer `guess` values in `start`")
-    .into())
+    .help(help)
+}
+
+/// Starts around the declared one, nearer ones first.
+fn starts<'a>(
+    model: &'a Model,
+    programs: &'a Programs<'_>,
+    declared: &'a Declared,
+) -> impl Iterator<Item = Position> + 'a {
+    let mut generator = Generator::new();
+    (1..=ATTEMPTS).map(move |attempt| {
+        let length = FARTHEST * attempt as f64 / ATTEMPTS as f64;
+        let is_kept = |at: usize| {
+            model.start.iter().any(|start| start.coordinate == at && !start.is_rate && !start.is_guess)
+        };
+        let moved = declared.at.q.iter().zip(&programs.units).enumerate().map(|(at, (q, unit))| {
+            let shift = length * unit * generator.symmetric();
+            if is_kept(at) { *q } else { q + shift }
+        });
+        Position { q: moved.collect(), t: declared.at.t }
+    })
+}
+
+/// Guesses for the coordinates that the declaration does not fix, from which the
+/// mechanism is assembled and regular, as entries of `start`.
+fn away(model: &Model, programs: &Programs<'_>, declared: &Declared) -> Option<String> {
+    let found = starts(model, programs, declared).find_map(|start| match programs.close(&start) {
+        Closing::Closed(at, _) if programs.lost_pivot(&at).is_none() => Some(at),
+        _ => None,
+    })?;
+    let apart = |at: usize| ((found.q[at] - declared.at.q[at]) / programs.units[at]).abs();
+    // the coordinates that moved most say where it is
+    let mut moved: Vec<usize> = (0..found.q.len()).filter(|&at| apart(at) > 1e-2).collect();
+    moved.sort_by(|&a, &b| apart(b).total_cmp(&apart(a)));
+    moved.truncate(3);
+    moved.sort_unstable();
+    let entry = |&at: &usize| {
+        format!("guess {} = {};", model.coordinates[at].quantity.name, start::value(model, at, found.q[at]))
+    };
+    let entries: Vec<String> = moved.iter().map(entry).collect();
+    (!entries.is_empty()).then(|| entries.join(" "))
 }
 
 /// Redundant constraints are met with the others, also on the branch on which
 /// the programs close.
-fn check_redundant(model: &Model, plan: &Plan, q: &[f64], phi: &[f64]) -> Result<(), Diagnostics> {
+fn check_redundant(
+    model: &Model,
+    plan: &Plan,
+    programs: &Programs<'_>,
+    at: &Position,
+    phi: &[f64],
+) -> Result<(), Diagnostics> {
+    let scales = programs.assembly.jacobian(at).1;
+    let limit = CLOSED * (1.0 + programs.size(&at.q));
     let sizes = plan.rows.redundant.iter().map(|&row| (row, phi[row].abs()));
-    match sizes.max_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((row, violation)) if violation > CLOSED * (1.0 + largest(q).1) => {
-            Err(does_not_fit(model, row, violation, 0.0).into())
-        }
-        _ => Ok(()),
+    let open = sizes.filter(|&(row, violation)| violation > limit * scales[row]);
+    match open.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((row, violation)) => Err(does_not_fit(model, row, violation, at.t).into()),
+        None => Ok(()),
     }
 }
 
-/// The error where the equations for a correction are singular at `q`: some
-/// constraint repeats others there, if not everywhere.
-fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
-    let model = assembly.model;
-    let found = row_echelon(assembly.jacobian(q)).dependent.pop();
+/// The error for an equation that is met where its derivatives vanish.
+fn flat(model: &Model, programs: &Programs<'_>, at: &Position) -> Option<Diagnostic> {
+    let row = programs.assembly.flat_rows(at).into_iter().next()?;
+    let constraint = model.constraints.get(row)?;
+    let what = joined(Part::of(model, [row]));
+    let message = format!("{what} restricts no motion where it is met: its derivatives vanish there");
+    Some(Diagnostic::new(constraint.span, message).help(
+        "state what is equal, not that a square of it vanishes: `x = y` and not `(x - y)^2 = 0`; or start where \
+         the mechanism can move",
+    ))
+}
+
+/// The error where the equations for a correction are singular: some constraint
+/// repeats others there, if not everywhere.
+fn dependent(
+    programs: &Programs<'_>,
+    model: &Model,
+    at: &Position,
+    worst: usize,
+    elsewhere: Option<String>,
+) -> Diagnostic {
+    let found = row_echelon(programs.assembly.jacobian(at).0).dependent.pop();
     let (row, others) = found.clone().unwrap_or((worst, Vec::new()));
     let Some(constraint) = model.constraints.get(row) else {
         return Diagnostic::internal(model.name.span(), "an assembly without constraints is singular");
@@ -92,73 +182,17 @@ fn dependent(assembly: &Assembly<'_>, q: &[f64], worst: usize) -> Diagnostic {
         (Some(_), [part]) => repeats(part, &Part::of(model, others)),
         _ => format!("{} and others are not independent", joined(&part)),
     };
-    Diagnostic::new(constraint.span, format!("near the declared start, {what}"))
-        .help("remove a constraint that is too many, or declare a start away from this singular position")
+    let help = match elsewhere {
+        Some(guess) => {
+            format!("declare a start away from this singular position, for example with `{guess}`")
+        }
+        None => "remove a constraint that is too many, or declare a start away from this singular position"
+            .to_owned(),
+    };
+    Diagnostic::new(constraint.span, format!("near the declared start, {what}")).help(help)
 }
 
 /// The SI unit of a violation, where it is that of a length.
 pub fn unit(dimension: Dimension) -> &'static str {
     if dimension == Dimension::LENGTH { " m" } else { "" }
-}
-
-struct Assembly<'a> {
-    model: &'a Model,
-    plan: &'a Plan,
-    hoisted: Vec<f64>,
-    start: Vec<f64>,
-}
-
-impl<'a> Assembly<'a> {
-    fn new(model: &'a Model, plan: &'a Plan) -> Self {
-        let declared = model.values(|_| f64::NAN);
-        let hoisted = plan.prepare.evaluate(&declared, &[]);
-        let mut start = plan.start.evaluate(&declared, &[]);
-        start.truncate(model.coordinates.len());
-        Self { model, plan, hoisted, start }
-    }
-
-    fn phi(&self, q: &[f64]) -> Vec<f64> {
-        self.plan.phi.evaluate(&self.model.values(|meaning| at_position(meaning, q, &[])), &self.hoisted)
-    }
-
-    /// Φ_q, each row scaled to a largest entry of 1.
-    fn jacobian(&self, q: &[f64]) -> Vec<SparseRow<f64>> {
-        let values = self.model.values(|meaning| at_position(meaning, q, &[]));
-        let entries = self.plan.phi_q.evaluate(&values, &self.hoisted);
-        let mut rows = vec![SparseRow::new(); self.model.constraints.len()];
-        for (&(row, column), entry) in self.plan.phi_q_places.iter().zip(entries) {
-            rows[row].push((column, entry));
-        }
-        rows.iter_mut().for_each(|row| {
-            scale(row);
-        });
-        rows
-    }
-
-    fn correction(&self, q: &[f64], phi: &[f64]) -> Vec<f64> {
-        let residual: Vec<f64> = phi.iter().map(|x| -x).collect();
-        let values = self.model.values(|meaning| at_position(meaning, q, &residual));
-        let mut delta = self.plan.position_correction.evaluate(&values, &self.hoisted);
-        delta.truncate(q.len());
-        delta
-    }
-}
-
-fn at_position(meaning: Meaning, q: &[f64], residual: &[f64]) -> f64 {
-    let known = match meaning {
-        Meaning::Time => Some(0.0),
-        Meaning::Coordinate(at) => q.get(at).copied(),
-        Meaning::Feedback(at) => residual.get(at).copied(),
-        _ => None,
-    };
-    known.unwrap_or(f64::NAN)
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn largest(values: &[f64]) -> (usize, f64) {
-    let magnitude = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
-    values.iter().map(magnitude).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
 }

@@ -72,8 +72,8 @@ impl Manifold {
     }
 }
 
-/// Times between which the drives move the mechanism by about one stride; 0
-/// again and again where nothing depends on time.
+/// Times between which the drives move the mechanism by about one stride; that of
+/// the start again and again where nothing depends on time.
 fn instants(assembly: &Assembly<'_>, start: &Position) -> Vec<f64> {
     let interval = if assembly.depends_on_time() {
         let speed = assembly.drive_speed(start);
@@ -82,7 +82,7 @@ fn instants(assembly: &Assembly<'_>, start: &Position) -> Vec<f64> {
     } else {
         0.0
     };
-    (1..=POSITIONS).map(|step| interval * step as f64).collect()
+    (1..=POSITIONS).map(|step| start.t + interval * step as f64).collect()
 }
 
 /// Another assembled position near `from`, if one is found.

@@ -10,11 +10,14 @@ mod generic;
 mod jets;
 mod manifold;
 mod prime_field;
+mod programs;
 mod rank;
 mod redundancy;
 mod rounding;
 mod samples;
+mod size;
 mod sparse;
+mod start;
 mod validation;
 mod words;
 
@@ -68,6 +71,11 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             let help = if check.is_strict { "it has to be positive" } else { "it must not be negative" };
             errors.push(Diagnostic::new(check.span, message).help(help));
         }
+    }
+    let start_time = model.arena.evaluate(&[model.start_time], &values)[0];
+    if !start_time.is_finite() {
+        let message = format!("the time of the start is {start_time} s at the declared parameters");
+        errors.push(Diagnostic::new(model.name.span(), message).help("it has to be finite"));
     }
     for start in &model.start {
         let value = model.arena.evaluate(&[start.value], &values)[0];

@@ -126,9 +126,8 @@ impl Samples {
         rows: &[usize],
         held: &BTreeSet<usize>,
     ) -> usize {
-        let rank = |sample: &Vec<f64>| {
-            row_echelon(self.jacobian_at(model, equations, rows, held, sample)).rank()
-        };
+        let rank =
+            |sample: &Vec<f64>| row_echelon(self.jacobian_at(model, equations, rows, held, sample)).rank();
         self.values.iter().map(rank).max().unwrap_or(0)
     }
 

@@ -53,12 +53,14 @@ impl Work<'_> {
     fn weight(&mut self, entries: &[(Unknown, Expr)]) -> Expr {
         for &(unknown, entry) in entries {
             let mass = self.matrix.get(unknown, unknown);
-            let mass = mass.filter(|_| self.matrix.is_massive(unknown)).and_then(|mass| self.arena.anchor(mass));
+            let mass =
+                mass.filter(|_| self.matrix.is_massive(unknown)).and_then(|mass| self.arena.anchor(mass));
             if let (Some(mass), Some(size)) = (mass, self.arena.bound(entry)) {
                 return self.arena.product(&[(mass, 1), (size, -2)]);
             }
         }
-        let masses: Vec<_> = self.matrix.unknowns().filter(|&unknown| self.matrix.is_massive(unknown)).collect();
+        let masses: Vec<_> =
+            self.matrix.unknowns().filter(|&unknown| self.matrix.is_massive(unknown)).collect();
         let mass = masses.into_iter().find_map(|unknown| {
             let mass = self.matrix.get(unknown, unknown)?;
             self.arena.anchor(mass)

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::arena::{Arena, Expr};
+use crate::number::Number;
 
 /// An unknown of the constrained system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -20,6 +21,8 @@ pub struct Kkt {
     couplings: BTreeMap<Unknown, BTreeMap<Unknown, Expr>>,
     /// Coordinates whose mass is positive by declaration.
     massive: BTreeSet<Unknown>,
+    /// What masses are measured in, beside the factor that they share.
+    mass_unit: Option<Number>,
 }
 
 impl Kkt {
@@ -36,6 +39,17 @@ impl Kkt {
     /// Declares that the mass of a coordinate is positive.
     pub fn mark_massive(&mut self, coordinate: usize) {
         self.massive.insert(Unknown::Coordinate(coordinate));
+    }
+
+    /// Measures masses in this unit, so that products of very large or very small
+    /// ones stay within the range of a double.
+    pub fn set_mass_unit(&mut self, unit: Number) {
+        self.mass_unit = Some(unit);
+    }
+
+    /// The unit of masses, if one was set.
+    pub(super) fn mass_unit(&self) -> Option<Number> {
+        self.mass_unit
     }
 
     /// Sets the entries (a, b) and (b, a).

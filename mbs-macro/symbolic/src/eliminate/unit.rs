@@ -10,8 +10,17 @@ use std::collections::BTreeMap;
 use super::matrix::{Kkt, Unknown};
 use crate::arena::{Arena, Expr, Node, Stage};
 
-/// μ; 1 where the masses share nothing, or all motion is prescribed.
+/// μ: what the masses share, times the unit that the matrix asks for.
 pub(super) fn of_masses(arena: &mut Arena, matrix: &Kkt) -> Expr {
+    let shared = shared(arena, matrix);
+    match matrix.mass_unit() {
+        Some(unit) => arena.scale(shared, unit),
+        None => shared,
+    }
+}
+
+/// 1 where the masses share nothing, or all motion is prescribed.
+fn shared(arena: &mut Arena, matrix: &Kkt) -> Expr {
     let (coordinates, rows): (Vec<_>, Vec<_>) =
         matrix.unknowns().partition(|unknown| matches!(unknown, Unknown::Coordinate(_)));
     if coordinates.len() <= rows.len() {

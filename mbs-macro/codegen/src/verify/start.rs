@@ -1,0 +1,120 @@
+//! The declared start, against the one that the constraints allow.
+
+use mbs_symbolic::units::Dimension;
+
+use super::assembly::Position;
+use super::programs::{Declared, Programs};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::model::{Model, Start};
+
+/// What a declared value may be off by, as a share of the size of the mechanism, or
+/// in radians; a rate as a share of the fastest one. Published starts are printed to
+/// four digits and are corrected by less.
+const SHARE: f64 = 1e-3;
+
+/// Values and rates that are no guesses start as they are declared.
+///
+/// # Errors
+/// Those that cannot be kept.
+pub fn check_kept(
+    model: &Model,
+    programs: &Programs<'_>,
+    declared: &Declared,
+    at: &Position,
+) -> Result<(), Diagnostics> {
+    let mut errors = Diagnostics::default();
+    let positions = programs.units.iter().map(|unit| SHARE * unit).collect::<Vec<_>>();
+    report(model, false, &declared.at.q, &at.q, &positions, &mut errors);
+    if let Some(velocities) = programs.velocities(at, &declared.velocities) {
+        let fastest = programs.size(&declared.velocities).max(programs.size(&velocities));
+        let rates = programs.units.iter().map(|unit| SHARE * unit * fastest).collect::<Vec<_>>();
+        report(model, true, &declared.velocities, &velocities, &rates, &mut errors);
+    }
+    errors.finish(())
+}
+
+fn report(
+    model: &Model,
+    is_rate: bool,
+    declared: &[f64],
+    kept: &[f64],
+    limits: &[f64],
+    errors: &mut Diagnostics,
+) {
+    for start in model.start.iter().filter(|start| start.is_rate == is_rate && !start.is_guess) {
+        let at = start.coordinate;
+        if (kept[at] - declared[at]).abs() > limits[at] {
+            errors.push(not_kept(model, start, declared[at], kept[at]));
+        }
+    }
+}
+
+fn not_kept(model: &Model, start: &Start, declared: f64, kept: f64) -> Diagnostic {
+    let name = &model.coordinates[start.coordinate].quantity.name;
+    let (what, of) = if start.is_rate {
+        (format!("der({name})"), rate as fn(&Model, usize, f64) -> String)
+    } else {
+        (name.clone(), value as fn(&Model, usize, f64) -> String)
+    };
+    let [declared, kept] = [declared, kept].map(|value| of(model, start.coordinate, value));
+    let message = format!(
+        "`{what}` cannot start at {declared}: with the values that are declared before it, the constraints make it {kept}"
+    );
+    Diagnostic::new(start.span, message).help(format!(
+        "write `{what} = {kept};`, or `guess {what} = {declared};` if it is a first guess, or make guesses of the others"
+    ))
+}
+
+/// The error for a start in a singular position.
+pub fn singular(
+    model: &Model,
+    (row, coordinate): (Option<usize>, Option<usize>),
+    elsewhere: Option<String>,
+) -> Diagnostic {
+    let constraint = row.and_then(|row| model.constraints.get(row));
+    let coordinate = coordinate.and_then(|at| model.coordinates.get(at));
+    let (span, what) = match (constraint, coordinate) {
+        (Some(constraint), Some(coordinate)) => (
+            constraint.span,
+            format!("{} does not determine `{}`", constraint.source, coordinate.quantity.name),
+        ),
+        (Some(constraint), None) => {
+            (constraint.span, format!("{} depends on the other constraints", constraint.source))
+        }
+        (None, Some(coordinate)) => (
+            coordinate.span,
+            format!("nothing determines the acceleration of `{}`", coordinate.quantity.name),
+        ),
+        (None, None) => (model.name.span(), "the equations of motion have no unique solution".to_owned()),
+    };
+    let help = match elsewhere {
+        Some(guess) => format!("start in another position, for example with `{guess}`"),
+        None => "declare a start in another position, or give massless parts a mass".to_owned(),
+    };
+    Diagnostic::new(span, format!("the declared start is a singular position: {what} there")).help(help)
+}
+
+/// A value of a coordinate as it is written in a declaration.
+pub fn value(model: &Model, coordinate: usize, value: f64) -> String {
+    if is_length(model, coordinate) {
+        format!("{} [m]", rounded(value))
+    } else {
+        format!("{} [deg]", rounded(value.to_degrees()))
+    }
+}
+
+fn rate(model: &Model, coordinate: usize, value: f64) -> String {
+    let unit = if is_length(model, coordinate) { "[m/s]" } else { "[rad/s]" };
+    format!("{} {unit}", rounded(value))
+}
+
+fn is_length(model: &Model, coordinate: usize) -> bool {
+    model.coordinates[coordinate].quantity.dimension == Dimension::LENGTH
+}
+
+/// To six digits, as short as that goes.
+fn rounded(value: f64) -> String {
+    let short = format!("{value:.5e}").parse().unwrap_or(value);
+    // what a reader counts the zeros of is written with a power of ten
+    if short == 0.0 || (1e-4..1e7).contains(&short.abs()) { format!("{short}") } else { format!("{short:e}") }
+}
