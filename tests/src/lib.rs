@@ -7,6 +7,7 @@ pub mod by_hand_on_pairs;
 pub mod chains;
 pub mod fuzzing;
 pub mod jet;
+pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;

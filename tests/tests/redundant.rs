@@ -115,7 +115,7 @@ mechanism! {
         point base on rod = (-l/2, 0);
         revolute pin (rod.base, ground);
         revolute hinge (rod.base, ground);
-        start { theta = 0.3; x = 0.5 [m]; guess y = 0; }
+        start { theta = 0.3; guess x = 0.5 [m]; guess y = 0; }
     }
 }
 

@@ -52,6 +52,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Redundant { .. }
         | ItemKind::Limit { .. }
         | ItemKind::Step { .. }
+        | ItemKind::Closes { .. }
         | ItemKind::Feedback { .. }
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
@@ -91,6 +92,11 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         }
         ItemKind::Gravity { value, .. } => in_vector(value, visit),
         ItemKind::Step { value, .. } => in_formula(value, visit),
+        ItemKind::Closes { coordinate, from, to, .. } => {
+            coordinate.iter_mut().for_each(|name| visit(Mention::Name(name)));
+            in_formula(from, visit);
+            in_formula(to, visit);
+        }
         ItemKind::Feedback { gains, .. } => gains.iter_mut().for_each(|gain| in_formula(gain, visit)),
         ItemKind::Body { name, coordinates, properties } => {
             visit(Mention::Name(name));

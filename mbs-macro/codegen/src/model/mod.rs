@@ -65,6 +65,7 @@ pub struct Model {
     pub start: Vec<Start>,
     /// The time at which it starts in s.
     pub start_time: Expr,
+    pub closes: Option<Closes>,
     pub outputs: Vec<Output>,
     pub sketch: Sketch,
 }
@@ -204,6 +205,15 @@ pub struct Start {
     pub is_rate: bool,
     pub is_guess: bool,
     pub value: Expr,
+    pub span: Span,
+}
+
+/// A span of the time or of a coordinate over which the mechanism promises to close.
+pub struct Closes {
+    /// The coordinate; the time without one.
+    pub coordinate: Option<usize>,
+    pub from: Expr,
+    pub to: Expr,
     pub span: Span,
 }
 

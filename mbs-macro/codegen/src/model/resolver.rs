@@ -10,8 +10,8 @@ use super::energies;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
-    Solver, Start, Symbols, Work,
+    Body, Check, Closes, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity,
+    Requirement, Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -67,6 +67,7 @@ pub(super) struct Resolver<'a> {
     pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
     pub starts: Vec<Start>,
+    pub closes: Option<Closes>,
     /// The time of the start, and where it is declared.
     pub start_time: Option<(Expr, Span)>,
     pub outputs: Vec<Output>,
@@ -100,6 +101,7 @@ impl<'a> Resolver<'a> {
             potentials: Vec::new(),
             load_names: Vec::new(),
             starts: Vec::new(),
+            closes: None,
             start_time: None,
             outputs: Vec::new(),
             output_spans: Vec::new(),
@@ -196,6 +198,7 @@ impl<'a> Resolver<'a> {
             potentials: self.potentials,
             start: self.starts,
             start_time: self.start_time.map_or(zero, |(time, _)| time),
+            closes: self.closes,
             outputs: self.outputs,
             sketch,
         };

@@ -3,11 +3,12 @@
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Dimension;
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
+use super::Closes;
 use super::names::Place;
 use super::resolver::Resolver;
-use crate::diagnostics::Diagnostic;
+use crate::diagnostics::{Diagnostic, listing};
 use crate::syntax::{Formula, Limited};
 
 /// Longer programs are emitted with loops, unless declared otherwise: straight
@@ -45,6 +46,42 @@ impl Solver {
 }
 
 impl Resolver<'_> {
+    pub(super) fn resolve_closes(
+        &mut self,
+        keyword: Span,
+        coordinate: Option<&Ident>,
+        from: &Formula,
+        to: &Formula,
+    ) {
+        if let Some(earlier) = self.closes.as_ref().map(|closes| closes.span) {
+            self.repeated("`closes`", keyword, earlier);
+            return;
+        }
+        let coordinate = match coordinate {
+            None => None,
+            Some(name) => match self.coordinates.iter().position(|c| name == &c.quantity.name) {
+                Some(at) => Some(at),
+                None => {
+                    let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
+                    let names = listing(names);
+                    self.errors.push(
+                        Diagnostic::new(name.span(), format!("there is no coordinate `{name}`")).help(
+                            format!("the coordinates are {names}; without one, the span is one of time"),
+                        ),
+                    );
+                    return;
+                }
+            },
+        };
+        let dimension = coordinate.map_or(Dimension::TIME, |at| self.coordinates[at].quantity.dimension);
+        let what = ("an end of the span", dimension);
+        let from = self.scope.formula_of(from, Place::Property, what, &mut self.errors);
+        let to = self.scope.formula_of(to, Place::Property, what, &mut self.errors);
+        if let (Some(from), Some(to)) = (from, to) {
+            self.closes = Some(Closes { coordinate, from, to, span: keyword });
+        }
+    }
+
     pub(super) fn resolve_limit(&mut self, keyword: Span, limited: Limited, value: u32) {
         let solver = &mut self.solver;
         let (limit, what) = match limited {

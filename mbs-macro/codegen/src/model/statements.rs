@@ -94,6 +94,9 @@ impl<'a> Resolver<'a> {
             },
             ItemKind::Limit { keyword, limited, value } => self.resolve_limit(*keyword, *limited, *value),
             ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
+            ItemKind::Closes { keyword, coordinate, from, to } => {
+                self.resolve_closes(*keyword, coordinate.as_ref(), from, to);
+            }
             ItemKind::Feedback { keyword, is_held, gains } => {
                 self.resolve_feedback(*keyword, *is_held, gains);
             }

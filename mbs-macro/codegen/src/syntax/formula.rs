@@ -151,11 +151,14 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
 
 /// `theta`, or `crank.tip.x`.
 fn path(input: ParseStream<'_>, name: Ident) -> Result<FormulaKind> {
-    if !input.peek(Token![.]) {
+    // `a .. b` is a span
+    let is_member = || input.peek(Token![.]) && !input.peek(Token![..]);
+    if !is_member() {
         return Ok(FormulaKind::Name(name));
     }
     let mut path = vec![name];
-    while input.parse::<Option<Token![.]>>()?.is_some() {
+    while is_member() {
+        input.parse::<Token![.]>()?;
         path.push(member(input)?);
     }
     Ok(FormulaKind::Member(path))

@@ -46,6 +46,8 @@ pub enum ItemKind {
     Step { keyword: Span, value: Formula },
     /// `feedback = held(alpha, beta);`
     Feedback { keyword: Span, is_held: bool, gains: [Formula; 2] },
+    /// `closes = 0 [s] .. 0.3 [s];`, or over a coordinate.
+    Closes { keyword: Span, coordinate: Option<Ident>, from: Formula, to: Formula },
     /// `crate = path;`
     Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`

@@ -45,6 +45,22 @@ pub fn step(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Step { keyword, value })
 }
 
+/// `closes = 0 [s] .. 0.3 [s];` or `closes theta = 0 .. 2*pi;`
+pub fn closes(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    let coordinate = if input.peek(syn::Ident) { Some(input.parse()?) } else { None };
+    equals(input)?;
+    let from = input.parse()?;
+    input.parse::<syn::Token![..]>().map_err(|error| {
+        Error::new(
+            error.span(),
+            "a span is expected here, as in `closes = 0 [s] .. 0.3 [s];` or `closes theta = 0 .. 2*pi;`",
+        )
+    })?;
+    let to = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Closes { keyword, coordinate, from, to })
+}
+
 pub fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     let value: Formula = input.parse()?;

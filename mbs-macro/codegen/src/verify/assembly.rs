@@ -152,6 +152,13 @@ impl<'a> Assembly<'a> {
         sizes(&self.model.arena, &rows, &values)
     }
 
+    /// The row that is violated most where an assembly ended, as a distance.
+    pub fn worst(&self, rows: &[usize], closing: &Closing) -> Option<usize> {
+        let scales = self.jacobian(&closing.at).1;
+        let violation = |row: usize| (closing.phi[row] / scales[row]).abs();
+        rows.iter().copied().max_by(|&a, &b| violation(a).total_cmp(&violation(b)))
+    }
+
     /// The rows whose derivatives vanish against what they compare: they restrict no
     /// motion there, as (x − y)² = 0 where it is met.
     pub fn flat_rows(&self, at: &Position) -> Vec<usize> {
@@ -167,17 +174,24 @@ impl<'a> Assembly<'a> {
         (closing.phi[row] / scale).abs() <= CLOSED * (1.0 + self.size(&closing.at))
     }
 
-    /// A position near `guess` at its time where `rows` are met, by the method
-    /// of Levenberg and Marquardt: the damping, of the order of the violation,
-    /// keeps the convergence quadratic where the rows depend on each other
-    /// (Yamashita and Fukushima 2001).
+    /// A position near `guess` at its time where `rows` are met.
     pub fn close(&self, rows: &[usize], guess: &Position) -> Closing {
+        self.close_with(rows, guess, None)
+    }
+
+    /// The same with one coordinate kept as it is, by the method of Levenberg and
+    /// Marquardt: the damping, of the order of the violation, keeps the convergence
+    /// quadratic where the rows depend on each other (Yamashita and Fukushima 2001).
+    pub fn close_with(&self, rows: &[usize], guess: &Position, kept: Option<usize>) -> Closing {
         let mut at = guess.clone();
         let mut phi = self.phi(&at);
         let mut damping = 1e-2;
         let mut violation = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let (jacobian, scales) = self.jacobian(&at);
+            let (mut jacobian, scales) = self.jacobian(&at);
+            if let Some(kept) = kept {
+                jacobian.iter_mut().for_each(|row| row.retain(|(column, _)| *column != kept));
+            }
             let scaled = |phi: &[f64]| rows.iter().map(|&row| phi[row] / scales[row]).collect::<Vec<_>>();
             let residual = scaled(&phi);
             violation = largest(&residual);

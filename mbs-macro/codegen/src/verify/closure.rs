@@ -7,6 +7,7 @@ use super::echelon::row_echelon;
 use super::programs::{Closing, Declared, Programs};
 use super::redundancy::does_not_fit;
 use super::samples::Generator;
+use super::span::check_span;
 use super::start;
 use super::words::{Part, repeats};
 use crate::derive::Equations;
@@ -39,6 +40,7 @@ pub fn check_closure(model: &Model, equations: &Equations, plan: &Plan) -> Resul
     if let Some(pivot) = programs.lost_pivot(&at) {
         return Err(start::singular(model, pivot, away(model, &programs, &declared)).into());
     }
+    check_span(model, &programs.assembly, &plan.rows.basis, &at)?;
     start::check_kept(model, &programs, &declared, &at)
 }
 

@@ -16,6 +16,7 @@ mod redundancy;
 mod rounding;
 mod samples;
 mod size;
+mod span;
 mod sparse;
 mod start;
 mod validation;
