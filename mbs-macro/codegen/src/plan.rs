@@ -8,7 +8,7 @@ mod step;
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Arena, Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
+    Arena, Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
     WatchedPivot, factor_within, lower, lower_whole,
 };
 
@@ -94,6 +94,14 @@ pub enum Unsolvable {
     Load(Circular),
     /// A load that depends on reactions which redundant constraints share.
     Shared,
+    /// A mistake of the compiler.
+    Inconsistent(Inconsistency),
+}
+
+impl From<Inconsistency> for Unsolvable {
+    fn from(mistake: Inconsistency) -> Self {
+        Self::Inconsistent(mistake)
+    }
 }
 
 impl From<Undetermined> for Unsolvable {
@@ -155,25 +163,25 @@ pub fn plan(
         strategy,
         order: factorization.order.clone(),
         rows: rows.clone(),
-        phi: program(&equations.phi),
-        phi_dot: program(&equations.phi_dot),
-        phi_q: program(&entries().map(|(_, entry)| entry).collect::<Vec<_>>()),
+        phi: program(&equations.phi)?,
+        phi_dot: program(&equations.phi_dot)?,
+        phi_q: program(&entries().map(|(_, entry)| entry).collect::<Vec<_>>())?,
         phi_q_places: entries().map(|(place, _)| place).collect(),
-        phi_t: program(&equations.phi_t),
-        gamma: program(&equations.gamma),
-        baumgarte_rhs: program(&rhs),
-        mass: program(&equations.mass),
-        forces: program(&forces.values),
-        kinetic_energy: program(&[equations.kinetic_energy]),
-        potential_energy: program(&[equations.potential_energy]),
-        stabilized: program(&stabilized),
-        constrained: program(&constrained),
-        reactions: program(&reactions),
-        position_correction: program(&positions),
-        velocity_correction: program(&velocities),
-        pivots: program(&growths(&factorization.pivots)),
-        start_pivots: program(&growths(&start_pivots)),
-        outputs: program(&outputs),
+        phi_t: program(&equations.phi_t)?,
+        gamma: program(&equations.gamma)?,
+        baumgarte_rhs: program(&rhs)?,
+        mass: program(&equations.mass)?,
+        forces: program(&forces.values)?,
+        kinetic_energy: program(&[equations.kinetic_energy])?,
+        potential_energy: program(&[equations.potential_energy])?,
+        stabilized: program(&stabilized)?,
+        constrained: program(&constrained)?,
+        reactions: program(&reactions)?,
+        position_correction: program(&positions)?,
+        velocity_correction: program(&velocities)?,
+        pivots: program(&growths(&factorization.pivots))?,
+        start_pivots: program(&growths(&start_pivots))?,
+        outputs: program(&outputs)?,
         hoisted: Vec::new(),
         prepare: Program::default(),
         requirements: Program::default(),
@@ -193,12 +201,12 @@ pub fn plan(
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
         fused_step: step::fused(model, stages),
-        prepare: lower_whole(&mut model.arena, hoisted.values()),
+        prepare: lower_whole(&mut model.arena, hoisted.values())?,
         hoisted: hoisted.values().to_vec(),
-        requirements: lower_whole(&mut model.arena, &requirements),
-        start: lower_whole(&mut model.arena, &start),
+        requirements: lower_whole(&mut model.arena, &requirements)?,
+        start: lower_whole(&mut model.arena, &start)?,
         // Pictures are no reason to carry more hoisted values through a step.
-        points: lower_whole(&mut model.arena, &points),
+        points: lower_whole(&mut model.arena, &points)?,
         ..plan
     })
 }
@@ -277,7 +285,7 @@ fn cheapest(
             return Ok(solver);
         }
         let roots = stabilized(model, equations, rows, &solver.forces, &solver.factorization);
-        let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default())?;
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, solver));

@@ -27,9 +27,10 @@
 //! let slope = arena.partial(square, symbol);
 //! assert_eq!(arena.display(slope), "2*sin(theta)*cos(theta)");
 //!
-//! let program = lower_whole(&mut arena, &[square, slope]);
+//! let program = lower_whole(&mut arena, &[square, slope])?;
 //! assert_eq!(program.operations().to_string(), "3 mul + 0 add + 0 div + 1 sincos");
 //! assert_eq!(program.evaluate(&|_| 0.0, &[]), [0.0, 0.0]);
+//! # Ok::<(), mbs_symbolic::Inconsistency>(())
 //! ```
 #![forbid(unsafe_code)]
 
@@ -40,6 +41,7 @@ mod differentiate;
 mod display;
 mod eliminate;
 mod evaluate;
+mod inconsistency;
 mod latex;
 mod lower;
 mod number;
@@ -56,6 +58,7 @@ pub use eliminate::{
     Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
 };
 pub use evaluate::{Tape, Values};
+pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;

@@ -9,12 +9,17 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::flatten::{Definition, Flat, Signed, Value};
+use super::flatten::{Definition, Flat, Signed, Value, without_opposites};
+use crate::inconsistency::Inconsistency;
 
-pub(super) fn factor(flat: &mut Flat) {
-    factor_rows(flat, &Products);
-    factor_rows(flat, &Sums);
+pub(super) fn factor(flat: &mut Flat) -> Result<(), Inconsistency> {
+    factor_rows(flat, &Products)?;
+    factor_rows(flat, &Sums)
 }
+
+/// Why there is no end to be seen.
+const ENDLESS: Inconsistency =
+    Inconsistency { pass: "factoring", rule: "every pair that is taken spares an operation" };
 
 /// Two members of a row, up to a common sign.
 type Pair = (Value, Value, bool);
@@ -65,6 +70,8 @@ struct Work {
     holders: HashMap<Pair, Holders>,
     /// Pairs in two rows or more, by their rank; entries may be out of date.
     queue: BinaryHeap<(Rank, Reverse<Pair>)>,
+    /// What the rows take: one less than they have members.
+    operations: usize,
 }
 
 /// The rows that hold a pair.
@@ -81,20 +88,24 @@ impl Holders {
     }
 }
 
-fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
+fn factor_rows(flat: &mut Flat, kind: &dyn Rows) -> Result<(), Inconsistency> {
     let rows: Vec<_> = flat.definitions.iter().map(|definition| kind.row(definition)).collect();
     let mut work = Work {
         can_recur: can_recur(&rows),
         rows: vec![None; rows.len()],
         holders: HashMap::default(),
         queue: BinaryHeap::new(),
+        operations: 0,
     };
     for (value, row) in rows.into_iter().enumerate() {
         if let Some(row) = row {
             work.insert(value, row);
         }
     }
+    // Operations fall: a pair costs one, and spares one in each row that holds it, of
+    // which there are two or more.
     while let Some((pair, holders)) = work.most_frequent() {
+        let before = work.operations;
         let members =
             vec![Signed { value: pair.0, negative: false }, Signed { value: pair.1, negative: pair.2 }];
         let common = flat.define(kind.definition(members.clone()));
@@ -102,18 +113,22 @@ fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
         work.can_recur.resize(flat.definitions.len(), true);
         for holder in holders {
             if holder != common {
-                work.replace(holder, pair, common);
+                work.replace(holder, pair, common)?;
             }
         }
         // it holds the pair too, whether it was a row before or not
-        work.rows[common] = None;
+        work.remove(common);
         work.insert(common, members);
+        if work.operations >= before {
+            return Err(ENDLESS);
+        }
     }
     for (value, row) in work.rows.into_iter().enumerate() {
         if let Some(row) = row {
             flat.definitions[value] = kind.definition(row);
         }
     }
+    Ok(())
 }
 
 fn can_recur(rows: &[Option<Vec<Signed>>]) -> Vec<bool> {
@@ -138,11 +153,14 @@ impl Work {
                 self.queue.push((holders.rank(), Reverse(pair)));
             }
         }
+        self.operations += row.len().saturating_sub(1);
         self.rows[value] = Some(row);
     }
 
-    fn remove(&mut self, value: Value) -> Vec<Signed> {
-        let row = self.rows[value].take().unwrap_or_default();
+    /// Takes a row out; `None` of a value that has none.
+    fn remove(&mut self, value: Value) -> Option<Vec<Signed>> {
+        let row = self.rows[value].take()?;
+        self.operations -= row.len().saturating_sub(1);
         for pair in self.pairs(&row) {
             let Some(holders) = self.holders.get_mut(&pair) else { continue };
             let Some(at) = holders.rows.iter().position(|holder| *holder == value) else { continue };
@@ -152,7 +170,7 @@ impl Work {
                 self.queue.push((holders.rank(), Reverse(pair)));
             }
         }
-        row
+        Some(row)
     }
 
     /// The pair with the most holders, two at least, and these.
@@ -178,22 +196,23 @@ impl Work {
         pairs
     }
 
-    /// Puts `common` in the place of the pair in one row.
-    fn replace(&mut self, holder: Value, (a, b, opposite): Pair, common: Value) {
-        let mut row = self.remove(holder);
-        let Some(first) = row.iter().position(|member| member.value == a) else {
-            return self.insert(holder, row);
-        };
+    /// Puts `common` in the place of the pair in one row. A row has each value with one
+    /// sign alone, so that any occurrence of `a` goes with any of `b`.
+    fn replace(
+        &mut self,
+        holder: Value,
+        (a, b, opposite): Pair,
+        common: Value,
+    ) -> Result<(), Inconsistency> {
+        let mut row = self.remove(holder).ok_or(ENDLESS)?;
+        let first = row.iter().position(|member| member.value == a).ok_or(ENDLESS)?;
         let negative = row.remove(first).negative;
-        match row.iter().position(|m| m.value == b && (m.negative ^ negative) == opposite) {
-            Some(second) => {
-                row.remove(second);
-                row.push(Signed { value: common, negative });
-            }
-            // The pair needs another occurrence of `a`, which a sum never has.
-            None => row.push(Signed { value: a, negative }),
-        }
-        row.sort_unstable();
-        self.insert(holder, row);
+        let is_other = |member: &Signed| member.value == b && (member.negative ^ negative) == opposite;
+        let second = row.iter().position(is_other).ok_or(ENDLESS)?;
+        row.remove(second);
+        row.push(Signed { value: common, negative });
+        // the row may have had the negative of the pair as a member already
+        self.insert(holder, without_opposites(row));
+        Ok(())
     }
 }

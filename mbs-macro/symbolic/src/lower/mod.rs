@@ -16,6 +16,7 @@ mod signs;
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::arena::{Arena, Expr};
+use crate::inconsistency::Inconsistency;
 use crate::program::Program;
 
 /// Values that depend on parameters alone, shared by the programs of a
@@ -43,19 +44,25 @@ impl Hoisted {
 
 /// The program that computes `outputs`, with everything that depends on
 /// parameters alone moved into `hoisted`.
-pub fn lower(arena: &mut Arena, outputs: &[Expr], hoisted: &mut Hoisted) -> Program {
+///
+/// # Errors
+/// A pass that breaks its own rules.
+pub fn lower(arena: &mut Arena, outputs: &[Expr], hoisted: &mut Hoisted) -> Result<Program, Inconsistency> {
     lower_flat(arena, outputs, Some(hoisted))
 }
 
 /// The program that computes `outputs` from scratch.
-pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Program {
+///
+/// # Errors
+/// As those of [`lower`].
+pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Result<Program, Inconsistency> {
     lower_flat(arena, outputs, None)
 }
 
-fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Program {
+fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Result<Program, Inconsistency> {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
-    factoring::factor(&mut flat);
+    factoring::factor(&mut flat)?;
     signs::choose(&mut flat);
     let results = flat.settle_outputs(arena, outputs);
-    Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results) }
+    Ok(Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results) })
 }
