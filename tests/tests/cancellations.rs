@@ -58,7 +58,11 @@ macro_rules! assert_moves_as_its_equations {
             let found = found.acceleration.into_array().into_iter().chain(found.multipliers.into_array());
             for (found, dense_value) in found.zip(&dense) {
                 // backward-stable solutions of a system of condition below 1e3
-                assert!((found - dense_value).abs() <= 1e-12 * dense.amax(), "{found} {dense_value} at {}", at.t);
+                assert!(
+                    (found - dense_value).abs() <= 1e-12 * dense.amax(),
+                    "{found} {dense_value} at {}",
+                    at.t
+                );
             }
             run.step()?;
         }

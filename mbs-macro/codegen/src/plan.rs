@@ -5,11 +5,11 @@ mod correction;
 mod minimum_norm;
 mod step;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use mbs_symbolic::{
-    Arena, Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
-    WatchedPivot, factor_within, lower, lower_whole,
+    Arena, Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy,
+    Undetermined, Unknown, WatchedPivot, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -372,10 +372,10 @@ fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
 }
 
 fn declared_start(model: &Model) -> Vec<Expr> {
-    let value = |at: usize, is_rate: bool| {
-        let start = model.start.iter().find(|start| start.coordinate == at && start.is_rate == is_rate);
-        start.map_or(model.arena.zero(), |start| start.value)
-    };
+    let declared = model.start.iter().map(|start| ((start.coordinate, start.is_rate), start.value));
+    let declared: HashMap<(usize, bool), Expr> = declared.collect();
+    let value =
+        |at: usize, is_rate: bool| declared.get(&(at, is_rate)).copied().unwrap_or(model.arena.zero());
     let n = model.coordinates.len();
     (0..n).map(|at| value(at, false)).chain((0..n).map(|at| value(at, true))).collect()
 }

@@ -34,6 +34,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod abbreviated;
 mod arena;
 mod collected;
 mod construct;

@@ -70,8 +70,12 @@ fn a_pair_that_is_put_beside_its_negative_cancels() {
     let (mut arena, x) = variables();
     let sum = arena.add(x[0], x[1]);
     let shared = arena.share(sum);
-    let rest =
-        arena.sum(&[(x[0], Number::ONE), (x[1], Number::ONE), (x[2], Number::ONE), (shared, Number::MINUS_ONE)]);
+    let rest = arena.sum(&[
+        (x[0], Number::ONE),
+        (x[1], Number::ONE),
+        (x[2], Number::ONE),
+        (shared, Number::MINUS_ONE),
+    ]);
     let rest = arena.mul(rest, x[3]);
     let program = lower_whole(&mut arena, &[shared, rest]).expect("every pass ends");
     assert_eq!(program.operations().total(), 2);

@@ -198,12 +198,7 @@ impl Work {
 
     /// Puts `common` in the place of the pair in one row. A row has each value with one
     /// sign alone, so that any occurrence of `a` goes with any of `b`.
-    fn replace(
-        &mut self,
-        holder: Value,
-        (a, b, opposite): Pair,
-        common: Value,
-    ) -> Result<(), Inconsistency> {
+    fn replace(&mut self, holder: Value, (a, b, opposite): Pair, common: Value) -> Result<(), Inconsistency> {
         let mut row = self.remove(holder).ok_or(ENDLESS)?;
         let first = row.iter().position(|member| member.value == a).ok_or(ENDLESS)?;
         let negative = row.remove(first).negative;

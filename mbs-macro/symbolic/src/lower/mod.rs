@@ -59,7 +59,11 @@ pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Result<Program, Incon
     lower_flat(arena, outputs, None)
 }
 
-fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Result<Program, Inconsistency> {
+fn lower_flat(
+    arena: &mut Arena,
+    outputs: &[Expr],
+    hoisted: Option<&mut Hoisted>,
+) -> Result<Program, Inconsistency> {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
     factoring::factor(&mut flat)?;
     signs::choose(&mut flat);
