@@ -158,7 +158,8 @@ pub fn plan(
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
 
-    let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
+    let unrolled = model.solver.unrolled();
+    let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
     let plan = Plan {
         strategy,
         order: factorization.order.clone(),
@@ -201,12 +202,12 @@ pub fn plan(
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
         fused_step: step::fused(model, stages),
-        prepare: lower_whole(&mut model.arena, hoisted.values())?,
+        prepare: lower_whole(&mut model.arena, hoisted.values(), unrolled)?,
         hoisted: hoisted.values().to_vec(),
-        requirements: lower_whole(&mut model.arena, &requirements)?,
-        start: lower_whole(&mut model.arena, &start)?,
+        requirements: lower_whole(&mut model.arena, &requirements, unrolled)?,
+        start: lower_whole(&mut model.arena, &start, unrolled)?,
         // Pictures are no reason to carry more hoisted values through a step.
-        points: lower_whole(&mut model.arena, &points)?,
+        points: lower_whole(&mut model.arena, &points, unrolled)?,
         ..plan
     })
 }
@@ -285,7 +286,7 @@ fn cheapest(
             return Ok(solver);
         }
         let roots = stabilized(model, equations, rows, &solver.forces, &solver.factorization);
-        let program = lower(&mut model.arena, &roots, &mut Hoisted::default())?;
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, solver));

@@ -27,7 +27,7 @@
 //! let slope = arena.partial(square, symbol);
 //! assert_eq!(arena.display(slope), "2*sin(theta)*cos(theta)");
 //!
-//! let program = lower_whole(&mut arena, &[square, slope])?;
+//! let program = lower_whole(&mut arena, &[square, slope], 1024)?;
 //! assert_eq!(program.operations().to_string(), "3 mul + 0 add + 0 div + 1 sincos");
 //! assert_eq!(program.evaluate(&|_| 0.0, &[]), [0.0, 0.0]);
 //! # Ok::<(), mbs_symbolic::Inconsistency>(())

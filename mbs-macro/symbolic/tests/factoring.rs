@@ -41,7 +41,7 @@ fn variables() -> (Arena, Vec<Expr>) {
 }
 
 fn assert_computes(arena: &mut Arena, roots: &[Expr], size: f64) {
-    let program = lower_whole(arena, roots).expect("every pass ends");
+    let program = lower_whole(arena, roots, 1024).expect("every pass ends");
     let symbol = |symbol: Symbol| [0.7, -1.3, 2.1, 0.4][symbol.index()];
     let (expected, found) = (arena.evaluate(roots, &symbol), program.evaluate(&symbol, &[]));
     for (expected, found) in expected.iter().zip(found) {
@@ -58,7 +58,7 @@ fn a_sum_that_holds_a_value_with_both_signs_is_factored() {
     let shared = arena.share(product);
     let first = arena.sum(&[(product, Number::ONE), (shared, Number::MINUS_ONE), (x[2], Number::ONE)]);
     let second = arena.sum(&[(product, Number::MINUS_ONE), (x[2], Number::ONE), (x[3], Number::ONE)]);
-    let program = lower_whole(&mut arena, &[first, second]).expect("every pass ends");
+    let program = lower_whole(&mut arena, &[first, second], 1024).expect("every pass ends");
     // the first is x2 as it stands
     assert_eq!(program.operations().total(), 3);
     assert_computes(&mut arena, &[first, second], 10.0);
@@ -77,7 +77,7 @@ fn a_pair_that_is_put_beside_its_negative_cancels() {
         (shared, Number::MINUS_ONE),
     ]);
     let rest = arena.mul(rest, x[3]);
-    let program = lower_whole(&mut arena, &[shared, rest]).expect("every pass ends");
+    let program = lower_whole(&mut arena, &[shared, rest], 1024).expect("every pass ends");
     assert_eq!(program.operations().total(), 2);
     assert_computes(&mut arena, &[shared, rest], 10.0);
 }

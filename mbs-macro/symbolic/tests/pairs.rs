@@ -55,7 +55,7 @@ proptest! {
     ) {
         let (mut arena, variables) = letters::<VARIABLES>();
         let roots: Vec<Expr> = trees.iter().filter_map(|tree: &Tree| tree.build(&mut arena, &variables)).collect();
-        let program = lower_whole(&mut arena, &roots).expect("a program");
+        let program = lower_whole(&mut arena, &roots, 1024).expect("a program");
         let mut woven = woven(&program);
         assert_refers_back(&woven);
         woven.sum_outputs(roots.len());
@@ -85,7 +85,7 @@ fn a_rotation_is_two_pairs_of_operations() {
     let (s, c) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
     let [xc, ys, yc, xs] = [(x, c), (y, s), (y, c), (x, s)].map(|(a, b)| arena.mul(a, b));
     let (first, second) = (arena.sub(xc, ys), arena.add(yc, xs));
-    let program = lower_whole(&mut arena, &[first, second]).expect("a program");
+    let program = lower_whole(&mut arena, &[first, second], 1024).expect("a program");
     let woven = woven(&program);
     let [scalars, pairs, ..] = woven.census();
     assert_eq!((scalars, pairs), (0, 3), "{woven:?}");
@@ -104,7 +104,7 @@ fn what_waits_for_each_other_is_no_pair() {
         chain = arena.add(product, x);
         chain = arena.share(chain);
     }
-    let program = lower_whole(&mut arena, &[chain]).expect("a program");
+    let program = lower_whole(&mut arena, &[chain], 1024).expect("a program");
     let woven = woven(&program);
     assert_eq!(woven.census()[0], program.instructions.len());
     assert_eq!(woven.census()[1], 0);

@@ -145,13 +145,8 @@ fn can_recur(rows: &[Option<Vec<Signed>>]) -> Vec<bool> {
 
 impl Work {
     fn insert(&mut self, value: Value, row: Vec<Signed>) {
-        for pair in self.pairs(&row) {
-            let holders = self.holders.entry(pair).or_default();
-            holders.rows.push(value);
-            holders.whole += usize::from(row.len() == 2);
-            if holders.rows.len() >= 2 {
-                self.queue.push((holders.rank(), Reverse(pair)));
-            }
+        for pair in self.pairs(&row, |_| true) {
+            self.enter(pair, value, row.len() == 2);
         }
         self.operations += row.len().saturating_sub(1);
         self.rows[value] = Some(row);
@@ -161,16 +156,31 @@ impl Work {
     fn remove(&mut self, value: Value) -> Option<Vec<Signed>> {
         let row = self.rows[value].take()?;
         self.operations -= row.len().saturating_sub(1);
-        for pair in self.pairs(&row) {
-            let Some(holders) = self.holders.get_mut(&pair) else { continue };
-            let Some(at) = holders.rows.iter().position(|holder| *holder == value) else { continue };
-            holders.rows.swap_remove(at);
-            holders.whole -= usize::from(row.len() == 2);
-            if holders.rows.len() >= 2 {
-                self.queue.push((holders.rank(), Reverse(pair)));
-            }
+        for pair in self.pairs(&row, |_| true) {
+            self.leave(pair, value, row.len() == 2);
         }
         Some(row)
+    }
+
+    /// A row holds a pair.
+    fn enter(&mut self, pair: Pair, row: Value, is_whole: bool) {
+        let holders = self.holders.entry(pair).or_default();
+        holders.rows.push(row);
+        holders.whole += usize::from(is_whole);
+        if holders.rows.len() >= 2 {
+            self.queue.push((holders.rank(), Reverse(pair)));
+        }
+    }
+
+    /// A row does not hold a pair any more.
+    fn leave(&mut self, pair: Pair, row: Value, is_whole: bool) {
+        let Some(holders) = self.holders.get_mut(&pair) else { return };
+        let Some(at) = holders.rows.iter().position(|holder| *holder == row) else { return };
+        holders.rows.swap_remove(at);
+        holders.whole -= usize::from(is_whole);
+        if holders.rows.len() >= 2 {
+            self.queue.push((holders.rank(), Reverse(pair)));
+        }
     }
 
     /// The pair with the most holders, two at least, and these.
@@ -184,12 +194,18 @@ impl Work {
         None
     }
 
-    /// The distinct pairs of a row that can be in others.
-    fn pairs(&self, row: &[Signed]) -> Vec<Pair> {
-        let members: Vec<&Signed> = row.iter().filter(|member| self.can_recur[member.value]).collect();
-        let mut pairs = Vec::with_capacity(members.len() * members.len().saturating_sub(1) / 2);
-        for (at, a) in members.iter().enumerate() {
-            pairs.extend(members[at + 1..].iter().map(|b| (a.value, b.value, a.negative ^ b.negative)));
+    /// The distinct pairs of a row that can be in others and have a member that is asked
+    /// for.
+    fn pairs(&self, row: &[Signed], is_asked_for: impl Fn(Value) -> bool) -> Vec<Pair> {
+        let members: Vec<(&Signed, bool)> = row
+            .iter()
+            .filter(|member| self.can_recur[member.value])
+            .map(|member| (member, is_asked_for(member.value)))
+            .collect();
+        let mut pairs = Vec::new();
+        for (at, (a, of_a)) in members.iter().enumerate() {
+            let others = members[at + 1..].iter().filter(|(_, of_b)| *of_a || *of_b);
+            pairs.extend(others.map(|(b, _)| (a.value, b.value, a.negative ^ b.negative)));
         }
         pairs.sort_unstable();
         pairs.dedup();
@@ -199,15 +215,27 @@ impl Work {
     /// Puts `common` in the place of the pair in one row. A row has each value with one
     /// sign alone, so that any occurrence of `a` goes with any of `b`.
     fn replace(&mut self, holder: Value, (a, b, opposite): Pair, common: Value) -> Result<(), Inconsistency> {
-        let mut row = self.remove(holder).ok_or(ENDLESS)?;
-        let first = row.iter().position(|member| member.value == a).ok_or(ENDLESS)?;
-        let negative = row.remove(first).negative;
+        let row = self.rows[holder].take().ok_or(ENDLESS)?;
+        let mut rest = row.clone();
+        let first = rest.iter().position(|member| member.value == a).ok_or(ENDLESS)?;
+        let negative = rest.remove(first).negative;
         let is_other = |member: &Signed| member.value == b && (member.negative ^ negative) == opposite;
-        let second = row.iter().position(is_other).ok_or(ENDLESS)?;
-        row.remove(second);
-        row.push(Signed { value: common, negative });
+        let second = rest.iter().position(is_other).ok_or(ENDLESS)?;
+        rest.remove(second);
+        rest.push(Signed { value: common, negative });
         // the row may have had the negative of the pair as a member already
-        self.insert(holder, without_opposites(row));
+        let replaced = without_opposites(rest);
+        self.operations -= row.len().saturating_sub(1);
+        self.operations += replaced.len().saturating_sub(1);
+        // Pairs of other members stay; or one of them is all that is left.
+        let is_changed = |value| replaced.len() == 2 || [a, b, common].contains(&value);
+        for pair in self.pairs(&row, is_changed) {
+            self.leave(pair, holder, row.len() == 2);
+        }
+        for pair in self.pairs(&replaced, is_changed) {
+            self.enter(pair, holder, replaced.len() == 2);
+        }
+        self.rows[holder] = Some(replaced);
         Ok(())
     }
 }

@@ -43,30 +43,37 @@ impl Hoisted {
 }
 
 /// The program that computes `outputs`, with everything that depends on
-/// parameters alone moved into `hoisted`.
+/// parameters alone moved into `hoisted`. One of more than `unrolled` values is ordered such
+/// that its repeated parts can become loops.
 ///
 /// # Errors
 /// A pass that breaks its own rules.
-pub fn lower(arena: &mut Arena, outputs: &[Expr], hoisted: &mut Hoisted) -> Result<Program, Inconsistency> {
-    lower_flat(arena, outputs, Some(hoisted))
+pub fn lower(
+    arena: &mut Arena,
+    outputs: &[Expr],
+    hoisted: &mut Hoisted,
+    unrolled: usize,
+) -> Result<Program, Inconsistency> {
+    lower_flat(arena, outputs, Some(hoisted), unrolled)
 }
 
 /// The program that computes `outputs` from scratch.
 ///
 /// # Errors
 /// As those of [`lower`].
-pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Result<Program, Inconsistency> {
-    lower_flat(arena, outputs, None)
+pub fn lower_whole(arena: &mut Arena, outputs: &[Expr], unrolled: usize) -> Result<Program, Inconsistency> {
+    lower_flat(arena, outputs, None, unrolled)
 }
 
 fn lower_flat(
     arena: &mut Arena,
     outputs: &[Expr],
     hoisted: Option<&mut Hoisted>,
+    unrolled: usize,
 ) -> Result<Program, Inconsistency> {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
     factoring::factor(&mut flat)?;
     signs::choose(&mut flat);
     let results = flat.settle_outputs(arena, outputs);
-    Ok(Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results) })
+    Ok(Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results, unrolled) })
 }

@@ -7,8 +7,8 @@ use super::order::order;
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
-pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
-    let order = order(flat, outputs);
+pub(super) fn schedule(flat: &Flat, outputs: &[Value], unrolled: usize) -> Program {
+    let order = order(flat, outputs, unrolled);
     let mut schedule = Schedule {
         flat,
         outputs,
