@@ -201,7 +201,7 @@ pub fn plan(
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
-        fused_step: step::fused(model, stages),
+        fused_step: step::fused(model, stages)?,
         prepare: lower_whole(&mut model.arena, hoisted.values(), unrolled)?,
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements, unrolled)?,

@@ -48,6 +48,7 @@ mod lower;
 mod number;
 mod operators;
 pub mod pairs;
+pub mod probe;
 mod program;
 mod repetition;
 mod spline;

@@ -5,6 +5,7 @@
 //! Results that a later block needs are kept in an array of slots.
 
 mod arrays;
+mod check;
 mod columns;
 mod repeated;
 mod slots;
@@ -93,6 +94,9 @@ struct Part {
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
     let results = results(model, program, access);
     let slots = Slots::new(program, blocks, &results);
+    if let Err(fault) = check::check(program, blocks, &slots) {
+        names.faults.borrow_mut().push(fault);
+    }
     let pairs = Pairs::new(program);
     let inside = access.in_part(names);
     let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };

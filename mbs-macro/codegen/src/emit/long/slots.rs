@@ -84,6 +84,11 @@ impl Slots {
         Self { places, length: space.length }
     }
 
+    #[cfg(test)]
+    pub fn put(&mut self, value: usize, place: Place) {
+        self.places.insert(value, place);
+    }
+
     pub fn len(&self) -> usize {
         self.length
     }
