@@ -64,6 +64,7 @@ pub fn factor_within(
     let mut work = factorization::Work::new(arena, kkt, strategy);
     let mut order = order::Order::new(work.arena, &work.matrix, strategy);
     let mut changed = 0;
+    // every pivot takes out an unknown or more
     while let Some(pivot) = order.choose(work.arena, &work.matrix, magnitude)? {
         let taken = pivot.unknowns();
         let touched = work.matrix.touched_by(&taken);

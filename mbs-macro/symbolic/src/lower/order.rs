@@ -80,6 +80,7 @@ impl<'a> Eager<'a> {
     fn run(mut self) -> Vec<Value> {
         let values = std::mem::take(&mut self.values);
         for &value in &values {
+            // users are pushed when a value is done, which each is once
             let mut stack = vec![value];
             while let Some(value) = stack.pop() {
                 if !self.is_late[value] || self.is_done[value] {

@@ -180,6 +180,7 @@ impl Schedule<'_> {
         if operands.len() > LONGEST_TREE {
             return operands.into_iter().reduce(|sum, next| combine(self, sum, next));
         }
+        // one operand less each time
         loop {
             // Stable, latest first: ties keep the order of the row.
             operands.sort_by_key(|item| std::cmp::Reverse(self.latency(operand(item))));

@@ -147,6 +147,7 @@ fn outputs(program: &Program, blocks: &[Block], arrays: &[(Kind, usize)]) -> Has
             }
         }
     }
+    // places only become fewer
     loop {
         let before = places.len();
         for group in &together {
