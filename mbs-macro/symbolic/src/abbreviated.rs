@@ -111,3 +111,30 @@ impl Arena {
         Some(parts)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::arena::{Arena, Stage};
+    use crate::operators::Function;
+
+    #[test]
+    fn what_occurs_more_than_once_has_a_name_in_a_long_formula() {
+        let mut arena = Arena::new();
+        let symbol = arena.symbol("x", Stage::Variable);
+        let mut level = arena.variable(symbol);
+        for _ in 0..3 {
+            let (sine, cosine) = (arena.call(Function::Sin, level), arena.call(Function::Cos, level));
+            let product = arena.mul(level, cosine);
+            level = arena.add(product, sine);
+        }
+        assert_eq!(arena.display_within(level, 1000), arena.display(level));
+        assert_eq!(
+            arena.display_within(level, 10),
+            "sin(s2) + s2*cos(s2) where s1 = sin(x) + x*cos(x), s2 = sin(s1) + s1*cos(s1)"
+        );
+        assert_eq!(
+            arena.latex_within(level, 10),
+            r"\sin s_{2} + s_{2} \, \cos s_{2}, \quad s_{1} = \sin x + x \, \cos x, \quad s_{2} = \sin s_{1} + s_{1} \, \cos s_{1}"
+        );
+    }
+}

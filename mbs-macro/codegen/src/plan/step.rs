@@ -112,8 +112,8 @@ fn check(
     for point in 0..probe::POINTS {
         let expected = in_stages(model, [first, second], reactions, point);
         let found = step.evaluate_with(&probe::symbol(point), &probe::hoisted(point));
-        let is_finite = expected.iter().all(|x| x.is_finite());
-        if found.len() != expected.len() || is_finite && found != expected {
+        let is_same = |(x, y): (&f64, &f64)| !x.is_finite() || x == y;
+        if found.len() != expected.len() || !expected.iter().zip(&found).all(is_same) {
             return Err(Inconsistency { pass: "fused step", rule: "a step computes what its stages do" });
         }
     }
