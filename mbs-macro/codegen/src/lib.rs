@@ -11,7 +11,7 @@
 //! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
 //! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
-//! | `emit` | tokens | cannot fail |
+//! | `emit` | tokens | what is written computes what was checked |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
 //! the last.
@@ -52,5 +52,5 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     verify::check_closure(&model, &equations, &plan)?;
     verify::check_limit(&model, &plan)?;
     verify::check_programs(&model, &equations, &plan, &samples)?;
-    Ok(emit::emit(&model, &equations, &plan))
+    emit::emit(&model, &equations, &plan)
 }

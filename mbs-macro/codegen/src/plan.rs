@@ -5,11 +5,11 @@ mod correction;
 mod minimum_norm;
 mod step;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use mbs_symbolic::{
-    Elimination, Expr, Factorization, Hoisted, Kkt, Program, Stage, Strategy, Undetermined, Unknown,
-    WatchedPivot, factor_within, lower, lower_whole,
+    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy,
+    Undetermined, Unknown, WatchedPivot, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -94,6 +94,14 @@ pub enum Unsolvable {
     Load(Circular),
     /// A load that depends on reactions which redundant constraints share.
     Shared,
+    /// A mistake of the compiler.
+    Inconsistent(Inconsistency),
+}
+
+impl From<Inconsistency> for Unsolvable {
+    fn from(mistake: Inconsistency) -> Self {
+        Self::Inconsistent(mistake)
+    }
 }
 
 impl From<Undetermined> for Unsolvable {
@@ -155,30 +163,31 @@ pub fn plan(
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
 
-    let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted);
+    let unrolled = model.solver.unrolled();
+    let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
     let plan = Plan {
         strategy,
         order: factorization.order.clone(),
         rows: rows.clone(),
-        phi: program(&equations.phi),
-        phi_dot: program(&equations.phi_dot),
-        phi_q: program(&entries().map(|(_, entry)| entry).collect::<Vec<_>>()),
+        phi: program(&equations.phi)?,
+        phi_dot: program(&equations.phi_dot)?,
+        phi_q: program(&entries().map(|(_, entry)| entry).collect::<Vec<_>>())?,
         phi_q_places: entries().map(|(place, _)| place).collect(),
-        phi_t: program(&equations.phi_t),
-        gamma: program(&equations.gamma),
-        baumgarte_rhs: program(&rhs),
-        mass: program(&equations.mass),
-        forces: program(&forces.values),
-        kinetic_energy: program(&[equations.kinetic_energy]),
-        potential_energy: program(&[equations.potential_energy]),
-        stabilized: program(&stabilized),
-        constrained: program(&constrained),
-        reactions: program(&reactions),
-        position_correction: program(&positions),
-        velocity_correction: program(&velocities),
-        pivots: program(&growths(&factorization.pivots)),
-        start_pivots: program(&growths(&start_pivots)),
-        outputs: program(&outputs),
+        phi_t: program(&equations.phi_t)?,
+        gamma: program(&equations.gamma)?,
+        baumgarte_rhs: program(&rhs)?,
+        mass: program(&equations.mass)?,
+        forces: program(&forces.values)?,
+        kinetic_energy: program(&[equations.kinetic_energy])?,
+        potential_energy: program(&[equations.potential_energy])?,
+        stabilized: program(&stabilized)?,
+        constrained: program(&constrained)?,
+        reactions: program(&reactions)?,
+        position_correction: program(&positions)?,
+        velocity_correction: program(&velocities)?,
+        pivots: program(&growths(&factorization.pivots))?,
+        start_pivots: program(&growths(&start_pivots))?,
+        outputs: program(&outputs)?,
         hoisted: Vec::new(),
         prepare: Program::default(),
         requirements: Program::default(),
@@ -197,13 +206,13 @@ pub fn plan(
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
-        fused_step: step::fused(model, stages),
-        prepare: lower_whole(&mut model.arena, hoisted.values()),
+        fused_step: step::fused(model, stages)?,
+        prepare: lower_whole(&mut model.arena, hoisted.values(), unrolled)?,
         hoisted: hoisted.values().to_vec(),
-        requirements: lower_whole(&mut model.arena, &requirements),
-        start: lower_whole(&mut model.arena, &start),
+        requirements: lower_whole(&mut model.arena, &requirements, unrolled)?,
+        start: lower_whole(&mut model.arena, &start, unrolled)?,
         // Pictures are no reason to carry more hoisted values through a step.
-        points: lower_whole(&mut model.arena, &points),
+        points: lower_whole(&mut model.arena, &points, unrolled)?,
         ..plan
     })
 }
@@ -293,7 +302,7 @@ fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result<Sol
             return Ok(solver);
         }
         let roots = stabilized(model, equations, rows, &solver.forces, &solver.factorization);
-        let program = lower(&mut model.arena, &roots, &mut Hoisted::default());
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, solver));
@@ -380,10 +389,10 @@ fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
 }
 
 fn declared_start(model: &Model) -> Vec<Expr> {
-    let value = |at: usize, is_rate: bool| {
-        let start = model.start.iter().find(|start| start.coordinate == at && start.is_rate == is_rate);
-        start.map_or(model.arena.zero(), |start| start.value)
-    };
+    let declared = model.start.iter().map(|start| ((start.coordinate, start.is_rate), start.value));
+    let declared: HashMap<(usize, bool), Expr> = declared.collect();
+    let value =
+        |at: usize, is_rate: bool| declared.get(&(at, is_rate)).copied().unwrap_or(model.arena.zero());
     let n = model.coordinates.len();
     let positions = (0..n).map(|at| value(at, false));
     positions.chain((0..n).map(|at| value(at, true))).chain([model.start_time]).collect()

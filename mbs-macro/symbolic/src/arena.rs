@@ -80,6 +80,10 @@ pub struct Arena {
     stages: Vec<Stage>,
     symbols: Vec<SymbolEntry>,
     labels: HashMap<Expr, String>,
+    /// What is known of values whatever the position, so that a part in several places is
+    /// looked at once: bounds, and whether they are never negative.
+    pub(crate) bounds: HashMap<Expr, Option<Expr>>,
+    pub(crate) never_negative: HashMap<Expr, bool>,
     pub(crate) splines: Vec<Rc<Spline>>,
 }
 
@@ -97,6 +101,8 @@ impl Arena {
             stages: Vec::new(),
             symbols: Vec::new(),
             labels: HashMap::default(),
+            bounds: HashMap::default(),
+            never_negative: HashMap::default(),
             splines: Vec::new(),
         };
         // `zero` and `one` rely on these two being the first.
@@ -224,7 +230,7 @@ impl Arena {
         operands
     }
 
-    fn for_each_operand(&self, expr: Expr, mut each: impl FnMut(Expr)) {
+    pub(crate) fn for_each_operand(&self, expr: Expr, mut each: impl FnMut(Expr)) {
         match self.node(expr) {
             Node::Number(_) | Node::Symbol(_) => {}
             Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| each(*term)),

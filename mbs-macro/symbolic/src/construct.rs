@@ -135,6 +135,7 @@ impl Arena {
         for &(factor, exponent) in factors {
             self.collect_factor(factor, exponent.into(), &mut coefficient, &mut collected);
         }
+        // A root gives way to what stands under it, which has a smaller handle.
         while self.merge_roots(&mut coefficient, &mut collected) {}
         collected.retain(|exponent| exponent != 0);
         if coefficient.is_zero() {

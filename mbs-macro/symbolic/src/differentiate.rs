@@ -8,6 +8,11 @@ use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::spline::next_order;
 
+/// The derivative of a product of n factors has n terms of n factors, and the next one n
+/// times as many. Longer products are halved first, the halves computed once, so that
+/// derivatives are as long as the product.
+const LONGEST_OPEN_PRODUCT: usize = 8;
+
 impl Arena {
     /// Σ ∂e/∂s · direction(s) over all symbols s: a partial derivative with the
     /// direction 1 for one symbol, a total time derivative with q → q̇, t → 1.
@@ -41,21 +46,7 @@ impl Arena {
                 let terms: Vec<_> = terms.iter().map(|(term, c)| (known[term], *c)).collect();
                 self.sum(&terms)
             }
-            Node::Product(factors) => {
-                // Π fᵢ^eᵢ · Σ eᵢ fᵢ′/fᵢ, each term written without the division
-                let mut terms = Vec::new();
-                for (at, &(factor, exponent)) in factors.iter().enumerate() {
-                    let slope = known[&factor];
-                    if self.is_zero(slope) {
-                        continue;
-                    }
-                    let mut rest = factors.clone();
-                    rest[at].1 -= 1;
-                    rest.push((slope, 1));
-                    terms.push((self.product(&rest), Number::integer(exponent.into())));
-                }
-                self.sum(&terms)
-            }
+            Node::Product(factors) => self.product_rule(&factors, known),
             Node::Call(function, x) => {
                 if self.is_zero(known[&x]) {
                     return self.zero();
@@ -83,5 +74,33 @@ impl Arena {
             }
             Node::Shared(x) => known[&x],
         }
+    }
+
+    /// (Π fᵢ^eᵢ)′ from the derivatives of the factors.
+    fn product_rule(&mut self, factors: &[(Expr, i32)], known: &FxHashMap<Expr, Expr>) -> Expr {
+        if factors.len() > LONGEST_OPEN_PRODUCT {
+            // (ab)′ = a′b + ab′
+            let (a, b) = factors.split_at(factors.len() / 2);
+            let slopes = [a, b].map(|half| self.product_rule(half, known));
+            let halves = [a, b].map(|half| {
+                let product = self.product(half);
+                self.share(product)
+            });
+            let (first, second) = (self.mul(slopes[0], halves[1]), self.mul(halves[0], slopes[1]));
+            return self.add(first, second);
+        }
+        // Π fᵢ^eᵢ · Σ eᵢ fᵢ′/fᵢ, each term written without the division
+        let mut terms = Vec::new();
+        for (at, &(factor, exponent)) in factors.iter().enumerate() {
+            let slope = known[&factor];
+            if self.is_zero(slope) {
+                continue;
+            }
+            let mut rest = factors.to_vec();
+            rest[at].1 -= 1;
+            rest.push((slope, 1));
+            terms.push((self.product(&rest), Number::integer(exponent.into())));
+        }
+        self.sum(&terms)
     }
 }

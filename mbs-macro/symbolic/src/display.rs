@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::abbreviated::Names;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 
@@ -17,34 +18,24 @@ enum Binding {
 impl Arena {
     /// The expression in the notation of the language, `1/2*l1*cos(theta1)`.
     pub fn display(&self, expr: Expr) -> String {
+        self.display_with(expr, &Names::default())
+    }
+
+    /// The same with names for some parts of it.
+    pub(crate) fn display_with(&self, expr: Expr, names: &Names) -> String {
         let mut text = String::new();
-        self.write(&mut text, expr, Binding::Sum);
+        self.write_whole(&mut text, expr, Binding::Sum, names);
         text
     }
 
-    /// Whether the expression has at most `limit` nodes as it would be written.
-    /// What is computed once is written out wherever it is used, so the text of
-    /// an eliminated matrix can be longer than any memory.
-    pub fn is_shorter(&self, expr: Expr, limit: usize) -> bool {
-        let mut open = vec![expr];
-        let mut count = 0;
-        while let Some(expr) = open.pop() {
-            count += 1;
-            if count > limit {
-                return false;
-            }
-            match self.node(expr) {
-                Node::Number(_) | Node::Symbol(_) => {}
-                Node::Sum(_, terms) => open.extend(terms.iter().map(|(term, _)| *term)),
-                Node::Product(factors) => open.extend(factors.iter().map(|(factor, _)| *factor)),
-                Node::Call(_, x) | Node::Shared(x) | Node::Spline(_, _, x) => open.push(*x),
-                Node::Call2(_, x, y) => open.extend([*x, *y]),
-            }
+    fn write(&self, out: &mut String, expr: Expr, context: Binding, names: &Names) {
+        match names.get(&expr) {
+            Some(name) => out.push_str(name),
+            None => self.write_whole(out, expr, context, names),
         }
-        true
     }
 
-    fn write(&self, out: &mut String, expr: Expr, context: Binding) {
+    fn write_whole(&self, out: &mut String, expr: Expr, context: Binding, names: &Names) {
         let parenthesize = self.binding(expr) < context;
         if parenthesize {
             out.push('(');
@@ -52,19 +43,19 @@ impl Arena {
         match self.node(expr) {
             Node::Number(value) => put(out, value),
             Node::Symbol(symbol) => out.push_str(self.name(*symbol)),
-            Node::Sum(constant, terms) => self.write_sum(out, *constant, terms),
-            Node::Product(factors) => self.write_product(out, factors),
-            Node::Call(function, x) => self.write_call(out, function.row().name, &[*x]),
+            Node::Sum(constant, terms) => self.write_sum(out, *constant, terms, names),
+            Node::Product(factors) => self.write_product(out, factors, names),
+            Node::Call(function, x) => self.write_call(out, function.row().name, &[*x], names),
             Node::Call2(function, x, y) => {
                 let name = function.row().name;
-                self.write_call(out, if name.is_empty() { "greater" } else { name }, &[*x, *y]);
+                self.write_call(out, if name.is_empty() { "greater" } else { name }, &[*x, *y], names);
             }
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
                 let name = &self.splines()[spline.index()].name;
-                self.write_call(out, &format!("{name}{primes}"), &[*x]);
+                self.write_call(out, &format!("{name}{primes}"), &[*x], names);
             }
-            Node::Shared(x) => self.write(out, *x, context),
+            Node::Shared(x) => self.write(out, *x, context, names),
         }
         if parenthesize {
             out.push(')');
@@ -86,7 +77,7 @@ impl Arena {
         }
     }
 
-    fn write_sum(&self, out: &mut String, constant: Number, terms: &[(Expr, Number)]) {
+    fn write_sum(&self, out: &mut String, constant: Number, terms: &[(Expr, Number)], names: &Names) {
         // Positive terms first, so that a formula does not start with a sign.
         let (negative, positive): (Vec<_>, Vec<_>) =
             terms.iter().copied().partition(|(_, coefficient)| coefficient.is_negative());
@@ -95,11 +86,11 @@ impl Arena {
             put_sign(out, coefficient.is_negative(), first);
             first = false;
             if coefficient.abs().is_one() {
-                self.write(out, term, Binding::Product);
+                self.write(out, term, Binding::Product, names);
             } else {
                 put(out, &coefficient.abs());
                 out.push('*');
-                self.write(out, term, Binding::Product);
+                self.write(out, term, Binding::Product, names);
             }
         }
         if !constant.is_zero() {
@@ -108,7 +99,7 @@ impl Arena {
         }
     }
 
-    fn write_product(&self, out: &mut String, factors: &[(Expr, i32)]) {
+    fn write_product(&self, out: &mut String, factors: &[(Expr, i32)], names: &Names) {
         let (above, below): (Vec<_>, Vec<_>) = factors.iter().copied().partition(|(_, e)| *e > 0);
         if above.is_empty() {
             out.push('1');
@@ -117,30 +108,30 @@ impl Arena {
             if at > 0 {
                 out.push('*');
             }
-            self.write_power(out, factor, exponent);
+            self.write_power(out, factor, exponent, names);
         }
         for (factor, exponent) in below {
             out.push('/');
-            self.write_power(out, factor, -exponent);
+            self.write_power(out, factor, -exponent, names);
         }
     }
 
-    fn write_power(&self, out: &mut String, base: Expr, exponent: i32) {
-        self.write(out, base, Binding::Power);
+    fn write_power(&self, out: &mut String, base: Expr, exponent: i32, names: &Names) {
+        self.write(out, base, Binding::Power, names);
         if exponent != 1 {
             put(out, &'^');
             put(out, &exponent);
         }
     }
 
-    fn write_call(&self, out: &mut String, name: &str, arguments: &[Expr]) {
+    fn write_call(&self, out: &mut String, name: &str, arguments: &[Expr], names: &Names) {
         out.push_str(name);
         out.push('(');
         for (at, &argument) in arguments.iter().enumerate() {
             if at > 0 {
                 out.push_str(", ");
             }
-            self.write(out, argument, Binding::Sum);
+            self.write(out, argument, Binding::Sum, names);
         }
         out.push(')');
     }

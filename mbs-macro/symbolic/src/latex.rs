@@ -1,5 +1,6 @@
 //! Expressions as LaTeX.
 
+use crate::abbreviated::Names;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
 
@@ -19,24 +20,33 @@ enum Binding {
 impl Arena {
     /// The expression as LaTeX, `\frac{1}{2} l_{1} \cos \theta_{1}`, for math mode.
     pub fn latex(&self, expr: Expr) -> String {
-        self.typeset(expr, Binding::Sum)
+        self.latex_with(expr, &Names::default())
     }
 
-    fn typeset(&self, expr: Expr, context: Binding) -> String {
+    /// The same with names for some parts of it.
+    pub(crate) fn latex_with(&self, expr: Expr, names: &Names) -> String {
+        self.typeset_whole(expr, Binding::Sum, names)
+    }
+
+    fn typeset(&self, expr: Expr, context: Binding, names: &Names) -> String {
+        names.get(&expr).cloned().unwrap_or_else(|| self.typeset_whole(expr, context, names))
+    }
+
+    fn typeset_whole(&self, expr: Expr, context: Binding, names: &Names) -> String {
         let (text, binding) = match self.node(expr) {
             Node::Number(value) => (number(value.abs()), Binding::Power),
             Node::Symbol(symbol) => (symbol_name(self.name(*symbol)), Binding::Power),
-            Node::Sum(constant, terms) => self.typeset_sum(*constant, terms),
-            Node::Product(factors) => self.typeset_product(factors),
-            Node::Call(function, x) => return self.typeset_call(function.row().name, &[*x]),
-            Node::Call2(function, x, y) => return self.typeset_call(function.row().name, &[*x, *y]),
+            Node::Sum(constant, terms) => self.typeset_sum(*constant, terms, names),
+            Node::Product(factors) => self.typeset_product(factors, names),
+            Node::Call(function, x) => return self.typeset_call(function.row().name, &[*x], names),
+            Node::Call2(function, x, y) => return self.typeset_call(function.row().name, &[*x, *y], names),
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
                 let name = symbol_name(&self.splines()[spline.index()].name);
-                let argument = self.typeset(*x, Binding::Sum);
+                let argument = self.typeset(*x, Binding::Sum, names);
                 return format!(r"{name}{primes}\left({argument}\right)");
             }
-            Node::Shared(inner) => return self.typeset(*inner, context),
+            Node::Shared(inner) => return self.typeset(*inner, context, names),
         };
         let (text, binding) = match self.as_number(expr) {
             Some(value) if value.is_negative() => (format!("-{text}"), Binding::Sum),
@@ -45,7 +55,7 @@ impl Arena {
         if binding < context { format!(r"\left({text}\right)") } else { text }
     }
 
-    fn typeset_sum(&self, constant: Number, terms: &[(Expr, Number)]) -> (String, Binding) {
+    fn typeset_sum(&self, constant: Number, terms: &[(Expr, Number)], names: &Names) -> (String, Binding) {
         let (negative, positive): (Vec<_>, Vec<_>) =
             terms.iter().copied().partition(|(_, coefficient)| coefficient.is_negative());
         let mut text = String::new();
@@ -60,7 +70,7 @@ impl Arena {
         };
         for (term, coefficient) in positive.into_iter().chain(negative) {
             let factor = coefficient.abs();
-            let term = self.typeset(term, Binding::Product);
+            let term = self.typeset(term, Binding::Product, names);
             let term = if factor.is_one() { term } else { format!("{} {term}", number(factor)) };
             push(coefficient.is_negative(), term);
         }
@@ -71,13 +81,14 @@ impl Arena {
         (text, if is_one_term { Binding::Product } else { Binding::Sum })
     }
 
-    fn typeset_product(&self, factors: &[(Expr, i32)]) -> (String, Binding) {
+    fn typeset_product(&self, factors: &[(Expr, i32)], names: &Names) -> (String, Binding) {
         let (above, below): (Vec<_>, Vec<_>) = factors.iter().copied().partition(|(_, e)| *e > 0);
         // inside a fraction the bar groups, except that a factor beside others does not
         let row = |factors: &[(Expr, i32)], inside_fraction: bool| {
             let context = if inside_fraction && factors.len() == 1 { Binding::Sum } else { Binding::Product };
-            let factors =
-                factors.iter().map(|&(factor, exponent)| self.typeset_power(factor, exponent.abs(), context));
+            let factors = factors
+                .iter()
+                .map(|&(factor, exponent)| self.typeset_power(factor, exponent.abs(), context, names));
             factors.collect::<Vec<_>>().join(r" \, ")
         };
         if below.is_empty() {
@@ -87,33 +98,34 @@ impl Arena {
         (format!(r"\frac{{{numerator}}}{{{}}}", row(&below, true)), Binding::Power)
     }
 
-    fn typeset_power(&self, base: Expr, exponent: i32, context: Binding) -> String {
+    fn typeset_power(&self, base: Expr, exponent: i32, context: Binding, names: &Names) -> String {
         match exponent {
             1 => {
                 let is_sum = matches!(self.node(base), Node::Sum(..));
-                self.typeset(
-                    base,
-                    if is_sum && context == Binding::Product { Binding::Power } else { context },
-                )
+                let context = if is_sum && context == Binding::Product { Binding::Power } else { context };
+                self.typeset(base, context, names)
             }
             // sin^2 θ, as it is read
             _ => match self.node(base) {
                 Node::Call(function, x) if matches!(function.row().name, "sin" | "cos" | "tan") => {
-                    format!(r"\{}^{{{exponent}}} {}", function.row().name, self.argument(*x))
+                    format!(r"\{}^{{{exponent}}} {}", function.row().name, self.argument(*x, names))
                 }
-                _ => format!("{}^{{{exponent}}}", self.typeset(base, Binding::Power)),
+                _ => format!("{}^{{{exponent}}}", self.typeset(base, Binding::Power, names)),
             },
         }
     }
 
-    fn typeset_call(&self, name: &str, arguments: &[Expr]) -> String {
+    fn typeset_call(&self, name: &str, arguments: &[Expr], names: &Names) -> String {
         match (name, arguments) {
-            ("sqrt", [x]) => format!(r"\sqrt{{{}}}", self.typeset(*x, Binding::Sum)),
-            ("abs", [x]) => format!(r"\left|{}\right|", self.typeset(*x, Binding::Sum)),
-            ("sin" | "cos" | "tan" | "tanh" | "exp" | "ln", [x]) => format!(r"\{name} {}", self.argument(*x)),
-            ("asin" | "acos" | "atan", [x]) => format!(r"\arc{} {}", &name[1..], self.argument(*x)),
+            ("sqrt", [x]) => format!(r"\sqrt{{{}}}", self.typeset(*x, Binding::Sum, names)),
+            ("abs", [x]) => format!(r"\left|{}\right|", self.typeset(*x, Binding::Sum, names)),
+            ("sin" | "cos" | "tan" | "tanh" | "exp" | "ln", [x]) => {
+                format!(r"\{name} {}", self.argument(*x, names))
+            }
+            ("asin" | "acos" | "atan", [x]) => format!(r"\arc{} {}", &name[1..], self.argument(*x, names)),
             _ => {
-                let arguments: Vec<_> = arguments.iter().map(|&x| self.typeset(x, Binding::Sum)).collect();
+                let arguments: Vec<_> =
+                    arguments.iter().map(|&x| self.typeset(x, Binding::Sum, names)).collect();
                 let name = if name.is_empty() { "greater" } else { name };
                 format!(r"\operatorname{{{name}}}\left({}\right)", arguments.join(", "))
             }
@@ -121,10 +133,11 @@ impl Arena {
     }
 
     /// An argument, in parentheses unless it is a symbol.
-    fn argument(&self, x: Expr) -> String {
+    fn argument(&self, x: Expr, names: &Names) -> String {
         match self.node(x) {
-            Node::Symbol(_) => self.typeset(x, Binding::Sum),
-            _ => format!(r"\left({}\right)", self.typeset(x, Binding::Sum)),
+            _ if names.contains_key(&x) => self.typeset(x, Binding::Sum, names),
+            Node::Symbol(_) => self.typeset(x, Binding::Sum, names),
+            _ => format!(r"\left({}\right)", self.typeset(x, Binding::Sum, names)),
         }
     }
 }

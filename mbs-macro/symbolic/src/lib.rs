@@ -27,12 +27,14 @@
 //! let slope = arena.partial(square, symbol);
 //! assert_eq!(arena.display(slope), "2*sin(theta)*cos(theta)");
 //!
-//! let program = lower_whole(&mut arena, &[square, slope]);
+//! let program = lower_whole(&mut arena, &[square, slope], 1024)?;
 //! assert_eq!(program.operations().to_string(), "3 mul + 0 add + 0 div + 1 sincos");
 //! assert_eq!(program.evaluate(&|_| 0.0, &[]), [0.0, 0.0]);
+//! # Ok::<(), mbs_symbolic::Inconsistency>(())
 //! ```
 #![forbid(unsafe_code)]
 
+mod abbreviated;
 mod arena;
 mod collected;
 mod construct;
@@ -40,11 +42,13 @@ mod differentiate;
 mod display;
 mod eliminate;
 mod evaluate;
+mod inconsistency;
 mod latex;
 mod lower;
 mod number;
 mod operators;
 pub mod pairs;
+pub mod probe;
 mod program;
 mod repetition;
 mod spline;
@@ -56,6 +60,7 @@ pub use eliminate::{
     Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
 };
 pub use evaluate::{Tape, Values};
+pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;

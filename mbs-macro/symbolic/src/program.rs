@@ -206,7 +206,7 @@ impl Program {
     }
 
     /// An operation on numbers.
-    pub(crate) fn apply(&self, operation: Operation, a: f64, b: f64) -> f64 {
+    pub fn apply(&self, operation: Operation, a: f64, b: f64) -> f64 {
         match operation {
             Operation::Add => a + b,
             Operation::Sub => a - b,
@@ -221,11 +221,16 @@ impl Program {
 
     /// Runs the program.
     pub fn evaluate(&self, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[f64]) -> Vec<f64> {
+        self.evaluate_with(symbol, &|at| hoisted[at])
+    }
+
+    /// Runs the program, with hoisted values from a function.
+    pub fn evaluate_with(&self, symbol: &dyn Fn(Symbol) -> f64, hoisted: &dyn Fn(usize) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
         let read = |operand: Operand, values: &[f64]| match operand {
             Operand::Number(number) => number.to_f64(),
             Operand::Symbol(s) => symbol(s),
-            Operand::Hoisted(at) => hoisted[at],
+            Operand::Hoisted(at) => hoisted(at),
             Operand::Value(at) => values[at],
         };
         for instruction in &self.instructions {

@@ -126,6 +126,7 @@ impl Program {
             periods(&kinds).into_iter().flat_map(|period| runs(&kinds, period)).collect();
         // by their first instruction, none overlaps another
         let mut taken: BTreeMap<usize, Run> = BTreeMap::new();
+        // A run is taken, or cut into parts that are shorter together than it.
         while let Some(run) = runs.pop() {
             let gaps = gaps(&taken, run.range());
             if gaps == [run.range()] {

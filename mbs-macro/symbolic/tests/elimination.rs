@@ -1,6 +1,7 @@
 //! Elimination at compile time solves the constrained system: random sparse
 //! matrices, all strategies, massless coordinates, fully driven systems,
 //! against a dense LU with pivoting.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::collections::BTreeMap;
@@ -180,8 +181,8 @@ fn check(system: &System) -> Result<(), TestCaseError> {
         let roots: Vec<Expr> =
             unknowns.iter().map(|u| solution.get(u).copied().unwrap_or(arena.zero())).collect();
         let mut hoisted = Hoisted::default();
-        let program = lower(arena, &roots, &mut hoisted);
-        let prepared = lower_whole(arena, hoisted.values()).evaluate(&symbol, &[]);
+        let program = lower(arena, &roots, &mut hoisted, 1024).expect("a program");
+        let prepared = lower_whole(arena, hoisted.values(), 1024).expect("a program").evaluate(&symbol, &[]);
         let direct = arena.evaluate(&roots, &symbol);
         let lowered = program.evaluate(&symbol, &prepared);
         // The dense solution is good to n·cond·ε; elimination without row

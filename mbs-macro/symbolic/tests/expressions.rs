@@ -1,6 +1,7 @@
 //! Canonical forms keep values, derivatives are those of jets over the source
 //! expression, and programs compute what expressions mean, for random
 //! expressions and for one that uses every operator.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
@@ -131,7 +132,7 @@ fn check_programs(
     let roots = [setting.expr, first, second];
     let expected = [jet.value, jet.first, jet.second];
 
-    let whole = lower_whole(&mut setting.arena, &roots);
+    let whole = lower_whole(&mut setting.arena, &roots, 1024).expect("a program");
     check_form(&whole)?;
     let symbol = values(x, still);
     for (expected, found) in expected.iter().zip(whole.evaluate(&symbol, &[])) {
@@ -139,8 +140,8 @@ fn check_programs(
     }
 
     let mut hoisted = Hoisted::default();
-    let rest = lower(&mut setting.arena, &roots, &mut hoisted);
-    let prepare = lower_whole(&mut setting.arena, hoisted.values());
+    let rest = lower(&mut setting.arena, &roots, &mut hoisted, 1024).expect("a program");
+    let prepare = lower_whole(&mut setting.arena, hoisted.values(), 1024).expect("a program");
     check_form(&rest)?;
     check_form(&prepare)?;
     let prepared = prepare.evaluate(&symbol, &[]);

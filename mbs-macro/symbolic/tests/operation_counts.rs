@@ -1,6 +1,7 @@
 //! Operation counts of a few programs that a person can count: common
 //! subexpressions are computed once, divisions are as few as can be, what
 //! depends on parameters alone costs nothing.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_symbolic::{Arena, Expr, Function, Hoisted, Operations, Stage, lower, lower_whole};
 
@@ -14,7 +15,7 @@ fn letters<const N: usize>(stage: Stage) -> (Arena, [Expr; N]) {
 }
 
 fn count(arena: &mut Arena, outputs: &[Expr]) -> Operations {
-    lower_whole(arena, outputs).operations()
+    lower_whole(arena, outputs, 1024).expect("a program").operations()
 }
 
 fn operations(mul: u32, add: u32, div: u32, sin_cos: u32, other: u32) -> Operations {
@@ -110,7 +111,7 @@ fn what_depends_on_parameters_alone_is_hoisted() {
     let sum = a.add(leading, product);
     let sum = a.sub(sum, quotient);
     let mut hoisted = Hoisted::default();
-    let program = lower(&mut a, &[sum], &mut hoisted);
+    let program = lower(&mut a, &[sum], &mut hoisted, 1024).expect("a program");
     assert_eq!(program.operations(), operations(1, 1, 0, 0, 0));
     assert_eq!(hoisted.values().len(), 2);
     assert_eq!(count(&mut a, hoisted.values()), operations(3, 1, 1, 1, 0));
@@ -133,7 +134,8 @@ fn pendulum_costs_what_a_person_counts() {
     let (gamma_x, gamma_y) = (a.product(&[(ls, 1), (w, 2)]), a.product(&[(lc, 1), (w, 2)]));
     let gamma_x = a.neg(gamma_x);
     let mut hoisted = Hoisted::default();
-    let program = lower(&mut a, &[phi_x, phi_y, ls, lc, gamma_x, gamma_y], &mut hoisted);
+    let program =
+        lower(&mut a, &[phi_x, phi_y, ls, lc, gamma_x, gamma_y], &mut hoisted, 1024).expect("a program");
     // l s, l c, w², two products with it; two sums and a sign
     assert_eq!(program.operations(), operations(5, 3, 0, 1, 0));
 }

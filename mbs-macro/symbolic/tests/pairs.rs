@@ -1,11 +1,12 @@
 //! Programs on pairs compute what the programs compute that they were woven from,
 //! bit for bit but for the sign of a zero; and do it in fewer operations.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
 
 mod common;
 
 use common::{Tree, VARIABLES, points, trees};
 use mbs_symbolic::pairs::{Layout, Scalar, Step, Woven, weave};
-use mbs_symbolic::{Arena, Expr, Function, Program, Stage, Symbol, lower_whole};
+use mbs_symbolic::{Arena, Expr, Function, Operation, Program, Stage, Symbol, lower_whole};
 use proptest::prelude::*;
 
 /// Symbols with even numbers lie before their successors.
@@ -36,9 +37,8 @@ fn assert_refers_back(woven: &Woven) {
         let is_fine = match step {
             Step::Scalar(_, a, b, _) | Step::Join(a, b) => is_earlier(a) && is_earlier(b),
             Step::Splat(a) => is_earlier(a),
-            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) => *of < at,
+            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) | Step::Cosines(of) => *of < at,
             Step::Pair(_, a, b) => *a < at && *b < at,
-            Step::Cosines => matches!(woven.steps[at - 1], Step::Sines(_)),
         };
         assert!(is_fine, "step {at} of {woven:?}");
     }
@@ -54,7 +54,7 @@ proptest! {
     ) {
         let (mut arena, variables) = letters::<VARIABLES>();
         let roots: Vec<Expr> = trees.iter().filter_map(|tree: &Tree| tree.build(&mut arena, &variables)).collect();
-        let program = lower_whole(&mut arena, &roots);
+        let program = lower_whole(&mut arena, &roots, 1024).expect("a program");
         let mut woven = woven(&program);
         assert_refers_back(&woven);
         woven.sum_outputs(roots.len());
@@ -62,7 +62,7 @@ proptest! {
         for point in points {
             let symbol = |symbol: Symbol| point[symbol.index()];
             let expected = program.evaluate(&symbol, &[]);
-            let found = woven.evaluate(&program, &symbol, &[]);
+            let found = woven.evaluate(&program, &symbol, &|_| f64::NAN);
             for (expected, found) in expected.iter().zip(&found) {
                 prop_assert!(
                     expected == found || expected.is_nan() && found.is_nan(),
@@ -84,13 +84,40 @@ fn a_rotation_is_two_pairs_of_operations() {
     let (s, c) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
     let [xc, ys, yc, xs] = [(x, c), (y, s), (y, c), (x, s)].map(|(a, b)| arena.mul(a, b));
     let (first, second) = (arena.sub(xc, ys), arena.add(yc, xs));
-    let program = lower_whole(&mut arena, &[first, second]);
+    let program = lower_whole(&mut arena, &[first, second], 1024).expect("a program");
     let woven = woven(&program);
     let [scalars, pairs, ..] = woven.census();
     assert_eq!((scalars, pairs), (0, 3), "{woven:?}");
     let point = [3.0, 4.0, 0.5];
     let symbol = |symbol: Symbol| point[symbol.index()];
-    assert_eq!(woven.evaluate(&program, &symbol, &[]), program.evaluate(&symbol, &[]));
+    assert_eq!(woven.evaluate(&program, &symbol, &|_| f64::NAN), program.evaluate(&symbol, &[]));
+}
+
+/// The check that the compiler makes finds an operand that was taken for another.
+#[test]
+fn a_pair_with_another_operand_is_caught() {
+    let (mut arena, [x, y, angle]) = letters();
+    let (s, c) = (arena.call(Function::Sin, angle), arena.call(Function::Cos, angle));
+    let [xc, ys, yc, xs] = [(x, c), (y, s), (y, c), (x, s)].map(|(a, b)| arena.mul(a, b));
+    let (first, second) = (arena.sub(xc, ys), arena.add(yc, xs));
+    let program = lower_whole(&mut arena, &[first, second], 1024).expect("a program");
+    let right = woven(&program);
+    assert_eq!(right.check(&program), Ok(()));
+    let (mut tried, mut missed) = (0, 0);
+    for at in 0..right.steps.len() {
+        let mut wrong = right.clone();
+        match &mut wrong.steps[at] {
+            Step::Pair(Operation::Add | Operation::Mul, ..) | Step::Splat(_) | Step::Scalar(..) => continue,
+            Step::Pair(_, a, b) => std::mem::swap(a, b),
+            Step::Join(a, b) => std::mem::swap(a, b),
+            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) | Step::Cosines(of) => *of = 0,
+        }
+        if wrong != right {
+            tried += 1;
+            missed += usize::from(wrong.check(&program).is_ok());
+        }
+    }
+    assert!(tried > 0 && missed == 0, "{missed} of {tried} wrong steps of {right:?}");
 }
 
 #[test]
@@ -103,7 +130,7 @@ fn what_waits_for_each_other_is_no_pair() {
         chain = arena.add(product, x);
         chain = arena.share(chain);
     }
-    let program = lower_whole(&mut arena, &[chain]);
+    let program = lower_whole(&mut arena, &[chain], 1024).expect("a program");
     let woven = woven(&program);
     assert_eq!(woven.census()[0], program.instructions.len());
     assert_eq!(woven.census()[1], 0);

@@ -81,7 +81,7 @@ fn chain(links: usize) -> Program {
         };
         last = Some(arena.share(next));
     }
-    lower_whole(&mut arena, &[last.expect("there are links")])
+    lower_whole(&mut arena, &[last.expect("there are links")], 1024).expect("a program")
 }
 
 #[test]

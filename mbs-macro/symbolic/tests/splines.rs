@@ -104,7 +104,7 @@ fn is_a_function_among_others() {
     }
     assert_eq!(arena.display(derivatives[1]), "2*x*f'(x^2)");
     assert_eq!(arena.display(derivatives[2]), "2*f'(x^2) + 4*x^2*f''(x^2)");
-    let program = lower_whole(&mut arena, &derivatives);
+    let program = lower_whole(&mut arena, &derivatives, 1024).expect("a program");
     assert_eq!(program.operations().other, 4);
     let at = |x: f64| arena.evaluate(&derivatives, &|_| x);
     // central differences; between points derivatives stay below 10⁴

@@ -4,13 +4,10 @@ use mbs_symbolic::{Expr, Unknown, latex_name};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::docs;
+use super::docs::{self, LONGEST_FORMULA};
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::plan::Plan;
-
-/// Formulas with more parts than this are not written out: nobody reads on.
-const LONGEST_FORMULA: usize = 500;
 
 pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
     let writer = Writer { model };
@@ -74,10 +71,7 @@ impl Writer<'_> {
 
     fn texts(&self, expr: Expr) -> (String, String) {
         let arena = &self.model.arena;
-        if arena.is_shorter(expr, LONGEST_FORMULA) {
-            return (arena.display(expr), arena.latex(expr));
-        }
-        ("…".to_owned(), r"\cdots".to_owned())
+        (arena.display_within(expr, LONGEST_FORMULA), arena.latex_within(expr, LONGEST_FORMULA))
     }
 
     fn is_watched(&self, plan: &Plan, unknown: Unknown) -> bool {

@@ -12,6 +12,9 @@ use crate::plan::Plan;
 /// Longer listings are cut.
 const LONGEST_LISTING: usize = 48;
 
+/// Formulas with more parts than this are not written out: nobody reads on.
+pub const LONGEST_FORMULA: usize = 500;
+
 /// The documentation of the mechanism itself.
 pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
     let mut text = model.doc.clone();
@@ -26,13 +29,10 @@ pub fn mechanism(model: &Model, plan: &Plan, equations: &Equations) -> String {
         n as i64 - plan.rows.basis.len() as i64
     );
     let rows = model.constraints.iter().zip(&equations.phi);
-    let lines: Vec<_> = rows
-        .map(|(constraint, &phi)| format!("{}: {} = 0", constraint.name, model.arena.display(phi)))
-        .collect();
-    text.push_str(&listing(&lines));
+    let lines = rows.map(|(constraint, &phi)| format!("{}: {} = 0", constraint.name, formula(model, phi)));
+    text.push_str(&listing(lines));
     let _ = write!(text, "\n# Elimination\n\nOrder: {}.\n\n", strategy(plan.strategy));
-    let lines: Vec<_> = plan.order.iter().map(|step| elimination(model, step)).collect();
-    text.push_str(&listing(&lines));
+    text.push_str(&listing(plan.order.iter().map(|step| elimination(model, step))));
     text.push_str("\n# Cost\n\n");
     let _ = writeln!(
         text,
@@ -73,11 +73,16 @@ fn short(model: &Model, expr: Expr) -> String {
     if model.arena.is_shorter(expr, LONGEST) { model.arena.display(expr) } else { "…".to_owned() }
 }
 
+/// A formula, unless it is too long for a reader.
+pub fn formula(model: &Model, expr: Expr) -> String {
+    model.arena.display_within(expr, LONGEST_FORMULA)
+}
+
 /// What the hoisted values are.
 pub fn hoisted(model: &Model, plan: &Plan) -> String {
-    let formulas = plan.hoisted.iter().map(|&value| model.arena.display(value));
-    let lines: Vec<_> = formulas.enumerate().map(|(at, formula)| format!("{at}: {formula}")).collect();
-    format!("What depends on parameters alone, computed once:\n\n{}", listing(&lines))
+    let formulas = plan.hoisted.iter().map(|&value| formula(model, value));
+    let lines = formulas.enumerate().map(|(at, formula)| format!("{at}: {formula}"));
+    format!("What depends on parameters alone, computed once:\n\n{}", listing(lines))
 }
 
 /// A quantity with its unit and declared value.
@@ -121,72 +126,67 @@ impl<'a> Functions<'a> {
 
     pub fn phi(&self) -> String {
         let lines = self.rows(&self.equations.phi);
-        self.finish("phi", "Constraints Φ(q, t): 0 where the mechanism is assembled.", &lines)
+        self.finish("phi", "Constraints Φ(q, t): 0 where the mechanism is assembled.", lines)
     }
 
     pub fn phi_q(&self) -> String {
-        let mut lines = Vec::new();
-        for (constraint, row) in self.model.constraints.iter().zip(&self.equations.phi_q) {
-            for (&column, &entry) in row {
+        let rows = self.model.constraints.iter().zip(&self.equations.phi_q);
+        let lines = rows.flat_map(|(constraint, row)| {
+            row.iter().map(|(&column, &entry)| {
                 let coordinate = &self.model.coordinates[column].quantity.name;
-                lines.push(format!(
-                    "∂{}/∂{coordinate} = {}",
-                    constraint.name,
-                    self.model.arena.display(entry)
-                ));
-            }
-        }
+                format!("∂{}/∂{coordinate} = {}", constraint.name, formula(self.model, entry))
+            })
+        });
         let text = "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:";
-        self.finish("phi_q", text, &lines)
+        self.finish("phi_q", text, lines)
     }
 
     pub fn phi_t(&self) -> String {
         let lines = self.rows(&self.equations.phi_t);
-        self.finish("phi_t", "Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.", &lines)
+        self.finish("phi_t", "Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.", lines)
     }
 
     pub fn gamma(&self) -> String {
         let lines = self.rows(&self.equations.gamma);
         let text = "γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).";
-        self.finish("gamma", text, &lines)
+        self.finish("gamma", text, lines)
     }
 
     pub fn baumgarte_rhs(&self) -> String {
         let text = "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.";
-        self.finish("baumgarte_rhs", text, &[])
+        self.finish("baumgarte_rhs", text, std::iter::empty())
     }
 
     pub fn mass(&self) -> String {
         let lines = self.coordinates(&self.equations.mass);
-        self.finish("mass", "Mass matrix M. Its diagonal, all that is not 0:", &lines)
+        self.finish("mass", "Mass matrix M. Its diagonal, all that is not 0:", lines)
     }
 
     pub fn forces(&self) -> String {
         let lines = self.coordinates(&self.equations.total_forces);
-        self.finish("forces", "Generalized forces Q: gravity and applied loads.", &lines)
+        self.finish("forces", "Generalized forces Q: gravity and applied loads.", lines)
     }
 
     pub fn accelerations(&self) -> String {
         let text = "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.\n\n\
                     In a singular position the result is not finite or its `growth` exceeds \
                     the runtime's `growth_limit`.";
-        self.finish("reactions", text, &[])
+        self.finish("reactions", text, std::iter::empty())
     }
 
-    fn rows(&self, exprs: &[Expr]) -> Vec<String> {
+    fn rows(&self, exprs: &[Expr]) -> impl Iterator<Item = String> {
         let rows = self.model.constraints.iter().zip(exprs);
-        rows.map(|(constraint, &expr)| format!("{}: {}", constraint.name, self.model.arena.display(expr)))
-            .collect()
+        rows.map(|(constraint, &expr)| format!("{}: {}", constraint.name, formula(self.model, expr)))
     }
 
-    fn coordinates(&self, exprs: &[Expr]) -> Vec<String> {
+    fn coordinates(&self, exprs: &[Expr]) -> impl Iterator<Item = String> {
         let rows = self.model.coordinates.iter().zip(exprs);
-        rows.map(|(c, &expr)| format!("{}: {}", c.quantity.name, self.model.arena.display(expr))).collect()
+        rows.map(|(c, &expr)| format!("{}: {}", c.quantity.name, formula(self.model, expr)))
     }
 
-    fn finish(&self, function: &str, text: &str, lines: &[String]) -> String {
-        let mut text = text.to_owned();
-        if !lines.is_empty() {
+    fn finish(&self, function: &str, text: &str, lines: impl Iterator<Item = String>) -> String {
+        let (mut text, mut lines) = (text.to_owned(), lines.peekable());
+        if lines.peek().is_some() {
             text.push_str("\n\n");
             text.push_str(&listing(lines));
         }
@@ -198,13 +198,14 @@ impl<'a> Functions<'a> {
 }
 
 /// Lines as a text block, cut where it would be too long to read.
-fn listing(lines: &[String]) -> String {
+fn listing(mut lines: impl Iterator<Item = String>) -> String {
     let mut text = String::from("```text\n");
-    for line in lines.iter().take(LONGEST_LISTING) {
+    for line in lines.by_ref().take(LONGEST_LISTING) {
         let _ = writeln!(text, "{line}");
     }
-    if lines.len() > LONGEST_LISTING {
-        let _ = writeln!(text, "… and {} more", lines.len() - LONGEST_LISTING);
+    let rest = lines.count();
+    if rest > 0 {
+        let _ = writeln!(text, "… and {rest} more");
     }
     text.push_str("```\n");
     text

@@ -5,6 +5,7 @@ use mbs_symbolic::{Block, Operations, Program};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::docs;
 use super::long;
 use super::names::Names;
 use crate::model::{Model, Quantity};
@@ -23,7 +24,7 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     let outputs = model.outputs.iter().map(|output| quantity(&output.quantity, 0.0, runtime));
     let constraints = model.constraints.iter().map(|constraint| {
         let (name, doc) = (&constraint.name, &constraint.doc);
-        let formula = model.arena.display(constraint.phi);
+        let formula = docs::formula(model, constraint.phi);
         let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
         quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
     });

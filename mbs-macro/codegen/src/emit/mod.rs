@@ -1,4 +1,5 @@
-//! Programs to Rust. Cannot fail: whatever could go wrong has been refused.
+//! Programs to Rust. Whatever could go wrong with a declaration has been refused; a layout in
+//! loops and slots that does not compute what its program does is a mistake of the compiler.
 
 mod access;
 mod construction;
@@ -21,12 +22,16 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::Equations;
+use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::plan::Plan;
 use names::Names;
 
 /// The items of a mechanism.
-pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
+///
+/// # Errors
+/// A program that is written in another way than it was checked in.
+pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> Result<TokenStream, Diagnostics> {
     let names = Names::new(model);
     let types = types::emit(model, plan, equations, &names);
     let construction = construction::emit(model, plan, &names);
@@ -39,12 +44,15 @@ pub fn emit(model: &Model, equations: &Equations, plan: &Plan) -> TokenStream {
         step::functions(model, plan, &names)
     };
     let mechanism = functions::mechanism(model, equations, plan, &names, are_on_arrays);
-    quote! {
+    if let Some(fault) = names.faults.borrow().first() {
+        return Err(Diagnostic::internal(model.name.span(), fault).into());
+    }
+    Ok(quote! {
         #types
         #construction
         #solver
         #functions
         #step
         #mechanism
-    }
+    })
 }

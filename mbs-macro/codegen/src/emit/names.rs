@@ -1,5 +1,8 @@
 //! Names of the generated items and paths to the runtime.
 
+use std::cell::RefCell;
+
+use mbs_symbolic::Inconsistency;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -17,6 +20,9 @@ pub struct Names {
     pub coordinates: Group,
     pub constraints: Group,
     pub outputs: Group,
+    /// Layouts that do not compute what their programs do, as the names are with every
+    /// program that is written.
+    pub faults: RefCell<Vec<Inconsistency>>,
     /// `State<…Coordinates<T>>`
     pub state: TokenStream,
     /// `Reactions<…Coordinates<T>, …Constraints<T>>`
@@ -45,6 +51,7 @@ impl Names {
         let constraints = group("Constraints", model.constraints.is_empty());
         let (q, rows) = (&coordinates.of_t, &constraints.of_t);
         Self {
+            faults: RefCell::default(),
             state: quote!(#runtime::State<#q>),
             reactions: quote!(#runtime::Reactions<#q, #rows>),
             nalgebra: quote!(#runtime::__private::nalgebra),

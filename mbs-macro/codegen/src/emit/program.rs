@@ -11,6 +11,7 @@ use super::access::Access;
 use super::long::{self, Array, Kind, Place, Slots};
 use super::names::{Names, field};
 use super::splines::spline_name;
+use crate::diagnostics::Diagnostic;
 use crate::model::{Meaning, Model};
 
 /// Statements that run a program, and its outputs.
@@ -220,7 +221,10 @@ impl<'a> Writer<'a> {
             // Instructions refer to earlier ones only: written here, or kept.
             Operand::Value(at) => match self.results.get(&at) {
                 Some(name) => quote!(#name),
-                None => self.slots.and_then(|slots| slots.token(at)).unwrap_or_default(),
+                None => self
+                    .slots
+                    .and_then(|slots| slots.token(at))
+                    .unwrap_or_else(|| internal("a result is read that is not kept")),
             },
         }
     }
@@ -255,6 +259,12 @@ impl<'a> Writer<'a> {
         self.results.insert(at, name.clone());
         name
     }
+}
+
+/// What stands where there is nothing right to write: the compiler refuses it with these words.
+pub fn internal(what: &str) -> TokenStream {
+    let text = Diagnostic::internal(Span::call_site(), what).text();
+    quote!(::core::compile_error!(#text))
 }
 
 /// How generated code reads a symbol.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use mbs_symbolic::pairs::{Lane, Scalar, Step, Woven};
-use mbs_symbolic::{Operand, Operation};
+use mbs_symbolic::Operation;
+use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Woven};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
@@ -168,7 +168,7 @@ impl Writer<'_> {
                 return statement;
             }
             // Named with the sines.
-            Step::Cosines => return TokenStream::new(),
+            Step::Cosines(_) => return TokenStream::new(),
             Step::Join(a, b) => {
                 let (a, b) = (self.scalar(*a), self.scalar(*b));
                 quote!(T::Pair::join(#a, #b))
@@ -211,9 +211,9 @@ impl Writer<'_> {
 
     fn scalar(&self, scalar: Scalar) -> TokenStream {
         match scalar {
-            Scalar::Given(Operand::Number(number)) => single(number_tokens(number)),
-            Scalar::Given(Operand::Symbol(symbol)) => single(symbol_tokens(self.model, &self.access, symbol)),
-            Scalar::Given(Operand::Hoisted(at) | Operand::Value(at)) => {
+            Scalar::Given(Given::Number(number)) => single(number_tokens(number)),
+            Scalar::Given(Given::Symbol(symbol)) => single(symbol_tokens(self.model, &self.access, symbol)),
+            Scalar::Given(Given::Hoisted(at)) => {
                 let at = Literal::usize_unsuffixed(at);
                 single(quote!(self.hoisted[#at]))
             }

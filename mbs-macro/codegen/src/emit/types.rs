@@ -71,7 +71,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
             .map(|constraint| Field {
                 name: field(&constraint.name),
                 text: constraint.name.clone(),
-                doc: format!("{}\n\n`{} = 0`", constraint.doc, model.arena.display(constraint.phi)),
+                doc: format!("{}\n\n`{} = 0`", constraint.doc, docs::formula(model, constraint.phi)),
                 value: 0.0,
             })
             .collect();

@@ -85,12 +85,12 @@ impl<'a> Resolver<'a> {
             );
             return;
         }
-        if let Some((_, earlier)) = self.body_spans.iter().find(|(known, _)| *known == text) {
+        if let Some((_, earlier)) = self.body_names.get(&text) {
             self.errors.push(duplicate(name, *earlier));
             return;
         }
-        self.body_spans.push((text.clone(), name.span()));
         let body = self.bodies.len();
+        self.body_names.insert(text.clone(), (body, name.span()));
         let mut positions = Vec::new();
         if coordinates.is_empty() || coordinates.len() > 3 {
             self.errors.push(

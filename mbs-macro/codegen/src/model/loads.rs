@@ -27,8 +27,8 @@ impl Resolver<'_> {
             return;
         }
         let (body_name, target_text) = (&target.body, target.body.to_string());
-        let coordinate = self.coordinates.iter().position(|c| c.quantity.name == target_text);
-        let body = self.bodies.iter().position(|body| body.name == target_text);
+        let coordinate = self.coordinate_named(&target_text);
+        let body = self.body_names.get(&target_text).map(|(body, _)| *body);
         match (coordinate, body) {
             (Some(coordinate), _) if target.point.is_none() => {
                 if let Some(frame) = frame {
@@ -65,11 +65,11 @@ impl Resolver<'_> {
     /// Enters the name of a force, torque or spring; false if it was there.
     pub(super) fn declare_load(&mut self, name: &Ident) -> bool {
         let text = name.to_string();
-        if let Some((_, earlier)) = self.load_names.iter().find(|(known, _)| *known == text) {
+        if let Some(earlier) = self.load_names.get(&text) {
             self.errors.push(duplicate(name, *earlier));
             return false;
         }
-        self.load_names.push((text, name.span()));
+        self.load_names.insert(text, name.span());
         true
     }
 

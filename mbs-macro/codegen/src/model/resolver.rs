@@ -1,6 +1,6 @@
 //! From statements to the model, in an order that lets statements stand in any.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use mbs_symbolic::{Expr, Stage};
 use proc_macro2::{Span, TokenStream};
@@ -57,7 +57,8 @@ pub(super) struct Resolver<'a> {
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
     pub resolved_bodies: BTreeSet<usize>,
-    pub body_spans: Vec<(String, Span)>,
+    /// Where a body stands in the list, and in the source.
+    pub body_names: HashMap<String, (usize, Span)>,
     pub constraints: Vec<Constraint>,
     pub row_count: usize,
     pub gravity: Option<([Expr; 2], Span)>,
@@ -65,13 +66,13 @@ pub(super) struct Resolver<'a> {
     pub reactive_loads: Vec<Work>,
     pub checks: Vec<Check>,
     pub potentials: Vec<Expr>,
-    pub load_names: Vec<(String, Span)>,
+    pub load_names: HashMap<String, Span>,
     pub starts: Vec<Start>,
     pub closes: Option<Closes>,
     /// The time of the start, and where it is declared.
     pub start_time: Option<(Expr, Span)>,
     pub outputs: Vec<Output>,
-    pub output_spans: Vec<(String, Span)>,
+    pub output_names: HashMap<String, Span>,
 }
 
 impl<'a> Resolver<'a> {
@@ -91,7 +92,7 @@ impl<'a> Resolver<'a> {
             coordinates: Vec::new(),
             bodies: Vec::new(),
             resolved_bodies: BTreeSet::new(),
-            body_spans: Vec::new(),
+            body_names: HashMap::new(),
             constraints: Vec::new(),
             row_count: 0,
             gravity: None,
@@ -99,12 +100,12 @@ impl<'a> Resolver<'a> {
             reactive_loads: Vec::new(),
             checks: Vec::new(),
             potentials: Vec::new(),
-            load_names: Vec::new(),
+            load_names: HashMap::new(),
             starts: Vec::new(),
             closes: None,
             start_time: None,
             outputs: Vec::new(),
-            output_spans: Vec::new(),
+            output_names: HashMap::new(),
         }
     }
 

@@ -89,6 +89,7 @@ impl Resolver<'_> {
     /// alone slides on the x axis, one that has an angle alone turns about the
     /// origin.
     fn sketch_guide(&self, body: usize, sketch: &mut Sketch) {
+        let centre = sketch.bodies.get(body).and_then(|(_, points)| points.first().copied());
         let Some(body) = self.bodies.get(body) else { return };
         let has = |direction| body.coordinates.iter().any(|&at| self.coordinates[at].direction == direction);
         let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
@@ -100,9 +101,7 @@ impl Resolver<'_> {
             [false, false, true] => ("revolute", None),
             _ => return,
         };
-        let centre = sketch.bodies.iter().find(|(name, _)| *name == body.name);
-        let first = centre.and_then(|(_, points)| points.first().copied());
-        let (Some(first), Some(&second)) = (first, sketch.ground.first()) else { return };
+        let (Some(first), Some(&second)) = (centre, sketch.ground.first()) else { return };
         let ahead = along.map(|origin| {
             let name = format!("{}.ahead", body.name);
             sketch.points.push(Point { name, origin, angle: zero, local: None });

@@ -8,7 +8,7 @@ use super::declare::quantity;
 use super::formula::unit_help_for_products;
 use super::names::{Definition, Place, State, Typed, Value, duplicate};
 use super::resolver::Resolver;
-use super::{Constraint, Direction, Output, Requirement, Source, Start};
+use super::{Constraint, Direction, Meaning, Output, Requirement, Source, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::syntax::{self, Formula, Item, ItemKind, Role};
 
@@ -226,7 +226,7 @@ impl<'a> Resolver<'a> {
     }
 
     fn resolve_body(&mut self, name: &Ident, properties: &[syntax::Property]) {
-        let Some(at) = self.bodies.iter().position(|body| *name == body.name) else { return };
+        let Some(&(at, _)) = self.body_names.get(&name.to_string()) else { return };
         // A second body of the same name has been refused.
         if !self.resolved_bodies.insert(at) {
             return;
@@ -281,13 +281,26 @@ impl<'a> Resolver<'a> {
         }
     }
 
+    /// The position of a coordinate; one whose name is also that of something else, which
+    /// is an error, is looked for among all.
+    pub(super) fn coordinate_named(&self, name: &str) -> Option<usize> {
+        match self.scope.values.get(name) {
+            Some(Value::Symbol { symbol, .. }) => match self.scope.meaning(*symbol) {
+                Meaning::Coordinate(at) => Some(at),
+                _ => self.coordinates.iter().position(|c| c.quantity.name == name),
+            },
+            Some(Value::Definition(_)) => self.coordinates.iter().position(|c| c.quantity.name == name),
+            None => None,
+        }
+    }
+
     fn resolve_start(&mut self, entry: &syntax::StartEntry) {
         let text = entry.coordinate.to_string();
         if text == "t" && entry.prefix.is_empty() {
             self.resolve_start_time(entry);
             return;
         }
-        let Some(coordinate) = self.coordinates.iter().position(|c| c.quantity.name == text) else {
+        let Some(coordinate) = self.coordinate_named(&text) else {
             let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
             let hint = match nearest(&text, names.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -347,11 +360,11 @@ impl<'a> Resolver<'a> {
         doc: &str,
     ) {
         let text = name.to_string();
-        if let Some((_, earlier)) = self.output_spans.iter().find(|(known, _)| *known == text) {
+        if let Some(earlier) = self.output_names.get(&text) {
             self.errors.push(duplicate(name, *earlier));
             return;
         }
-        self.output_spans.push((text, name.span()));
+        self.output_names.insert(text, name.span());
         let Some(typed) = self.scope.formula(formula, Place::Anywhere, &mut self.errors) else { return };
         let dimension = typed.dimension.unwrap_or(unit.map_or(Dimension::NONE, |unit| unit.unit.dimension));
         if let Some(unit) = unit

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use mbs_symbolic::pairs::{Layout, Woven, weave};
-use mbs_symbolic::{Instruction, Number, Operand, Operation, Program, Symbol};
+use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
-use crate::model::{Direction, Meaning, Model};
+use crate::model::{Coordinate, Direction, Meaning, Model};
 
 /// Longer steps are left in two stages: rustc nests a scope per statement, and its
 /// stack ends at about twice as many.
@@ -33,21 +33,30 @@ pub struct Stages<'a> {
 }
 
 /// The fused step of a mechanism that is small enough.
-pub fn fused(model: &Model, stages: Stages<'_>) -> Option<FusedStep> {
-    let alone = kinds(model, stages, None)?;
-    Some(FusedStep { alone, with_reactions: kinds(model, stages, Some(stages.reactions)) })
+///
+/// # Errors
+/// A step that does not compute what its stages do.
+pub fn fused(model: &Model, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
+    let Some(alone) = kinds(model, stages, None)? else { return Ok(None) };
+    Ok(Some(FusedStep { alone, with_reactions: kinds(model, stages, Some(stages.reactions))? }))
 }
 
-fn kinds(model: &Model, stages: Stages<'_>, reactions: Option<&Program>) -> Option<Kinds> {
+fn kinds(
+    model: &Model,
+    stages: Stages<'_>,
+    reactions: Option<&Program>,
+) -> Result<Option<Kinds>, Inconsistency> {
     let Stages { stabilized, constrained, .. } = stages;
     if stabilized.instructions.len() > LONGEST {
-        return None;
+        return Ok(None);
     }
     let [held, per_stage] =
         [constrained, stabilized].map(|second| step(model, stabilized, second, reactions));
     if held.instructions.len().max(per_stage.instructions.len()) > LONGEST {
-        return None;
+        return Ok(None);
     }
+    check(model, [stabilized, constrained], reactions, &held)?;
+    check(model, [stabilized, stabilized], reactions, &per_stage)?;
     let meaning = |symbol: Symbol| model.meanings[symbol.index()];
     // The x and the y of a body. An angle next to an x is not read with it: it would
     // have to be written with it, or the processor waits for the two writes.
@@ -85,9 +94,65 @@ fn kinds(model: &Model, stages: Stages<'_>, reactions: Option<&Program>) -> Opti
     let woven = |program: &Program| {
         let mut woven = weave(program, &layout);
         woven.sum_outputs(finite);
-        woven
+        woven.check(program)?;
+        Ok(woven)
     };
-    Some(Kinds { held: woven(&held), per_stage: woven(&per_stage) })
+    Ok(Some(Kinds { held: woven(&held)?, per_stage: woven(&per_stage)? }))
+}
+
+/// A step gives what its stages give one after the other, with numbers without any relation
+/// for all that it depends on: bit for bit but for the sign of a zero. What is not finite
+/// tells nothing: there a step is made again in stages.
+fn check(
+    model: &Model,
+    [first, second]: [&Program; 2],
+    reactions: Option<&Program>,
+    step: &Program,
+) -> Result<(), Inconsistency> {
+    for point in 0..probe::POINTS {
+        let expected = in_stages(model, [first, second], reactions, point);
+        let found = step.evaluate_with(&probe::symbol(point), &probe::hoisted(point));
+        let is_same = |(x, y): (&f64, &f64)| !x.is_finite() || x == y;
+        if found.len() != expected.len() || !expected.iter().zip(&found).all(is_same) {
+            return Err(Inconsistency { pass: "fused step", rule: "a step computes what its stages do" });
+        }
+    }
+    Ok(())
+}
+
+/// The results of [`step`], from the programs of the stages.
+fn in_stages(
+    model: &Model,
+    [first, second]: [&Program; 2],
+    reactions: Option<&Program>,
+    point: u64,
+) -> Vec<f64> {
+    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let (given, hoisted) = (probe::symbol(point), probe::hoisted(point));
+    let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(&given);
+    let [q, v] = [|c: &Coordinate| c.position, |c: &Coordinate| c.velocity]
+        .map(|symbol| model.coordinates.iter().map(|c| given(symbol(c))).collect::<Vec<f64>>());
+    let here = first.evaluate_with(&given, &hoisted);
+    let predicted: Vec<f64> = v.iter().zip(&here).map(|(v, a)| v + h * a).collect();
+    let at_end = |symbol: Symbol| match model.meanings.get(symbol.index()) {
+        Some(Meaning::Coordinate(at)) => q[*at] + h * v[*at],
+        Some(Meaning::Velocity(at)) => predicted[*at],
+        Some(Meaning::Time) => given(model.symbols.next_time),
+        Some(Meaning::Feedback(row)) => here[n + *row],
+        _ => given(symbol),
+    };
+    let there = second.evaluate_with(&at_end, &hoisted);
+    let without_feedback = |symbol: Symbol| match model.meanings.get(symbol.index()) {
+        Some(Meaning::Feedback(_)) => 0.0,
+        _ => given(symbol),
+    };
+    let clean = reactions.map(|reactions| reactions.evaluate_with(&without_feedback, &hoisted));
+    let mut results: Vec<f64> = (0..n).map(|at| q[at] + half_h * (v[at] + predicted[at])).collect();
+    results.extend((0..n).map(|at| v[at] + half_h * (here[at] + there[at])));
+    results.extend(clean.iter().flat_map(|clean| &clean[..n]));
+    results.extend(here.last().zip(there.last()).map(|(here, there)| here + there));
+    results.extend(clean.iter().flat_map(|clean| &clean[n..n + m + 1]));
+    results
 }
 
 /// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the

@@ -114,6 +114,7 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
 pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
     match error {
         Unsolvable::Unknowns(unknowns) => undetermined(model, unknowns),
+        Unsolvable::Inconsistent(mistake) => Diagnostic::internal(model.name.span(), mistake).into(),
         Unsolvable::Shared => {
             let span = model.reactive_loads.first().map_or(model.name.span(), |load| load.span);
             Diagnostic::new(

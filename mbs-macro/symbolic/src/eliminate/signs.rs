@@ -11,6 +11,15 @@ impl Arena {
         if self.stage(expr) <= Stage::Parameter {
             return Some(self.call(Function::Abs, expr));
         }
+        if let Some(known) = self.bounds.get(&expr) {
+            return *known;
+        }
+        let bound = self.bound_of_node(expr);
+        self.bounds.insert(expr, bound);
+        bound
+    }
+
+    fn bound_of_node(&mut self, expr: Expr) -> Option<Expr> {
         match self.node(expr).clone() {
             Node::Sum(constant, terms) => {
                 let mut bounds = vec![(self.number(constant.abs()), Number::ONE)];
@@ -40,13 +49,14 @@ impl Arena {
     ///
     /// Parameters count as positive: they are masses and lengths. One that is
     /// not shows in the growth of the pivot.
-    pub(super) fn is_positive(&self, expr: Expr) -> bool {
-        match self.node(expr) {
+    pub(super) fn is_positive(&mut self, expr: Expr) -> bool {
+        match self.node(expr).clone() {
             Node::Number(value) => !value.is_zero() && !value.is_negative(),
-            Node::Shared(x) => self.is_positive(*x),
+            Node::Shared(x) => self.is_positive(x),
             Node::Sum(constant, terms) => {
+                let is_not_negative = self.is_not_negative(expr);
                 let anchored = |(term, _): &(Expr, Number)| self.stage(*term) <= Stage::Parameter;
-                self.is_not_negative(expr) && (!constant.is_zero() || terms.iter().any(anchored))
+                is_not_negative && (!constant.is_zero() || terms.iter().any(anchored))
             }
             _ => self.stage(expr) <= Stage::Parameter && self.is_not_negative(expr),
         }
@@ -69,20 +79,29 @@ impl Arena {
         }
     }
 
-    fn is_not_negative(&self, expr: Expr) -> bool {
-        match self.node(expr) {
+    fn is_not_negative(&mut self, expr: Expr) -> bool {
+        if let Some(&known) = self.never_negative.get(&expr) {
+            return known;
+        }
+        let known = self.is_node_not_negative(expr);
+        self.never_negative.insert(expr, known);
+        known
+    }
+
+    fn is_node_not_negative(&mut self, expr: Expr) -> bool {
+        match self.node(expr).clone() {
             Node::Number(value) => !value.is_negative(),
             Node::Symbol(_) => self.stage(expr) <= Stage::Parameter,
             Node::Sum(constant, terms) => {
-                let fits = |(term, c): &(Expr, Number)| !c.is_negative() && self.is_not_negative(*term);
-                !constant.is_negative() && terms.iter().all(fits)
+                let mut fits = |(term, c): &(Expr, Number)| !c.is_negative() && self.is_not_negative(*term);
+                !constant.is_negative() && terms.iter().all(&mut fits)
             }
             Node::Product(factors) => {
                 factors.iter().all(|(factor, exponent)| exponent % 2 == 0 || self.is_not_negative(*factor))
             }
             Node::Call(function, _) => matches!(function, Function::Sqrt | Function::Abs | Function::Exp),
             Node::Call2(..) | Node::Spline(..) => false,
-            Node::Shared(x) => self.is_not_negative(*x),
+            Node::Shared(x) => self.is_not_negative(x),
         }
     }
 }

@@ -9,12 +9,17 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::flatten::{Definition, Flat, Signed, Value};
+use super::flatten::{Definition, Flat, Signed, Value, without_opposites};
+use crate::inconsistency::Inconsistency;
 
-pub(super) fn factor(flat: &mut Flat) {
-    factor_rows(flat, &Products);
-    factor_rows(flat, &Sums);
+pub(super) fn factor(flat: &mut Flat) -> Result<(), Inconsistency> {
+    factor_rows(flat, &Products)?;
+    factor_rows(flat, &Sums)
 }
+
+/// Why there is no end to be seen.
+const ENDLESS: Inconsistency =
+    Inconsistency { pass: "factoring", rule: "every pair that is taken spares an operation" };
 
 /// Two members of a row, up to a common sign.
 type Pair = (Value, Value, bool);
@@ -65,6 +70,8 @@ struct Work {
     holders: HashMap<Pair, Holders>,
     /// Pairs in two rows or more, by their rank; entries may be out of date.
     queue: BinaryHeap<(Rank, Reverse<Pair>)>,
+    /// What the rows take: one less than they have members.
+    operations: usize,
 }
 
 /// The rows that hold a pair.
@@ -81,20 +88,24 @@ impl Holders {
     }
 }
 
-fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
+fn factor_rows(flat: &mut Flat, kind: &dyn Rows) -> Result<(), Inconsistency> {
     let rows: Vec<_> = flat.definitions.iter().map(|definition| kind.row(definition)).collect();
     let mut work = Work {
         can_recur: can_recur(&rows),
         rows: vec![None; rows.len()],
         holders: HashMap::default(),
         queue: BinaryHeap::new(),
+        operations: 0,
     };
     for (value, row) in rows.into_iter().enumerate() {
         if let Some(row) = row {
             work.insert(value, row);
         }
     }
+    // Operations fall: a pair costs one, and spares one in each row that holds it, of
+    // which there are two or more.
     while let Some((pair, holders)) = work.most_frequent() {
+        let before = work.operations;
         let members =
             vec![Signed { value: pair.0, negative: false }, Signed { value: pair.1, negative: pair.2 }];
         let common = flat.define(kind.definition(members.clone()));
@@ -102,18 +113,22 @@ fn factor_rows(flat: &mut Flat, kind: &dyn Rows) {
         work.can_recur.resize(flat.definitions.len(), true);
         for holder in holders {
             if holder != common {
-                work.replace(holder, pair, common);
+                work.replace(holder, pair, common)?;
             }
         }
         // it holds the pair too, whether it was a row before or not
-        work.rows[common] = None;
+        work.remove(common);
         work.insert(common, members);
+        if work.operations >= before {
+            return Err(ENDLESS);
+        }
     }
     for (value, row) in work.rows.into_iter().enumerate() {
         if let Some(row) = row {
             flat.definitions[value] = kind.definition(row);
         }
     }
+    Ok(())
 }
 
 fn can_recur(rows: &[Option<Vec<Signed>>]) -> Vec<bool> {
@@ -130,29 +145,42 @@ fn can_recur(rows: &[Option<Vec<Signed>>]) -> Vec<bool> {
 
 impl Work {
     fn insert(&mut self, value: Value, row: Vec<Signed>) {
-        for pair in self.pairs(&row) {
-            let holders = self.holders.entry(pair).or_default();
-            holders.rows.push(value);
-            holders.whole += usize::from(row.len() == 2);
-            if holders.rows.len() >= 2 {
-                self.queue.push((holders.rank(), Reverse(pair)));
-            }
+        for pair in self.pairs(&row, |_| true) {
+            self.enter(pair, value, row.len() == 2);
         }
+        self.operations += row.len().saturating_sub(1);
         self.rows[value] = Some(row);
     }
 
-    fn remove(&mut self, value: Value) -> Vec<Signed> {
-        let row = self.rows[value].take().unwrap_or_default();
-        for pair in self.pairs(&row) {
-            let Some(holders) = self.holders.get_mut(&pair) else { continue };
-            let Some(at) = holders.rows.iter().position(|holder| *holder == value) else { continue };
-            holders.rows.swap_remove(at);
-            holders.whole -= usize::from(row.len() == 2);
-            if holders.rows.len() >= 2 {
-                self.queue.push((holders.rank(), Reverse(pair)));
-            }
+    /// Takes a row out; `None` of a value that has none.
+    fn remove(&mut self, value: Value) -> Option<Vec<Signed>> {
+        let row = self.rows[value].take()?;
+        self.operations -= row.len().saturating_sub(1);
+        for pair in self.pairs(&row, |_| true) {
+            self.leave(pair, value, row.len() == 2);
         }
-        row
+        Some(row)
+    }
+
+    /// A row holds a pair.
+    fn enter(&mut self, pair: Pair, row: Value, is_whole: bool) {
+        let holders = self.holders.entry(pair).or_default();
+        holders.rows.push(row);
+        holders.whole += usize::from(is_whole);
+        if holders.rows.len() >= 2 {
+            self.queue.push((holders.rank(), Reverse(pair)));
+        }
+    }
+
+    /// A row does not hold a pair any more.
+    fn leave(&mut self, pair: Pair, row: Value, is_whole: bool) {
+        let Some(holders) = self.holders.get_mut(&pair) else { return };
+        let Some(at) = holders.rows.iter().position(|holder| *holder == row) else { return };
+        holders.rows.swap_remove(at);
+        holders.whole -= usize::from(is_whole);
+        if holders.rows.len() >= 2 {
+            self.queue.push((holders.rank(), Reverse(pair)));
+        }
     }
 
     /// The pair with the most holders, two at least, and these.
@@ -166,34 +194,48 @@ impl Work {
         None
     }
 
-    /// The distinct pairs of a row that can be in others.
-    fn pairs(&self, row: &[Signed]) -> Vec<Pair> {
-        let members: Vec<&Signed> = row.iter().filter(|member| self.can_recur[member.value]).collect();
-        let mut pairs = Vec::with_capacity(members.len() * members.len().saturating_sub(1) / 2);
-        for (at, a) in members.iter().enumerate() {
-            pairs.extend(members[at + 1..].iter().map(|b| (a.value, b.value, a.negative ^ b.negative)));
+    /// The distinct pairs of a row that can be in others and have a member that is asked
+    /// for.
+    fn pairs(&self, row: &[Signed], is_asked_for: impl Fn(Value) -> bool) -> Vec<Pair> {
+        let members: Vec<(&Signed, bool)> = row
+            .iter()
+            .filter(|member| self.can_recur[member.value])
+            .map(|member| (member, is_asked_for(member.value)))
+            .collect();
+        let mut pairs = Vec::new();
+        for (at, (a, of_a)) in members.iter().enumerate() {
+            let others = members[at + 1..].iter().filter(|(_, of_b)| *of_a || *of_b);
+            pairs.extend(others.map(|(b, _)| (a.value, b.value, a.negative ^ b.negative)));
         }
         pairs.sort_unstable();
         pairs.dedup();
         pairs
     }
 
-    /// Puts `common` in the place of the pair in one row.
-    fn replace(&mut self, holder: Value, (a, b, opposite): Pair, common: Value) {
-        let mut row = self.remove(holder);
-        let Some(first) = row.iter().position(|member| member.value == a) else {
-            return self.insert(holder, row);
-        };
-        let negative = row.remove(first).negative;
-        match row.iter().position(|m| m.value == b && (m.negative ^ negative) == opposite) {
-            Some(second) => {
-                row.remove(second);
-                row.push(Signed { value: common, negative });
-            }
-            // The pair needs another occurrence of `a`, which a sum never has.
-            None => row.push(Signed { value: a, negative }),
+    /// Puts `common` in the place of the pair in one row. A row has each value with one
+    /// sign alone, so that any occurrence of `a` goes with any of `b`.
+    fn replace(&mut self, holder: Value, (a, b, opposite): Pair, common: Value) -> Result<(), Inconsistency> {
+        let row = self.rows[holder].take().ok_or(ENDLESS)?;
+        let mut rest = row.clone();
+        let first = rest.iter().position(|member| member.value == a).ok_or(ENDLESS)?;
+        let negative = rest.remove(first).negative;
+        let is_other = |member: &Signed| member.value == b && (member.negative ^ negative) == opposite;
+        let second = rest.iter().position(is_other).ok_or(ENDLESS)?;
+        rest.remove(second);
+        rest.push(Signed { value: common, negative });
+        // the row may have had the negative of the pair as a member already
+        let replaced = without_opposites(rest);
+        self.operations -= row.len().saturating_sub(1);
+        self.operations += replaced.len().saturating_sub(1);
+        // Pairs of other members stay; or one of them is all that is left.
+        let is_changed = |value| replaced.len() == 2 || [a, b, common].contains(&value);
+        for pair in self.pairs(&row, is_changed) {
+            self.leave(pair, holder, row.len() == 2);
         }
-        row.sort_unstable();
-        self.insert(holder, row);
+        for pair in self.pairs(&replaced, is_changed) {
+            self.enter(pair, holder, replaced.len() == 2);
+        }
+        self.rows[holder] = Some(replaced);
+        Ok(())
     }
 }

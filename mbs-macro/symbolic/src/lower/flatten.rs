@@ -24,9 +24,9 @@ pub(super) type Value = usize;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Definition {
     Leaf(Operand),
-    /// Product of two or more values, sorted, repetition allowed.
+    /// Product of values, sorted, repetition allowed.
     Product(Vec<Value>),
-    /// Sum of two or more values, each negated or not, sorted.
+    /// Sum of values, each negated or not, sorted, none of them with both signs.
     Sum(Vec<Signed>),
     Call(Function, Value),
     Call2(Function, Value, Value),
@@ -62,6 +62,22 @@ impl Signed {
     fn flipped_if(self, flip: bool) -> Self {
         Self { negative: self.negative ^ flip, ..self }
     }
+}
+
+/// The row, sorted, without what stands in it with both signs: x − x is 0. Sums of
+/// expressions have that rule too, but two expressions may be one value: x and x computed
+/// once, or c·(a − b) and c·(b − a) but for the sign.
+pub(super) fn without_opposites(mut row: Vec<Signed>) -> Vec<Signed> {
+    row.sort_unstable();
+    let mut kept: Vec<Signed> = Vec::with_capacity(row.len());
+    for member in row {
+        if kept.last() == Some(&member.flipped_if(true)) {
+            kept.pop();
+        } else {
+            kept.push(member);
+        }
+    }
+    kept
 }
 
 /// All values, and which are results.
@@ -271,7 +287,7 @@ impl Flattening<'_> {
         for (term, coefficient) in self.collect_late(&late) {
             values.push(self.product(coefficient, term));
         }
-        values.sort_unstable();
+        let values = without_opposites(values);
         let flip = self.is_better_negated(&values);
         let values: Vec<_> = values.into_iter().map(|value| value.flipped_if(flip)).collect();
         match values[..] {

@@ -16,6 +16,7 @@ mod signs;
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::arena::{Arena, Expr};
+use crate::inconsistency::Inconsistency;
 use crate::program::Program;
 
 /// Values that depend on parameters alone, shared by the programs of a
@@ -42,20 +43,37 @@ impl Hoisted {
 }
 
 /// The program that computes `outputs`, with everything that depends on
-/// parameters alone moved into `hoisted`.
-pub fn lower(arena: &mut Arena, outputs: &[Expr], hoisted: &mut Hoisted) -> Program {
-    lower_flat(arena, outputs, Some(hoisted))
+/// parameters alone moved into `hoisted`. One of more than `unrolled` values is ordered such
+/// that its repeated parts can become loops.
+///
+/// # Errors
+/// A pass that breaks its own rules.
+pub fn lower(
+    arena: &mut Arena,
+    outputs: &[Expr],
+    hoisted: &mut Hoisted,
+    unrolled: usize,
+) -> Result<Program, Inconsistency> {
+    lower_flat(arena, outputs, Some(hoisted), unrolled)
 }
 
 /// The program that computes `outputs` from scratch.
-pub fn lower_whole(arena: &mut Arena, outputs: &[Expr]) -> Program {
-    lower_flat(arena, outputs, None)
+///
+/// # Errors
+/// As those of [`lower`].
+pub fn lower_whole(arena: &mut Arena, outputs: &[Expr], unrolled: usize) -> Result<Program, Inconsistency> {
+    lower_flat(arena, outputs, None, unrolled)
 }
 
-fn lower_flat(arena: &mut Arena, outputs: &[Expr], hoisted: Option<&mut Hoisted>) -> Program {
+fn lower_flat(
+    arena: &mut Arena,
+    outputs: &[Expr],
+    hoisted: Option<&mut Hoisted>,
+    unrolled: usize,
+) -> Result<Program, Inconsistency> {
     let mut flat = flatten::flatten(arena, outputs, hoisted);
-    factoring::factor(&mut flat);
+    factoring::factor(&mut flat)?;
     signs::choose(&mut flat);
     let results = flat.settle_outputs(arena, outputs);
-    Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results) }
+    Ok(Program { splines: arena.splines().to_vec(), ..schedule::schedule(&flat, &results, unrolled) })
 }

@@ -4,14 +4,13 @@ use super::flatten::{Definition, Flat, Value};
 use crate::operators::Function;
 use crate::program::Operand;
 
-/// Programs of more values than this, which may become loops, are ordered by
-/// the pivots that they wait for.
-const LONGEST_ON_DEMAND: usize = 1024;
-
 /// The values that the outputs need, operands before users; functions of inputs
 /// come first. A call in the middle would make the machine save every value that
 /// is alive across it.
-pub(super) fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
+///
+/// More than `unrolled` values, which may become loops, are ordered by the pivots that they
+/// wait for.
+pub(super) fn order(flat: &Flat, outputs: &[Value], unrolled: usize) -> Vec<Value> {
     let order = depth_first(flat, outputs);
     let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
     let of_inputs = |value: &Value| match flat.definitions[*value] {
@@ -20,7 +19,7 @@ pub(super) fn order(flat: &Flat, outputs: &[Value]) -> Vec<Value> {
         _ => false,
     };
     let mut roots: Vec<Value> = order.iter().copied().filter(of_inputs).collect();
-    if order.len() <= LONGEST_ON_DEMAND {
+    if order.len() <= unrolled {
         roots.extend(outputs);
         return depth_first(flat, &roots);
     }
@@ -81,6 +80,7 @@ impl<'a> Eager<'a> {
     fn run(mut self) -> Vec<Value> {
         let values = std::mem::take(&mut self.values);
         for &value in &values {
+            // users are pushed when a value is done, which each is once
             let mut stack = vec![value];
             while let Some(value) = stack.pop() {
                 if !self.is_late[value] || self.is_done[value] {

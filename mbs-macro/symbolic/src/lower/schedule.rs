@@ -7,8 +7,8 @@ use super::order::order;
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
-pub(super) fn schedule(flat: &Flat, outputs: &[Value]) -> Program {
-    let order = order(flat, outputs);
+pub(super) fn schedule(flat: &Flat, outputs: &[Value], unrolled: usize) -> Program {
+    let order = order(flat, outputs, unrolled);
     let mut schedule = Schedule {
         flat,
         outputs,
@@ -180,6 +180,7 @@ impl Schedule<'_> {
         if operands.len() > LONGEST_TREE {
             return operands.into_iter().reduce(|sum, next| combine(self, sum, next));
         }
+        // one operand less each time
         loop {
             // Stable, latest first: ties keep the order of the row.
             operands.sort_by_key(|item| std::cmp::Reverse(self.latency(operand(item))));

@@ -34,7 +34,8 @@ const DEPTH: usize = 8;
 
 pub(super) fn choose(program: &Program, angles: &Angles, layout: &Layout<'_>) -> Vec<Option<Partner>> {
     let mut chooser = Chooser::new(program, angles, layout);
-    // What was not worth it alone may be once its users are pairs.
+    // What was not worth it alone may be once its users are pairs. Every pass but the last
+    // takes a pair, and none is given up.
     while chooser.pass() {}
     chooser.partners
 }
@@ -103,6 +104,8 @@ impl<'a> Chooser<'a> {
             }
         }
         let mut is_changed = false;
+        // A seed leaves, or comes back with what it gains now. That changes only where a pair
+        // is taken: until then every seed comes back once at most.
         while let Some(seed) = seeds.pop() {
             let judged = self.judge(seed.x, seed.y, &mut trial);
             if judged.gain <= 0.0 {

@@ -19,7 +19,10 @@ mod weave;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::arena::Symbol;
+use crate::inconsistency::Inconsistency;
+use crate::number::Number;
 use crate::operators::Function;
+use crate::probe;
 use crate::program::{Instruction, Operand, Operation, Program};
 
 /// One of the two lanes of a pair.
@@ -31,11 +34,22 @@ pub enum Lane {
     Second,
 }
 
+/// What is there before the first step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// A constant.
+    Number(Number),
+    /// An input.
+    Symbol(Symbol),
+    /// A value that depends on parameters alone.
+    Hoisted(usize),
+}
+
 /// Where a step finds a scalar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scalar {
     /// A number, a symbol or a hoisted value.
-    Given(Operand),
+    Given(Given),
     /// The result of an earlier scalar step.
     Step(usize),
     /// A lane of an earlier pair.
@@ -60,8 +74,8 @@ pub enum Step {
     Pair(Operation, usize, usize),
     /// The sines of a pair of angles; the step after it has the cosines.
     Sines(usize),
-    /// The cosines that come with the sines before.
-    Cosines,
+    /// The cosines of the same pair of angles.
+    Cosines(usize),
 }
 
 /// A program on pairs and scalars.
@@ -159,13 +173,12 @@ fn is_sine_or_cosine(instruction: &Instruction) -> bool {
     matches!(instruction.operation, Operation::Call(Function::Sin | Function::Cos))
 }
 
-/// The ways to line up the operands of two instructions of one kind: first with
-/// first and second with second, or crossed where an instruction commutes. The
-/// first operand of a difference is what is subtracted from.
-fn alignments(x: &Instruction, y: &Instruction) -> impl Iterator<Item = [(Operand, Operand); 2]> + use<> {
+/// The ways to line up the operands of two instructions of one kind beside first with first
+/// and second with second: crossed where an instruction commutes. The first operand of a
+/// difference is what is subtracted from.
+fn crossings(x: &Instruction, y: &Instruction) -> impl Iterator<Item = [(Operand, Operand); 2]> + use<> {
     let both = commutes(x) && commutes(y) && x.operation != Operation::Mul;
     [
-        Some([(x.a, y.a), (x.b, y.b)]),
         commutes(x).then_some([(x.b, y.a), (x.a, y.b)]),
         commutes(y).then_some([(x.a, y.b), (x.b, y.a)]),
         both.then_some([(x.b, y.b), (x.a, y.a)]),
@@ -193,14 +206,17 @@ fn commutes(instruction: &Instruction) -> bool {
 
 impl Woven {
     /// Runs the program.
-    pub fn evaluate(&self, program: &Program, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[f64]) -> Vec<f64> {
+    pub fn evaluate(
+        &self,
+        program: &Program,
+        symbol: &dyn Fn(Symbol) -> f64,
+        hoisted: &dyn Fn(usize) -> f64,
+    ) -> Vec<f64> {
         let mut values: Vec<[f64; 2]> = Vec::with_capacity(self.steps.len());
         let read = |scalar: Scalar, values: &[[f64; 2]]| match scalar {
-            Scalar::Given(operand) => match operand {
-                Operand::Number(number) => number.to_f64(),
-                Operand::Symbol(s) => symbol(s),
-                Operand::Hoisted(at) | Operand::Value(at) => hoisted[at],
-            },
+            Scalar::Given(Given::Number(number)) => number.to_f64(),
+            Scalar::Given(Given::Symbol(s)) => symbol(s),
+            Scalar::Given(Given::Hoisted(at)) => hoisted(at),
             Scalar::Step(at) | Scalar::Lane(at, Lane::First) => values[at][0],
             Scalar::Lane(at, Lane::Second) => values[at][1],
         };
@@ -218,14 +234,31 @@ impl Woven {
                     [0, 1].map(|lane| program.apply(*operation, values[*a][lane], values[*b][lane]))
                 }
                 Step::Sines(at) => values[*at].map(f64::sin),
-                Step::Cosines => match self.steps.get(values.len().wrapping_sub(1)) {
-                    Some(Step::Sines(at)) => values[*at].map(f64::cos),
-                    _ => [f64::NAN; 2],
-                },
+                Step::Cosines(at) => values[*at].map(f64::cos),
             };
             values.push(value);
         }
         self.outputs.iter().map(|&output| read(output, &values)).collect()
+    }
+
+    /// Whether the steps compute what the program does that they were woven from, at
+    /// numbers without any relation: bit for bit but for the sign of a zero.
+    ///
+    /// # Errors
+    /// Some output differs.
+    pub fn check(&self, program: &Program) -> Result<(), Inconsistency> {
+        for point in 0..probe::POINTS {
+            let expected = program.evaluate_with(&probe::symbol(point), &probe::hoisted(point));
+            let found = self.evaluate(program, &probe::symbol(point), &probe::hoisted(point));
+            let is_same = |(x, y): (&f64, &f64)| x == y || x.is_nan() && y.is_nan();
+            if found.len() < expected.len() || !expected.iter().zip(&found).all(is_same) {
+                return Err(Inconsistency {
+                    pass: "weave",
+                    rule: "pairs compute what their instructions do",
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Appends an output: the sum of the first `outputs`, with some of them negated

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::{Angles, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, alignments};
+use super::{Angles, Given, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings};
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -54,7 +54,12 @@ impl Weaver<'_> {
     }
 
     fn scalar(&mut self, operand: Operand) -> Scalar {
-        let Operand::Value(at) = operand else { return Scalar::Given(operand) };
+        let at = match operand {
+            Operand::Number(number) => return Scalar::Given(Given::Number(number)),
+            Operand::Symbol(symbol) => return Scalar::Given(Given::Symbol(symbol)),
+            Operand::Hoisted(at) => return Scalar::Given(Given::Hoisted(at)),
+            Operand::Value(at) => at,
+        };
         if let Some(&known) = self.scalars.get(&at) {
             return known;
         }
@@ -88,7 +93,7 @@ impl Weaver<'_> {
             None => {
                 let angles = self.pair(lanes, false);
                 let sines = self.push(Step::Sines(angles));
-                self.push(Step::Cosines);
+                self.push(Step::Cosines(angles));
                 self.turns.insert(lanes, sines);
                 sines
             }
@@ -119,8 +124,8 @@ impl Weaver<'_> {
         if let (Operand::Number(_), Operand::Number(number)) = lanes
             && flipped
         {
-            let negative = Scalar::Given(Operand::Number(-number));
-            return self.push(Step::Join(Scalar::Given(a), negative));
+            let (first, negative) = (self.scalar(a), self.scalar(Operand::Number(-number)));
+            return self.push(Step::Join(first, negative));
         }
         if flipped {
             let plain = self.pair(lanes, false);
@@ -146,12 +151,13 @@ impl Weaver<'_> {
 
     fn operation(&mut self, x: usize, y: usize, flipped: bool) -> usize {
         let [x, y] = [x, y].map(|at| &self.program.instructions[at]);
-        let best = forms(x, y, flipped)
-            .into_iter()
-            .map(|form| (self.cost_of_form(&form), form))
-            .reduce(|best, next| if next.0 < best.0 { next } else { best });
-        // There is always a form.
-        let Some((_, Form { operation, operands: [a, b] })) = best else { return 0 };
+        let (first, others) = forms(x, y, flipped);
+        let cost = self.cost_of_form(&first);
+        let (_, Form { operation, operands: [a, b] }) =
+            others.into_iter().fold((cost, first), |best, form| {
+                let cost = self.cost_of_form(&form);
+                if cost < best.0 { (cost, form) } else { best }
+            });
         let a = self.pair(a.0, a.1);
         let b = self.pair(b.0, b.1);
         self.push(Step::Pair(operation, a, b))
@@ -181,11 +187,12 @@ impl Weaver<'_> {
             (_, Some(_), _) => 1,
             (_, _, Some((x, y))) if depth < DEPTH => {
                 let [x, y] = [x, y].map(|at| &self.program.instructions[at]);
-                let of_form = |form: Form| -> u32 {
+                let of_form = |form: &Form| -> u32 {
                     let [a, b] = form.operands;
                     self.flips(a.0, a.1, depth + 1) + self.flips(b.0, b.1, depth + 1)
                 };
-                forms(x, y, flipped).into_iter().map(of_form).min().unwrap_or(0)
+                let (first, others) = forms(x, y, flipped);
+                others.iter().map(of_form).fold(of_form(&first), u32::min)
             }
             _ if matches!(lanes, (Operand::Number(_), Operand::Number(_))) => 0,
             _ => u32::from(flipped),
@@ -199,25 +206,25 @@ struct Form {
     operands: [(Lanes, bool); 2],
 }
 
-/// The ways to compute a pair of instructions, itself plain or flipped.
+/// The ways to compute a pair of instructions, itself plain or flipped: the first one, which
+/// there always is, and the others.
 ///
 /// With the second lane of a, b and the result negated or not (σ = ±1), a sum
 /// a ± b has the second lane σ_a a ± σ_b b: the sign of the result is σ_a, and lanes
 /// that add and subtract take σ_b = −σ_a. Products have σ = σ_a σ_b.
-fn forms(x: &Instruction, y: &Instruction, flipped: bool) -> Vec<Form> {
-    let mut forms = Vec::new();
+fn forms(x: &Instruction, y: &Instruction, flipped: bool) -> (Form, Vec<Form>) {
     let is_mixed = x.operation != y.operation;
-    for [a, b] in alignments(x, y) {
-        let mut push = |a_flipped, b_flipped| {
-            forms.push(Form { operation: x.operation, operands: [(a, a_flipped), (b, b_flipped)] });
-        };
-        match x.operation {
-            Operation::Mul | Operation::Div => {
-                push(flipped, false);
-                push(!flipped, true);
-            }
-            _ => push(flipped, flipped != is_mixed),
+    let form = |[a, b]: [Lanes; 2], a_flipped, b_flipped| Form {
+        operation: x.operation,
+        operands: [(a, a_flipped), (b, b_flipped)],
+    };
+    let of_alignment = |operands| match x.operation {
+        Operation::Mul | Operation::Div => {
+            (form(operands, flipped, false), Some(form(operands, !flipped, true)))
         }
-    }
-    forms
+        _ => (form(operands, flipped, flipped != is_mixed), None),
+    };
+    let (first, more) = of_alignment([(x.a, y.a), (x.b, y.b)]);
+    let others = crossings(x, y).map(of_alignment).flat_map(|(form, more)| std::iter::once(form).chain(more));
+    (first, more.into_iter().chain(others).collect())
 }

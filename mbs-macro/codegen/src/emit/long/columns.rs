@@ -4,12 +4,13 @@ use std::collections::{BTreeSet, HashMap};
 
 use mbs_symbolic::{Operand, Repetition, Source};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::Context;
 use super::arrays::Array;
-use super::slots::Place;
-use crate::emit::program::Writer;
+use super::slots::{Kind, Slots};
+use crate::emit::program::{Writer, internal};
+use crate::model::Model;
 
 /// What differs from copy to copy: how it is read.
 pub struct Columns<'a> {
@@ -78,53 +79,43 @@ impl<'a> Columns<'a> {
                 copy,
             )));
         }
-        let mut values = quote!(slots);
-        let mut places = Vec::with_capacity(operands.len());
-        for &operand in operands {
-            let place = match operand {
-                Operand::Value(value) => slots.of(value).map(|Place { array, at }| {
-                    let ident = array.ident();
-                    values = quote!(#ident);
-                    at
-                }),
-                Operand::Hoisted(at) => {
-                    values = quote!(&#this.hoisted);
-                    Some(at)
-                }
-                Operand::Symbol(symbol) => Array::of(model.meanings[symbol.index()]).map(|(array, at)| {
-                    self.arrays.insert(array);
-                    let ident = array.ident();
-                    values = quote!(#ident);
-                    at
-                }),
-                Operand::Number(_) => None,
-            };
-            // operands of one column are of one kind, and results have slots
-            places.extend(place);
-        }
+        let homes: Option<Vec<(Home, usize)>> =
+            operands.iter().map(|&operand| Home::of(model, slots, operand)).collect();
+        // operands of one column are of one kind, and results have slots
+        let home = match homes.as_deref() {
+            Some([(first, _), others @ ..]) if others.iter().all(|(other, _)| other == first) => *first,
+            _ => return internal("the copies of a loop read an operand from different arrays"),
+        };
+        let values = match home {
+            Home::Result(array) => array.ident().to_token_stream(),
+            Home::Hoisted => quote!(&#this.hoisted),
+            Home::Vector(array) => {
+                self.arrays.insert(array);
+                array.ident().to_token_stream()
+            }
+        };
+        let places = homes.into_iter().flatten().map(|(_, place)| place).collect();
         let place = self.place(places);
         quote!(#runtime::__private::read(#values, #place))
     }
 
     /// The place that goes with a copy: by a rule, or else from a table.
     pub fn place(&mut self, places: Vec<usize>) -> TokenStream {
-        let first = places.first().copied().unwrap_or(0);
-        let second = places.get(1).copied().unwrap_or(first);
-        let (up, down) = (second.saturating_sub(first), first.saturating_sub(second));
-        let by_rule = |(copy, place): (usize, &usize)| place + down * copy == first + up * copy;
         let literal = Literal::usize_unsuffixed;
-        let start = literal(first);
-        if places.iter().enumerate().all(by_rule) {
-            let (step, is_down) = (literal(up.max(down)), down > 0);
-            return match (first, up.max(down), is_down) {
-                (0, 1, false) => quote!(copy),
-                (_, 1, false) => quote!(#start + copy),
-                (_, 1, true) => quote!(#start - copy),
-                (0, _, false) => quote!(#step * copy),
-                (_, _, false) => quote!(#start + #step * copy),
-                (_, _, true) => quote!(#start - #step * copy),
-            };
-        }
+        let places = match Rule::of(places) {
+            Rule::Line { first, step, is_down } => {
+                let (start, factor) = (literal(first), literal(step));
+                return match (first, step, is_down) {
+                    (0, 1, false) => quote!(copy),
+                    (_, 1, false) => quote!(#start + copy),
+                    (_, 1, true) => quote!(#start - copy),
+                    (0, _, false) => quote!(#factor * copy),
+                    (_, _, false) => quote!(#start + #factor * copy),
+                    (_, _, true) => quote!(#start - #factor * copy),
+                };
+            }
+            Rule::Table(places) => places,
+        };
         let column = self.tables.iter().position(|table| *table == places).unwrap_or_else(|| {
             self.tables.push(places);
             self.tables.len() - 1
@@ -157,11 +148,67 @@ impl<'a> Columns<'a> {
         let (mut before, mut after) = (TokenStream::new(), TokenStream::new());
         for (name, from, first) in &self.carried {
             let first = writer.operand(*first);
-            let next = writer.result(self.repetition.start + from);
+            let next = writer
+                .result(self.repetition.start + from)
+                .map_or_else(|| internal("a loop has no result to carry"), ToTokens::to_token_stream);
             before.extend(quote!(let mut #name = #first;));
             after.extend(quote!(#name = #next;));
         }
         (before, after)
+    }
+}
+
+/// The places that go with the copies of a loop.
+pub enum Rule {
+    /// first + step·copy, or first − step·copy
+    Line {
+        first: usize,
+        step: usize,
+        is_down: bool,
+    },
+    Table(Vec<usize>),
+}
+
+impl Rule {
+    pub fn of(places: Vec<usize>) -> Self {
+        let [first, second, ..] = places[..] else { return Self::Table(places) };
+        let (up, down) = (second.saturating_sub(first), first.saturating_sub(second));
+        let by_rule = |(copy, place): (usize, &usize)| place + down * copy == first + up * copy;
+        match places.iter().enumerate().all(by_rule) {
+            true => Self::Line { first, step: up.max(down), is_down: down > 0 },
+            false => Self::Table(places),
+        }
+    }
+
+    /// The place of a copy.
+    pub fn at(&self, copy: usize) -> usize {
+        match self {
+            Self::Line { first, step, is_down: false } => first + step * copy,
+            Self::Line { first, step, is_down: true } => first - step * copy,
+            Self::Table(places) => places[copy],
+        }
+    }
+}
+
+/// The array that the copies of a loop read an operand from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Home {
+    Result(Kind),
+    Hoisted,
+    Vector(Array),
+}
+
+impl Home {
+    /// The array and the place of an operand in it; `None` of what is in none.
+    pub fn of(model: &Model, slots: &Slots, operand: Operand) -> Option<(Self, usize)> {
+        match operand {
+            Operand::Value(value) => slots.of(value).map(|place| (Self::Result(place.array), place.at)),
+            Operand::Hoisted(at) => Some((Self::Hoisted, at)),
+            Operand::Symbol(symbol) => {
+                Array::of(model.meanings[symbol.index()]).map(|(array, at)| (Self::Vector(array), at))
+            }
+            Operand::Number(_) => None,
+        }
     }
 }
 

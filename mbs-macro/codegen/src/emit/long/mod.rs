@@ -5,6 +5,7 @@
 //! Results that a later block needs are kept in an array of slots.
 
 mod arrays;
+mod check;
 mod columns;
 mod repeated;
 mod slots;
@@ -24,8 +25,9 @@ use super::names::Names;
 use super::program::{Body, Pairs, Writer};
 use crate::model::{Meaning, Model};
 
-/// Instructions that a function holds, if they do not repeat.
-const LONGEST: usize = 1024;
+/// A program that is not to have loops is one function up to this length, whatever was
+/// asked for: rustc nests a scope per statement, and its stack ends at about twice as many.
+const LONGEST: usize = 3072;
 
 /// Longer sequences are written as functions of this many instructions.
 const PART: usize = 256;
@@ -34,7 +36,8 @@ const PART: usize = 256;
 pub fn blocks(model: &Model, program: &Program) -> Vec<Block> {
     let length = program.instructions.len();
     if length <= model.solver.unrolled() {
-        return if length <= LONGEST { vec![Block::Straight(0..length)] } else { parts(0..length).collect() };
+        let is_one = length <= LONGEST;
+        return if is_one { vec![Block::Straight(0..length)] } else { parts(0..length).collect() };
     }
     let blocks = program.blocks(&|symbol| class(model.meanings[symbol.index()]));
     let split = |block| match block {
@@ -91,6 +94,9 @@ struct Part {
 pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
     let results = results(model, program, access);
     let slots = Slots::new(program, blocks, &results);
+    if let Err(fault) = check::check(program, blocks, &slots) {
+        names.faults.borrow_mut().push(fault);
+    }
     let pairs = Pairs::new(program);
     let inside = access.in_part(names);
     let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };

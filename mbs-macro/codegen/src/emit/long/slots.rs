@@ -84,6 +84,11 @@ impl Slots {
         Self { places, length: space.length }
     }
 
+    #[cfg(test)]
+    pub fn put(&mut self, value: usize, place: Place) {
+        self.places.insert(value, place);
+    }
+
     pub fn len(&self) -> usize {
         self.length
     }
@@ -142,6 +147,7 @@ fn outputs(program: &Program, blocks: &[Block], arrays: &[(Kind, usize)]) -> Has
             }
         }
     }
+    // places only become fewer
     loop {
         let before = places.len();
         for group in &together {
