@@ -117,6 +117,7 @@ pub mod lanes;
 mod mechanism;
 mod pack;
 mod pair;
+mod reach;
 mod real;
 mod simulation;
 mod sincos;
@@ -124,6 +125,7 @@ pub mod sketch;
 mod spline;
 pub mod start;
 mod straight;
+mod watch;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
 pub use components::{Components, NoComponents};
@@ -139,6 +141,7 @@ pub use pair::{Pair, Single, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;
+pub use watch::WorstPlace;
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]
