@@ -169,7 +169,10 @@ impl fmt::Display for Error {
             Self::Singular { t, constraint, coordinate, growth } => {
                 write!(f, "singular position at t = {t} s: ")?;
                 match (constraint, coordinate) {
-                    ("", "") => write!(f, "the constrained system has no unique solution")?,
+                    ("", "") => write!(
+                        f,
+                        "the constrained system has no unique solution: friction jams, or no single constraint is to blame"
+                    )?,
                     (c, "") => write!(f, "constraint `{c}` depends on the others there")?,
                     ("", q) => write!(f, "nothing determines the acceleration of `{q}` there")?,
                     (c, q) => write!(f, "constraint `{c}` does not determine `{q}` there")?,
