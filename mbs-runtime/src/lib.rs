@@ -122,6 +122,7 @@ mod real;
 mod simulation;
 mod sincos;
 pub mod sketch;
+mod spare;
 mod spline;
 pub mod start;
 mod straight;

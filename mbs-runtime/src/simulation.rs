@@ -9,7 +9,7 @@ use crate::heun::{Solution, check_solution, heun_step};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
 use crate::watch::{Watch, WorstPlace, digits_left};
-use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
+use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, spare};
 
 /// A mechanism being integrated in time.
 ///
@@ -80,6 +80,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         if let Some(fused) = mechanism.fused_step::<F>(state, inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
+            && self.keeps_redundant(&fused.next)
         {
             self.state = fused.next;
             self.steps += 1;
@@ -87,7 +88,10 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             return Ok(());
         }
         let Self { mechanism, state, inputs, gains, step, watch, .. } = self;
-        if let Some(growth) = mechanism.long_step::<F>(state, inputs, gains, *step, t_next, watch.alarm) {
+        // in place, so that nothing could be looked at before it is taken
+        if M::INFO.redundant.is_empty()
+            && let Some(growth) = mechanism.long_step::<F>(state, inputs, gains, *step, t_next, watch.alarm)
+        {
             self.steps += 1;
             self.watch.note(growth);
             return Ok(());
@@ -132,6 +136,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             mechanism.fused_step_with_reactions::<F>(state, inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && (fused.sum + sum_of(reactions.multipliers)).is_finite()
+            && self.keeps_redundant(&fused.next)
         {
             self.state = fused.next;
             self.steps += 1;
@@ -157,7 +162,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         let Self { mechanism, state, inputs, gains, step, .. } = &*self;
         let (next, growth) = heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next)
             .map_err(|error| self.cause(error, t_next))?;
-        if growth <= self.watch.alarm {
+        if growth <= self.watch.alarm && self.keeps_redundant(&next) {
             self.watch.note(growth);
         } else {
             self.examine_step(&next, growth)?;
@@ -175,6 +180,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         if self.keeps_constraints() {
             reach(&self.mechanism, next, &self.inputs, self.step)?;
         }
+        spare::check(&self.mechanism, next, self.watch.length)?;
         if self.watch.is_new(growth) {
             let State { t, q, .. } = &self.state;
             let share = M::Real::from_f64(0.125) * growth;
@@ -198,6 +204,12 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             return error;
         }
         reach(mechanism, &State { t: t_next, ..*state }, inputs, *step).err().unwrap_or(error)
+    }
+
+    /// Whether redundant constraints, which steps do not look at, are met all the same.
+    #[inline(always)]
+    fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
+        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
     }
 
     /// Whether a violation is meant to decay.

@@ -26,6 +26,9 @@ pub(crate) struct Watch<T> {
     /// When one was remembered last, and at which pivot.
     t: T,
     pivot: Option<u32>,
+    /// The size of the mechanism, by which redundant constraints are judged; infinite
+    /// where nobody asks.
+    pub length: T,
 }
 
 /// Where and when a run came closest to a singular position; see
@@ -42,10 +45,11 @@ pub struct WorstPlace {
 
 impl<T: Real> Watch<T> {
     /// The watch over a run that begins: its first step has none to be compared with.
-    pub fn new() -> Self {
+    pub fn new(length: T) -> Self {
         let remembered_from = T::from_f64(REMEMBERED_FROM);
         let nothing = T::default();
-        Self { alarm: remembered_from, worst: nothing, remembered_from, t: nothing, pivot: None }
+        let alarm = remembered_from;
+        Self { alarm, worst: nothing, remembered_from, t: nothing, pivot: None, length }
     }
 
     /// A step was taken.

@@ -19,7 +19,7 @@ use crate::heun::{Trial, trial};
 use crate::lanes::{Lane, Lanes};
 use crate::straight::Straight;
 use crate::watch::{Watch, rise_after};
-use crate::{Feedback, Gains, Mechanism, Real, Simulation, State, Stepped};
+use crate::{Feedback, Gains, Mechanism, Real, Simulation, State, Stepped, spare};
 use instances::{Instances, Moment, Pace};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -154,7 +154,7 @@ where
         while taken < steps {
             let mut next = now;
             let mut margin = Lanes::default();
-            step_all::<M, F, N>(instances, pace, 1.0, &mut next, &mut margin);
+            step_all::<M, F, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
             next.count(1.0);
             if !is_calm(&margin, &next, watches) {
                 break;
@@ -180,7 +180,7 @@ where
         let mut taken = 0.0;
         for _ in 0..steps {
             taken += 1.0;
-            step_all::<M, F, N>(instances, pace, taken, &mut now, &mut margin);
+            step_all::<M, F, N>(instances, pace, watches, taken, &mut now, &mut margin);
         }
         now.count(taken);
         let are_calm = is_calm(&margin, &now, watches);
@@ -249,6 +249,7 @@ where
 fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
     instances: &Instances<M, N>,
     pace: &Pace<M::Real, N>,
+    watches: &[Watch<M::Real>; N],
     uncounted: f64,
     now: &mut Moment<M, N>,
     margin: &mut Lanes<M::Real, N>,
@@ -265,6 +266,11 @@ fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
         };
         let growth = stepped.growth.0;
         margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
+        if !M::INFO.redundant.is_empty() {
+            let spare = spare::margin(&mechanism, &stepped.next, Straight(watches[lane].length));
+            margin.0[lane] =
+                margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
+        }
         now.alarm.0[lane] = rise_after(growth);
         now.worst.0[lane] = now.worst.0[lane].worse(growth);
         now.put(lane, stepped.next);

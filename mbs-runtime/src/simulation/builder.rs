@@ -156,6 +156,15 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
         if matches!(self.start, Start::Given) {
             start::check(&self.mechanism, &state, h)?;
         }
+        let is_watched = self.baumgarte.is_stable(step)
+            && !M::INFO.redundant.is_empty()
+            && !matches!(self.start, Start::Unchecked);
+        let length = if is_watched {
+            start::check_redundant_accelerations(&self.mechanism, &state, &self.inputs, h)?;
+            start::length(&self.mechanism, &state)
+        } else {
+            M::Real::from_f64(f64::INFINITY)
+        };
         Ok(Simulation {
             mechanism: self.mechanism,
             inputs: self.inputs,
@@ -165,7 +174,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             step: h,
             start_time: state.t,
             steps: 0,
-            watch: Watch::new(),
+            watch: Watch::new(length),
         })
     }
 }

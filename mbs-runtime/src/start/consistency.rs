@@ -2,7 +2,7 @@
 
 use super::jacobian::column;
 use crate::heun::check_finite;
-use crate::{Components, Error, Mechanism, Real, State};
+use crate::{Components, Error, Mechanism, Real, State, spare};
 
 /// The share of the size of a mechanism by which a start that is given may violate its
 /// constraints.
@@ -48,6 +48,53 @@ pub(super) fn check_projected<M: Mechanism>(
     let allowed = |sizes: M::Constraints| sizes.map(|size| share * size);
     check_rows(state.t, mechanism.phi(state.t, &state.q), allowed(sizes.rows), false)?;
     check_rows(state.t, mechanism.phi_dot(state), allowed(sizes.rates), true)
+}
+
+/// Refuses a start in which redundant constraints are met, but not by its accelerations:
+/// with parameters for which they fit at this instant only.
+///
+/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind.
+pub(crate) fn check_redundant_accelerations<M: Mechanism>(
+    mechanism: &M,
+    state: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    step: M::Real,
+) -> Result<(), Error> {
+    let zero = M::Real::default();
+    let number = M::Real::from_f64;
+    let a = mechanism.constrained(state, inputs, &M::Constraints::splat(zero)).acceleration;
+    if !a.is_finite() {
+        // the first step says why
+        return Ok(());
+    }
+    let apart = number(1.0 / 16.0) * step;
+    let rates = |h: M::Real| {
+        let speed = state.v.zip_map(a, |v, a| v + number(0.5) * h * a);
+        let q = state.q.zip_map(speed, |q, v| q + h * v);
+        mechanism.phi_dot(&State { t: state.t + h, q, v: state.v.zip_map(a, |v, a| v + h * a) })
+    };
+    let difference = rates(apart).zip_map(rates(-apart), |ahead, behind| ahead - behind);
+    let sizes = Sizes::of(mechanism, state);
+    let mut allowed = sizes.rates.zip_map(sizes.rows, |rate, size| {
+        let turning = if size > zero { rate * rate / size } else { zero };
+        number(SHARE) * turning + number(64.0) * M::Real::EPSILON * rate / apart
+    });
+    for (at, a) in a.into_array().as_ref().iter().enumerate() {
+        let entries = column(mechanism, state, at);
+        allowed = allowed.zip_map(entries, |sum, entry| sum + number(SHARE) * (entry * *a).abs());
+    }
+    let (found, allowed) = (difference.into_array(), allowed.into_array());
+    for &row in M::INFO.redundant {
+        let [Some(found), Some(allowed)] = [found.as_ref().get(row), allowed.as_ref().get(row)] else {
+            continue;
+        };
+        let acceleration = found.abs() / (number(2.0) * apart);
+        if acceleration > *allowed {
+            let violation = number(0.5) * step * step * acceleration;
+            return Err(spare::out_of_reach::<M>(state.t + step, row, violation.to_f64()));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses the row that exceeds what is allowed by the largest factor.
@@ -108,7 +155,7 @@ impl<R: Components> Sizes<R> {
 }
 
 /// The largest coordinate that is a length, or lever arm of an angle.
-fn length<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>) -> M::Real {
+pub(crate) fn length<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>) -> M::Real {
     let mut largest = M::Real::default();
     let positions = state.q.into_array();
     for (at, (coordinate, q)) in M::INFO.coordinates.iter().zip(positions.as_ref()).enumerate() {
