@@ -3,7 +3,6 @@
 //! step converts its state once.
 
 use crate::heun::{correct, predict};
-use crate::mechanism::growth_limit;
 use crate::{Accelerations, Components, Feedback, Gains, Mechanism, Real, Stabilized, State};
 
 /// The coordinates of a mechanism as an array.
@@ -85,8 +84,8 @@ pub fn constrained<M: OnArrays>(
     Accelerations { acceleration: Components::from_array(a), growth }
 }
 
-/// A step of Heun's method in place, in the operations of the stages one by one. A state
-/// that is not good is left as it was, and the answer is no.
+/// A step of Heun's method in place, in the operations of the stages one by one, and its
+/// growth. If that is over the alarm, or something not finite, the state is left as it was.
 #[inline(never)]
 pub fn step<M: OnArrays, F: Feedback>(
     mechanism: &M,
@@ -95,7 +94,8 @@ pub fn step<M: OnArrays, F: Feedback>(
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
-) -> bool {
+    alarm: M::Real,
+) -> Option<M::Real> {
     let Room { coordinates: zeros, mut constraints, mut slots } = M::room();
     let (mut q, mut v, mut here, mut there) = (zeros, zeros, zeros, zeros);
     state.q.copy_to(&mut q);
@@ -124,11 +124,11 @@ pub fn step<M: OnArrays, F: Feedback>(
     let is_finite = |array: &[M::Real]| array.iter().fold(true, |finite, x| finite & x.is_finite());
     let growth = growth_here + growth_there;
     // written so that a NaN fails the test
-    let is_good = growth < growth_limit() && is_finite(q_next.as_ref()) & is_finite(v_next.as_ref());
-    if is_good {
+    let is_good = growth <= alarm && is_finite(q_next.as_ref()) & is_finite(v_next.as_ref());
+    is_good.then(|| {
         state.t = t_next;
         state.q.copy_from(&q_next);
         state.v.copy_from(&v_next);
-    }
-    is_good
+        growth
+    })
 }

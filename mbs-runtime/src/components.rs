@@ -108,6 +108,14 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     }
 }
 
+/// Not finite if a component is not, and shorter than a test of each.
+#[inline(always)]
+pub(crate) fn sum_of<C: Components>(components: C) -> C::Real {
+    let array = components.into_array();
+    let sum = array.as_ref().iter().copied().reduce(|sum, x| sum + x);
+    sum.unwrap_or_default()
+}
+
 /// The components of a mechanism that has none of that kind: no inputs, say.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NoComponents<T>(core::marker::PhantomData<T>);

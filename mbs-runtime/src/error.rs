@@ -36,6 +36,13 @@ pub enum Error {
         /// The current time in s.
         now: f64,
     },
+    /// A time that is not finite, or at which a step is lost in rounding.
+    Time {
+        /// The time in s.
+        t: f64,
+        /// The step in s.
+        step: f64,
+    },
     /// A gain that is negative or not finite.
     Gain {
         /// `alpha` or `beta`.
@@ -67,12 +74,51 @@ pub enum Error {
         /// The pivot growth.
         growth: f64,
     },
+    /// A constraint that held cannot be met any more: a drive leads beyond what the
+    /// dimensions allow, or a step is much too long for the motion.
+    OutOfReach {
+        /// When, in s: the end of the step that was refused.
+        t: f64,
+        /// The constraint.
+        constraint: &'static str,
+        /// By how much it stays violated at least, in its own SI unit.
+        violation: f64,
+    },
     /// A coordinate, its velocity or its acceleration became infinite or NaN.
     NonFinite {
         /// When, in s.
         t: f64,
         /// The coordinate.
         coordinate: &'static str,
+    },
+    /// A result that is not finite, though the motion is.
+    Undefined {
+        /// When, in s.
+        t: f64,
+        /// What it is: `the output`, `the multiplier of constraint`, …
+        what: &'static str,
+        /// Its name.
+        name: &'static str,
+        /// Infinite or NaN.
+        value: f64,
+    },
+    /// A start that was given violates a constraint.
+    Inconsistent {
+        /// When, in s.
+        t: f64,
+        /// The constraint that is violated most, measured by what is allowed.
+        constraint: &'static str,
+        /// Whether it is its rate Φ̇, and not Φ.
+        is_rate: bool,
+        /// By how much, in its own SI unit, for a rate per second.
+        violation: f64,
+        /// How much is allowed.
+        allowed: f64,
+    },
+    /// A coordinate that was to be kept, but does not exist.
+    NoCoordinate {
+        /// Its name.
+        name: &'static str,
     },
     /// The positions could not be brought onto Φ = 0.
     NotAssembled {
@@ -106,6 +152,11 @@ impl fmt::Display for Error {
                 f,
                 "the end time is {end} s, but it has to be finite and not before the current {now} s"
             ),
+            Self::Time { t, step } => write!(
+                f,
+                "the time is {t} s, but it has to be finite and small enough for a step of {step} s to be more \
+                 than its rounding"
+            ),
             Self::Gain { name, value } => {
                 write!(f, "the gain {name} is {value} 1/s, but it has to be finite and not negative")
             }
@@ -118,13 +169,22 @@ impl fmt::Display for Error {
             Self::Singular { t, constraint, coordinate, growth } => {
                 write!(f, "singular position at t = {t} s: ")?;
                 match (constraint, coordinate) {
-                    ("", "") => write!(f, "the constrained system has no unique solution")?,
+                    ("", "") => write!(
+                        f,
+                        "the constrained system has no unique solution: friction jams, or no single constraint is to blame"
+                    )?,
                     (c, "") => write!(f, "constraint `{c}` depends on the others there")?,
                     ("", q) => write!(f, "nothing determines the acceleration of `{q}` there")?,
                     (c, q) => write!(f, "constraint `{c}` does not determine `{q}` there")?,
                 }
                 write!(f, " (pivot growth {growth:.1e})")
             }
+            Self::OutOfReach { t, constraint, violation } => write!(
+                f,
+                "out of reach at t = {t} s: constraint `{constraint}` cannot be met there any more, it stays \
+                 violated by {violation:.1e}; check the dimensions and how far the drives go, or take a \
+                 smaller step if the mechanism can get there"
+            ),
             Self::NonFinite { t, coordinate } => {
                 write!(
                     f,
@@ -132,6 +192,21 @@ impl fmt::Display for Error {
                  that position at all, take a smaller step or smaller gains"
                 )
             }
+            Self::Undefined { t, what, name, value } => {
+                write!(f, "{what} `{name}` is {value} at t = {t} s, but it has to be finite")
+            }
+            Self::Inconsistent { t, constraint, is_rate, violation, allowed } => {
+                let (what, per_second) =
+                    if is_rate { ("rate of constraint", "/s") } else { ("constraint", "") };
+                write!(
+                    f,
+                    "the start at t = {t} s is not consistent: the {what} `{constraint}` is violated by \
+                     {violation:.3e}{per_second}, and at most {allowed:.1e}{per_second} is kept as it is; \
+                     `start::project` makes it consistent, if it is told to keep no more than the degrees of \
+                     freedom"
+                )
+            }
+            Self::NoCoordinate { name } => write!(f, "there is no coordinate `{name}` to keep"),
             Self::NotAssembled { t, constraint, violation } => write!(
                 f,
                 "the mechanism cannot be assembled at t = {t} s: constraint `{constraint}` stays violated \

@@ -12,7 +12,8 @@ use crate::{Components, Error, Feedback, Gains, Mechanism, Pivot, Real, State};
 ///
 /// Second order: the local error is O(h³), the global error O(h²).
 ///
-/// `t_next` is t + h, passed in so that time is k·h and not a sum of k roundings.
+/// `t_next` is t + h, passed in so that time is k·h and not a sum of k roundings. With
+/// the state comes the growth of both stages.
 ///
 /// # Errors
 /// [`Error::Singular`] and [`Error::NonFinite`]; the given state is untouched.
@@ -24,12 +25,13 @@ pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
-) -> Result<State<M::Coordinates>, Error> {
+) -> Result<(State<M::Coordinates>, M::Real), Error> {
     let trial = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
     let Trial { predicted, next, here, there } = trial;
+    let growth = here.1 + there.1;
     // One test per step; written so that a NaN fails it.
-    let healthy = here.1 + there.1 < growth_limit() && next.q.is_finite() && next.v.is_finite();
-    if healthy { Ok(next) } else { Err(diagnose(mechanism, [at, &predicted], [here, there])) }
+    let healthy = growth < growth_limit() && next.q.is_finite() && next.v.is_finite();
+    if healthy { Ok((next, growth)) } else { Err(diagnose(mechanism, [at, &predicted], [here, there])) }
 }
 
 /// A step that nobody has looked at yet.

@@ -117,13 +117,16 @@ pub mod lanes;
 mod mechanism;
 mod pack;
 mod pair;
+mod reach;
 mod real;
 mod simulation;
 mod sincos;
 pub mod sketch;
+mod spare;
 mod spline;
 pub mod start;
 mod straight;
+mod watch;
 
 pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
 pub use components::{Components, NoComponents};
@@ -139,6 +142,7 @@ pub use pair::{Pair, Single, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;
+pub use watch::WorstPlace;
 
 /// What generated code calls. Not part of the public interface.
 #[doc(hidden)]

@@ -187,8 +187,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// The step of a mechanism with long vectors, in place: whether there is one, and it
-    /// is good; if not, the state is left as it was.
+    /// The step of a mechanism with long vectors, in place, and its growth; nothing, and
+    /// the state as it was, if there is none, or its growth is over `alarm`, or it is not
+    /// finite.
     #[doc(hidden)]
     #[inline(always)]
     fn long_step<F: Feedback>(
@@ -198,8 +199,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         _gains: &Gains<Self::Real>,
         _h: Self::Real,
         _t_next: Self::Real,
-    ) -> bool {
-        false
+        _alarm: Self::Real,
+    ) -> Option<Self::Real> {
+        None
     }
 
     /// Solves for q̈ and λ with γ + `feedback` below.

@@ -1,5 +1,13 @@
 //! Consistent starts: positions on Φ = 0, velocities on Φ̇ = 0.
 
+mod consistency;
+mod jacobian;
+mod projection;
+
+pub use consistency::check;
+pub(crate) use consistency::{check_redundant_accelerations, length};
+pub use projection::project;
+
 use crate::heun::{Solution, check_solution};
 use crate::{Accelerations, Components, Error, Mechanism, Real, State};
 
@@ -37,13 +45,23 @@ pub fn assemble<M: Mechanism>(
     t: M::Real,
     guess: &M::Coordinates,
 ) -> Result<M::Coordinates, Error> {
+    newton(mechanism, t, guess, |q, residual| {
+        let correction = mechanism.position_correction(t, q, residual);
+        check_correction(mechanism, t, q, &correction).map(|()| correction.acceleration)
+    })
+}
+
+/// Newton's iteration with a correction of positions for each residual.
+fn newton<M: Mechanism>(
+    mechanism: &M,
+    t: M::Real,
+    guess: &M::Coordinates,
+    correct: impl Fn(&M::Coordinates, &M::Constraints) -> Result<M::Coordinates, Error>,
+) -> Result<M::Coordinates, Error> {
     let mut q = *guess;
     let mut phi = mechanism.phi(t, &q);
     for _ in 0..NEWTON_ITERATIONS {
-        let correction = mechanism.position_correction(t, &q, &phi.map(|x| -x));
-        check_correction(mechanism, t, &q, &correction)?;
-        let delta = correction.acceleration;
-
+        let delta = correct(&q, &phi.map(|x| -x))?;
         let rounding = M::Real::from_f64(4.0) * M::Real::EPSILON * (M::Real::from_f64(1.0) + q.largest().1);
         if delta.largest().1 <= rounding {
             let q = q.zip_map(delta, |q, d| q + d);

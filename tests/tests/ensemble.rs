@@ -153,6 +153,7 @@ fn other_functions() {
         let mut start = DoublePendulum::declared().declared_start();
         let name = <DoublePendulum as Mechanism>::Coordinates::NAMES[2];
         start.q = start.q.with(name, 0.1 * index as f64).expect("a coordinate");
+        let start = mbs_runtime::start::consistent(&DoublePendulum::declared(), &start)?;
         Simulation::builder(DoublePendulum::declared(), H).from_state(start).build()
     });
     same_bits(|_| Simulation::new(FourBar::declared(), H));

@@ -192,23 +192,20 @@ fn row_that_vanishes_as_a_whole_is_singular() {
 
 /// A crank longer than the rod cannot turn past asin(l2/l1): the drive pulls
 /// the mechanism into the singular position. However the steps fall, it ends
-/// in a typed error, with a finite state from before.
+/// in a typed error within a step, with the state from before.
 #[test]
 fn motion_into_a_singular_position_ends_in_an_error() {
     for step in [1e-3, 0.5e-3, 0.2e-3, 1e-5] {
         let mechanism = SliderCrank::new(parameters(|p| p.l1 = 1.1 * p.l2)).expect("valid parameters");
         let mut simulation = Simulation::new(mechanism, step).expect("a start");
         let error = simulation.advance_to(0.3).expect_err("a singular position");
-        assert!(
-            matches!(error, Error::Singular { .. } | Error::NonFinite { .. } | Error::NotAssembled { .. }),
-            "{error:?}"
-        );
+        assert!(matches!(error, Error::Singular { .. } | Error::OutOfReach { .. }), "{error:?}");
         let state = simulation.state();
         assert!(state.q.is_finite() && state.v.is_finite());
         // the position where sin θ1 = l2/l1
         let last = (1.0_f64 / 1.1).asin() / mechanism.parameters().omega;
         println!("h = {step}: {error}, {last:.4} s");
-        assert!((state.t - last).abs() < 0.01, "{state:?}");
+        assert!((state.t - last).abs() < 1.01 * step, "{state:?}");
     }
 }
 

@@ -2,7 +2,7 @@
 //! declaration prescribes, or kept as it was declared.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-use mbs_runtime::{Components, Error, Mechanism, Simulation, State, mechanism};
+use mbs_runtime::{Components, Error, Mechanism, Simulation, State, mechanism, start};
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::SliderCrankFree;
 
@@ -39,7 +39,9 @@ fn prescribed_angle_is_kept_and_the_branch_too() {
     for k in 0..=72 {
         guess.q.theta1 = f64::from(k) * std::f64::consts::TAU / 72.0;
         guess.v.theta1 = -7.0;
-        let start = Simulation::builder(mechanism, H).from_state(guess).build().expect("a start");
+        let consistent = start::consistent(&mechanism, &guess).expect("a start");
+        let start = Simulation::builder(mechanism, H).from_state(consistent).build().expect("a start");
+        assert_eq!(*start.state(), consistent);
         let State { q, v, .. } = *start.state();
         assert_eq!((q.theta1, v.theta1), (guess.q.theta1, -7.0));
         assert!(q.theta2.cos() > 0.9 && q.x3 > 0.1, "another branch: {q:?}");

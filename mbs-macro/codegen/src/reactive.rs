@@ -23,7 +23,8 @@
 //!   2L/(1 − L) a step at least, if L < 1/3.
 //!
 //! Beyond L = 1 a real guide may jam. If a pivot is not positive, in whatever
-//! step, the growth becomes infinite and the integrator stops.
+//! step, or if the last step leaves loads that are not those of their reactions, the
+//! growth becomes infinite and the integrator stops.
 //!
 //! The reactions are those without feedback terms. So the loads are functions
 //! of the state, the same in every generated function, and second order stays
@@ -38,6 +39,11 @@ use crate::model::{Meaning, Model};
 
 /// Newton's steps, at most.
 const STEPS: usize = 4;
+
+/// How far a load may be from what its law says, as a share of what it is made of. The
+/// steps are exact or converge quadratically, so that most are right to rounding, and
+/// those without a solution are off by much.
+const TOLERANCE: (i64, i64) = (1, 1_000_000);
 
 /// Q as a function of the state.
 pub struct Forces {
@@ -73,7 +79,9 @@ pub fn forces(
     for _ in 0..system.steps() {
         solution = system.step(&solution, &mut least)?;
     }
+    let solved = system.is_solved(&solution);
     let positive = model.arena.call2(Function::Max, least, model.arena.zero());
+    let positive = model.arena.mul(positive, solved);
     let growth = model.arena.powi(positive, -1);
     for (at, force) in solution.into_iter().enumerate() {
         for (coordinate, slope) in model.reactive_loads[at].along.clone() {
@@ -145,6 +153,40 @@ impl System<'_> {
             rows.push(entries);
         }
         self.eliminate(rows, least)
+    }
+
+    /// 1 if every load is what its law says of the reactions that it leaves, else 0.
+    fn is_solved(&mut self, solution: &[Expr]) -> Expr {
+        let multipliers = self.multipliers(solution);
+        let mut solved = self.model.arena.one();
+        for (row, &force) in solution.iter().enumerate() {
+            let law = self.model.reactive_loads[row].force;
+            let arena = &mut self.model.arena;
+            let lawful = arena.substitute(law, &multipliers);
+            let rest = arena.sub(force, lawful);
+            if arena.is_zero(rest) {
+                continue;
+            }
+            // |fᵢ| + Σ |f′ Gⱼ fⱼ|: at a reaction that vanishes the terms that cancel
+            let mut terms = vec![(arena.call(Function::Abs, force), Number::ONE)];
+            terms.push((arena.call(Function::Abs, lawful), Number::ONE));
+            for (response, &other) in self.responses.iter().zip(solution) {
+                let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
+                let slope = arena.derivative(law, &direction);
+                let slope = arena.substitute(slope, &multipliers);
+                let change = arena.mul(slope, other);
+                terms.push((arena.call(Function::Abs, change), Number::ONE));
+            }
+            let size = arena.sum(&terms);
+            let tolerance = arena.number(Number::ratio(TOLERANCE.0, TOLERANCE.1));
+            let allowed = arena.mul(tolerance, size);
+            let rest = arena.call(Function::Abs, rest);
+            let is_off = arena.call2(Function::Greater, rest, allowed);
+            let one = arena.one();
+            let is_met = arena.sub(one, is_off);
+            solved = arena.mul(solved, is_met);
+        }
+        solved
     }
 
     /// λ₀ + Σ Gⱼ fⱼ

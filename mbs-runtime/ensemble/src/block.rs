@@ -6,7 +6,7 @@ use std::array::from_fn;
 use std::ops::Range;
 
 use mbs_runtime::lanes::{Lane, Pack};
-use mbs_runtime::{Error, Feedback, Lanes, Mechanism, Real, Simulation};
+use mbs_runtime::{Components, Error, Feedback, Lanes, Mechanism, Real, Simulation};
 
 use crate::{Observe, Outcome, Run};
 
@@ -141,7 +141,7 @@ impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> B
     }
 
     fn end_unseen(&mut self, seen: [bool; N]) {
-        self.end_where_not(seen, |block, lane| block.pack.simulation(lane).outputs().err());
+        self.end_where_not(seen, |block, lane| unseen(&block.pack.simulation(lane)));
     }
 
     /// Ends lanes that are not in a mask, with what the scalar says is the cause. If
@@ -162,7 +162,15 @@ impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> B
 
     fn end(&mut self, lane: usize, ended: Option<Error>) {
         let observed = self.observer.finish(&self.notes, lane);
-        let run = Run { state: self.pack.state(lane), steps: self.pack.steps(lane), ended, observed };
+        let simulation = self.pack.simulation(lane);
+        let run = Run {
+            state: *simulation.state(),
+            steps: simulation.steps(),
+            ended,
+            digits_left: simulation.digits_left(),
+            worst_place: simulation.worst_place(),
+            observed,
+        };
         self.left[lane] = None;
         if let Some(slot) = self.runs.get_mut(lane) {
             *slot = Some(Ok(run));
@@ -179,6 +187,25 @@ impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> B
             }
         }
     }
+}
+
+/// Why a state could not be looked at: an output, or a violation, that is not finite.
+fn unseen<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> Option<Error> {
+    let (mechanism, at) = (simulation.mechanism(), simulation.state());
+    let t = at.t.to_f64();
+    let not_finite = |what, rows: M::Constraints| {
+        let mut rows = M::Constraints::NAMES.iter().zip(rows.into_array().as_ref().to_vec());
+        rows.find(|(_, row)| !row.is_finite()).map(|(name, row)| Error::Undefined {
+            t,
+            what,
+            name,
+            value: row.to_f64(),
+        })
+    };
+    let of_outputs = simulation.outputs().err();
+    of_outputs
+        .or_else(|| not_finite("the violation of constraint", mechanism.phi(at.t, &at.q)))
+        .or_else(|| not_finite("the rate of constraint", mechanism.phi_dot(at)))
 }
 
 /// What an observer found no number for in a healthy state.

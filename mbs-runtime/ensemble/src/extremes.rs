@@ -5,7 +5,8 @@ use mbs_runtime::{Components, Mechanism, Real};
 
 use crate::Observe;
 
-/// Observes the extremes of all outputs from a time on.
+/// Observes the extremes of all outputs from a time on. A member of which an output is not
+/// finite from then on ends with the error that names it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extremes {
     /// In s: after it a transient is over. 0 by default.
@@ -38,10 +39,12 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Extremes {
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
         let (outputs, healthy) = at.outputs();
         let t = at.time();
-        let counts = and(healthy, t.test(Lanes::from_f64(self.from), |t, from| t >= from));
+        let is_late = t.test(Lanes::from_f64(self.from), |t, from| t >= from);
+        let counts = and(healthy, is_late);
         update(&mut notes.low, &mut notes.low_time, outputs, t, counts, |new, old| new < old);
         update(&mut notes.high, &mut notes.high_time, outputs, t, counts, |new, old| new > old);
-        healthy
+        // what nobody asks for need not be a number
+        std::array::from_fn(|lane| healthy[lane] | !is_late[lane])
     }
 
     fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result {

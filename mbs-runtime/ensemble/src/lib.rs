@@ -41,7 +41,7 @@
 //! # What comes out
 //!
 //! Per member its final state, its steps, the error that ended it early if one
-//! did, and what an [`Observe`]r made of its states: [`Extremes`] of outputs,
+//! did, how many digits its worst step left, and what an [`Observe`]r made of its states: [`Extremes`] of outputs,
 //! the largest [`Violation`]s, [`Samples`] of the states, a pair of these, `()` for
 //! nothing, or an observer of your own.
 //!
@@ -94,7 +94,7 @@ use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use mbs_runtime::lanes::Lane;
-use mbs_runtime::{Error, Feedback, Mechanism, Simulation, State};
+use mbs_runtime::{Error, Feedback, Mechanism, Simulation, State, WorstPlace};
 use rayon::prelude::*;
 
 /// Blocks that are computed before their members are handed over.
@@ -118,6 +118,11 @@ pub struct Run<M: Mechanism, R> {
     pub steps: u64,
     /// Why it is not at the end.
     pub ended: Option<Error>,
+    /// The digits that its worst step had; see [`Simulation::digits_left`].
+    pub digits_left: f64,
+    /// Where it came closest to a singular position, if it lost more than two of them;
+    /// see [`Simulation::worst_place`].
+    pub worst_place: Option<WorstPlace>,
     /// What was observed.
     pub observed: R,
 }

@@ -67,7 +67,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
 
     /// Looks at a state of every member, and says in which lanes that could be
     /// done. The notes of the others stay as they are; their members end with the
-    /// error that their outputs have.
+    /// error that their outputs, or else their constraints, have.
     ///
     /// Mark it `#[inline(always)]`: then it is compiled for the vector instructions of
     /// the step.

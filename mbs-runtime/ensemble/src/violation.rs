@@ -1,7 +1,7 @@
 //! How well constraints were kept.
 
-use mbs_runtime::Mechanism;
 use mbs_runtime::lanes::{Lane, Lanes, Snapshot, and};
+use mbs_runtime::{Mechanism, Real};
 
 use crate::Observe;
 
@@ -29,11 +29,11 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Violation {
     #[inline(always)]
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
         let (phi, phi_dot) = (at.violation(), at.velocity_violation());
-        // NaN is not larger, so a lane without a violation keeps its notes
+        // NaN is not larger, and what is not finite ends the member
         notes.phi = larger(phi, notes.phi);
         notes.phi_dot = larger(phi_dot, notes.phi_dot);
-        let is_number = |x: Lanes<M::Real, N>| x.test(x, |x, y| x == y);
-        and(is_number(phi), is_number(phi_dot))
+        let are_finite = |x: Lanes<M::Real, N>| x.test(x, |x, _| x.is_finite());
+        and(are_finite(phi), are_finite(phi_dot))
     }
 
     fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result {

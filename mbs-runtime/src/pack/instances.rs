@@ -85,6 +85,10 @@ pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
     pub v: Array<M, N>,
     /// Steps since the start; exact, and a number that vectors can compute with.
     pub steps: Lanes<f64, N>,
+    /// The growth over which the next step is not calm,
+    pub alarm: Lanes<M::Real, N>,
+    /// and the largest one so far.
+    pub worst: Lanes<M::Real, N>,
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
@@ -96,6 +100,8 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
             q: q.into_array(),
             v: v.into_array(),
             steps: Lanes(members.map(|member| member.steps() as f64)),
+            alarm: Lanes(members.map(|member| member.watch().alarm)),
+            worst: Lanes(members.map(|member| member.watch().worst)),
         }
     }
 
@@ -114,6 +120,8 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
     pub fn copy(&mut self, from: usize, to: usize) {
         self.t.0[to] = self.t.0[from];
         self.steps.0[to] = self.steps.0[from];
+        self.alarm.0[to] = self.alarm.0[from];
+        self.worst.0[to] = self.worst.0[from];
         for lanes in self.q.as_mut().iter_mut().chain(self.v.as_mut()) {
             lanes.0[to] = lanes.0[from];
         }

@@ -14,11 +14,12 @@ use core::marker::PhantomData;
 pub use instances::unpack;
 pub use snapshot::{Snapshot, and};
 
+use crate::components::sum_of;
 use crate::heun::{Trial, trial};
 use crate::lanes::{Lane, Lanes};
-use crate::mechanism::growth_limit;
 use crate::straight::Straight;
-use crate::{Components, Feedback, Gains, Mechanism, Real, Simulation, State, Stepped};
+use crate::watch::{Watch, rise_after};
+use crate::{Feedback, Gains, Mechanism, Real, Simulation, State, Stepped, spare};
 use instances::{Instances, Moment, Pace};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -86,6 +87,9 @@ pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize, S = Simul
     instances: Instances<M, N>,
     pace: Pace<M::Real, N>,
     now: Moment<M, N>,
+    /// What growths they remember, which changes in steps of [`step_each`](Self::step_each)
+    /// only.
+    watches: [Watch<M::Real>; N],
     feedback: PhantomData<F>,
 }
 
@@ -101,7 +105,14 @@ where
         const { assert!(N > 0, "a pack needs a lane") };
         let each = from_fn(|lane| members[lane].borrow());
         let (instances, pace, now) = (Instances::of(each), Pace::of(each), Moment::of(each));
-        Self { members, instances, pace, now, feedback: PhantomData }
+        Self {
+            members,
+            instances,
+            pace,
+            now,
+            watches: each.map(|member| *member.watch()),
+            feedback: PhantomData,
+        }
     }
 
     /// Advances every lane by a step; those that did. What a step of
@@ -114,8 +125,8 @@ where
     /// to one before one that not every lane can make, or not with what lanes can compute.
     ///
     /// Steps are tested for health many at a time. That misses nothing: what has ceased to
-    /// be finite stays so, because a step adds to what there is, and the worst growth is
-    /// kept. Where something has gone wrong, bisection finds the steps before.
+    /// be finite stays so, because a step adds to what there is, and the worst growth and
+    /// its steepest rise are kept. Where something has gone wrong, bisection finds the steps before.
     #[inline(always)]
     pub fn advance(&mut self, steps: u64) -> u64 {
         let (mut taken, mut good) = (0, steps);
@@ -137,15 +148,15 @@ where
     /// The same, a step at a time, up to one after which `look` does not want more.
     #[inline(always)]
     pub fn advance_and_look(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
-        let Self { instances, pace, .. } = self;
+        let Self { instances, pace, watches, .. } = self;
         let mut now = self.now;
         let mut taken = 0;
         while taken < steps {
             let mut next = now;
-            let mut growth = Lanes::default();
-            step_all::<M, F, N>(instances, pace, 1.0, &mut next, &mut growth);
+            let mut margin = Lanes::default();
+            step_all::<M, F, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
             next.count(1.0);
-            if !is_healthy(&growth, &next) {
+            if !is_calm(&margin, &next, watches) {
                 break;
             }
             now = next;
@@ -163,20 +174,20 @@ where
     /// In this loop the numbers are nobody else's, so they can stay in registers.
     #[inline(always)]
     fn stride(&mut self, steps: u64) -> bool {
-        let Self { instances, pace, .. } = self;
+        let Self { instances, pace, watches, .. } = self;
         let mut now = self.now;
-        let mut growth = Lanes::default();
+        let mut margin = Lanes::default();
         let mut taken = 0.0;
         for _ in 0..steps {
             taken += 1.0;
-            step_all::<M, F, N>(instances, pace, taken, &mut now, &mut growth);
+            step_all::<M, F, N>(instances, pace, watches, taken, &mut now, &mut margin);
         }
         now.count(taken);
-        let is_good = is_healthy(&growth, &now);
-        if is_good {
+        let are_calm = is_calm(&margin, &now, watches);
+        if are_calm {
             self.now = now;
         }
-        is_good
+        are_calm
     }
 
     /// A step lane after lane, with all that a scalar can compute.
@@ -186,6 +197,7 @@ where
         let mut members = from_fn(|lane| self.simulation(lane));
         let healthy = members.each_mut().map(|member| member.step().is_ok());
         self.now = Moment::of(members.each_ref());
+        self.watches = members.each_ref().map(|member| *member.watch());
         healthy
     }
 
@@ -195,14 +207,17 @@ where
         let (from, to) = (from.min(N - 1), to.min(N - 1));
         let mut now = self.now;
         now.copy(from, to);
-        let mut members = self.members;
+        let (mut members, mut watches) = (self.members, self.watches);
         members[to] = members[from];
-        *self = Self { now, ..Self::new(members) };
+        watches[to] = watches[from];
+        *self = Self { now, watches, ..Self::new(members) };
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
     pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
-        self.members[lane.min(N - 1)].borrow().moved_to(self.state(lane), self.steps(lane))
+        let lane = lane.min(N - 1);
+        let watch = self.watches[lane].after_calm_steps(self.now.alarm.0[lane], self.now.worst.0[lane]);
+        self.members[lane].borrow().moved_to(self.state(lane), self.steps(lane), watch)
     }
 
     /// Time, positions and velocities in a lane: the last one, beyond the last lane.
@@ -224,8 +239,9 @@ where
     }
 }
 
-/// A step of every lane, the worst growth so far, and the time after as many steps as
-/// `now` does not count yet.
+/// A step of every lane, with the time after as many steps as `now` does not count yet.
+/// `margin` keeps the worst distance of a growth from its alarm: as a magnitude, to which
+/// a growth over the alarm gives a minus sign.
 ///
 /// The scalar's step in a loop over lanes: compilers make better vectors of that than
 /// of a step of which every operation is a loop.
@@ -233,9 +249,10 @@ where
 fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
     instances: &Instances<M, N>,
     pace: &Pace<M::Real, N>,
+    watches: &[Watch<M::Real>; N],
     uncounted: f64,
     now: &mut Moment<M, N>,
-    growth: &mut Lanes<M::Real, N>,
+    margin: &mut Lanes<M::Real, N>,
 ) {
     for lane in 0..N {
         let (gains, step, start_time) = pace.of_lane(lane);
@@ -247,7 +264,15 @@ fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
             Some(stepped) => stepped,
             None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
         };
-        growth.0[lane] = growth.0[lane].worse(stepped.growth.0);
+        let growth = stepped.growth.0;
+        margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
+        if !M::INFO.redundant.is_empty() {
+            let spare = spare::margin(&mechanism, &stepped.next, Straight(watches[lane].length));
+            margin.0[lane] =
+                margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
+        }
+        now.alarm.0[lane] = rise_after(growth);
+        now.worst.0[lane] = now.worst.0[lane].worse(growth);
         now.put(lane, stepped.next);
     }
 }
@@ -266,17 +291,21 @@ fn staged_step<M: Mechanism, F: Feedback>(
     Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
 }
 
-/// Whether no growth reaches its limit, and all is finite, in every lane.
+/// Whether no growth was over its alarm or is to be remembered, and all is finite, in
+/// every lane.
 #[inline(always)]
-fn is_healthy<M: Mechanism<Real: Lane>, const N: usize>(
-    growth: &Lanes<M::Real, N>,
+fn is_calm<M: Mechanism<Real: Lane>, const N: usize>(
+    margin: &Lanes<M::Real, N>,
     at: &Moment<M, N>,
+    watches: &[Watch<M::Real>; N],
 ) -> bool {
+    let infinity = M::Real::from_f64(f64::INFINITY);
     let mut sick = 0_u64;
     for lane in 0..N {
         let State { q, v, .. } = at.state_of(lane);
-        let is_finite = trouble_of(sum_of(q) + sum_of(v)).0 < growth_limit();
-        sick |= u64::from(!(is_finite & growth.0[lane].is_below(growth_limit())));
+        let is_finite = trouble_of(sum_of(q) + sum_of(v)).0 < infinity;
+        let is_old = at.worst.0[lane] <= watches[lane].remembered_from();
+        sick |= u64::from(!(is_finite & is_old & margin.0[lane].is_below(infinity)));
     }
     sick == 0
 }
@@ -286,12 +315,4 @@ fn is_healthy<M: Mechanism<Real: Lane>, const N: usize>(
 #[allow(clippy::eq_op, reason = "infinity minus infinity is not 0")]
 fn trouble_of<T: Real>(sum: T) -> T {
     sum - sum
-}
-
-/// Not finite if a component is not.
-#[inline(always)]
-fn sum_of<C: Components>(components: C) -> C::Real {
-    let array = components.into_array();
-    let sum = array.as_ref().iter().copied().reduce(|sum, x| sum + x);
-    sum.unwrap_or_default()
 }

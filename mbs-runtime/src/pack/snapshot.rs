@@ -5,7 +5,8 @@
 )]
 
 use super::instances::{Instances, Moment, put};
-use super::{Each, Many, ManyCoordinates, ManyOutputs, sum_of, trouble_of};
+use super::{Each, Many, ManyCoordinates, ManyOutputs, trouble_of};
+use crate::components::sum_of;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
 use crate::straight::Straight;
@@ -72,7 +73,7 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         norms
     }
 
-    /// The declared outputs, and the lanes in which the position has any.
+    /// The declared outputs, and the lanes in which the position has any, and all are finite.
     #[inline(always)]
     pub fn outputs(&self) -> (ManyOutputs<M, N>, [bool; N]) {
         if N == 1 {
@@ -85,8 +86,10 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
             let (mechanism, inputs) = (self.instances.mechanism_of(lane), self.instances.inputs_of(lane));
             let at = self.moment.state_of(lane);
             let reactions = mechanism.reactions(&at, &inputs, &none);
-            put(&mut outputs, lane, mechanism.outputs(&at, &inputs, &reactions));
-            healthy[lane] = reactions.growth + trouble_of(sum_of(reactions.acceleration)) < growth_limit();
+            let values = mechanism.outputs(&at, &inputs, &reactions);
+            let trouble = trouble_of(sum_of(reactions.acceleration)) + trouble_of(sum_of(values));
+            healthy[lane] = reactions.growth + trouble < growth_limit();
+            put(&mut outputs, lane, values);
         }
         (ManyOutputs::<M, N>::from_array(outputs), healthy)
     }
@@ -96,8 +99,9 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         let (at, inputs) = (self.state(), self.inputs());
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
         let reactions = self.mechanism().reactions(&at, &inputs, &none);
-        let is_healthy = reactions.growth < growth_limit() && reactions.acceleration.is_finite();
-        (self.mechanism().outputs(&at, &inputs, &reactions), [is_healthy; N])
+        let outputs = self.mechanism().outputs(&at, &inputs, &reactions);
+        let is_finite = reactions.acceleration.is_finite() && outputs.is_finite();
+        (outputs, [is_finite && reactions.growth < growth_limit(); N])
     }
 }
 

@@ -1,6 +1,7 @@
 //! What can be chosen before a simulation starts.
 
-use super::{Simulation, check_inputs};
+use super::{Simulation, check_inputs, check_time};
+use crate::watch::Watch;
 use crate::{Baumgarte, Error, Feedback, Held, Mechanism, Real, State, start};
 
 /// The choices before a simulation starts; see [`Simulation::builder`].
@@ -11,8 +12,19 @@ pub struct Builder<M: Mechanism, F: Feedback = Held> {
     baumgarte: Baumgarte<F>,
     inputs: M::Inputs,
     state: State<M::Coordinates>,
-    make_consistent: bool,
+    start: Start,
     allow_unstable: bool,
+}
+
+/// What is done with the state before it becomes the start.
+#[derive(Clone, Copy, Debug)]
+enum Start {
+    /// The declared one is made consistent.
+    Declared,
+    /// A given one has to be consistent.
+    Given,
+    /// It may be anything.
+    Unchecked,
 }
 
 impl<M: Mechanism> Builder<M> {
@@ -23,7 +35,7 @@ impl<M: Mechanism> Builder<M> {
             baumgarte: Baumgarte::deadbeat(step),
             inputs: M::Inputs::default(),
             state: mechanism.declared_start(),
-            make_consistent: true,
+            start: Start::Declared,
             allow_unstable: false,
         }
     }
@@ -40,23 +52,66 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             baumgarte,
             inputs: self.inputs,
             state: self.state,
-            make_consistent: self.make_consistent,
+            start: self.start,
             allow_unstable: self.allow_unstable,
         }
     }
 
-    /// Starts from `state` instead of the declared start.
+    /// Starts from `state` instead of the declared start, and keeps it bit for bit: it has
+    /// to be [`check`](start::check)ed for consistency, as the states of other runs are.
+    ///
+    /// A state of which some coordinates are guesses is made consistent by
+    /// [`start::project`], which is told what to keep, or by [`start::consistent`], which
+    /// keeps what the declaration prescribes.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Error, Simulation, mechanism, start};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let pendulum = Pendulum::declared();
+    /// let mut run = Simulation::new(pendulum, 1e-3)?;
+    /// run.advance_to(0.3)?;
+    /// // a run goes on from where another one is
+    /// let mut other = Simulation::builder(pendulum, 1e-3).from_state(*run.state()).build()?;
+    /// run.step()?;
+    /// other.step()?;
+    /// assert_eq!(run.state().q, other.state().q);
+    ///
+    /// let mut guess = *run.state();
+    /// guess.q.y = -0.8;
+    /// guess.v.x = 0.5;
+    /// let refused = Simulation::builder(pendulum, 1e-3).from_state(guess).build();
+    /// assert!(matches!(refused, Err(Error::Inconsistent { constraint: "rod", .. })));
+    /// let start = start::project(&pendulum, &guess, &["y"], &["x"])?;
+    /// assert_eq!((start.q.y, start.v.x), (-0.8, 0.5));
+    /// let run = Simulation::builder(pendulum, 1e-3).from_state(start).build()?;
+    /// assert_eq!(*run.state(), start);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn from_state(mut self, state: State<M::Coordinates>) -> Self {
         self.state = state;
+        if matches!(self.start, Start::Declared) {
+            self.start = Start::Given;
+        }
         self
     }
 
-    /// Keeps the start as it is, even if it violates Φ = 0 or Φ̇ = 0. Default:
-    /// it is made [`consistent`](start::consistent).
+    /// Keeps the start as it is, even if it violates Φ = 0 or Φ̇ = 0: the declared one,
+    /// which is made [`consistent`](start::consistent) else, or that of
+    /// [`from_state`](Self::from_state), which is refused else.
     #[must_use]
     pub fn as_declared(mut self) -> Self {
-        self.make_consistent = false;
+        self.start = Start::Unchecked;
         self
     }
 
@@ -77,8 +132,9 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
     /// Starts.
     ///
     /// # Errors
-    /// [`Error::Step`], [`Error::UnstableGains`], [`Error::Input`],
-    /// [`Error::NonFinite`], and those of [`start::consistent`].
+    /// [`Error::Step`], [`Error::UnstableGains`], [`Error::Input`], [`Error::Time`],
+    /// [`Error::NonFinite`], and those of [`start::consistent`], or of [`start::check`]
+    /// for a given state.
     pub fn build(self) -> Result<Simulation<M, F>, Error> {
         let step = self.step;
         // as the scalar holds it: 1e-60 s is 0 in `f32`
@@ -91,9 +147,24 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
         }
         check_inputs::<M>(&self.inputs)?;
-        let state =
-            if self.make_consistent { start::consistent(&self.mechanism, &self.state)? } else { self.state };
+        check_time::<M::Real>(self.state.t.to_f64(), h.to_f64())?;
+        let state = match self.start {
+            Start::Declared => start::consistent(&self.mechanism, &self.state)?,
+            Start::Given | Start::Unchecked => self.state,
+        };
         crate::heun::check_finite(&state)?;
+        if matches!(self.start, Start::Given) {
+            start::check(&self.mechanism, &state, h)?;
+        }
+        let is_watched = self.baumgarte.is_stable(step)
+            && !M::INFO.redundant.is_empty()
+            && !matches!(self.start, Start::Unchecked);
+        let length = if is_watched {
+            start::check_redundant_accelerations(&self.mechanism, &state, &self.inputs, h)?;
+            start::length(&self.mechanism, &state)
+        } else {
+            M::Real::from_f64(f64::INFINITY)
+        };
         Ok(Simulation {
             mechanism: self.mechanism,
             inputs: self.inputs,
@@ -103,6 +174,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             step: h,
             start_time: state.t,
             steps: 0,
+            watch: Watch::new(length),
         })
     }
 }

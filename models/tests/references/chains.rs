@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use mbs_runtime::{Components, Error, Held, Mechanism, Simulation, State};
+use mbs_runtime::{Components, Error, Held, Mechanism, Simulation, State, start};
 use models::{
     NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
 };
@@ -136,6 +136,7 @@ fn swings_in_its_mode<M: Mechanism<Real = f64>>(mechanism: M, n: usize) -> Resul
         (x, y) = (x + sin, y - cos);
     }
     let at_rest = State { t: 0.0, q, v: M::Coordinates::splat(0.0) };
+    let at_rest = start::consistent(&mechanism, &at_rest).unwrap();
     let period = TAU / omega_squared.sqrt();
     let start = |step| Simulation::builder(mechanism, step).from_state(at_rest).build();
 

@@ -1,6 +1,6 @@
 //! Mechanisms that move freely.
 
-use mbs_runtime::{Error, Mechanism, Simulation};
+use mbs_runtime::{Error, Mechanism, Simulation, start};
 use models::{
     CartPendulum, CartPendulumInputs, CartPendulumParameters, DoublePendulum, DoublePendulumParameters,
     Metronome, MetronomeParameters, Pendulum, SpringMassDamper, SpringMassDamperInputs,
@@ -71,7 +71,7 @@ fn cart_pendulum_accelerates_as_lagrange_says() {
         let mut state = mechanism.declared_start();
         (state.q.theta, state.v.theta, state.v.x) = (theta, rate, 0.3);
         let pushed = Simulation::builder(mechanism, 1e-3)
-            .from_state(state)
+            .from_state(start::consistent(&mechanism, &state).unwrap())
             .inputs(CartPendulumInputs { push })
             .build()
             .unwrap();

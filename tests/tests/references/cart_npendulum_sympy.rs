@@ -8,7 +8,7 @@
 //!
 //! (b) h = 1e-5 s, deadbeat feedback, held. Limit: Heun's truncation.
 
-use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
+use mbs_runtime::{Error, Mechanism, Simulation, mechanism, start};
 use paths::{Case, Single, through_every_path};
 
 mechanism! {
@@ -48,7 +48,7 @@ fn cart_npendulum_sympy() -> Result<(), Error> {
     (state.q.x0, state.q.q1, state.q.q2) = (0.3, 0.7, -0.4);
     (state.v.x0, state.v.q1, state.v.q2) = (0.5, -1.2, 2.0);
     let pushed = Simulation::builder(CartPendulum::declared(), 1e-4)
-        .from_state(state)
+        .from_state(start::consistent(&CartPendulum::declared(), &state)?)
         .inputs(CartPendulumInputs { push: 3.0 })
         .build()?;
     let a = pushed.reactions()?.acceleration;

@@ -8,7 +8,7 @@
 //! accelerations, no step and no feedback. Limit: the difference, ε² = 1e-10
 //! from the sine's cubic term, 1e-11 from rounding.
 
-use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
+use mbs_runtime::{Error, Mechanism, Simulation, mechanism, start};
 use paths::Case;
 
 mechanism! {
@@ -69,6 +69,7 @@ fn linearised(accelerations: impl Fn([f64; 2]) -> Result<[f64; 2], Error>) -> Re
 fn points([phi1, phi2]: [f64; 2]) -> Result<[f64; 2], Error> {
     let mut state = Points::<f64>::declared().declared_start();
     (state.q.phi1, state.q.phi2) = (phi1, phi2);
+    let state = start::consistent(&Points::declared(), &state)?;
     let at = Simulation::builder(Points::declared(), 1e-3).from_state(state).build()?;
     let a = at.reactions()?.acceleration;
     Ok([a.phi1, a.phi2])
@@ -77,6 +78,7 @@ fn points([phi1, phi2]: [f64; 2]) -> Result<[f64; 2], Error> {
 fn rods([phi1, phi2]: [f64; 2]) -> Result<[f64; 2], Error> {
     let mut state = Rods::<f64>::declared().declared_start();
     (state.q.phi1, state.q.phi2) = (phi1, phi2);
+    let state = start::consistent(&Rods::declared(), &state)?;
     let at = Simulation::builder(Rods::declared(), 1e-3).from_state(state).build()?;
     let a = at.reactions()?.acceleration;
     Ok([a.phi1, a.phi2])

@@ -9,7 +9,7 @@
 //! s, deadbeat feedback, held. Limits: the central difference for the
 //! frequency (1e-10), Heun's truncation for the motion.
 
-use mbs_runtime::{Error, Mechanism, Simulation, mechanism};
+use mbs_runtime::{Error, Mechanism, Simulation, mechanism, start};
 use paths::{Case, Instant, Single, bisect, through_every_path};
 
 mechanism! {
@@ -46,6 +46,7 @@ mechanism! {
 fn at_rest(q: f64, step: f64) -> Result<Simulation<FourBar<f64>>, Error> {
     let mut start = FourBar::<f64>::declared().declared_start();
     start.q.angle_a = std::f64::consts::PI + q;
+    let start = start::consistent(&FourBar::declared(), &start)?;
     Simulation::builder(FourBar::declared(), step).from_state(start).build()
 }
 

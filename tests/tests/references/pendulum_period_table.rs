@@ -7,7 +7,7 @@
 //!
 //! h = 1e-4 s, deadbeat feedback, held. Limit: Heun's phase error.
 
-use mbs_runtime::{Error, Mechanism, Simulation, State, mechanism};
+use mbs_runtime::{Error, Mechanism, Simulation, State, mechanism, start};
 use paths::{Single, through_every_path};
 
 mechanism! {
@@ -63,6 +63,7 @@ fn period<M: Mechanism<Real = f64>>(
     theta: impl Fn(&M::Coordinates) -> f64,
     reference: f64,
 ) -> Result<(), Error> {
+    let start = start::consistent(&mechanism, &start)?;
     let start = |h| Simulation::builder(mechanism, h).from_state(start).build();
     through_every_path(name, STEP, single, start, |case, swing| {
         let mut passage = || swing.advance_to_zero(|at| theta(&at.q)).map(|at| at.t);
@@ -94,6 +95,7 @@ fn periods() -> Result<(), Error> {
 fn revolution() -> Result<(), Error> {
     let mut start = Point::<f64>::declared().declared_start();
     start.v.theta = 8.0;
+    let start = start::consistent(&Point::declared(), &start)?;
     let start = |h| Simulation::builder(Point::declared(), h).from_state(start).build();
     through_every_path("pendulum_period_table, revolution", STEP, SINGLE, start, |case, turning| {
         let turned = turning.advance_to_zero(|at| at.q.theta - std::f64::consts::TAU)?;

@@ -92,8 +92,8 @@ pub fn step(names: &Names) -> TokenStream {
     let inputs = &names.inputs.of_t;
     quote! {
         #[inline(always)]
-        fn long_step<F: #runtime::Feedback>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::primitive::bool {
-            #runtime::arrays::step::<Self, F>(self, state, inputs, gains, h, t_next)
+        fn long_step<F: #runtime::Feedback>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T, alarm: T) -> ::core::option::Option<T> {
+            #runtime::arrays::step::<Self, F>(self, state, inputs, gains, h, t_next, alarm)
         }
     }
 }
