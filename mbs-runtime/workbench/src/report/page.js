@@ -59,6 +59,8 @@
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
     };
+    // One curve is named by its axis.
+    element.classList.toggle("alone", panel.series.length === 1);
     const plot = new uPlot(options, uPlot.join(panel.series.map((s) => [s.x, s.y])), element);
     addEventListener("resize", () => plot.setSize({ width: width(), height: 320 }));
   }
@@ -116,7 +118,7 @@
       };
       picture.shapes.forEach((shape) => drawShape(c, shape, view));
       const values = [`t = ${times[at].toFixed(4)} s`, ...picture.readouts.map(
-        (r) => `${r.name} = ${format(r.values[at], 4)} ${r.unit}`)];
+        (r) => `${r.name} = ${format(r.values[at], 4)} ${r.unit}`.trim())];
       find(".readouts").replaceChildren(...values.map((text) => {
         const span = document.createElement("span");
         span.textContent = text;
