@@ -77,7 +77,7 @@ pub enum Error {
         /// The parameters of the first one that failed.
         first: String,
         /// Why it did.
-        cause: mbs_runtime::Error,
+        cause: String,
     },
     /// More runs than anybody waits for.
     #[error("a sweep has at most {most} runs; take fewer values")]
@@ -103,6 +103,9 @@ pub enum Error {
         /// What the system says.
         source: std::io::Error,
     },
+    /// Standard output takes nothing more.
+    #[error("cannot write to standard output: {0}")]
+    Standard(#[source] std::io::Error),
     /// A name for a file or crate that cannot be one.
     #[error("`{name}` cannot be used: {reason}")]
     Name {

@@ -40,8 +40,10 @@
 mod app;
 mod command;
 mod console;
+mod doubt;
 mod error;
 pub mod figure;
+mod files;
 mod interrupt;
 pub mod members;
 pub mod model;
@@ -54,12 +56,16 @@ pub mod report;
 mod settings;
 pub mod sweep;
 mod table;
+mod template;
+mod unit;
 
 pub use app::{App, Models, app};
 pub use console::say;
+pub use doubt::Doubt;
 pub use error::Error;
 pub use model::Model;
 pub use picture::{Motion, Picture};
 pub use recording::{Column, Recording, Summary, write_csv};
 pub use settings::{FeedbackKind, Settings, StartKind};
 pub use table::Table;
+pub use unit::Unit;

@@ -3,14 +3,15 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Quantity,
-    Simulation,
+    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Simulation,
+    State,
 };
 
+use crate::doubt::Watch;
 use crate::members::{self, Members};
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
-use crate::{Error, Motion, picture, quantity};
+use crate::{Error, Motion, Unit, picture, quantity};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;
@@ -201,11 +202,20 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
 ) -> Recording {
     let mut columns = columns(M::INFO);
     let mut summary = Summary { energy_start: simulation.energy(), ..Summary::default() };
+    let State { t, q, .. } = simulation.state();
+    let places = simulation.mechanism().points(*t, q);
+    let mut watch = Watch::new(M::INFO, M::DERIVATION, places.as_ref());
+    let powers_every = every.max(steps / POWERS);
     let mut ended = None;
     let mut taken = 0;
     loop {
-        summary.max_phi = summary.max_phi.max(simulation.violation());
-        summary.max_phi_dot = summary.max_phi_dot.max(simulation.velocity_violation());
+        see(&simulation, &mut summary, &mut watch);
+        if watch.wants_energy()
+            && taken % powers_every == 0
+            && let Some(power) = power(&simulation)
+        {
+            watch.see_power(power);
+        }
         if (taken % every == 0 || taken == steps)
             && let Err(error) = append_row(&simulation, &mut columns)
         {
@@ -227,16 +237,53 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
     summary.steps = taken;
     summary.end = simulation.time();
     summary.energy_end = simulation.energy();
-    Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended }
+    let doubts = watch.doubts(&columns);
+    Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended, doubts }
+}
+
+/// Instants at which the power is looked at.
+const POWERS: u64 = 100;
+
+/// What is looked at in every step.
+fn see<M: Mechanism<Real = f64>, F: Feedback>(
+    simulation: &Simulation<M, F>,
+    summary: &mut Summary,
+    watch: &mut Watch,
+) {
+    let State { t, q, .. } = simulation.state();
+    let phi = simulation.mechanism().phi(*t, q);
+    // A largest value that is NaN once stays it.
+    let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
+    summary.max_phi = larger(summary.max_phi, phi.norm());
+    summary.max_phi_dot = larger(summary.max_phi_dot, simulation.velocity_violation());
+    watch.see_constraints(*t, phi.into_array().as_ref());
+    if watch.wants_energy() {
+        let mechanism = simulation.mechanism();
+        let state = simulation.state();
+        watch.see_energy(mechanism.kinetic_energy(state), mechanism.potential_energy(state));
+    }
+}
+
+/// The power with which the energy changes along the motion that the equations ask for, by
+/// a difference over a small part of a step.
+fn power<M: Mechanism<Real = f64>, F: Feedback>(simulation: &Simulation<M, F>) -> Option<f64> {
+    let part = 1e-3 * simulation.step_size();
+    let State { t, q, v } = *simulation.state();
+    let acceleration = simulation.reactions().ok()?.acceleration;
+    let energy = |dt: f64| {
+        let moved = |x: M::Coordinates, rate: M::Coordinates| x.zip_map(rate, |x, rate| x + dt * rate);
+        let state = State { t: t + dt, q: moved(q, v), v: moved(v, acceleration) };
+        simulation.mechanism().kinetic_energy(&state) + simulation.mechanism().potential_energy(&state)
+    };
+    Some((energy(part) - energy(-part)) / (2.0 * part))
 }
 
 fn columns(info: &Info) -> Vec<Column> {
     let mut columns = vec![Column::new("t", "s")];
-    columns.extend(info.coordinates.iter().map(|q| Column::new(q.name, coordinate_unit(q))));
+    let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
+    columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));
     columns.extend(
-        info.coordinates
-            .iter()
-            .map(|q| Column::new(format!("der({})", q.name), format!("{}/s", coordinate_unit(q)))),
+        positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
     );
     columns.extend(info.constraints.iter().map(|c| {
         // λ does work on Φ: its unit is that of energy over Φ.
@@ -248,22 +295,9 @@ fn columns(info: &Info) -> Vec<Column> {
         };
         Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
     }));
-    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, output_unit(output))));
+    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
     columns.push(Column::new("violation", "SI"));
     columns
-}
-
-/// An output is shown in the unit that it was declared in.
-pub(crate) fn output_unit(output: &Quantity) -> String {
-    if output.unit.is_empty() { quantity::si_unit(output.dimension) } else { output.unit.to_owned() }
-}
-
-/// A coordinate is a length or an angle.
-pub(crate) fn coordinate_unit(coordinate: &Quantity) -> String {
-    match quantity::si_unit(coordinate.dimension) {
-        bare if bare == "1" => "rad".into(),
-        unit => unit,
-    }
 }
 
 /// A step. Runs and sweeps share the code of it, which is long for each mechanism.
@@ -297,7 +331,13 @@ fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
         .chain(q.as_ref().iter().copied())
         .chain(v.as_ref().iter().copied())
         .chain(multipliers.as_ref().iter().copied())
-        .chain(outputs.as_ref().iter().zip(M::INFO.outputs).map(|(value, output)| value / output.scale))
+        .chain(
+            outputs
+                .as_ref()
+                .iter()
+                .zip(M::INFO.outputs)
+                .map(|(value, output)| Unit::of(output).shown(*value)),
+        )
         .chain([simulation.violation()]);
     for (column, value) in columns.iter_mut().zip(row) {
         column.values.push(value);

@@ -1,6 +1,9 @@
 //! The commands that every [`App`](crate::App) has, one a file.
 
+mod compare;
+mod curves;
 pub(crate) mod explain;
+mod json;
 pub(crate) mod list;
 pub(crate) mod new;
 mod options;
