@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
-use crate::command::{explain, list, new, simulate, sweep};
+use crate::command::{completions, explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::{Error, Model, interrupt, model};
 
@@ -166,6 +166,7 @@ impl App {
             .subcommand(simulate::command())
             .subcommand(sweep::command())
             .subcommand(new::command())
+            .subcommand(completions::command())
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
     }
 
@@ -177,6 +178,9 @@ impl App {
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),
             Some(("new", matches)) => new::run(matches).map(silent),
+            Some(("completions", matches)) => {
+                completions::run(&self.models, self.parser(), matches).map(silent)
+            }
             Some((name, matches)) => self.added(name, matches).map(silent),
             None => self.without_command(),
         }

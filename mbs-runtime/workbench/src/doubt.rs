@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mbs_runtime::{Derivation, Dimension, Info};
+use mbs_runtime::{Derivation, Dimension, Info, Sketch};
 
 use crate::Column;
 use crate::number::significant;
@@ -107,9 +107,8 @@ struct Energy {
 }
 
 impl Watch {
-    /// For a mechanism with points at these places at the start.
-    pub fn new(info: &'static Info, derivation: &'static Derivation, places: &[[f64; 2]]) -> Self {
-        let size = size(places);
+    /// For a mechanism of this [size].
+    pub fn new(info: &'static Info, derivation: &'static Derivation, size: f64) -> Self {
         let row = |constraint: &mbs_runtime::Constraint| {
             let unit = Unit::si(constraint.dimension);
             let unit = if unit.name().is_empty() { "rad".to_owned() } else { unit.name().to_owned() };
@@ -189,10 +188,12 @@ impl Energy {
     }
 }
 
-/// Diagonal of the box around all points; 1 m if that is nothing.
-fn size(places: &[[f64; 2]]) -> f64 {
+/// Diagonal of the box around the points of bodies and ground in m; 1 m if that is nothing.
+pub(crate) fn size(sketch: &Sketch, places: &[[f64; 2]]) -> f64 {
+    let points = || sketch.bodies.iter().flat_map(|body| body.points).chain(sketch.ground);
     let extent = |axis: usize| {
-        let values = || places.iter().map(|place| place[axis]).filter(|x| x.is_finite());
+        let place = |point: &usize| places.get(*point).map(|place| place[axis]);
+        let values = || points().filter_map(place).filter(|x| x.is_finite());
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
     };
     let diagonal = extent(0).hypot(extent(1));
@@ -217,4 +218,88 @@ fn not_finite(columns: &[Column]) -> impl Iterator<Item = Doubt> {
         let at = times.get(row).copied().unwrap_or(f64::NAN);
         Some(Doubt::NotFinite { name: column.name.clone(), value: *value, at })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Settings, model};
+
+    mbs_runtime::mechanism! {
+        /// A weight on a rod.
+        pub Swing {
+            dof = 1;
+            gravity = (0, -9.81) [m/s^2];
+            body bob (x, y) { mass = 1 [kg]; }
+            constraint rod: x^2 + y^2 = 1 [m^2];
+            start { x = 1 [m]; guess y = 0; }
+        }
+    }
+
+    mbs_runtime::mechanism! {
+        /// A weight on a spring.
+        pub Bouncer {
+            dof = 1;
+            body bob (x) { mass = 1 [kg]; }
+            spring s (bob, ground) { stiffness = 400 [N/m]; length = 1 [m]; }
+            start { x = 1.1 [m]; }
+            /// A number for half a second.
+            output left = sqrt(1 - 2*t/(1 [s]));
+        }
+    }
+
+    mbs_runtime::mechanism! {
+        pub Damped {
+            dof = 1;
+            body bob (x) { mass = 1 [kg]; }
+            spring s (bob, ground) { stiffness = 400 [N/m]; length = 1 [m]; damping = 4 [N*s/m]; }
+            start { x = 1.1 [m]; }
+        }
+    }
+
+    mbs_runtime::mechanism! {
+        pub Pushed {
+            dof = 1;
+            body bob (x) { mass = 1 [kg]; }
+            force push on bob = (1 [N], 0);
+            start { x = 1.1 [m]; }
+        }
+    }
+
+    fn doubts<M: mbs_runtime::Mechanism<Real = f64>>(settings: Settings) -> Vec<Doubt> {
+        model::of::<M>().simulate(&settings, &mut |_, _| ()).unwrap().doubts
+    }
+
+    fn settings(step: f64, end: f64) -> Settings {
+        Settings { step, end, ..Settings::default() }
+    }
+
+    #[test]
+    fn a_joint_that_comes_apart() {
+        assert!(doubts::<Swing>(settings(1e-3, 5.0)).is_empty());
+        let coarse = doubts::<Swing>(settings(0.1, 5.0));
+        let Some(Doubt::Violation { constraint: "rod", value, size, .. }) = coarse.first() else {
+            panic!("{coarse:?}")
+        };
+        assert!(*value > 1e-3 && *size == 1.0, "{coarse:?}");
+    }
+
+    #[test]
+    fn an_energy_that_nothing_changes() {
+        assert!(doubts::<Bouncer>(settings(1e-3, 0.4)).is_empty());
+        // Heun's method gains energy where ωh is large; a damper takes it away.
+        let coarse = doubts::<Bouncer>(settings(20e-3, 0.4));
+        assert!(matches!(coarse.as_slice(), [Doubt::Energy { change, .. }] if *change > 0.0), "{coarse:?}");
+        assert!(doubts::<Damped>(settings(20e-3, 0.4)).is_empty());
+        // Nor is it kept where a force without a potential acts.
+        assert!(doubts::<Pushed>(settings(20e-3, 0.4)).is_empty());
+    }
+
+    #[test]
+    fn a_value_that_is_no_number() {
+        let doubts = doubts::<Bouncer>(settings(1e-3, 1.0));
+        let [Doubt::NotFinite { name, value, at }] = doubts.as_slice() else { panic!("{doubts:?}") };
+        assert!(name == "left" && value.is_nan() && (0.5..0.502).contains(at), "{doubts:?}");
+        assert!(doubts[0].to_string().starts_with("`left` is NaN from t = 0.5"), "{}", doubts[0]);
+    }
 }

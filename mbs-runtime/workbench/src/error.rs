@@ -134,6 +134,17 @@ impl Error {
         move |source| Self::File { doing, path, source }
     }
 
+    /// The same about a value that stands elsewhere.
+    pub(crate) fn about(self, place: String) -> Self {
+        match self {
+            Self::Value { text, reason, .. } => Self::Value { what: place, text, reason },
+            Self::Dimension { text, expected, found, .. } => {
+                Self::Dimension { what: place, text, expected, found }
+            }
+            other => other,
+        }
+    }
+
     /// The error for a name that nothing has.
     pub fn unknown<'a>(
         kind: &'static str,

@@ -11,6 +11,7 @@ use mbs_runtime::{Components, Feedback, Held, Info, Mechanism, PerStage, Quantit
 use rayon::prelude::*;
 
 use crate::model::{Start, seen, step};
+use crate::signals::Player;
 use crate::{Error, FeedbackKind, Settings, Unit};
 
 /// What happens to the members of a sweep.
@@ -55,7 +56,8 @@ pub(crate) fn in_lanes<M: Mechanism<Real = f64>>(
     settings: &Settings,
     members: Members<'_>,
 ) -> Result<(), Error> {
-    if settings.feedback == FeedbackKind::PerStage {
+    // An ensemble holds its inputs.
+    if settings.feedback == FeedbackKind::PerStage || settings.signals.is_some() {
         return one_by_one::<M>(settings, members);
     }
     let Members { names, count, values, take, progress, cancel } = members;
@@ -100,9 +102,10 @@ fn each<M: Mechanism<Real = f64>, F: Feedback>(
     let start = Start::<M, F>::of(settings)?;
     check_names::<M>(&names)?;
     let units = units::<M>();
+    let player = Player::of::<M>(settings)?;
     let member = |index: usize| {
         let simulation = start.simulation(assigned::<M>(start.parameters, &names, &values(index)))?;
-        let extents = extents(simulation, settings.end, cancel)?;
+        let extents = extents(simulation, player.as_ref(), settings.end, cancel)?;
         Ok(extents.map(|extents| shown(&extents, &units)))
     };
     in_batches(count, rayon::current_num_threads(), |batch| {
@@ -155,6 +158,7 @@ fn interrupted(finished: usize, of: usize) -> Error {
 /// `None` if it was cancelled.
 fn extents<M: Mechanism<Real = f64>, F: Feedback>(
     mut simulation: Simulation<M, F>,
+    player: Option<&Player<'_>>,
     end: f64,
     cancel: &AtomicBool,
 ) -> Result<Option<Vec<Extent>>, mbs_runtime::Error> {
@@ -163,6 +167,9 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
     for taken in 0..=steps {
         if taken.is_multiple_of(1024) && cancel.load(Ordering::Relaxed) {
             return Ok(None);
+        }
+        if let Some(player) = player {
+            player.set(&mut simulation);
         }
         let (q, outputs) = (simulation.state().q.into_array(), seen(&simulation)?.1.into_array());
         let now = q.as_ref().iter().chain(outputs.as_ref());

@@ -7,10 +7,11 @@ use mbs_runtime::{
     State,
 };
 
-use crate::doubt::Watch;
+use crate::doubt::{Watch, size};
 use crate::members::{self, Members};
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
+use crate::signals::Player;
 use crate::{Error, Motion, Unit, picture, quantity};
 
 /// More rows than this are refused, before they fill the memory.
@@ -174,13 +175,14 @@ fn run<M: Mechanism<Real = f64>, F: Feedback>(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Recording, Error> {
     let start = Start::<M, F>::of(settings)?;
+    let player = Player::of::<M>(settings)?;
     let simulation = start.simulation(start.parameters)?;
     let steps = simulation.steps_to(settings.end)?;
     let every = settings.every.max(1);
     if steps / every > MAX_ROWS {
         return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
     }
-    Ok(record(simulation, steps, every, progress))
+    Ok(record(simulation, player, steps, every, progress))
 }
 
 /// `values` with the named ones replaced.
@@ -196,6 +198,7 @@ fn assign<C: Components<Real = f64>>(
 
 fn record<M: Mechanism<Real = f64>, F: Feedback>(
     mut simulation: Simulation<M, F>,
+    player: Option<Player<'_>>,
     steps: u64,
     every: u64,
     progress: &mut dyn FnMut(u64, u64),
@@ -204,11 +207,14 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
     let mut summary = Summary { energy_start: simulation.energy(), ..Summary::default() };
     let State { t, q, .. } = simulation.state();
     let places = simulation.mechanism().points(*t, q);
-    let mut watch = Watch::new(M::INFO, M::DERIVATION, places.as_ref());
+    let mut watch = Watch::new(M::INFO, M::DERIVATION, size(M::SKETCH, places.as_ref()));
     let powers_every = every.max(steps / POWERS);
     let mut ended = None;
     let mut taken = 0;
     loop {
+        if let Some(player) = &player {
+            player.set(&mut simulation);
+        }
         see(&simulation, &mut summary, &mut watch);
         if watch.wants_energy()
             && taken % powers_every == 0

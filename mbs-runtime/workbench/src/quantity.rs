@@ -5,6 +5,8 @@ use mbs_symbolic::units;
 
 use crate::{Error, Unit};
 
+pub(crate) const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
+
 /// Reads a value of the given dimension and returns it in SI units.
 ///
 /// A bare number is taken to be in SI units. `what` names the value in messages.

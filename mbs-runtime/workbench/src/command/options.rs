@@ -6,9 +6,9 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
 use mbs_runtime::{Dimension, Info, Quantity};
 
-use crate::{Error, FeedbackKind, Model, Settings, StartKind, Unit, quantity};
+use crate::quantity::TIME;
+use crate::{Error, FeedbackKind, Model, Settings, Signals, StartKind, Unit, quantity};
 
-const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
 
 /// An option with a value, which may begin with a minus sign.
@@ -25,8 +25,12 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "A parameter, such as omega=300rpm; a bare number is in the unit of `list`; repeatable",
         )
         .action(ArgAction::Append),
-        option("input", "NAME=VALUE", "An input, such as crank_torque=0.5N*m, in the same way; repeatable")
-            .action(ArgAction::Append),
+        option(
+            "input",
+            "NAME=VALUE|@FILE.csv",
+            "An input, in the same way, or @FILE.csv with time and inputs in columns; repeatable",
+        )
+        .action(ArgAction::Append),
         option(
             "step",
             "TIME",
@@ -56,9 +60,12 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         None => Ok(None),
     };
     let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
+    let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
+    let inputs = assignments("input", info.inputs, texts("input").filter(|text| !text.starts_with('@')))?;
     Ok(Settings {
-        parameters: assignments("parameter", info.parameters, matches, "set")?,
-        inputs: assignments("input", info.inputs, matches, "input")?,
+        parameters: assignments("parameter", info.parameters, texts("set"))?,
+        signals: signals(info, texts("input").filter_map(|text| text.strip_prefix('@')), &inputs)?,
+        inputs,
         step: value("step", TIME)?.unwrap_or(defaults.step),
         end: value("end", TIME)?.unwrap_or(defaults.end),
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
@@ -70,14 +77,13 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     })
 }
 
-fn assignments(
+fn assignments<'a>(
     kind: &'static str,
     quantities: &[Quantity],
-    matches: &ArgMatches,
-    option: &str,
+    texts: impl Iterator<Item = &'a str>,
 ) -> Result<Vec<(String, f64)>, Error> {
     let mut assigned: Vec<(String, f64)> = Vec::new();
-    for text in matches.get_many::<String>(option).unwrap_or_default() {
+    for text in texts {
         let (name, value) = quantity::split_setting(text)?;
         let quantity = quantities
             .iter()
@@ -89,6 +95,24 @@ fn assignments(
         assigned.push((name.to_owned(), quantity::parse_as(quantity, value)?));
     }
     Ok(assigned)
+}
+
+/// The inputs of a file, none of which is set to a value as well.
+fn signals<'a>(
+    info: &Info,
+    mut files: impl Iterator<Item = &'a str>,
+    inputs: &[(String, f64)],
+) -> Result<Option<Signals>, Error> {
+    let Some(file) = files.next() else { return Ok(None) };
+    let refused = |name: &str, reason: &str| Err(Error::Name { name: name.into(), reason: reason.into() });
+    if let Some(other) = files.next() {
+        return refused(other, "the inputs of one file can be read; put their columns into one");
+    }
+    let signals = Signals::read(Path::new(file), info)?;
+    match inputs.iter().find(|(name, _)| signals.names().any(|other| other == name)) {
+        Some((name, _)) => refused(name, "it is set to a value and read from a file"),
+        None => Ok(Some(signals)),
+    }
 }
 
 /// What was set, in SI units, and the unit in which it is shown.

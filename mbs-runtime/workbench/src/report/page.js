@@ -107,7 +107,13 @@
         frames.forEach((frame) => c.lineTo(...place(frame[traced])));
         c.stroke();
       }
+      const names = [];
       const view = {
+        // Whether no name stands there yet; then one does.
+        isFree: (box) => {
+          const isApart = (other) => box[0] >= other[2] || other[0] >= box[2] || box[1] >= other[3] || other[1] >= box[3];
+          return names.every(isApart) && names.push(box) > 0;
+        },
         zoom, size: picture.weight,
         at: (point) => points[point],
         colour: (at) => COLOURS[at % COLOURS.length],
