@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
@@ -28,6 +28,12 @@ fn refuses(arguments: &str, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "`mbs {arguments}` says\n{message}without `{part}`");
     }
+}
+
+/// Files that are not finished.
+fn parts(folder: &Path) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|path| path.extension().is_some_and(|ending| ending == "part")).collect()
 }
 
 #[test]
@@ -77,6 +83,8 @@ fn files_that_cannot_be_written() {
     refuses("simulate slider-crank --end 10ms --report no/such/out.html", &["cannot write no/such/out.html"]);
     refuses("paper --json no/such/file.json", &["cannot write no/such/file.json"]);
     refuses("new 7up", &["`7up`", "begins with a letter"]);
+    refuses("new fn", &["`fn`", "keyword of Rust"]);
+    refuses("new self", &["`self`", "keyword of Rust"]);
 }
 
 #[test]
@@ -221,12 +229,18 @@ fn explain_writes_latex() {
     assert!(text.is_ascii(), "{text}");
 }
 
-fn sweep(folder: &Path, arguments: &str) -> (String, Vec<Vec<String>>) {
-    let output = mbs(folder, &format!("sweep {arguments} --out out.csv --plot out.svg"));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+/// What a sweep prints, on both streams, and its rows. It has to end with this code.
+fn sweep_ending(code: i32, folder: &Path, arguments: &str) -> (String, Vec<Vec<String>>) {
+    let mut output = mbs(folder, &format!("sweep {arguments} --out out.csv --plot out.svg"));
+    assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout.extend(output.stderr);
     let csv = std::fs::read_to_string(folder.join("out.csv")).unwrap();
     let rows = csv.lines().map(|line| line.split(',').map(str::to_owned).collect());
     (String::from_utf8(output.stdout).unwrap(), rows.collect())
+}
+
+fn sweep(folder: &Path, arguments: &str) -> (String, Vec<Vec<String>>) {
+    sweep_ending(0, folder, arguments)
 }
 
 /// The crank turns by ωt exactly, one and a half turns at 300 rpm.
@@ -255,15 +269,16 @@ fn a_sweep_over_two_parameters() {
     }
     let svg = std::fs::read_to_string(folder.path().join("out.svg")).unwrap();
     assert!(svg.contains("peak drive torque") && svg.contains("omega (rpm)"));
-    assert!(!folder.path().join("out.csv.part").exists());
+    assert!(parts(folder.path()).is_empty());
 }
 
 /// A rod that is not longer than the crank gets stuck.
 #[test]
 fn a_sweep_with_gaps() {
     let folder = tempfile::tempdir().unwrap();
-    let (report, rows) = sweep(folder.path(), "slider-crank --param l2=40mm..140mm:6 --end 0.3s --show max");
-    assert!(report.contains("note: 2 of 6 runs failed, the first one at l2 = 40 mm: "), "{report}");
+    let arguments = "slider-crank --param l2=40mm..140mm:6 --end 0.3s --show max";
+    let (report, rows) = sweep_ending(3, folder.path(), arguments);
+    assert!(report.contains("warning: 2 of 6 runs failed, the first one at l2 = 40 mm: "), "{report}");
     assert_eq!(rows[1][1..4], ["", "", ""]);
     assert!(!rows[1][4].is_empty() && rows[3][4].is_empty() && !rows[3][1].is_empty(), "{rows:?}");
     refuses("sweep slider-crank --param l2=30mm..40mm:3 --end 0.3s", &["3 of 3 runs failed", "l2 = 30 mm"]);
@@ -316,9 +331,9 @@ fn an_interrupted_sweep_keeps_what_is_finished() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let part = folder.path().join("out.csv.part");
         // rows are written in pieces of some kilobytes
-        while !std::fs::metadata(&part).is_ok_and(|file| file.len() > 0) {
+        let is_filled = |part: &PathBuf| std::fs::metadata(part).is_ok_and(|file| file.len() > 0);
+        while !parts(folder.path()).iter().any(is_filled) {
             std::thread::sleep(Duration::from_millis(10));
         }
         let interrupt = format!("kill -INT {}", running.id());
@@ -327,9 +342,11 @@ fn an_interrupted_sweep_keeps_what_is_finished() {
 
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(130), "{message}");
+        let part = parts(folder.path()).pop().unwrap();
         let rows = std::fs::read_to_string(&part).unwrap().lines().count() - 1;
-        let told =
-            format!("error: interrupted after {rows} of 500000 runs; their rows are in out.csv.part\n");
+        let part = part.file_name().unwrap().to_str().unwrap();
+        assert!(part.starts_with("out.csv."), "{part}");
+        let told = format!("error: interrupted after {rows} of 500000 runs; their rows are in {part}\n");
         assert!(message.ends_with(&told) && rows > 0, "{message}, {rows} rows");
         assert!(String::from_utf8(output.stdout).unwrap().contains("smallest peak"));
         assert!(!folder.path().join("out.csv").exists());
@@ -353,4 +370,227 @@ fn long_lists_are_shortened() {
     assert!(!short.contains("x_5") && all.contains("x_5 at the end") && !all.contains('…'), "{all}");
     let heading = std::fs::read_to_string(folder.path().join("run.csv")).unwrap();
     assert!(heading.lines().next().unwrap().contains("der(theta_5)"), "{heading}");
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap()
+}
+
+/// `--set k=60` meant SI although the list shows mm and rpm.
+#[test]
+fn a_bare_number_has_the_unit_of_the_list() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &str| text(mbs(folder.path(), &format!("simulate {arguments}")).stdout);
+    let bare = run("slider-crank --set l1=70 --set omega=300 --end 0.1");
+    assert_eq!(bare, run("slider-crank --set l1=70mm --set omega=300rpm --end 100ms"));
+    let line = |name: &str| bare.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    assert!(line("l1, as set").ends_with("mm") && line("omega, as set").ends_with("rpm"), "{bare}");
+    let (_, rows) = sweep(folder.path(), "slider-crank --param l1=50..80:2 --end 0.1");
+    assert_eq!((rows[0][0].as_str(), rows[1][0].as_str(), rows[2][0].as_str()), ("l1 [mm]", "50.0", "80.0"));
+    refuses(
+        "simulate slider-crank --set inertia_factor=30deg",
+        &["inertia_factor is a number without a unit"],
+    );
+}
+
+/// Values were in the declared unit over axes in SI units.
+#[test]
+fn the_unit_of_a_picture_is_that_of_its_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let run = "simulate chebyshev --end 0.1s --out a.csv --plot a.svg --report a.html --columns p_x";
+    assert!(mbs(folder.path(), run).status.success());
+    let csv = file("a.csv");
+    let mut lines = csv.lines();
+    assert_eq!(lines.next().unwrap(), "t [s],p_x [mm]");
+    let first: f64 = lines.next().unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    assert!((first - 80.0).abs() < 1e-3, "{first}");
+    assert!(file("a.svg").contains("p x (mm)"));
+    let page = file("a.html");
+    let begin = page.find("id=\"data\">").unwrap() + 10;
+    let data = &page[begin..begin + page[begin..].find("</script>").unwrap()];
+    let plots: serde_json::Value = serde_json::from_str(data).unwrap();
+    let curve = plots.as_array().unwrap().iter().find(|plot| plot["kind"] == "lines").unwrap();
+    assert_eq!(curve["y"]["label"], "p x (mm)");
+    assert!((curve["series"][0]["y"][0].as_f64().unwrap() - first).abs() < 1e-3);
+    let readout = &plots[0]["readouts"][0];
+    assert_eq!((&readout["name"], &readout["unit"]), (&"p x".into(), &"mm".into()));
+    // A sweep over one parameter, and over two.
+    let (_, rows) = sweep(folder.path(), "chebyshev --param crank_length=30..50:3 --output p_x --end 0.5s");
+    assert!(rows[0].contains(&"max p_x [mm]".to_owned()), "{:?}", rows[0]);
+    assert!(file("out.svg").contains("peak p x (mm)") && file("out.svg").contains("crank length (mm)"));
+    let two = "chebyshev --param crank_length=30..50:3 --param omega=30..60:2 --output p_x --end 0.5s";
+    sweep(folder.path(), two);
+    for part in ["peak p x (mm)", "crank length (mm)", "omega (rpm)"] {
+        assert!(file("out.svg").contains(part), "{part}");
+    }
+}
+
+#[test]
+fn doubtful_numbers_end_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "simulate slider-crank --step 20ms --end 4s --out a.csv");
+    assert_eq!(output.status.code(), Some(3));
+    let warning = text(output.stderr);
+    assert!(
+        warning.starts_with("warning: the constraint `") && warning.contains("try a smaller --step"),
+        "{warning}"
+    );
+    assert!(folder.path().join("a.csv").exists() && text(output.stdout).contains("written: a.csv"));
+}
+
+#[test]
+fn options_that_contradict_each_other() {
+    refuses("simulate slider-crank --set l1=60 --set l1=70", &["`l1`", "set twice"]);
+    refuses("simulate slider-crank --plot a.svg --sketch a.svg", &["`a.svg`", "two options write to it"]);
+    refuses("simulate slider-crank --step 1ms --step 2ms", &["'--step", "cannot be used multiple times"]);
+    refuses("sweep slider-crank --param l1=50..60:2 --set l1=70", &["`l1`", "set with --set and swept"]);
+    refuses("sweep slider-crank --param l1=50..60:2 --output x3 --output x3", &["`x3`", "named twice"]);
+    refuses("simulate slider-crank --compare l1=50,60 --set l1=70", &["`l1`", "set as well as compared"]);
+    refuses("simulate slider-crank --compare l1=1,2,3,4,5,6,7,8", &["7 values", "sweep"]);
+    refuses("simulate slider-crank --compare l1=50,60 --report a.html", &["--report", "cannot be used"]);
+    refuses("simulate slider-crank --columns z*", &["no column `z*`", "theta1"]);
+}
+
+/// Two sweeps with one name mixed their rows, since both wrote `out.csv.part`.
+#[test]
+fn two_sweeps_with_one_name_do_not_mix() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = |range: &str| {
+        let arguments = format!("sweep pendulum --param length={range}:400 --end 0.5s --out out.csv");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+        command.args(arguments.split_whitespace()).current_dir(folder.path()).stdout(Stdio::null());
+        command.spawn().unwrap()
+    };
+    let mut both = [start("1..2"), start("3..4")];
+    assert!(both.iter_mut().all(|sweep| sweep.wait().unwrap().success()));
+    let csv = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let lengths = csv.lines().skip(1).map(|line| line.split(',').next().unwrap().parse::<f64>().unwrap());
+    let lengths: Vec<_> = lengths.collect();
+    assert_eq!(lengths.len(), 400);
+    assert!(lengths.is_sorted() && lengths[399] - lengths[0] == 1.0, "{lengths:?}");
+    assert!(parts(folder.path()).is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_that_are_no_plain_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let shell = |script: &str| {
+        let script = format!("mbs() {{ {} \"$@\"; }}\n{script}", env!("CARGO_BIN_EXE_mbs"));
+        Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output().unwrap()
+    };
+    let full = shell("mbs list > /dev/full");
+    assert_eq!(full.status.code(), Some(1));
+    assert!(text(full.stderr).contains("error: cannot write to standard output: No space left"));
+    assert!(!shell("mbs list --help > /dev/full").status.success());
+    // The reader of a pipe may go: 128 + SIGPIPE, and not a word.
+    let closed = shell("mbs list | true; exit ${PIPESTATUS[0]}");
+    let early = shell("(sleep 0.5; mbs list) | true; exit ${PIPESTATUS[0]}");
+    assert_eq!((early.status.code(), early.stderr), (Some(141), Vec::new()));
+    assert!(matches!(closed.status.code(), Some(0 | 141)));
+    // A FIFO is written through and stays one.
+    let run = "mbs simulate pendulum --end 10ms --columns x --out";
+    let fifo =
+        shell(&format!("mkfifo pipe && (cat pipe > copy &) && {run} pipe && sleep 0.2 && test -p pipe"));
+    assert!(fifo.status.success(), "{}", text(fifo.stderr));
+    let copy = std::fs::read_to_string(folder.path().join("copy")).unwrap();
+    assert!(copy.starts_with("t [s],x [m]\n") && copy.lines().count() == 22, "{copy}");
+    // A link goes on to point to its file.
+    let link =
+        shell(&format!("ln -s real.csv link.csv && {run} link.csv && test -L link.csv && test -f real.csv"));
+    assert!(link.status.success(), "{}", text(link.stderr));
+    let device = shell(&format!("{run} /dev/full"));
+    assert_eq!(device.status.code(), Some(1));
+    // To standard output, whatever that is.
+    let through = shell(&format!("{run} /dev/stdout | head -1"));
+    assert!(text(through.stdout).starts_with("t [s],x [m]"));
+}
+
+/// A disk that is full leaves no empty file under the final name.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // Files may have 4 kB here.
+    let script = format!(
+        "ulimit -f 4; trap '' XFSZ; {} simulate slider-crank --out out.csv",
+        env!("CARGO_BIN_EXE_mbs")
+    );
+    let output = Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(output.stderr).contains("error: cannot write out.csv: File too large"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn columns_and_runs_of_ones_choice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let run = |arguments: &str| {
+        let output = mbs(folder.path(), &format!("simulate slider-crank --end 0.1s {arguments}"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        text(output.stdout)
+    };
+    let report = run("--columns x?,drive* --x theta1 --out a.csv --plot a.svg");
+    assert!(file("a.csv").starts_with("theta1 [rad],x1 [m],x2 [m],x3 [m],drive_torque [N*m]\n"));
+    assert!(report.contains("x3 at the end") && !report.contains("y1 at the end"), "{report}");
+    let svg = file("a.svg");
+    assert!(svg.contains("theta1 (rad)") && svg.contains("position (m)") && !svg.contains("time (s)"));
+    let report = run("--compare omega=100,200 --columns x3 --out b.csv --plot b.svg");
+    for part in ["omega = 100 rpm", "omega = 200 rpm"] {
+        assert!(report.contains(part) && file("b.svg").contains(part), "{part}");
+    }
+    let csv = file("b.csv");
+    assert!(csv.starts_with("omega [rpm],t [s],x3 [m]\n100.0,0.0,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 2 * 201);
+}
+
+#[test]
+fn what_scripts_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = |arguments: &str| -> serde_json::Value {
+        serde_json::from_slice(&mbs(folder.path(), arguments).stdout).unwrap()
+    };
+    let list = json("list --json");
+    let crank = list.as_array().unwrap().iter().find(|model| model["name"] == "slider-crank").unwrap();
+    assert_eq!(
+        (&crank["parameters"][0]["name"], &crank["parameters"][0]["unit"]),
+        (&"l1".into(), &"mm".into())
+    );
+    let run = json("simulate slider-crank --set omega=300 --end 0.1s --json --out a.csv");
+    assert_eq!(run["given"]["omega"], serde_json::json!({ "value": 300.0, "unit": "rpm" }));
+    assert_eq!((&run["steps"], &run["error"], &run["files"][0]), (&200.into(), &().into(), &"a.csv".into()));
+    assert!(
+        run["final"]["theta1"]["value"].as_f64().unwrap() > 3.0 && run["warnings"] == serde_json::json!([])
+    );
+    let sweep = json("sweep slider-crank --param l1=50..60:2 --end 0.1s --json");
+    assert_eq!((&sweep["runs"], &sweep["failed"]), (&2.into(), &0.into()));
+    assert!(sweep["quantities"]["drive_torque"]["largest"]["at"]["l1"]["unit"] == "mm", "{sweep}");
+}
+
+#[test]
+fn inputs_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.csv"), "t [s],crank_torque [N*mm]\n0,0\n0.1,500\n").unwrap();
+    let run =
+        |arguments: &str| mbs(folder.path(), &format!("simulate slider-crank-free --end 0.1s {arguments}"));
+    let end = |arguments: &str| {
+        let output = run(&format!("--json {arguments}"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        json["final"]["theta1"]["value"].as_f64().unwrap()
+    };
+    let (none, rising, constant) = (end(""), end("--input @in.csv"), end("--input crank_torque=0.5"));
+    assert!(none < rising && rising < constant, "{none} {rising} {constant}");
+    let twice = run("--input @in.csv --input crank_torque=1");
+    assert!(text(twice.stderr).contains("set to a value and read from a file"));
+}
+
+#[test]
+fn completions_know_the_mechanisms() {
+    let script = text(mbs(Path::new("."), "completions bash").stdout);
+    for part in ["--compare", "slider-crank-free", "complete"] {
+        assert!(script.contains(part), "{part}");
+    }
 }

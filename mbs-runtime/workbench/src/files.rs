@@ -52,12 +52,14 @@ impl Output {
         let flushed = self.flush();
         let Self { path, target } = self;
         let kept = flushed.and_then(|()| match target {
-            Target::Part(part, _) => part.keep().map(|(_, path)| path).map_err(|error| error.error),
+            // Under the name of the folder that was asked for, which may be relative.
+            Target::Part(part, place) => match part.keep() {
+                Ok((_, kept)) => Ok(place.with_file_name(kept.file_name().unwrap_or_default())),
+                Err(error) => Err(error.error),
+            },
             Target::Through(_) | Target::Standard(_) => Ok(path.clone()),
         });
-        let kept = kept.map_err(Error::file("write", &path))?;
-        // A path that is relative to `.` need not say so.
-        Ok(kept.strip_prefix(".").map(Path::to_owned).unwrap_or(kept))
+        kept.map_err(Error::file("write", &path))
     }
 }
 

@@ -284,7 +284,8 @@ fn power<M: Mechanism<Real = f64>, F: Feedback>(simulation: &Simulation<M, F>) -
     Some((energy(part) - energy(-part)) / (2.0 * part))
 }
 
-fn columns(info: &Info) -> Vec<Column> {
+/// The columns of a recording, empty.
+pub(crate) fn columns(info: &Info) -> Vec<Column> {
     let mut columns = vec![Column::new("t", "s")];
     let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
     columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));

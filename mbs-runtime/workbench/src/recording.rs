@@ -3,9 +3,11 @@
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 
+use mbs_runtime::Info;
+
 use crate::doubt::Doubt;
 use crate::files::Output;
-use crate::{Error, names, unit};
+use crate::{Error, model, names, unit};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +65,17 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// A recording with no rows: which columns there will be.
+    pub(crate) fn empty(info: &Info) -> Self {
+        Self {
+            columns: model::columns(info),
+            coordinates: info.coordinates.len(),
+            summary: Summary::default(),
+            ended: None,
+            doubts: Vec::new(),
+        }
+    }
+
     /// The column called `name`.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|c| c.name == name)

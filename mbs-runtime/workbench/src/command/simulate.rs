@@ -71,6 +71,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
         json: matches.get_flag("json"),
     };
     request.files.check()?;
+    // Whether there are such columns.
+    request.choice.written(&Recording::empty(model.info()))?;
     match Comparison::of(model.info(), &settings, matches)? {
         Some(comparison) => compare::carry_out(&request, &comparison),
         None => request.carry_out(&settings),
