@@ -3,8 +3,8 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Simulation,
-    State,
+    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Reactions,
+    Simulation, State,
 };
 
 use crate::doubt::{Watch, size};
@@ -275,7 +275,7 @@ fn see<M: Mechanism<Real = f64>, F: Feedback>(
 fn power<M: Mechanism<Real = f64>, F: Feedback>(simulation: &Simulation<M, F>) -> Option<f64> {
     let part = 1e-3 * simulation.step_size();
     let State { t, q, v } = *simulation.state();
-    let acceleration = simulation.reactions().ok()?.acceleration;
+    let acceleration = seen(simulation).ok()?.0.acceleration;
     let energy = |dt: f64| {
         let moved = |x: M::Coordinates, rate: M::Coordinates| x.zip_map(rate, |x, rate| x + dt * rate);
         let state = State { t: t + dt, q: moved(q, v), v: moved(v, acceleration) };
@@ -307,22 +307,28 @@ pub(crate) fn columns(info: &Info) -> Vec<Column> {
     columns
 }
 
-/// A step. Runs and sweeps share the code of it, which is long for each mechanism.
+/// A step. Runs and sweeps share the code of it, which is long for each mechanism. Feedback
+/// in both stages, which few ask for, is spared the fused step: its stages give the same
+/// numbers.
 #[inline(never)]
 pub(crate) fn step<M: Mechanism, F: Feedback>(
     simulation: &mut Simulation<M, F>,
 ) -> Result<(), mbs_runtime::Error> {
-    simulation.step()
+    if F::IS_HELD { simulation.step() } else { simulation.step_in_stages() }
 }
 
-/// Multipliers and outputs; shared as well.
+/// What is seen of an instant: accelerations and multipliers, outputs.
+pub(crate) type Seen<M> =
+    (Reactions<<M as Mechanism>::Coordinates, <M as Mechanism>::Constraints>, <M as Mechanism>::Outputs);
+
+/// Looks at an instant; shared as well.
 #[inline(never)]
 pub(crate) fn seen<M: Mechanism, F: Feedback>(
     simulation: &Simulation<M, F>,
-) -> Result<(M::Constraints, M::Outputs), mbs_runtime::Error> {
+) -> Result<Seen<M>, mbs_runtime::Error> {
     let reactions = simulation.reactions()?;
     let outputs = simulation.mechanism().outputs(simulation.state(), simulation.inputs(), &reactions);
-    Ok((reactions.multipliers, outputs))
+    Ok((reactions, outputs))
 }
 
 fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
@@ -330,8 +336,9 @@ fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
     columns: &mut [Column],
 ) -> Result<(), mbs_runtime::Error> {
     let state = simulation.state();
-    let (multipliers, outputs) = seen(simulation)?;
-    let (q, v, multipliers) = (state.q.into_array(), state.v.into_array(), multipliers.into_array());
+    let (reactions, outputs) = seen(simulation)?;
+    let (q, v, multipliers) =
+        (state.q.into_array(), state.v.into_array(), reactions.multipliers.into_array());
     let outputs = outputs.into_array();
     let row = [state.t]
         .into_iter()
