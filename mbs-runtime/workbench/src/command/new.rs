@@ -128,7 +128,7 @@ mod tests {
     /// The first picture of a newcomer showed a mechanism without points.
     #[test]
     fn the_mechanism_of_a_new_crate_is_worth_looking_at() {
-        let stepper = model::of::<super::template::Stepper>();
+        let stepper = model::of::<template::Stepper>();
         let recording = stepper.simulate(&Settings::default(), &mut |_, _| ()).unwrap();
         assert_eq!((recording.ended, recording.doubts.len()), (None, 0));
         let picture = Picture::of(&stepper.motion(&Settings::default(), &recording).unwrap());
