@@ -21,7 +21,7 @@ pub fn command() -> Command {
 /// A run that fails.
 pub fn run(_: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let headings =
-        ["mechanism", "dof", "h", "end", "max ‖Φ‖", "with h/2", "max ‖Φ̇‖", "with h/2", "ΔE", "with h/2"];
+        ["mechanism", "dof", "h", "end", "max ‖Φ‖", "with h/2", "max ‖dΦ/dt‖", "with h/2", "ΔE", "with h/2"];
     let mut table = Table::new(headings);
     for (name, model) in library() {
         let step = model.defaults().step;
@@ -51,7 +51,7 @@ pub fn run(_: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync
             energy(&fine),
         ]);
     }
-    say(table.to_string().trim_end());
-    say("Φ in m and rad, Φ̇ per second, ΔE in J from start to end, losses in dampers included.");
+    say(table.to_string().trim_end())?;
+    say("Φ in m and rad, dΦ/dt per second, ΔE in J from start to end, losses in dampers included.")?;
     Ok(())
 }

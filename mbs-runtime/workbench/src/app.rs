@@ -1,14 +1,23 @@
 //! The command line as a library.
 
 use std::ffi::OsString;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
-use crate::command::{explain, list, new, simulate, sweep};
+use crate::command::{completions, explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::{Error, Model, interrupt, model};
+
+/// What a command has to say about results that it gave nevertheless.
+pub(crate) type Warnings = Vec<String>;
+
+/// The exit code of a command that has warnings.
+const DOUBTFUL: u8 = 3;
+/// That of a command whose reader has gone away.
+const NO_READER: u8 = 141;
 
 /// What a command of the embedding program does.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
@@ -107,8 +116,9 @@ impl App {
     }
 
     /// Runs what the program's arguments ask for. To be returned from `main`:
-    /// 0 if it went well, 2 if it was asked wrongly, 1 if it failed, 130 if it was
-    /// interrupted.
+    /// 0 if it went well, 1 if it failed, 2 if it was asked wrongly, 3 if it went to its end
+    /// with warnings, 130 if it was interrupted, 141 if nobody reads standard output any more
+    /// (128 + SIGPIPE, with which other programs end there).
     pub fn run(self) -> ExitCode {
         self.run_from(std::env::args_os())
     }
@@ -118,13 +128,21 @@ impl App {
         let matches = match self.parser().try_get_matches_from(arguments) {
             Ok(matches) => matches,
             Err(error) => {
-                // Nothing can be done for a terminal that takes no output.
-                let _ = error.print();
-                return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+                return match error.print() {
+                    _ if error.use_stderr() => ExitCode::from(2),
+                    Ok(()) => ExitCode::SUCCESS,
+                    Err(_) => ExitCode::FAILURE,
+                };
             }
         };
         match self.dispatch(&matches) {
-            Ok(()) => ExitCode::SUCCESS,
+            Ok(warnings) if warnings.is_empty() => ExitCode::SUCCESS,
+            Ok(warnings) => {
+                warnings.iter().for_each(|warning| complain(format_args!("warning: {warning}")));
+                ExitCode::from(DOUBTFUL)
+            }
+            // Who reads no further wants to hear no more.
+            Err(Error::Standard(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::from(NO_READER),
             Err(error) => {
                 complain(format_args!("error: {error}"));
                 match error {
@@ -148,24 +166,31 @@ impl App {
             .subcommand(simulate::command())
             .subcommand(sweep::command())
             .subcommand(new::command())
+            .subcommand(completions::command())
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
     }
 
-    fn dispatch(&self, matches: &ArgMatches) -> Result<(), Error> {
+    fn dispatch(&self, matches: &ArgMatches) -> Result<Warnings, Error> {
+        let silent = |()| Warnings::new();
         match matches.subcommand() {
-            Some(("list", _)) => list::run(&self.models),
-            Some(("explain", matches)) => explain::run(&self.models, matches),
+            Some(("list", matches)) => list::run(&self.models, matches.get_flag("json")).map(silent),
+            Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),
-            Some(("new", matches)) => new::run(matches),
-            Some((name, matches)) => self.added(name, matches),
+            Some(("new", matches)) => new::run(matches).map(silent),
+            Some(("completions", matches)) => {
+                completions::run(&self.models, self.parser(), matches).map(silent)
+            }
+            Some((name, matches)) => self.added(name, matches).map(silent),
             None => self.without_command(),
         }
     }
 
     fn added(&self, name: &str, matches: &ArgMatches) -> Result<(), Error> {
         match self.commands.iter().find(|(command, _)| command.get_name() == name) {
-            Some((_, action)) => action(matches).map_err(Error::Command),
+            // An error of ours keeps what it is.
+            Some((_, action)) => action(matches)
+                .map_err(|error| error.downcast().map_or_else(Error::Command, |error: Box<Error>| *error)),
             None => {
                 let known = self.commands.iter().map(|(command, _)| command.get_name());
                 Err(Error::unknown("command", name, known))
@@ -173,17 +198,17 @@ impl App {
         }
     }
 
-    fn without_command(&self) -> Result<(), Error> {
+    fn without_command(&self) -> Result<Warnings, Error> {
         if let Some(name) = self.default_command {
             // The arguments that the command has when none are given.
             let command = self.commands.iter().find(|(command, _)| command.get_name() == name);
             let parser = command.map_or_else(|| Command::new(name), |(command, _)| command.clone());
             let matches = parser.get_matches_from([name]);
-            return self.added(name, &matches);
+            return self.added(name, &matches).map(|()| Warnings::new());
         }
         match self.models.iter().next() {
             Some((name, model)) => simulate::by_default(name, model),
-            None => list::run(&self.models),
+            None => list::run(&self.models, false).map(|()| Warnings::new()),
         }
     }
 }

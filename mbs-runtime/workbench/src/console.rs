@@ -1,15 +1,22 @@
-//! Output that may end early.
+//! What the program says.
 
 use std::fmt::Display;
 use std::io::Write;
 
-/// Writes a line to standard output. A reader that has gone away, such as
-/// `head`, is no error: `println!` would panic there.
-pub fn say(line: impl Display) {
-    let _ = writeln!(std::io::stdout(), "{line}");
+use crate::Error;
+
+/// Writes a line to standard output.
+///
+/// # Errors
+/// [`Error::Standard`] if it cannot be written: a full disk, or a reader that has gone
+/// away, such as `head`. A program that passes it on to [`App`](crate::App) ends as one
+/// expects of it; `println!` would panic.
+pub fn say(line: impl Display) -> Result<(), Error> {
+    let mut stdout = std::io::stdout().lock();
+    writeln!(stdout, "{line}").and_then(|()| stdout.flush()).map_err(Error::Standard)
 }
 
-/// The same to standard error.
+/// The same to standard error; if that takes nothing, there is nobody left to tell.
 pub(crate) fn complain(line: impl Display) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

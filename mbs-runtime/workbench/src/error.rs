@@ -77,7 +77,7 @@ pub enum Error {
         /// The parameters of the first one that failed.
         first: String,
         /// Why it did.
-        cause: mbs_runtime::Error,
+        cause: String,
     },
     /// More runs than anybody waits for.
     #[error("a sweep has at most {most} runs; take fewer values")]
@@ -103,6 +103,9 @@ pub enum Error {
         /// What the system says.
         source: std::io::Error,
     },
+    /// Standard output takes nothing more.
+    #[error("cannot write to standard output: {0}")]
+    Standard(#[source] std::io::Error),
     /// A name for a file or crate that cannot be one.
     #[error("`{name}` cannot be used: {reason}")]
     Name {
@@ -129,6 +132,17 @@ impl Error {
     pub fn file(doing: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::File { doing, path, source }
+    }
+
+    /// The same about a value that stands elsewhere.
+    pub(crate) fn about(self, place: String) -> Self {
+        match self {
+            Self::Value { text, reason, .. } => Self::Value { what: place, text, reason },
+            Self::Dimension { text, expected, found, .. } => {
+                Self::Dimension { what: place, text, expected, found }
+            }
+            other => other,
+        }
     }
 
     /// The error for a name that nothing has.

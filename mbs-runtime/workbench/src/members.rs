@@ -1,15 +1,18 @@
 //! Many runs of one mechanism that differ in parameters, reduced to what each of its
 //! quantities was at least, at most and in the end.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use mbs_ensemble::lanes::{Lane, Lanes, ManyCoordinates, ManyOutputs, Snapshot, unpack};
 use mbs_ensemble::{Cancelled, Ensemble, Observe};
 use mbs_runtime::{Components, Feedback, Held, Info, Mechanism, PerStage, Quantity, Simulation};
 use rayon::prelude::*;
 
-use crate::model::{Start, coordinate_unit, output_unit, seen, step};
-use crate::{Error, FeedbackKind, Settings};
+use crate::model::{Start, seen, step};
+use crate::signals::Player;
+use crate::{Error, FeedbackKind, Settings, Unit};
 
 /// What happens to the members of a sweep.
 pub struct Members<'a> {
@@ -41,10 +44,10 @@ pub struct Extent {
     pub last: f64,
 }
 
-/// Names, units and scales of what a sweep looks at: coordinates, then outputs.
-pub fn quantities(info: &Info) -> Vec<(&'static str, String, f64)> {
-    let coordinate = |q: &Quantity| (q.name, coordinate_unit(q), 1.0);
-    let output = |q: &Quantity| (q.name, output_unit(q), q.scale);
+/// Names and units of what a sweep looks at: coordinates, then outputs.
+pub fn quantities(info: &Info) -> Vec<(&'static str, Unit)> {
+    let coordinate = |q: &Quantity| (q.name, Unit::of_coordinate(q));
+    let output = |q: &Quantity| (q.name, Unit::of(q));
     info.coordinates.iter().map(coordinate).chain(info.outputs.iter().map(output)).collect()
 }
 
@@ -53,21 +56,30 @@ pub(crate) fn in_lanes<M: Mechanism<Real = f64>>(
     settings: &Settings,
     members: Members<'_>,
 ) -> Result<(), Error> {
-    if settings.feedback == FeedbackKind::PerStage {
+    // An ensemble holds its inputs.
+    if settings.feedback == FeedbackKind::PerStage || settings.signals.is_some() {
         return one_by_one::<M>(settings, members);
     }
     let Members { names, count, values, take, progress, cancel } = members;
     let start = Start::<M, Held>::of(settings)?;
     check_names::<M>(&names)?;
-    let scales = scales::<M>();
+    let units = units::<M>();
     let member = |index: usize| start.simulation(assigned::<M>(start.parameters, &names, &values(index)));
-    let report = |done: usize, _: usize| progress(done);
-    let ensemble = Ensemble::new(settings.end).progress(&report).cancelled_by(cancel);
-    let taken = ensemble.for_each(count, member, &Extents, |index, outcome| {
-        let outcome = outcome.and_then(|run| run.ended.map_or(Ok(run.observed), Err));
-        take(index, outcome.map(|extents| scaled(&extents, &scales)));
-    });
-    taken.map_err(|Cancelled { finished }| interrupted(finished, count))
+    in_batches(count, LANES * rayon::current_num_threads(), |batch| {
+        let first = batch.start;
+        let report = |done: usize, _: usize| progress(first + done);
+        let ensemble = Ensemble::new(settings.end).progress(&report).cancelled_by(cancel);
+        let taken = ensemble.for_each(
+            batch.len(),
+            |at| member(first + at),
+            &Extents,
+            |at, outcome| {
+                let outcome = outcome.and_then(|run| run.ended.map_or(Ok(run.observed), Err));
+                take(first + at, outcome.map(|extents| shown(&extents, &units)));
+            },
+        );
+        taken.map_err(|Cancelled { finished }| interrupted(first + finished, count))
+    })
 }
 
 /// Runs them one by one on all cores: some times slower, and no code of its own to be
@@ -89,26 +101,55 @@ fn each<M: Mechanism<Real = f64>, F: Feedback>(
     let Members { names, count, values, take, progress, cancel } = members;
     let start = Start::<M, F>::of(settings)?;
     check_names::<M>(&names)?;
-    let scales = scales::<M>();
+    let units = units::<M>();
+    let player = Player::of::<M>(settings)?;
     let member = |index: usize| {
         let simulation = start.simulation(assigned::<M>(start.parameters, &names, &values(index)))?;
-        let extents = extents(simulation, settings.end, cancel)?;
-        Ok(extents.map(|extents| scaled(&extents, &scales)))
+        let extents = extents(simulation, player.as_ref(), settings.end, cancel)?;
+        Ok(extents.map(|extents| shown(&extents, &units)))
     };
-    let at_once = AT_ONCE * rayon::current_num_threads();
-    for first in (0..count).step_by(at_once) {
+    in_batches(count, rayon::current_num_threads(), |batch| {
+        let (first, last) = (batch.start, batch.end);
+        let done: Vec<Option<Member>> =
+            batch.into_par_iter().map(|index| member(index).transpose()).collect();
+        // What is finished is kept, even where a neighbour is not.
+        let finished = first + done.iter().flatten().count();
+        let members = done.into_iter().enumerate();
+        members
+            .filter_map(|(at, member)| Some((at, member?)))
+            .for_each(|(at, member)| take(first + at, member));
+        progress(finished);
+        if finished < last { Err(interrupted(finished, count)) } else { Ok(()) }
+    })
+}
+
+/// Members to a vector instruction.
+const LANES: usize = 8;
+/// What an interruption may lose of the work.
+const GRAIN: Duration = Duration::from_millis(500);
+
+/// Runs members in batches that take about [`GRAIN`], at least `smallest` at once: what a
+/// batch has computed is handed over, and safe, when it ends.
+fn in_batches(
+    count: usize,
+    smallest: usize,
+    mut run: impl FnMut(Range<usize>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let (mut first, mut at_once) = (0, smallest.max(1));
+    while first < count {
         let last = count.min(first + at_once);
-        let done: Option<Vec<Member>> =
-            (first..last).into_par_iter().map(|index| member(index).transpose()).collect();
-        let done = done.ok_or_else(|| interrupted(first, count))?;
-        done.into_iter().enumerate().for_each(|(at, member)| take(first + at, member));
-        progress(last);
+        let start = Instant::now();
+        run(first..last)?;
+        let took = start.elapsed();
+        if took < GRAIN / 2 {
+            at_once *= 2;
+        } else if took > GRAIN {
+            at_once = (at_once / 2).max(smallest.max(1));
+        }
+        first = last;
     }
     Ok(())
 }
-
-/// Members that are computed before they are handed over.
-const AT_ONCE: usize = 64;
 
 fn interrupted(finished: usize, of: usize) -> Error {
     Error::Interrupted { finished, of, kept: String::new() }
@@ -117,6 +158,7 @@ fn interrupted(finished: usize, of: usize) -> Error {
 /// `None` if it was cancelled.
 fn extents<M: Mechanism<Real = f64>, F: Feedback>(
     mut simulation: Simulation<M, F>,
+    player: Option<&Player<'_>>,
     end: f64,
     cancel: &AtomicBool,
 ) -> Result<Option<Vec<Extent>>, mbs_runtime::Error> {
@@ -125,6 +167,9 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
     for taken in 0..=steps {
         if taken.is_multiple_of(1024) && cancel.load(Ordering::Relaxed) {
             return Ok(None);
+        }
+        if let Some(player) = player {
+            player.set(&mut simulation);
         }
         let (q, outputs) = (simulation.state().q.into_array(), seen(&simulation)?.1.into_array());
         let now = q.as_ref().iter().chain(outputs.as_ref());
@@ -157,27 +202,29 @@ fn assigned<M: Mechanism<Real = f64>>(
     assigned.fold(declared, |parameters, (name, value)| parameters.with(name, *value).unwrap_or(parameters))
 }
 
-fn scales<M: Mechanism>() -> Vec<f64> {
-    quantities(M::INFO).into_iter().map(|(_, _, scale)| scale).collect()
+fn units<M: Mechanism>() -> Vec<Unit> {
+    quantities(M::INFO).into_iter().map(|(_, unit)| unit).collect()
 }
 
-fn scaled(extents: &[Extent], scales: &[f64]) -> Vec<Extent> {
-    extents.iter().zip(scales).map(|(extent, scale)| extent.over(*scale)).collect()
+fn shown(extents: &[Extent], units: &[Unit]) -> Vec<Extent> {
+    extents.iter().zip(units).map(|(extent, unit)| extent.shown_in(unit)).collect()
 }
 
 impl Extent {
     fn see(&mut self, x: f64) {
-        if x < self.low {
+        // NaN stays.
+        if x < self.low || x.is_nan() {
             self.low = x;
         }
-        if x > self.high {
+        if x > self.high || x.is_nan() {
             self.high = x;
         }
         self.last = x;
     }
 
-    fn over(self, scale: f64) -> Self {
-        Self { low: self.low / scale, high: self.high / scale, last: self.last / scale }
+    fn shown_in(self, unit: &Unit) -> Self {
+        let Self { low, high, last } = self;
+        Self { low: unit.shown(low), high: unit.shown(high), last: unit.shown(last) }
     }
 }
 
@@ -199,9 +246,13 @@ impl<T: Lane, C: Components<Real = Lanes<T, N>>, const N: usize> Of<C> {
 
     #[inline(always)]
     fn see(&mut self, now: C) {
-        self.low = now.zip_map(self.low, |x, low| x.zip_map(low, |x, low| if x < low { x } else { low }));
-        self.high =
-            now.zip_map(self.high, |x, high| x.zip_map(high, |x, high| if x > high { x } else { high }));
+        // NaN stays.
+        #[allow(clippy::eq_op, reason = "what is not equal to itself is NaN, in lanes too")]
+        let least = |x: T, low: T| if x < low || x != x { x } else { low };
+        #[allow(clippy::eq_op, reason = "as above")]
+        let most = |x: T, high: T| if x > high || x != x { x } else { high };
+        self.low = now.zip_map(self.low, |x, low| x.zip_map(low, least));
+        self.high = now.zip_map(self.high, |x, high| x.zip_map(high, most));
         self.last = now;
     }
 

@@ -3,14 +3,16 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Quantity,
-    Simulation,
+    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Reactions,
+    Simulation, State,
 };
 
+use crate::doubt::{Watch, size};
 use crate::members::{self, Members};
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
-use crate::{Error, Motion, picture, quantity};
+use crate::signals::Player;
+use crate::{Error, Motion, Unit, picture, quantity};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;
@@ -173,13 +175,14 @@ fn run<M: Mechanism<Real = f64>, F: Feedback>(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Recording, Error> {
     let start = Start::<M, F>::of(settings)?;
+    let player = Player::of::<M>(settings)?;
     let simulation = start.simulation(start.parameters)?;
     let steps = simulation.steps_to(settings.end)?;
     let every = settings.every.max(1);
     if steps / every > MAX_ROWS {
         return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
     }
-    Ok(record(simulation, steps, every, progress))
+    Ok(record(simulation, player, steps, every, progress))
 }
 
 /// `values` with the named ones replaced.
@@ -195,17 +198,30 @@ fn assign<C: Components<Real = f64>>(
 
 fn record<M: Mechanism<Real = f64>, F: Feedback>(
     mut simulation: Simulation<M, F>,
+    player: Option<Player<'_>>,
     steps: u64,
     every: u64,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Recording {
     let mut columns = columns(M::INFO);
     let mut summary = Summary { energy_start: simulation.energy(), ..Summary::default() };
+    let State { t, q, .. } = simulation.state();
+    let places = simulation.mechanism().points(*t, q);
+    let mut watch = Watch::new(M::INFO, M::DERIVATION, size(M::SKETCH, places.as_ref()));
+    let powers_every = every.max(steps / POWERS);
     let mut ended = None;
     let mut taken = 0;
     loop {
-        summary.max_phi = summary.max_phi.max(simulation.violation());
-        summary.max_phi_dot = summary.max_phi_dot.max(simulation.velocity_violation());
+        if let Some(player) = &player {
+            player.set(&mut simulation);
+        }
+        see(&simulation, &mut summary, &mut watch);
+        if watch.wants_energy()
+            && taken % powers_every == 0
+            && let Some(power) = power(&simulation)
+        {
+            watch.see_power(power);
+        }
         if (taken % every == 0 || taken == steps)
             && let Err(error) = append_row(&simulation, &mut columns)
         {
@@ -227,16 +243,54 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
     summary.steps = taken;
     summary.end = simulation.time();
     summary.energy_end = simulation.energy();
-    Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended }
+    let doubts = watch.doubts(&columns);
+    Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended, doubts }
 }
 
-fn columns(info: &Info) -> Vec<Column> {
+/// Instants at which the power is looked at.
+const POWERS: u64 = 100;
+
+/// What is looked at in every step.
+fn see<M: Mechanism<Real = f64>, F: Feedback>(
+    simulation: &Simulation<M, F>,
+    summary: &mut Summary,
+    watch: &mut Watch,
+) {
+    let State { t, q, .. } = simulation.state();
+    let phi = simulation.mechanism().phi(*t, q);
+    // A largest value that is NaN once stays it.
+    let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
+    summary.max_phi = larger(summary.max_phi, phi.norm());
+    summary.max_phi_dot = larger(summary.max_phi_dot, simulation.velocity_violation());
+    watch.see_constraints(*t, phi.into_array().as_ref());
+    if watch.wants_energy() {
+        let mechanism = simulation.mechanism();
+        let state = simulation.state();
+        watch.see_energy(mechanism.kinetic_energy(state), mechanism.potential_energy(state));
+    }
+}
+
+/// The power with which the energy changes along the motion that the equations ask for, by
+/// a difference over a small part of a step.
+fn power<M: Mechanism<Real = f64>, F: Feedback>(simulation: &Simulation<M, F>) -> Option<f64> {
+    let part = 1e-3 * simulation.step_size();
+    let State { t, q, v } = *simulation.state();
+    let acceleration = seen(simulation).ok()?.0.acceleration;
+    let energy = |dt: f64| {
+        let moved = |x: M::Coordinates, rate: M::Coordinates| x.zip_map(rate, |x, rate| x + dt * rate);
+        let state = State { t: t + dt, q: moved(q, v), v: moved(v, acceleration) };
+        simulation.mechanism().kinetic_energy(&state) + simulation.mechanism().potential_energy(&state)
+    };
+    Some((energy(part) - energy(-part)) / (2.0 * part))
+}
+
+/// The columns of a recording, empty.
+pub(crate) fn columns(info: &Info) -> Vec<Column> {
     let mut columns = vec![Column::new("t", "s")];
-    columns.extend(info.coordinates.iter().map(|q| Column::new(q.name, coordinate_unit(q))));
+    let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
+    columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));
     columns.extend(
-        info.coordinates
-            .iter()
-            .map(|q| Column::new(format!("der({})", q.name), format!("{}/s", coordinate_unit(q)))),
+        positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
     );
     columns.extend(info.constraints.iter().map(|c| {
         // λ does work on Φ: its unit is that of energy over Φ.
@@ -248,40 +302,33 @@ fn columns(info: &Info) -> Vec<Column> {
         };
         Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
     }));
-    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, output_unit(output))));
+    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
     columns.push(Column::new("violation", "SI"));
     columns
 }
 
-/// An output is shown in the unit that it was declared in.
-pub(crate) fn output_unit(output: &Quantity) -> String {
-    if output.unit.is_empty() { quantity::si_unit(output.dimension) } else { output.unit.to_owned() }
-}
-
-/// A coordinate is a length or an angle.
-pub(crate) fn coordinate_unit(coordinate: &Quantity) -> String {
-    match quantity::si_unit(coordinate.dimension) {
-        bare if bare == "1" => "rad".into(),
-        unit => unit,
-    }
-}
-
-/// A step. Runs and sweeps share the code of it, which is long for each mechanism.
+/// A step. Runs and sweeps share the code of it, which is long for each mechanism. Feedback
+/// in both stages, which few ask for, is spared the fused step: its stages give the same
+/// numbers.
 #[inline(never)]
 pub(crate) fn step<M: Mechanism, F: Feedback>(
     simulation: &mut Simulation<M, F>,
 ) -> Result<(), mbs_runtime::Error> {
-    simulation.step()
+    if F::IS_HELD { simulation.step() } else { simulation.step_in_stages() }
 }
 
-/// Multipliers and outputs; shared as well.
+/// What is seen of an instant: accelerations and multipliers, outputs.
+pub(crate) type Seen<M> =
+    (Reactions<<M as Mechanism>::Coordinates, <M as Mechanism>::Constraints>, <M as Mechanism>::Outputs);
+
+/// Looks at an instant; shared as well.
 #[inline(never)]
 pub(crate) fn seen<M: Mechanism, F: Feedback>(
     simulation: &Simulation<M, F>,
-) -> Result<(M::Constraints, M::Outputs), mbs_runtime::Error> {
+) -> Result<Seen<M>, mbs_runtime::Error> {
     let reactions = simulation.reactions()?;
     let outputs = simulation.mechanism().outputs(simulation.state(), simulation.inputs(), &reactions);
-    Ok((reactions.multipliers, outputs))
+    Ok((reactions, outputs))
 }
 
 fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
@@ -289,15 +336,22 @@ fn append_row<M: Mechanism<Real = f64>, F: Feedback>(
     columns: &mut [Column],
 ) -> Result<(), mbs_runtime::Error> {
     let state = simulation.state();
-    let (multipliers, outputs) = seen(simulation)?;
-    let (q, v, multipliers) = (state.q.into_array(), state.v.into_array(), multipliers.into_array());
+    let (reactions, outputs) = seen(simulation)?;
+    let (q, v, multipliers) =
+        (state.q.into_array(), state.v.into_array(), reactions.multipliers.into_array());
     let outputs = outputs.into_array();
     let row = [state.t]
         .into_iter()
         .chain(q.as_ref().iter().copied())
         .chain(v.as_ref().iter().copied())
         .chain(multipliers.as_ref().iter().copied())
-        .chain(outputs.as_ref().iter().zip(M::INFO.outputs).map(|(value, output)| value / output.scale))
+        .chain(
+            outputs
+                .as_ref()
+                .iter()
+                .zip(M::INFO.outputs)
+                .map(|(value, output)| Unit::of(output).shown(*value)),
+        )
         .chain([simulation.violation()]);
     for (column, value) in columns.iter_mut().zip(row) {
         column.values.push(value);

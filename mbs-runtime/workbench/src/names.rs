@@ -10,7 +10,15 @@ pub(crate) fn unknown(kind: &str, name: &str, known: &[String]) -> String {
     if known.is_empty() {
         return message + &format!(" (there is no {kind} at all)");
     }
-    message + &format!(" (there is {})", known.join(", "))
+    const MOST: usize = 60;
+    let more = known.len().saturating_sub(MOST);
+    let listed = known.get(..MOST).unwrap_or(known).join(", ");
+    message
+        + &if more == 0 {
+            format!(" (there is {listed})")
+        } else {
+            format!(" (there is {listed}, … {more} more)")
+        }
 }
 
 /// The known name that a slip of the fingers away from `name`, if any:
@@ -22,9 +30,50 @@ fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     (distance(best) <= allowed && distance(best) < best.chars().count()).then_some(best)
 }
 
+/// Whether a name fits a pattern, in which `*` stands for any letters and `?` for one.
+pub(crate) fn fits(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
+    // Where the last star was, and from where on the name is matched against what follows it.
+    let (mut star, mut from) = (None, 0);
+    let (mut at, mut letter) = (0, 0);
+    while letter < name.len() {
+        match pattern.get(at) {
+            Some('*') => {
+                star = Some(at);
+                from = letter;
+                at += 1;
+            }
+            Some(&wanted) if wanted == '?' || Some(&wanted) == name.get(letter) => {
+                at += 1;
+                letter += 1;
+            }
+            _ => match star {
+                // The star takes one letter more.
+                Some(last) => {
+                    from += 1;
+                    (at, letter) = (last + 1, from);
+                }
+                None => return false,
+            },
+        }
+    }
+    pattern.iter().skip(at).all(|rest| *rest == '*')
+}
+
 #[cfg(test)]
 mod tests {
-    use super::unknown;
+    use super::{fits, unknown};
+
+    #[test]
+    fn patterns() {
+        for (pattern, name) in [("*", ""), ("x?", "x1"), ("der(*)", "der(x1)"), ("*a*b", "aabab"), ("t", "t")]
+        {
+            assert!(fits(pattern, name), "{pattern} {name}");
+        }
+        for (pattern, name) in [("x", "x1"), ("x?", "x"), ("*a", "ab"), ("der(*)", "der(x1"), ("", "t")] {
+            assert!(!fits(pattern, name), "{pattern} {name}");
+        }
+    }
 
     #[test]
     fn suggests_the_nearest_and_lists_all() {

@@ -1,9 +1,11 @@
 //! Values with units, as people type them: `300rpm`, `70 mm`, `0.5N*m`.
 
-use mbs_runtime::Dimension;
+use mbs_runtime::{Dimension, Quantity};
 use mbs_symbolic::units;
 
-use crate::Error;
+use crate::{Error, Unit};
+
+pub(crate) const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 
 /// Reads a value of the given dimension and returns it in SI units.
 ///
@@ -25,6 +27,41 @@ use crate::Error;
 /// # Ok::<(), mbs_workbench::Error>(())
 /// ```
 pub fn parse(what: &str, text: &str, dimension: Dimension) -> Result<f64, Error> {
+    parse_in(what, text, dimension, &Unit::si(dimension))
+}
+
+/// Reads a value of a parameter or an input and returns it in SI units.
+///
+/// A bare number is taken to be in the [unit](Unit::of) in which the quantity is shown
+/// everywhere else. A quantity that is declared without any unit takes bare numbers only.
+///
+/// # Errors
+/// As [`parse`].
+///
+/// # Example
+/// ```
+/// use mbs_workbench::quantity;
+///
+/// mbs_runtime::mechanism! {
+///     pub Bumper {
+///         dof = 1;
+///         param k = 60 [N/mm];
+///         body buffer (x) { mass = 1 [kg]; }
+///         spring s (buffer, ground) { stiffness = k; length = 0.1 [m]; }
+///         start { x = 0.2 [m]; }
+///     }
+/// }
+///
+/// let k = &<Bumper as mbs_runtime::Mechanism>::INFO.parameters[0];
+/// assert_eq!(quantity::parse_as(k, "80")?, 80e3);
+/// assert_eq!(quantity::parse_as(k, "80 N/m")?, 80.0);
+/// # Ok::<(), mbs_workbench::Error>(())
+/// ```
+pub fn parse_as(quantity: &Quantity, text: &str) -> Result<f64, Error> {
+    parse_in(quantity.name, text, quantity.dimension, &Unit::of(quantity))
+}
+
+fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> Result<f64, Error> {
     let wrong = |reason: String| Error::Value { what: what.into(), text: text.into(), reason };
     let (number, unit) = split_number(text.trim())
         .ok_or_else(|| wrong("that is not a number, or a number with a unit such as 300rpm".into()))?;
@@ -32,8 +69,12 @@ pub fn parse(what: &str, text: &str, dimension: Dimension) -> Result<f64, Error>
         return Err(wrong("it has to be finite".into()));
     }
     let unit = unit.trim();
+    let finite = |si: f64| if si.is_finite() { Ok(si) } else { Err(wrong("it has to be finite".into())) };
     if unit.is_empty() {
-        return Ok(number);
+        return finite(usual.read(number));
+    }
+    if usual.name().is_empty() {
+        return Err(wrong(format!("{what} is a number without a unit; write {number}")));
     }
     let unit = units::parse(unit).map_err(|e| wrong(e.to_string()))?;
     let expected = units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]);
@@ -45,7 +86,7 @@ pub fn parse(what: &str, text: &str, dimension: Dimension) -> Result<f64, Error>
             found: unit.dimension.to_string(),
         });
     }
-    Ok(number * unit.scale.to_f64())
+    finite(number * unit.scale.to_f64())
 }
 
 /// The longest prefix that is a number, and the rest.
@@ -72,7 +113,7 @@ pub fn split_setting(text: &str) -> Result<(&str, &str), Error> {
     }
 }
 
-/// The SI unit of a dimension as text: `N*m`, `kg*m^2/s`; `1` for a bare number.
+/// The SI unit of a dimension as text: `N*m`, `kg*m^2/s`; empty for a bare number.
 pub fn si_unit(dimension: Dimension) -> String {
     let named = match (dimension.mass, dimension.length, dimension.time) {
         (1, 1, -2) => "N",
@@ -95,7 +136,7 @@ pub fn si_unit(dimension: Dimension) -> String {
         text.collect::<Vec<_>>()
     };
     let (over, under) = (product(1).join("*"), product(-1));
-    let over = if over.is_empty() { "1".into() } else { over };
+    let over = if over.is_empty() && !under.is_empty() { "1".into() } else { over };
     under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
 }
 
@@ -120,6 +161,26 @@ mod tests {
         assert_eq!(parse("l", "2inch", dimension(0, 1, 0)).unwrap(), 0.0508);
     }
 
+    /// `--set k=60` was 60 N/m although the list shows N/mm.
+    #[test]
+    fn a_bare_number_has_the_declared_unit() {
+        let declared =
+            |unit, scale, dimension| Quantity { name: "k", doc: "", unit, scale, dimension, default: 0.0 };
+        let stiffness = declared("N/mm", 1e3, dimension(1, 0, -2));
+        assert_eq!(parse_as(&stiffness, "60").unwrap(), 60e3);
+        assert_eq!(parse_as(&stiffness, "60 N/m").unwrap(), 60.0);
+        let angle = declared("deg", std::f64::consts::PI / 180.0, dimension(0, 0, 0));
+        assert_eq!(parse_as(&angle, "180").unwrap(), std::f64::consts::PI);
+        assert_eq!(parse_as(&angle, "1 rad").unwrap(), 1.0);
+        let derived = declared("", 1.0, dimension(0, 1, 0));
+        assert_eq!(parse_as(&derived, "0.5").unwrap(), 0.5);
+        assert_eq!(parse_as(&derived, "5 mm").unwrap(), 5e-3);
+        let ratio = declared("", 1.0, dimension(0, 0, 0));
+        assert_eq!(parse_as(&ratio, "0.3").unwrap(), 0.3);
+        let refused = parse_as(&ratio, "30deg").unwrap_err().to_string();
+        assert_eq!(refused, "k = `30deg`: k is a number without a unit; write 30");
+    }
+
     #[test]
     fn nonsense_is_explained() {
         let message = |text| parse("l1", text, dimension(0, 1, 0)).unwrap_err().to_string();
@@ -134,7 +195,7 @@ mod tests {
 
     #[test]
     fn si_units_of_dimensions() {
-        assert_eq!(si_unit(dimension(0, 0, 0)), "1");
+        assert_eq!(si_unit(dimension(0, 0, 0)), "");
         assert_eq!(si_unit(dimension(0, 1, -1)), "m/s");
         assert_eq!(si_unit(dimension(1, 2, 0)), "kg*m^2");
         assert_eq!(si_unit(dimension(0, 0, -2)), "1/s^2");

@@ -1,15 +1,20 @@
 //! What a run leaves behind: columns of numbers and a summary.
 
-use std::path::Path;
+use std::borrow::Borrow;
+use std::path::{Path, PathBuf};
 
-use crate::Error;
+use mbs_runtime::Info;
+
+use crate::doubt::Doubt;
+use crate::files::Output;
+use crate::{Error, model, names, unit};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its name, such as `x1`, `der(x1)` or `lambda(guide)`.
     pub name: String,
-    /// Its unit, such as `m` or `N*m`.
+    /// Its unit, such as `m` or `N*m`; empty for a bare number.
     pub unit: String,
     /// One value per recorded instant, in that unit.
     pub values: Vec<f64>,
@@ -21,9 +26,9 @@ impl Column {
         Self { name: name.into(), unit: unit.into(), values: Vec::new() }
     }
 
-    /// `name [unit]`
+    /// `name [unit]`, or the name alone where there is no unit.
     pub fn heading(&self) -> String {
-        format!("{} [{}]", self.name, self.unit)
+        unit::heading(&self.name, &self.unit)
     }
 }
 
@@ -55,12 +60,47 @@ pub struct Recording {
     pub summary: Summary,
     /// Why the run ended before its end time, if it did.
     pub ended: Option<mbs_runtime::Error>,
+    /// Why its numbers should not be trusted, although it did not fail.
+    pub doubts: Vec<Doubt>,
 }
 
 impl Recording {
+    /// A recording with no rows: which columns there will be.
+    pub(crate) fn empty(info: &Info) -> Self {
+        Self {
+            columns: model::columns(info),
+            coordinates: info.coordinates.len(),
+            summary: Summary::default(),
+            ended: None,
+            doubts: Vec::new(),
+        }
+    }
+
     /// The column called `name`.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|c| c.name == name)
+    }
+
+    /// The columns whose names fit any of these patterns, in the order of the patterns.
+    /// In a pattern `*` stands for any letters and `?` for one: `x*`, `der(theta?)`.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a pattern that nothing fits.
+    pub fn select<'a>(&self, patterns: impl IntoIterator<Item = &'a str>) -> Result<Vec<&Column>, Error> {
+        let mut selected: Vec<&Column> = Vec::new();
+        for pattern in patterns {
+            let mut fitting = self.columns.iter().filter(|c| names::fits(pattern, &c.name)).peekable();
+            if fitting.peek().is_none() {
+                let known = self.columns.iter().map(|column| column.name.as_str());
+                return Err(Error::unknown("column", pattern, known));
+            }
+            for column in fitting {
+                if !selected.iter().any(|other| other.name == column.name) {
+                    selected.push(column);
+                }
+            }
+        }
+        Ok(selected)
     }
 
     /// Writes the columns to a CSV file; see [`write_csv`].
@@ -73,25 +113,37 @@ impl Recording {
 }
 
 /// Writes columns to a CSV file: a heading `name [unit]` each, numbers in the
-/// shortest form that reads back as the same number. A cell is empty where the
-/// value is not finite or the column has ended.
+/// shortest form that reads back as the same number, what is not finite as `NaN`,
+/// `inf` or `-inf`. A cell is empty where its column has ended.
 ///
 /// # Errors
 /// [`Error::File`].
-pub fn write_csv(path: &Path, columns: &[Column]) -> Result<(), Error> {
-    let file = std::fs::File::create(path).map_err(Error::file("write", path))?;
-    let mut writer = csv::Writer::from_writer(std::io::BufWriter::new(file));
+pub fn write_csv<C: Borrow<Column>>(path: &Path, columns: &[C]) -> Result<(), Error> {
+    let columns: Vec<&Column> = columns.iter().map(Borrow::borrow).collect();
+    let mut writer = csv::Writer::from_writer(Output::create(path)?);
     let rows = columns.iter().map(|c| c.values.len()).max().unwrap_or(0);
     let mut write = || -> csv::Result<()> {
-        writer.write_record(columns.iter().map(Column::heading))?;
+        writer.write_record(columns.iter().map(|column| column.heading()))?;
         for row in 0..rows {
-            let value = |c: &Column| c.values.get(row).copied().filter(|x| x.is_finite());
-            let cell = |c: &Column| value(c).map_or_else(String::new, |x| format!("{x:?}"));
+            let cell = |c: &&Column| c.values.get(row).map_or_else(String::new, |x| csv_number(*x));
             writer.write_record(columns.iter().map(cell))?;
         }
-        Ok(writer.flush()?)
+        Ok(())
     };
-    write().map_err(|error| Error::file("write", path)(error.into()))
+    write().map_err(|error| Error::file("write", path)(error.into()))?;
+    finished(path, writer).map(drop)
+}
+
+/// A number in the shortest form that reads back as the same number; `NaN`, `inf` and
+/// `-inf` are what they are.
+pub(crate) fn csv_number(x: f64) -> String {
+    format!("{x:?}")
+}
+
+/// Gives a file of rows its name.
+pub(crate) fn finished(path: &Path, writer: csv::Writer<Output>) -> Result<PathBuf, Error> {
+    let output = writer.into_inner().map_err(|error| Error::file("write", path)(error.into_error()))?;
+    output.finish()
 }
 
 #[cfg(test)]
@@ -106,10 +158,12 @@ mod tests {
         t.values = vec![0.0, 0.1 + 0.2];
         let mut x = Column::new("der(x1)", "m/s");
         x.values = vec![1e-300];
-        write_csv(&path, &[t, x]).unwrap();
+        let mut y = Column::new("ratio", "");
+        y.values = vec![f64::NAN, f64::NEG_INFINITY];
+        write_csv(&path, &[t, x, y]).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(text, "t [s],der(x1) [m/s]\n0.0,1e-300\n0.30000000000000004,\n");
+        assert_eq!(text, "t [s],der(x1) [m/s],ratio\n0.0,1e-300,NaN\n0.30000000000000004,,-inf\n");
         let missing = folder.path().join("no/such/folder.csv");
-        assert!(write_csv(&missing, &[]).unwrap_err().to_string().contains("cannot write"));
+        assert!(write_csv::<Column>(&missing, &[]).unwrap_err().to_string().contains("cannot write"));
     }
 }

@@ -1,5 +1,7 @@
 //! What a run is asked to do.
 
+use crate::Signals;
+
 /// When the feedback is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FeedbackKind {
@@ -25,8 +27,10 @@ pub enum StartKind {
 pub struct Settings {
     /// Parameters that differ from their declared values.
     pub parameters: Vec<(String, f64)>,
-    /// Inputs that differ from their defaults; constant over the run.
+    /// Inputs that differ from their defaults and are constant over the run.
     pub inputs: Vec<(String, f64)>,
+    /// Inputs that change during the run.
+    pub signals: Option<Signals>,
     /// Step in s.
     pub step: f64,
     /// End time in s.
@@ -51,6 +55,7 @@ impl Default for Settings {
         Self {
             parameters: Vec::new(),
             inputs: Vec::new(),
+            signals: None,
             step: 0.5e-3,
             end: 1.0,
             every: 1,

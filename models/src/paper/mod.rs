@@ -57,10 +57,10 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
     let study = study::study()?;
     let scalars = scalars::scalars(&study);
     let results = verdict::table(&study, &scalars);
-    say(&results);
+    say(&results)?;
     if let Some(path) = json {
         std::fs::write(path, scalars.json()).map_err(Error::file("write", path))?;
-        say(format_args!("written: {}", path.display()));
+        say(format_args!("written: {}", path.display()))?;
     }
     if let Some(folder) = &folder {
         let pictures = [
@@ -74,7 +74,7 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
         let report = page::report(&study, page::Parts { results, feedbacks, pictures });
         let index = folder.join("index.html");
         report.save(&index)?;
-        say(format_args!("written: {} and the figures beside it", index.display()));
+        say(format_args!("written: {} and the figures beside it", index.display()))?;
     }
     Ok(())
 }

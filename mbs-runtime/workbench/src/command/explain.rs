@@ -26,8 +26,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let model = models.get(name)?;
     let (info, derivation) = (model.info(), model.derivation());
     let text = if matches.get_flag("latex") { latex(info, derivation) } else { plain(info, derivation) };
-    say(text.trim_end());
-    Ok(())
+    say(text.trim_end())
 }
 
 /// A heading, what stands under it, and how its formulas are called.

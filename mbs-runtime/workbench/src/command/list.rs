@@ -1,19 +1,18 @@
 //! `mbs list`: the mechanisms and what can be set on them.
 
-use clap::Command;
-use mbs_runtime::Quantity;
-
+use super::json;
 use crate::app::Models;
-use crate::number::significant;
-use crate::{Error, Table, quantity, say};
+use crate::{Error, Table, Unit, say};
+use clap::{Arg, ArgAction, Command};
 
 pub(crate) fn command() -> Command {
-    Command::new("list").about("List the mechanisms, their parameters and inputs")
+    Command::new("list")
+        .about("List the mechanisms, their parameters, inputs and outputs")
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the list as JSON"))
 }
 
-pub(crate) fn run(models: &Models) -> Result<(), Error> {
-    say(text(models).trim_end());
-    Ok(())
+pub(crate) fn run(models: &Models, as_json: bool) -> Result<(), Error> {
+    if as_json { say(json::list(models)) } else { say(text(models).trim_end()) }
 }
 
 fn text(models: &Models) -> String {
@@ -25,7 +24,9 @@ fn text(models: &Models) -> String {
         let kinds = [("parameter", info.parameters), ("input", info.inputs), ("output", info.outputs)];
         for (kind, quantities) in kinds {
             for quantity in quantities {
-                let value = if kind == "output" { unit(quantity) } else { value(quantity) };
+                let unit = Unit::of(quantity);
+                let value =
+                    if kind == "output" { unit.name().to_owned() } else { unit.text(quantity.default, 6) };
                 let doc = quantity.doc.lines().next().unwrap_or("").trim();
                 table.row(["", "", kind, quantity.name, &value, doc]);
             }
@@ -35,18 +36,4 @@ fn text(models: &Models) -> String {
         return "there are no mechanisms; add one to the App with .mechanism::<M>(\"name\")\n".into();
     }
     table.to_string()
-}
-
-/// The declared value in the declared unit.
-fn value(quantity: &Quantity) -> String {
-    let scale = if quantity.scale == 0.0 { 1.0 } else { quantity.scale };
-    format!("{} {}", significant(quantity.default / scale, 6), unit(quantity)).trim_end().to_owned()
-}
-
-fn unit(quantity: &Quantity) -> String {
-    match (quantity.unit, quantity::si_unit(quantity.dimension).as_str()) {
-        ("", "1") => String::new(),
-        ("", si) => si.to_owned(),
-        (declared, _) => declared.to_owned(),
-    }
 }

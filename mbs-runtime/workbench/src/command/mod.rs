@@ -1,6 +1,10 @@
 //! The commands that every [`App`](crate::App) has, one a file.
 
+mod compare;
+pub(crate) mod completions;
+mod curves;
 pub(crate) mod explain;
+mod json;
 pub(crate) mod list;
 pub(crate) mod new;
 mod options;

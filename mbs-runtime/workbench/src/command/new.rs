@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
+use crate::template::filled;
 use crate::{Error, say};
 
 /// The files of a new crate and their templates.
@@ -30,10 +31,37 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let path = matches.get_one::<PathBuf>("path").cloned().unwrap_or_default();
     let name = crate_name(&path)?;
     write(&path, &name)?;
-    say(format_args!("written: {}", path.display()));
-    say(format_args!("next:    cd {} && cargo run --release", path.display()));
-    Ok(())
+    say(format_args!("written: {}", path.display()))?;
+    say(format_args!("next:    cd {} && cargo run --release", path.display()))
 }
+
+/// Crates that the new one needs, or that every program has.
+const TAKEN: [&str; 12] = [
+    "test",
+    "core",
+    "std",
+    "alloc",
+    "proc-macro",
+    "mbs-runtime",
+    "mbs-workbench",
+    "mbs-macro",
+    "mbs-codegen",
+    "mbs-symbolic",
+    "mbs-ensemble",
+    "models",
+];
+
+/// The keywords of Rust, reserved ones included.
+const KEYWORDS: [&str; 52] = [
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do",
+    "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield",
+];
+
+/// Folders in which cargo builds.
+const FOLDERS: [&str; 4] = ["build", "deps", "examples", "incremental"];
 
 fn crate_name(path: &Path) -> Result<String, Error> {
     let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("").to_owned();
@@ -43,8 +71,12 @@ fn crate_name(path: &Path) -> Result<String, Error> {
         "the name of a crate begins with a letter"
     } else if !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') {
         "the name of a crate has letters, digits, - and _ only"
-    } else if matches!(name.as_str(), "test" | "core" | "std" | "alloc" | "mbs-runtime" | "mbs-workbench") {
+    } else if TAKEN.contains(&name.replace('_', "-").as_str()) {
         "a crate of that name exists already"
+    } else if FOLDERS.contains(&name.as_str()) {
+        "cargo has a folder of that name"
+    } else if KEYWORDS.contains(&name.as_str()) {
+        "that is a keyword of Rust, which no crate can be called"
     } else {
         return Ok(name);
     };
@@ -62,12 +94,10 @@ fn write(folder: &Path, name: &str) -> Result<(), Error> {
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
         }
-        let text = template
-            .replace("@NAME@", name)
-            .replace("@MODULE@", &name.replace('-', "_"))
-            .replace("@RUNTIME@", &dependency(".."))
-            .replace("@WORKBENCH@", &dependency("."));
-        std::fs::write(&path, text).map_err(Error::file("write", &path))?;
+        let module = name.replace('-', "_");
+        let (runtime, workbench) = (dependency(".."), dependency("."));
+        let parts = [("NAME", name), ("MODULE", &module), ("RUNTIME", &runtime), ("WORKBENCH", &workbench)];
+        std::fs::write(&path, filled(template, &parts)).map_err(Error::file("write", &path))?;
     }
     Ok(())
 }
@@ -86,8 +116,32 @@ fn dependency(relative: &str) -> String {
 }
 
 #[cfg(test)]
+#[path = "../../template/lib.rs.in"]
+mod template;
+
+#[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::Shape;
+    use crate::{Picture, Settings, model};
+
+    /// The first picture of a newcomer showed a mechanism without points.
+    #[test]
+    fn the_mechanism_of_a_new_crate_is_worth_looking_at() {
+        let stepper = model::of::<template::Stepper>();
+        let recording = stepper.simulate(&Settings::default(), &mut |_, _| ()).unwrap();
+        assert_eq!((recording.ended, recording.doubts.len()), (None, 0));
+        let picture = Picture::of(&stepper.motion(&Settings::default(), &recording).unwrap());
+        let count = |is: fn(&Shape) -> bool| picture.shapes.iter().filter(|shape| is(shape)).count();
+        assert_eq!(count(|shape| matches!(shape, Shape::Bar { .. })), 3);
+        assert_eq!(count(|shape| matches!(shape, Shape::Ground { .. })), 2);
+        assert!(count(|shape| matches!(shape, Shape::Pin { .. })) >= 4);
+        assert!(!picture.traced.is_empty() && picture.times.len() > 100);
+        // Straight for half a turn: for a quarter before and after half a second.
+        let height = recording.column("foot_y").unwrap();
+        assert_eq!(height.unit, "mm");
+        assert!(height.values[501..1500].iter().all(|y| (y + 160.0).abs() < 0.4));
+    }
 
     #[test]
     fn a_complete_crate_is_written_once() {
@@ -106,8 +160,21 @@ mod tests {
 
     #[test]
     fn names_that_are_none() {
-        for name in ["7up", "a b", "über", "test", ""] {
+        for name in ["7up", "a b", "über", "test", "", "mbs_runtime", "build"] {
             assert!(crate_name(Path::new(name)).is_err(), "{name}");
         }
+    }
+
+    /// They wrote crates that cannot be compiled.
+    #[test]
+    fn keywords_are_no_names() {
+        for name in ["fn", "self", "gen", "yield", "type"] {
+            let refused = crate_name(Path::new(name)).unwrap_err().to_string();
+            assert_eq!(
+                refused,
+                format!("`{name}` cannot be used: that is a keyword of Rust, which no crate can be called")
+            );
+        }
+        assert_eq!(crate_name(Path::new("fn-key")).unwrap(), "fn-key");
     }
 }

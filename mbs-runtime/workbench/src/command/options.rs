@@ -1,12 +1,14 @@
 //! The options that say how a mechanism is run.
 
+use std::path::Path;
+
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_runtime::{Dimension, Quantity};
+use mbs_runtime::{Dimension, Info, Quantity};
 
-use crate::{Error, FeedbackKind, Model, Settings, StartKind, quantity};
+use crate::quantity::TIME;
+use crate::{Error, FeedbackKind, Model, Settings, Signals, StartKind, Unit, quantity};
 
-const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
 
 /// An option with a value, which may begin with a minus sign.
@@ -17,12 +19,24 @@ pub(super) fn option(name: &'static str, value: &'static str, help: &'static str
 /// Those that every command with runs has.
 pub(super) fn of_a_run() -> Vec<Arg> {
     vec![
-        option("set", "NAME=VALUE", "A parameter, such as omega=300rpm or l1=70mm; repeatable")
-            .action(ArgAction::Append),
-        option("input", "NAME=VALUE", "An input, such as crank_torque=0.5N*m; repeatable")
-            .action(ArgAction::Append),
-        option("step", "TIME", "Step [default: 0.5ms, or what a fast mechanism asks for]"),
-        option("end", "TIME", "End time [default: 1s]"),
+        option(
+            "set",
+            "NAME=VALUE",
+            "A parameter, such as omega=300rpm; a bare number is in the unit of `list`; repeatable",
+        )
+        .action(ArgAction::Append),
+        option(
+            "input",
+            "NAME=VALUE|@FILE.csv",
+            "An input, in the same way, or @FILE.csv with time and inputs in columns; repeatable",
+        )
+        .action(ArgAction::Append),
+        option(
+            "step",
+            "TIME",
+            "Step in s, or with a unit [default: 0.5ms, or what a fast mechanism asks for]",
+        ),
+        option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
         option("alpha", "RATE", "Feedback of the velocity violation in 1/s [default: deadbeat]"),
         option("beta", "RATE", "Feedback of the position violation in 1/s [default: deadbeat]"),
         option("feedback", "WHEN", "When the violation is fed back")
@@ -46,9 +60,12 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         None => Ok(None),
     };
     let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
+    let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
+    let inputs = assignments("input", info.inputs, texts("input").filter(|text| !text.starts_with('@')))?;
     Ok(Settings {
-        parameters: assignments("parameter", info.parameters, matches, "set")?,
-        inputs: assignments("input", info.inputs, matches, "input")?,
+        parameters: assignments("parameter", info.parameters, texts("set"))?,
+        signals: signals(info, texts("input").filter_map(|text| text.strip_prefix('@')), &inputs)?,
+        inputs,
         step: value("step", TIME)?.unwrap_or(defaults.step),
         end: value("end", TIME)?.unwrap_or(defaults.end),
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
@@ -60,19 +77,69 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     })
 }
 
-fn assignments(
+fn assignments<'a>(
     kind: &'static str,
     quantities: &[Quantity],
-    matches: &ArgMatches,
-    option: &str,
+    texts: impl Iterator<Item = &'a str>,
 ) -> Result<Vec<(String, f64)>, Error> {
-    let assignment = |text: &String| {
+    let mut assigned: Vec<(String, f64)> = Vec::new();
+    for text in texts {
         let (name, value) = quantity::split_setting(text)?;
         let quantity = quantities
             .iter()
             .find(|q| q.name == name)
             .ok_or_else(|| Error::unknown(kind, name, quantities.iter().map(|q| q.name)))?;
-        Ok((name.to_owned(), quantity::parse(name, value, quantity.dimension)?))
-    };
-    matches.get_many::<String>(option).unwrap_or_default().map(assignment).collect()
+        if assigned.iter().any(|(other, _)| other == name) {
+            return Err(Error::Name { name: name.to_owned(), reason: "it is set twice".into() });
+        }
+        assigned.push((name.to_owned(), quantity::parse_as(quantity, value)?));
+    }
+    Ok(assigned)
+}
+
+/// The inputs of a file, none of which is set to a value as well.
+fn signals<'a>(
+    info: &Info,
+    mut files: impl Iterator<Item = &'a str>,
+    inputs: &[(String, f64)],
+) -> Result<Option<Signals>, Error> {
+    let Some(file) = files.next() else { return Ok(None) };
+    let refused = |name: &str, reason: &str| Err(Error::Name { name: name.into(), reason: reason.into() });
+    if let Some(other) = files.next() {
+        return refused(other, "the inputs of one file can be read; put their columns into one");
+    }
+    let signals = Signals::read(Path::new(file), info)?;
+    match inputs.iter().find(|(name, _)| signals.names().any(|other| other == name)) {
+        Some((name, _)) => refused(name, "it is set to a value and read from a file"),
+        None => Ok(Some(signals)),
+    }
+}
+
+/// What was set, in SI units, and the unit in which it is shown.
+pub(super) type Given = (&'static str, f64, Unit);
+
+/// What the settings replace of what was declared.
+pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
+    let set = settings.parameters.iter().chain(&settings.inputs);
+    let quantity = |name: &str| info.parameters.iter().chain(info.inputs).find(|q| q.name == name);
+    set.filter_map(|(name, value)| quantity(name).map(|q| (q.name, *value, Unit::of(q)))).collect()
+}
+
+/// Every file is written once.
+pub(super) fn check_files<'a>(files: impl IntoIterator<Item = &'a Path>) -> Result<(), Error> {
+    let mut seen: Vec<&Path> = Vec::new();
+    for file in files {
+        if seen.iter().any(|other| is_same(other, file)) {
+            let reason = "two options write to it".into();
+            return Err(Error::Name { name: file.display().to_string(), reason });
+        }
+        seen.push(file);
+    }
+    Ok(())
+}
+
+/// Whether two names are those of one plain file.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| path.canonicalize().ok().filter(|path| path.is_file());
+    (a == b && !a.starts_with("/dev")) || real(a).is_some_and(|a| Some(a) == real(b))
 }

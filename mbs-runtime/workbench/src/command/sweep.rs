@@ -3,20 +3,23 @@
 mod axis;
 mod rows;
 
+use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use serde_json::json;
 
 use self::axis::{Grid, GridAxis};
 use self::rows::Rows;
 use super::options::{self, option, settings};
-use crate::app::Models;
-use crate::figure::{Axis, Figure, HeatMap, Panel, Series, Stroke};
+use crate::app::{Models, Warnings};
+use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
 use crate::members::{Extent, Member, Members, quantities};
 use crate::number::significant;
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Table, interrupt, say};
+use crate::{Error, Model, Settings, Table, Unit, interrupt, say, unit};
 
 const EXAMPLE: &str = "\
 Example:
@@ -25,7 +28,8 @@ Example:
 
 A run that fails is a gap in the picture and says why in the table. A file is there
 once the sweep is complete. Ctrl-C ends it early: the runs that are finished are summed
-up, their rows are in FILE.csv.part, and the exit code is 130.";
+up, their rows are in a file FILE.csv.….part, and the exit code is 130. If some runs fail
+or give what is no number, the exit code is 3; if all do, 1.";
 
 pub(crate) fn command() -> Command {
     Command::new("sweep")
@@ -63,6 +67,7 @@ pub(crate) fn command() -> Command {
             option("plot", "FILE.svg|.png", "Draw curves over one parameter, heat maps over two")
                 .value_parser(value_parser!(PathBuf)),
         )
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the summary as JSON"))
 }
 
 /// What is looked at of a mechanism.
@@ -70,7 +75,7 @@ struct Watched {
     /// Its place among all [`quantities`].
     at: usize,
     name: &'static str,
-    unit: String,
+    unit: Unit,
 }
 
 /// What is drawn and summed up of an extent.
@@ -93,13 +98,42 @@ impl Shown {
     }
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+/// Why the row of a run lacks numbers.
+enum Failure {
+    Run(mbs_runtime::Error),
+    NotFinite(&'static str),
+}
+
+impl Failure {
+    fn of(member: &Member, watched: &[Watched]) -> Option<Self> {
+        let extents = match member {
+            Ok(extents) => extents,
+            Err(error) => return Some(Self::Run(*error)),
+        };
+        let is_finite =
+            |extent: &Extent| [extent.low, extent.high, extent.last].iter().all(|x| x.is_finite());
+        let bad = watched.iter().find(|quantity| !extents.get(quantity.at).is_some_and(is_finite))?;
+        Some(Self::NotFinite(bad.name))
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Run(error) => error.fmt(f),
+            Self::NotFinite(name) => write!(f, "`{name}` is not always a finite number"),
+        }
+    }
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
     let text = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
     let name = text("model");
     let model = models.get(name)?;
     let settings = settings(model, matches)?;
     let axes = matches.get_many::<String>("param").unwrap_or_default();
     let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;
+    grid.check_against(&settings)?;
     let named: Vec<&String> = matches.get_many("output").unwrap_or_default().collect();
     let watched = watched(model, &named)?;
     let shown = match text("show") {
@@ -110,17 +144,19 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     };
     let path = |name: &str| matches.get_one::<PathBuf>(name);
     // before the work, so that a bad name is told at once
+    options::check_files(["out", "plot"].into_iter().filter_map(path).map(PathBuf::as_path))?;
     if let Some(path) = path("plot") {
         Figure::check_ending(path)?;
     }
     let mut sweep = Sweep {
         rows: path("out").map(|path| Rows::create(path, &grid, &watched)).transpose()?,
-        values: vec![Vec::new(); watched.len()],
+        values: vec![vec![f64::NAN; grid.count()]; watched.len()],
         failures: 0,
         first_failure: None,
         grid: &grid,
         watched: &watched,
         shown,
+        json: matches.get_flag("json"),
     };
     match sweep.carry_out(name, model, &settings) {
         Err(Error::Interrupted { finished, of, .. }) => sweep.give_up(text("show"), finished, of),
@@ -134,8 +170,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
 fn watched(model: &dyn Model, names: &[&String]) -> Result<Vec<Watched>, Error> {
     let info = model.info();
     let all = quantities(info).into_iter().enumerate();
-    let all: Vec<_> = all.map(|(at, (name, unit, _))| Watched { at, name, unit }).collect();
-    for name in names {
+    let all: Vec<_> = all.map(|(at, (name, unit))| Watched { at, name, unit }).collect();
+    for (at, name) in names.iter().enumerate() {
+        if names.iter().take(at).any(|other| other == name) {
+            return Err(Error::Name { name: (*name).clone(), reason: "it is named twice".into() });
+        }
         if !all.iter().any(|quantity| quantity.name == **name) {
             return Err(Error::unknown("output", *name, all.iter().map(|quantity| quantity.name)));
         }
@@ -153,10 +192,11 @@ struct Sweep<'a> {
     /// What is shown, quantity by quantity; NaN where a run failed.
     values: Vec<Vec<f64>>,
     failures: usize,
-    first_failure: Option<(usize, mbs_runtime::Error)>,
+    first_failure: Option<(usize, Failure)>,
     grid: &'a Grid,
     watched: &'a [Watched],
     shown: Shown,
+    json: bool,
 }
 
 impl Sweep<'_> {
@@ -183,58 +223,89 @@ impl Sweep<'_> {
     fn take(&mut self, index: usize, member: &Member) -> Result<(), Error> {
         for (values, quantity) in self.values.iter_mut().zip(self.watched) {
             let extent = member.as_ref().ok().and_then(|extents| extents.get(quantity.at));
-            values.push(extent.map_or(f64::NAN, |extent| self.shown.of(extent)));
+            if let (Some(value), Some(extent)) = (values.get_mut(index), extent) {
+                *value = self.shown.of(extent);
+            }
         }
-        if let Err(error) = member {
+        let failure = Failure::of(member, self.watched);
+        if let Some(rows) = &mut self.rows {
+            let error = failure.as_ref().map_or_else(String::new, ToString::to_string);
+            rows.write(self.grid, index, self.watched, member, error)?;
+        }
+        if let Some(failure) = failure {
             self.failures += 1;
-            self.first_failure.get_or_insert((index, *error));
+            self.first_failure.get_or_insert((index, failure));
         }
-        match &mut self.rows {
-            Some(rows) => rows.write(self.grid, index, self.watched, member),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     /// What an interrupted sweep leaves behind.
-    fn give_up(self, shown: &str, finished: usize, of: usize) -> Result<(), Error> {
+    fn give_up(mut self, shown: &str, finished: usize, of: usize) -> Result<Warnings, Error> {
+        let part = self.rows.take().map(Rows::give_up).transpose()?;
         if self.failures < finished {
-            say(self.summary(shown).to_string().trim_end());
+            self.say_summary(shown, &[])?;
         }
-        let part = self.rows.map(Rows::give_up).transpose()?;
         let kept = part.map_or_else(String::new, |path| format!("; their rows are in {}", path.display()));
         Err(Error::Interrupted { finished, of, kept })
     }
 
-    fn finish(self, name: &str, shown: &str, plot: Option<&Path>) -> Result<(), Error> {
-        if self.failures < self.grid.count() {
-            say(self.summary(shown).to_string().trim_end());
-        }
+    fn finish(mut self, name: &str, shown: &str, plot: Option<&Path>) -> Result<Warnings, Error> {
         let mut files = Vec::new();
         if let Some(path) = plot {
             self.figure(name, shown).save(path)?;
             files.push(path.to_owned());
         }
+        if let Some(rows) = self.rows.take() {
+            files.insert(0, rows.finish()?);
+        }
         let count = self.grid.count();
+        if self.failures < count {
+            self.say_summary(shown, &files)?;
+        }
         let failure = self.first_failure.map(|(at, cause)| Error::Sweep {
             failed: self.failures,
             of: count,
             first: self.grid.place(at),
-            cause,
+            cause: cause.to_string(),
         });
-        if let Some(rows) = self.rows {
-            files.insert(0, rows.finish()?);
-        }
-        for path in files {
-            say(format_args!("written: {}", path.display()));
-        }
         match failure {
             Some(failure) if self.failures == count => Err(failure),
-            Some(failure) => {
-                say(format_args!("note: {failure}"));
-                Ok(())
-            }
-            None => Ok(()),
+            Some(failure) => Ok(vec![failure.to_string()]),
+            None => Ok(Warnings::new()),
         }
+    }
+
+    fn say_summary(&self, shown: &str, files: &[PathBuf]) -> Result<(), Error> {
+        if self.json {
+            return say(self.json(shown, files));
+        }
+        say(self.summary(shown).to_string().trim_end())?;
+        files.iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
+    }
+
+    /// The quantity at the run where it is smallest, and where it is largest.
+    fn extremes<'v>(&self, values: &'v [f64]) -> [Option<(usize, &'v f64)>; 2] {
+        let seen = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
+        [seen().min_by(|a, b| a.1.total_cmp(b.1)), seen().max_by(|a, b| a.1.total_cmp(b.1))]
+    }
+
+    fn json(&self, shown: &str, files: &[PathBuf]) -> serde_json::Value {
+        let at = |(index, value): (usize, &f64)| {
+            let place = self.grid.axes.iter().zip(self.grid.shown_values(index));
+            let place = place.map(|(axis, x)| (axis.name, json!({ "value": x, "unit": axis.unit.name() })));
+            json!({ "value": value, "at": place.collect::<BTreeMap<_, _>>() })
+        };
+        let quantity = |(quantity, values): (&Watched, &Vec<f64>)| {
+            let [low, high] = self.extremes(values).map(|place| place.map(at));
+            let unit = quantity.unit.name();
+            (quantity.name, json!({ "shown": shown, "unit": unit, "smallest": low, "largest": high }))
+        };
+        let quantities = self.watched.iter().zip(&self.values).map(quantity);
+        json!({
+            "runs": self.grid.count(), "failed": self.failures,
+            "quantities": quantities.collect::<BTreeMap<_, _>>(),
+            "files": files.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        })
     }
 
     /// Where what is shown is smallest and largest.
@@ -242,12 +313,11 @@ impl Sweep<'_> {
         let heading = |which: &str| format!("{which} {shown}");
         let mut table = Table::new(["", &heading("smallest"), "at", &heading("largest"), "at"]);
         for (quantity, values) in self.watched.iter().zip(&self.values) {
-            let seen = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
-            let low = seen().min_by(|a, b| a.1.total_cmp(b.1));
-            let high = seen().max_by(|a, b| a.1.total_cmp(b.1));
+            let [low, high] = self.extremes(values);
             let cells = |place: Option<(usize, &f64)>| match place {
                 Some((at, value)) => {
-                    [format!("{} {}", significant(*value, 6), quantity.unit), self.grid.place(at)]
+                    let value = format!("{} {}", significant(*value, 6), quantity.unit.name());
+                    [value.trim_end().to_owned(), self.grid.place(at)]
                 }
                 None => [const { String::new() }; 2],
             };
@@ -257,11 +327,9 @@ impl Sweep<'_> {
     }
 
     fn figure(&self, name: &str, shown: &str) -> Figure {
-        let axis = |axis: &GridAxis| Axis::new(axis.name.replace('_', " "), axis.unit.replace('*', "·"));
-        let value = |quantity: &Watched| {
-            let label = format!("{shown} {}", quantity.name.replace('_', " "));
-            Axis::new(label, quantity.unit.replace('*', "·"))
-        };
+        let axis = |axis: &GridAxis| unit::axis(axis.name, axis.unit.name());
+        let value =
+            |quantity: &Watched| unit::axis(&format!("{shown} {}", quantity.name), quantity.unit.name());
         let panel = |(quantity, values): (&Watched, &Vec<f64>)| match self.grid.axes.as_slice() {
             [x, y] => {
                 let map = HeatMap {

@@ -23,8 +23,7 @@ impl Figure {
 
 fn column(axis: &Axis, name: &str, values: Vec<f64>) -> Column {
     let name = if name.is_empty() { &axis.label } else { name };
-    let unit = if axis.unit.is_empty() { "1" } else { &axis.unit };
-    Column { name: plain(name), unit: plain(unit), values }
+    Column { name: plain(name), unit: plain(&axis.unit), values }
 }
 
 fn add_curves(panel: &Panel, columns: &mut Vec<Column>) {

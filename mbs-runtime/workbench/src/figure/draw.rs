@@ -273,7 +273,10 @@ fn axes<B: DrawingBackend>(
     }
     let middle = ((area.left + area.right) / 2, (area.top + area.bottom) / 2);
     canvas.text(&heading(&panel.x, x), (middle.0, area.bottom + 32 * SCALE), Place::Below, TEXT)?;
-    let x_of_label = area.left - (MARGINS.0 - 10) * SCALE;
+    // Beside the longest number, which may be longer than the margin foresees.
+    let widths = y.ticks.major.iter().map(|(_, label)| canvas.text_width(label, TEXT - 1));
+    let beside = area.left - widths.max().unwrap_or(0) - (13 + TEXT) * SCALE;
+    let x_of_label = beside.min(area.left - (MARGINS.0 - 10) * SCALE).max(0);
     canvas.text(&heading(&panel.y, y), (x_of_label, middle.1), Place::Upwards, TEXT)
 }
 

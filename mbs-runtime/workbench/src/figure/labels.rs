@@ -17,9 +17,11 @@ pub(super) struct Label<'a> {
 }
 
 /// The left middle of every text, in drawn pixels: of the places around the
-/// middle of what it names, the one that covers least.
-pub(super) fn places(labels: &[Label<'_>], obstacles: &[Pixel], area: Area) -> Vec<Pixel> {
+/// middle of what it names, the one that covers least. A text that could only be
+/// printed over another has none.
+pub(super) fn places(labels: &[Label<'_>], obstacles: &[Pixel], area: Area) -> Vec<Option<Pixel>> {
     let mut taken: Vec<[f64; 4]> = Vec::new();
+    let mut places = Vec::new();
     for label in labels {
         let count = label.near.len().max(1) as f64;
         let (x, y) = label.near.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / count, y + p.1 / count));
@@ -34,18 +36,16 @@ pub(super) fn places(labels: &[Label<'_>], obstacles: &[Pixel], area: Area) -> V
         let cost = |radius: f64, of: [f64; 4]| {
             let air = 7.0 * f64::from(SCALE);
             let covered = obstacles.iter().filter(|p| holds(of, **p, air)).count();
-            let overlapping = taken.iter().filter(|other| overlap(of, **other)).count();
             let outside = !(area.contains(of[0], of[1]) && area.contains(of[2], of[3]));
-            covered as f64
-                + 40.0 * overlapping as f64
-                + 400.0 * f64::from(outside)
-                + 0.02 * radius / f64::from(SCALE)
+            covered as f64 + 400.0 * f64::from(outside) + 0.02 * radius / f64::from(SCALE)
         };
-        let costs = boxes.map(|(radius, of)| (cost(radius, of), of));
-        let best = costs.min_by(|a, b| a.0.total_cmp(&b.0));
-        taken.push(best.map_or([x, y, x, y], |(_, of)| of));
+        let is_free = |of: &[f64; 4]| !taken.iter().any(|other| overlap(*of, *other));
+        let costs = boxes.filter(|(_, of)| is_free(of)).map(|(radius, of)| (cost(radius, of), of));
+        let best = costs.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, of)| of);
+        taken.extend(best);
+        places.push(best.map(|[left, top, _, bottom]| (left, 0.5 * (top + bottom))));
     }
-    taken.into_iter().map(|[left, top, _, bottom]| (left, 0.5 * (top + bottom))).collect()
+    places
 }
 
 /// Radii and angles to be tried.
@@ -76,11 +76,25 @@ mod tests {
         let label = |near: Pixel| Label { text: "rod", near: vec![near], width: 120.0 };
         let labels = [label((1000.0, 1000.0)), label((1000.0, 1000.0)), label((1995.0, 1000.0))];
         let places = places(&labels, &bar, area);
-        let boxes: Vec<_> = places.iter().map(|&(x, y)| [x, y - 30.0, x + 120.0, y + 30.0]).collect();
+        let boxes: Vec<_> =
+            places.iter().flatten().map(|&(x, y)| [x, y - 30.0, x + 120.0, y + 30.0]).collect();
+        assert_eq!(boxes.len(), labels.len());
         for (at, of) in boxes.iter().enumerate() {
             assert!(!bar.iter().any(|p| holds(*of, *p, 0.0)), "{of:?}");
             assert!(area.contains(of[0], of[1]) && area.contains(of[2], of[3]), "{of:?}");
             assert!(boxes.iter().skip(at + 1).all(|other| !overlap(*of, *other)));
         }
+    }
+
+    #[test]
+    fn names_without_room_are_left_out() {
+        let area = Area { left: 0, top: 0, right: 2000, bottom: 2000 };
+        let labels: Vec<_> =
+            (0..400).map(|_| Label { text: "rod", near: vec![(1000.0, 1000.0)], width: 120.0 }).collect();
+        let places = places(&labels, &[], area);
+        let shown: Vec<_> =
+            places.iter().flatten().map(|&(x, y)| [x, y - 30.0, x + 120.0, y + 30.0]).collect();
+        assert!((2..100).contains(&shown.len()), "{}", shown.len());
+        assert!(shown.iter().enumerate().all(|(at, a)| shown.iter().skip(at + 1).all(|b| !overlap(*a, *b))));
     }
 }

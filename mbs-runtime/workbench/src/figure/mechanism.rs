@@ -267,7 +267,8 @@ impl<B: DrawingBackend> Pen<'_, B> {
             })
             .unzip();
         let places = labels::places(&texts, &self.obstacles(), self.area);
-        for ((label, colour), (x, y)) in texts.iter().zip(colours).zip(places) {
+        for ((label, colour), place) in texts.iter().zip(colours).zip(places) {
+            let Some((x, y)) = place else { continue };
             let RGBColor(r, g, b) = colour::series(colour);
             let dark = RGBColor(r / 4 * 3, g / 4 * 3, b / 4 * 3);
             self.canvas.coloured_text(label.text, rounded((x, y)), Place::Right, labels::SIZE, dark)?;

@@ -8,7 +8,7 @@ use plotters::style::{FontStyle, register_font};
 
 use super::layout::SCALE;
 use super::{Figure, draw};
-use crate::Error;
+use crate::{Error, files};
 
 /// DejaVu Sans, reduced to Latin, Greek and mathematical signs; its licence
 /// stands beside it.
@@ -36,7 +36,7 @@ impl Figure {
         Self::check_ending(path)?;
         let is_svg = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
         let bytes = if is_svg { self.svg()?.into_bytes() } else { self.png()? };
-        std::fs::write(path, bytes).map_err(Error::file("write", path))
+        files::write(path, &bytes)
     }
 
     /// Whether a picture can be written to a file of this name.

@@ -118,8 +118,16 @@ const drawShape = (() => {
       const length = Math.hypot(dx, dy) || 1, up = dx < 0 ? -1 : 1;
       c.font = FONT;
       const [across, over] = [(up * dy) / length, (-up * dx) / length];
-      const left = across < -0.3 ? -c.measureText(s.text).width : across > 0.3 ? 0 : -c.measureText(s.text).width / 2;
-      text(c, s.text, [middle[0] + 14 * across + left, middle[1] + 18 * over], v.colour(s.colour));
+      const width = c.measureText(s.text).width;
+      // On the other side, or not at all, where another name is.
+      for (const side of [1, -1]) {
+        const reach = side * across;
+        const left = reach < -0.3 ? -width : reach > 0.3 ? 0 : -width / 2;
+        const [x, y] = [middle[0] + 14 * reach + left, middle[1] + 18 * side * over];
+        if (!v.isFree([x, y - 8, x + width, y + 8])) continue;
+        text(c, s.text, [x, y], v.colour(s.colour));
+        return;
+      }
     },
   };
 

@@ -8,7 +8,8 @@ use std::path::Path;
 pub use animation::{Animation, Readout};
 
 use crate::figure::{Content, Figure};
-use crate::{Error, Table};
+use crate::template::filled;
+use crate::{Error, Table, files};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
@@ -97,15 +98,16 @@ impl Report {
             self.sections.iter().enumerate().map(|(number, section)| {
                 format!("<a href=\"#s{number}\">{}</a>\n", escaped(&section.heading))
             });
-        // `</` would end the script element in the middle of the data.
-        let data = serde_json::Value::Array(plots).to_string().replace("</", "<\\/");
-        let page = PAGE
-            .replace("@TITLE@", &escaped(&self.title))
-            .replace("@LEAD@", &escaped(&self.lead))
-            .replace("@CONTENTS@", &contents.collect::<String>())
-            .replace("@STYLE@", &format!("{UPLOT_STYLE}\n{STYLE}"))
-            .replace("@SCRIPT@", &format!("{UPLOT_SCRIPT}\n{SHAPES_SCRIPT}\n{SCRIPT}"));
-        Ok(page.replace("@BODY@", &body).replace("@DATA@", &data))
+        let parts = [
+            ("TITLE", escaped(&self.title)),
+            ("LEAD", escaped(&self.lead)),
+            ("CONTENTS", contents.collect()),
+            ("BODY", body),
+            ("DATA", escaped_json(&serde_json::Value::Array(plots))),
+            ("STYLE", format!("{UPLOT_STYLE}\n{STYLE}")),
+            ("SCRIPT", format!("{UPLOT_SCRIPT}\n{SHAPES_SCRIPT}\n{SCRIPT}")),
+        ];
+        Ok(filled(PAGE, &parts.each_ref().map(|(name, part)| (*name, part.as_str()))))
     }
 
     /// Writes the page to a file.
@@ -113,7 +115,7 @@ impl Report {
     /// # Errors
     /// [`Error::Figure`], [`Error::File`].
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        std::fs::write(path, self.html()?).map_err(Error::file("write", path))
+        files::write(path, self.html()?.as_bytes())
     }
 }
 
@@ -170,15 +172,31 @@ fn html_table(table: &Table) -> String {
     )
 }
 
-/// Text as it has to be written in HTML.
+/// Text as it has to be written in HTML, between tags and in attributes.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    let letter = |c: char| match c {
+        '&' => "&amp;".into(),
+        '<' => "&lt;".into(),
+        '>' => "&gt;".into(),
+        '"' => "&quot;".into(),
+        '\'' => "&#39;".into(),
+        other => other.to_string(),
+    };
+    text.chars().map(letter).collect()
+}
+
+/// JSON as it has to be written in a script element: there `</script` would end the data,
+/// and `<!--` with `<script` would swallow what follows.
+fn escaped_json(data: &serde_json::Value) -> String {
+    // Outside strings JSON has none of these.
+    data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::{Axis, Panel, Series};
+    use crate::figure::{Axis, HeatMap, Panel, Series};
+    use crate::picture::{Picture, Shape};
 
     #[test]
     fn a_page_that_needs_nothing_else() {
@@ -197,8 +215,99 @@ mod tests {
         };
         let html = report.html().unwrap();
         assert!(html.contains("a &lt; b") && html.contains("1 &amp; 2") && html.contains("f.csv"));
-        assert!(html.contains("<\\/script>") && html.contains("1e-8") && html.contains("null"));
+        assert!(html.contains(r"\u003c/script\u003e") && html.contains("1e-8") && html.contains("null"));
         assert!(!html.contains("@BODY@") && !html.contains("@DATA@"));
         assert!(!html.contains("src=\"http") && !html.contains("href=\"http"));
+    }
+
+    const HOSTILE: [&str; 6] = [
+        "<img src=x onerror=\"document.documentElement.dataset.seized=1\">",
+        "</script><script>document.documentElement.dataset.seized=2</script>",
+        "<!--<script>",
+        "</title></style></svg><svg onload='document.documentElement.dataset.seized=3'>",
+        "@DATA@ @BODY@ @SCRIPT@",
+        "\u{2028}&lt;\"'`${1}\\",
+    ];
+
+    /// A page in which every text that somebody else can choose is hostile.
+    fn hostile() -> Report {
+        let all = HOSTILE.join(" ");
+        let axis = || Axis::new(all.clone(), all.clone());
+        let curves = || [0.0, 1.0].map(|y| Series::new(all.clone(), [[0.0, y], [1.0, 2.0]]));
+        let map =
+            HeatMap { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![0.0, 1.0, 2.0, 3.0], scale: axis() };
+        let figure = |panel: Panel| Block::Figure {
+            figure: Figure::new(all.clone()).panel(panel),
+            caption: all.clone(),
+            files: vec![all.clone()],
+        };
+        let picture = Picture {
+            times: vec![0.0, 1.0],
+            points: vec![vec![[0.0, 0.0], [1.0, 1.0]]; 2],
+            shapes: vec![
+                Shape::Mark { between: [0, 1], text: all.clone() },
+                Shape::Label { text: all.clone(), near: vec![0, 1], colour: 0 },
+            ],
+            weight: 1.0,
+            ..Picture::default()
+        };
+        let readouts = vec![Readout { name: all.clone(), unit: all.clone(), values: vec![0.0, 1.0] }];
+        let mut table = Table::new([all.clone()]);
+        table.row([all.clone()]);
+        let section = Section::new(all.clone())
+            .text(all.clone())
+            .with(Block::Table(table))
+            .with(figure(Panel::lines(axis(), axis(), curves())))
+            .with(figure(Panel::map(axis(), axis(), map)))
+            .with(figure(Panel::mechanism(picture.clone())))
+            .with(Block::Animation(Animation { title: all.clone(), picture, readouts }));
+        Report { title: all.clone(), lead: all.clone(), sections: vec![section] }
+    }
+
+    /// `@DATA@` in a comment was replaced by the data, and names ran as scripts.
+    #[test]
+    fn texts_of_others_stay_texts() {
+        let html = hostile().html().unwrap();
+        // Nothing but the page's own elements, each where it was.
+        let benign = Report { title: "t".into(), lead: "l".into(), sections: Vec::new() }.html().unwrap();
+        let count = |html: &str, what: &str| html.matches(what).count();
+        for part in ["<script", "</script", "<!--", "<title", "</title", "</style", "onerror=\"", "<img"] {
+            assert_eq!(count(&html, part), count(&benign, part), "{part}");
+        }
+        assert!(count(&html, "@DATA@ @BODY@ @SCRIPT@") > 10);
+        let begin = html.find("id=\"data\">").unwrap() + 10;
+        let data = &html[begin..begin + html[begin..].find("</script>").unwrap()];
+        let plots: serde_json::Value = serde_json::from_str(data).unwrap();
+        assert_eq!(plots[0]["series"][0]["name"], HOSTILE.join(" "));
+    }
+
+    /// The same in a browser, where there is one.
+    #[test]
+    fn a_browser_runs_no_script_but_the_pages_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let page = folder.path().join("page.html");
+        hostile().save(&page).unwrap();
+        let dump = |browser: &&str| {
+            std::process::Command::new(browser)
+                .args([
+                    "--headless",
+                    "--no-sandbox",
+                    "--disable-gpu",
+                    "--virtual-time-budget=2000",
+                    "--dump-dom",
+                ])
+                .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+                .arg(format!("file://{}", page.display()))
+                .output()
+                .ok()
+        };
+        let browsers = ["chromium", "chromium-browser", "google-chrome"];
+        let Some(dom) = browsers.iter().find_map(dump) else {
+            eprintln!("skipped: there is none of {browsers:?}");
+            return;
+        };
+        let dom = String::from_utf8_lossy(&dom.stdout);
+        assert!(!dom.contains("data-seized"), "a name ran as a script");
+        assert!(dom.contains("class=\"uplot") && dom.contains("class=\"readouts\"><span>"), "{dom}");
     }
 }

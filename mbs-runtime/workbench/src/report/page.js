@@ -59,6 +59,8 @@
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
     };
+    // One curve is named by its axis.
+    element.classList.toggle("alone", panel.series.length === 1);
     const plot = new uPlot(options, uPlot.join(panel.series.map((s) => [s.x, s.y])), element);
     addEventListener("resize", () => plot.setSize({ width: width(), height: 320 }));
   }
@@ -105,7 +107,13 @@
         frames.forEach((frame) => c.lineTo(...place(frame[traced])));
         c.stroke();
       }
+      const names = [];
       const view = {
+        // Whether no name stands there yet; then one does.
+        isFree: (box) => {
+          const isApart = (other) => box[0] >= other[2] || other[0] >= box[2] || box[1] >= other[3] || other[1] >= box[3];
+          return names.every(isApart) && names.push(box) > 0;
+        },
         zoom, size: picture.weight,
         at: (point) => points[point],
         colour: (at) => COLOURS[at % COLOURS.length],
@@ -116,7 +124,7 @@
       };
       picture.shapes.forEach((shape) => drawShape(c, shape, view));
       const values = [`t = ${times[at].toFixed(4)} s`, ...picture.readouts.map(
-        (r) => `${r.name} = ${format(r.values[at], 4)} ${r.unit}`)];
+        (r) => `${r.name} = ${format(r.values[at], 4)} ${r.unit}`.trim())];
       find(".readouts").replaceChildren(...values.map((text) => {
         const span = document.createElement("span");
         span.textContent = text;

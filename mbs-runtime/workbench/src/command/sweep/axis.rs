@@ -2,8 +2,7 @@
 
 use mbs_runtime::Info;
 
-use crate::number::significant;
-use crate::{Error, quantity, sweep};
+use crate::{Error, Settings, Unit, quantity, sweep};
 
 /// More runs than this are refused, before they take days.
 const MOST_RUNS: usize = 100_000_000;
@@ -11,9 +10,7 @@ const MOST_RUNS: usize = 100_000_000;
 /// A parameter and its values.
 pub struct GridAxis {
     pub name: &'static str,
-    /// The unit that it was declared in, and its size.
-    pub unit: String,
-    scale: f64,
+    pub unit: Unit,
     /// In SI units, ascending.
     values: Vec<f64>,
 }
@@ -36,7 +33,7 @@ impl GridAxis {
         let (high, count) = rest.rsplit_once(':').ok_or_else(|| wrong("it is not said how many values"))?;
         let count: usize =
             count.trim().parse().map_err(|_| wrong(&format!("`{count}` is not a number of values")))?;
-        let value = |text: &str| quantity::parse(name, text, parameter.dimension);
+        let value = |text: &str| quantity::parse_as(parameter, text);
         let (low, high) = (value(low)?, value(high)?);
         if !(2..=MOST_RUNS).contains(&count) {
             return Err(wrong("there have to be two values at least, and not more than 100 million"));
@@ -44,19 +41,13 @@ impl GridAxis {
         if low >= high {
             return Err(wrong("the first value has to be smaller than the last"));
         }
-        let unit = if parameter.unit.is_empty() {
-            quantity::si_unit(parameter.dimension)
-        } else {
-            parameter.unit.to_owned()
-        };
-        let scale = if parameter.scale == 0.0 { 1.0 } else { parameter.scale };
-        let unit = if unit == "1" { String::new() } else { unit };
-        Ok(Self { name: parameter.name, unit, scale, values: sweep::evenly(low, high, count) })
+        let values = sweep::evenly(low, high, count);
+        Ok(Self { name: parameter.name, unit: Unit::of(parameter), values })
     }
 
     /// The values in the declared unit.
     pub fn shown_values(&self) -> Vec<f64> {
-        self.values.iter().map(|value| value / self.scale).collect()
+        self.values.iter().map(|value| self.unit.shown(*value)).collect()
     }
 }
 
@@ -82,6 +73,18 @@ impl Grid {
         }
     }
 
+    /// What is swept is not set as well.
+    pub fn check_against(&self, settings: &Settings) -> Result<(), Error> {
+        let is_set = |axis: &&GridAxis| settings.parameters.iter().any(|(name, _)| name == axis.name);
+        match self.axes.iter().find(is_set) {
+            Some(axis) => {
+                let reason = "it is set with --set and swept with --param".into();
+                Err(Error::Name { name: axis.name.to_owned(), reason })
+            }
+            None => Ok(()),
+        }
+    }
+
     pub fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
@@ -99,16 +102,15 @@ impl Grid {
 
     /// The same in the declared units.
     pub fn shown_values(&self, index: usize) -> Vec<f64> {
-        self.values(index).iter().zip(&self.axes).map(|(value, axis)| value / axis.scale).collect()
+        self.values(index).iter().zip(&self.axes).map(|(value, axis)| axis.unit.shown(*value)).collect()
     }
 
     /// `l1 = 60 mm, omega = 200 rpm`
     pub fn place(&self, index: usize) -> String {
-        let values = self.shown_values(index);
+        let values = self.values(index);
         let named = values.iter().zip(&self.axes);
-        let text = |(value, axis): (&f64, &GridAxis)| {
-            format!("{} = {} {}", axis.name, significant(*value, 6), axis.unit).trim_end().to_owned()
-        };
+        let text =
+            |(value, axis): (&f64, &GridAxis)| format!("{} = {}", axis.name, axis.unit.text(*value, 6));
         named.map(text).collect::<Vec<_>>().join(", ")
     }
 }

@@ -1,41 +1,35 @@
 //! The table of a sweep, written run by run.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use super::Watched;
 use super::axis::Grid;
-use crate::Error;
+use crate::files::Output;
 use crate::members::Member;
+use crate::recording::{csv_number, finished};
+use crate::{Error, unit};
 
 /// A CSV file that has its name once it is complete.
 pub struct Rows {
     path: PathBuf,
-    part: PathBuf,
-    writer: csv::Writer<BufWriter<File>>,
+    writer: csv::Writer<Output>,
 }
 
 impl Rows {
     /// The file with its headings: parameters, three columns per quantity, and why a
     /// run failed.
     pub fn create(path: &Path, grid: &Grid, watched: &[Watched]) -> Result<Self, Error> {
-        let mut part = path.as_os_str().to_owned();
-        part.push(".part");
-        let part = PathBuf::from(part);
-        let file = File::create(&part).map_err(Error::file("write", path))?;
-        let mut writer = csv::Writer::from_writer(BufWriter::new(file));
-        let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        let mut writer = csv::Writer::from_writer(Output::create(path)?);
         let mut headings: Vec<_> =
-            grid.axes.iter().map(|axis| format!("{}{}", axis.name, unit(&axis.unit))).collect();
+            grid.axes.iter().map(|axis| unit::heading(axis.name, axis.unit.name())).collect();
         for quantity in watched {
             for what in ["min", "max", "final"] {
-                headings.push(format!("{what} {}{}", quantity.name, unit(&quantity.unit)));
+                headings.push(unit::heading(&format!("{what} {}", quantity.name), quantity.unit.name()));
             }
         }
         headings.push("error".into());
         writer.write_record(headings).map_err(|error| Error::file("write", path)(error.into()))?;
-        Ok(Self { path: path.to_owned(), part, writer })
+        Ok(Self { path: path.to_owned(), writer })
     }
 
     /// A run's row; empty cells where it failed.
@@ -45,29 +39,27 @@ impl Rows {
         index: usize,
         watched: &[Watched],
         member: &Member,
+        error: String,
     ) -> Result<(), Error> {
-        let number = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
-        let mut cells: Vec<_> = grid.shown_values(index).into_iter().map(number).collect();
+        let mut cells: Vec<_> = grid.shown_values(index).into_iter().map(csv_number).collect();
         for quantity in watched {
             match member.as_ref().ok().and_then(|extents| extents.get(quantity.at)) {
-                Some(extent) => cells.extend([extent.low, extent.high, extent.last].map(number)),
+                Some(extent) => cells.extend([extent.low, extent.high, extent.last].map(csv_number)),
                 None => cells.extend([const { String::new() }; 3]),
             }
         }
-        cells.push(member.as_ref().err().map_or_else(String::new, ToString::to_string));
+        cells.push(error);
         self.writer.write_record(cells).map_err(|error| Error::file("write", &self.path)(error.into()))
     }
 
     /// The unfinished file, complete up to the last row.
-    pub fn give_up(mut self) -> Result<PathBuf, Error> {
-        self.writer.flush().map_err(Error::file("write", &self.part))?;
-        Ok(self.part)
+    pub fn give_up(self) -> Result<PathBuf, Error> {
+        let failed = Error::file("write", &self.path);
+        self.writer.into_inner().map_err(|error| failed(error.into_error()))?.keep()
     }
 
     /// Gives the file its name.
-    pub fn finish(mut self) -> Result<PathBuf, Error> {
-        self.writer.flush().map_err(Error::file("write", &self.path))?;
-        std::fs::rename(&self.part, &self.path).map_err(Error::file("write", &self.path))?;
-        Ok(self.path)
+    pub fn finish(self) -> Result<PathBuf, Error> {
+        finished(&self.path, self.writer)
     }
 }

@@ -1,0 +1,153 @@
+//! What is left on the disk, whatever happens.
+
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use super::{mbs, parts, refuses, text};
+
+#[test]
+fn files_that_cannot_be_written() {
+    refuses("simulate slider-crank --end 10ms --out no/such/out.csv", &["cannot write no/such/out.csv"]);
+    refuses("simulate slider-crank --end 10ms --plot out.bmp", &["out.bmp", ".svg or .png"]);
+    refuses("simulate slider-crank --end 10ms --sketch out.pdf", &["out.pdf", ".svg or .png"]);
+    refuses("simulate slider-crank --end 10ms --report no/such/out.html", &["cannot write no/such/out.html"]);
+    refuses("paper --json no/such/file.json", &["cannot write no/such/file.json"]);
+    refuses("new 7up", &["`7up`", "begins with a letter"]);
+    refuses("new fn", &["`fn`", "keyword of Rust"]);
+    refuses("new self", &["`self`", "keyword of Rust"]);
+}
+
+#[test]
+fn an_early_end_keeps_what_was_computed() {
+    // The paper's Figures 4–7: without feedback its start ends in a singular position.
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(
+        folder.path(),
+        "simulate slider-crank --start declared --alpha 0 --beta 0 --end 0.2s --out part.csv",
+    );
+    assert!(!output.status.success());
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("ended early") && message.contains("part.csv"), "{message}");
+    let rows = std::fs::read_to_string(folder.path().join("part.csv")).unwrap().lines().count();
+    assert!((290..310).contains(&rows), "{rows}");
+}
+
+#[test]
+fn a_new_crate_is_complete_and_never_overwrites() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(mbs(folder.path(), "new demo").status.success());
+    for file in ["Cargo.toml", "README.md", "src/main.rs", "src/lib.rs", "tests/motion.rs"] {
+        assert!(folder.path().join("demo").join(file).is_file(), "{file}");
+    }
+    let again = mbs(folder.path(), "new demo");
+    assert!(!again.status.success());
+    assert!(String::from_utf8(again.stderr).unwrap().contains("cannot create demo"));
+}
+
+/// In lanes and one by one: Ctrl-C keeps the rows of finished runs.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_keeps_what_is_finished() {
+    for sweep in ["slider-crank --param l1=50mm..60mm:500000", "pendulum --param length=1m..2m:500000"] {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = format!("sweep {sweep} --out out.csv");
+        let running = Command::new(env!("CARGO_BIN_EXE_mbs"))
+            .args(arguments.split_whitespace())
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // rows are written in pieces of some kilobytes
+        let is_filled = |part: &PathBuf| std::fs::metadata(part).is_ok_and(|file| file.len() > 0);
+        while !parts(folder.path()).iter().any(is_filled) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let interrupt = format!("kill -INT {}", running.id());
+        assert!(Command::new("sh").args(["-c", &interrupt]).status().unwrap().success());
+        let output = running.wait_with_output().unwrap();
+
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(130), "{message}");
+        let part = parts(folder.path()).pop().unwrap();
+        let rows = std::fs::read_to_string(&part).unwrap().lines().count() - 1;
+        let part = part.file_name().unwrap().to_str().unwrap();
+        assert!(part.starts_with("out.csv."), "{part}");
+        let told = format!("error: interrupted after {rows} of 500000 runs; their rows are in {part}\n");
+        assert!(message.ends_with(&told) && rows > 0, "{message}, {rows} rows");
+        assert!(String::from_utf8(output.stdout).unwrap().contains("smallest peak"));
+        assert!(!folder.path().join("out.csv").exists());
+    }
+}
+
+/// Two sweeps with one name mixed their rows, since both wrote `out.csv.part`.
+#[test]
+fn two_sweeps_with_one_name_do_not_mix() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = |range: &str| {
+        let arguments = format!("sweep pendulum --param length={range}:400 --end 0.5s --out out.csv");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+        command.args(arguments.split_whitespace()).current_dir(folder.path()).stdout(Stdio::null());
+        command.spawn().unwrap()
+    };
+    let mut both = [start("1..2"), start("3..4")];
+    assert!(both.iter_mut().all(|sweep| sweep.wait().unwrap().success()));
+    let csv = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let lengths = csv.lines().skip(1).map(|line| line.split(',').next().unwrap().parse::<f64>().unwrap());
+    let lengths: Vec<_> = lengths.collect();
+    assert_eq!(lengths.len(), 400);
+    assert!(lengths.is_sorted() && lengths[399] - lengths[0] == 1.0, "{lengths:?}");
+    assert!(parts(folder.path()).is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_that_are_no_plain_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let shell = |script: &str| {
+        let script = format!("mbs() {{ {} \"$@\"; }}\n{script}", env!("CARGO_BIN_EXE_mbs"));
+        Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output().unwrap()
+    };
+    let full = shell("mbs list > /dev/full");
+    assert_eq!(full.status.code(), Some(1));
+    assert!(text(full.stderr).contains("error: cannot write to standard output: No space left"));
+    assert!(!shell("mbs list --help > /dev/full").status.success());
+    // The reader of a pipe may go: 128 + SIGPIPE, and not a word.
+    let closed = shell("mbs list | true; exit ${PIPESTATUS[0]}");
+    let early = shell("(sleep 0.5; mbs list) | true; exit ${PIPESTATUS[0]}");
+    assert_eq!((early.status.code(), early.stderr), (Some(141), Vec::new()));
+    assert!(matches!(closed.status.code(), Some(0 | 141)));
+    // A FIFO is written through and stays one.
+    let run = "mbs simulate pendulum --end 10ms --columns x --out";
+    let fifo =
+        shell(&format!("mkfifo pipe && (cat pipe > copy &) && {run} pipe && sleep 0.2 && test -p pipe"));
+    assert!(fifo.status.success(), "{}", text(fifo.stderr));
+    let copy = std::fs::read_to_string(folder.path().join("copy")).unwrap();
+    assert!(copy.starts_with("t [s],x [m]\n") && copy.lines().count() == 22, "{copy}");
+    // A link goes on to point to its file.
+    let link =
+        shell(&format!("ln -s real.csv link.csv && {run} link.csv && test -L link.csv && test -f real.csv"));
+    assert!(link.status.success(), "{}", text(link.stderr));
+    let device = shell(&format!("{run} /dev/full"));
+    assert_eq!(device.status.code(), Some(1));
+    // To standard output, whatever that is.
+    let through = shell(&format!("{run} /dev/stdout | head -1"));
+    assert!(text(through.stdout).starts_with("t [s],x [m]"));
+}
+
+/// A disk that is full leaves no empty file under the final name.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // Files may have 4 kB here.
+    let script = format!(
+        "ulimit -f 4; trap '' XFSZ; {} simulate slider-crank --out out.csv",
+        env!("CARGO_BIN_EXE_mbs")
+    );
+    let output = Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(output.stderr).contains("error: cannot write out.csv: File too large"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}

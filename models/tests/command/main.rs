@@ -1,0 +1,46 @@
+//! The `mbs` command as people use it, and what it says when they slip.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
+mod answers;
+mod files;
+mod runs;
+mod sweeps;
+mod words;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn mbs(folder: &Path, arguments: &str) -> Output {
+    let arguments = arguments.split_whitespace();
+    Command::new(env!("CARGO_BIN_EXE_mbs")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// The message of a command that has to fail.
+fn refusal(arguments: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), arguments);
+    assert!(!output.status.success(), "`mbs {arguments}` went through");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.starts_with("error: "), "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+#[track_caller]
+fn refuses(arguments: &str, parts: &[&str]) {
+    let message = refusal(arguments);
+    for part in parts {
+        assert!(message.contains(part), "`mbs {arguments}` says\n{message}without `{part}`");
+    }
+}
+
+/// Files that are not finished.
+fn parts(folder: &Path) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|path| path.extension().is_some_and(|ending| ending == "part")).collect()
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap()
+}

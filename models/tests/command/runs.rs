@@ -1,0 +1,168 @@
+//! Runs of one mechanism.
+
+use super::sweeps::sweep;
+use super::{mbs, text};
+
+#[test]
+fn a_run_with_everything() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(
+        folder.path(),
+        "simulate slider-crank-free --set omega=300rpm --set l1=70mm --input crank_torque=0.5N*m --step 0.5ms \
+         --end 0.1s --alpha 1000 --beta 1500 --feedback per-stage --start consistent --out a.csv --plot a.svg \
+         --sketch mechanism.svg --report a.html",
+    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = String::from_utf8(output.stdout).unwrap();
+    for part in ["steps", "200", "max ‖Φ‖", "energy change", "x3 at the end"] {
+        assert!(report.contains(part), "{report}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
+    let mut lines = csv.lines();
+    let heading = lines.next().unwrap();
+    assert!(heading.starts_with("t [s],x1 [m],y1 [m],theta1 [rad]"), "{heading}");
+    for part in ["der(theta1) [rad/s]", "lambda(guide) [N]", "violation [SI]"] {
+        assert!(heading.contains(part), "{heading}");
+    }
+    assert_eq!(lines.count(), 201);
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("angle (rad)"));
+    let sketch = std::fs::read_to_string(folder.path().join("mechanism.svg")).unwrap();
+    let page = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
+    for body in ["crank", "rod", "slider"] {
+        assert!(sketch.contains(body) && page.contains(&format!("\"text\":\"{body}\"")), "{body}");
+    }
+    for part in ["max ‖Φ‖", "crank speed", "\"kind\":\"lines\""] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn beyond_stability_only_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = "simulate slider-crank --alpha 2600 --beta 2000 --feedback per-stage --end 5ms";
+    assert!(!mbs(folder.path(), arguments).status.success());
+    assert!(mbs(folder.path(), &format!("{arguments} --allow-unstable")).status.success());
+}
+
+/// A name begins its line; what belongs to it is indented.
+#[test]
+fn every_mechanism_runs_as_it_is_declared() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = String::from_utf8(mbs(folder.path(), "list").stdout).unwrap();
+    let heads = list.lines().skip(2).filter(|line| !line.starts_with(' '));
+    let names: Vec<_> = heads.filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() > 20, "{list}");
+    for name in names {
+        let output = mbs(folder.path(), &format!("simulate {name} --every 1000 --out {name}.csv"));
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let rows = std::fs::read_to_string(folder.path().join(format!("{name}.csv"))).unwrap();
+        assert!(rows.lines().count() > 2, "{name}: {rows}");
+    }
+}
+
+#[test]
+fn long_lists_are_shortened() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &str| {
+        let output = mbs(folder.path(), &format!("simulate n-pendulum-10 --end 1ms {arguments}"));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (short, all) = (run("--out run.csv"), run("--all"));
+    let parts =
+        ["x_1 at the end", "theta_1 at the end", "theta_10 at the end", "der(x_1)", "hook_force at the end"];
+    for part in parts {
+        assert!(short.contains(part) && all.contains(part), "{part}: {short}");
+    }
+    assert_eq!(short.matches("… 24 more, with --all").count(), 2, "{short}");
+    assert!(!short.contains("x_5") && all.contains("x_5 at the end") && !all.contains('…'), "{all}");
+    let heading = std::fs::read_to_string(folder.path().join("run.csv")).unwrap();
+    assert!(heading.lines().next().unwrap().contains("der(theta_5)"), "{heading}");
+}
+
+/// Values were in the declared unit over axes in SI units.
+#[test]
+fn the_unit_of_a_picture_is_that_of_its_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let run = "simulate chebyshev --end 0.1s --out a.csv --plot a.svg --report a.html --columns p_x";
+    assert!(mbs(folder.path(), run).status.success());
+    let csv = file("a.csv");
+    let mut lines = csv.lines();
+    assert_eq!(lines.next().unwrap(), "t [s],p_x [mm]");
+    let first: f64 = lines.next().unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    assert!((first - 80.0).abs() < 1e-3, "{first}");
+    assert!(file("a.svg").contains("p x (mm)"));
+    let page = file("a.html");
+    let begin = page.find("id=\"data\">").unwrap() + 10;
+    let data = &page[begin..begin + page[begin..].find("</script>").unwrap()];
+    let plots: serde_json::Value = serde_json::from_str(data).unwrap();
+    let curve = plots.as_array().unwrap().iter().find(|plot| plot["kind"] == "lines").unwrap();
+    assert_eq!(curve["y"]["label"], "p x (mm)");
+    assert!((curve["series"][0]["y"][0].as_f64().unwrap() - first).abs() < 1e-3);
+    let readout = &plots[0]["readouts"][0];
+    assert_eq!((&readout["name"], &readout["unit"]), (&"p x".into(), &"mm".into()));
+    // A sweep over one parameter, and over two.
+    let (_, rows) = sweep(folder.path(), "chebyshev --param crank_length=30..50:3 --output p_x --end 0.5s");
+    assert!(rows[0].contains(&"max p_x [mm]".to_owned()), "{:?}", rows[0]);
+    assert!(file("out.svg").contains("peak p x (mm)") && file("out.svg").contains("crank length (mm)"));
+    let two = "chebyshev --param crank_length=30..50:3 --param omega=30..60:2 --output p_x --end 0.5s";
+    sweep(folder.path(), two);
+    for part in ["peak p x (mm)", "crank length (mm)", "omega (rpm)"] {
+        assert!(file("out.svg").contains(part), "{part}");
+    }
+}
+
+#[test]
+fn doubtful_numbers_end_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "simulate slider-crank --step 20ms --end 4s --out a.csv");
+    assert_eq!(output.status.code(), Some(3));
+    let warning = text(output.stderr);
+    assert!(
+        warning.starts_with("warning: the constraint `") && warning.contains("try a smaller --step"),
+        "{warning}"
+    );
+    assert!(folder.path().join("a.csv").exists() && text(output.stdout).contains("written: a.csv"));
+}
+
+#[test]
+fn columns_and_runs_of_ones_choice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let run = |arguments: &str| {
+        let output = mbs(folder.path(), &format!("simulate slider-crank --end 0.1s {arguments}"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        text(output.stdout)
+    };
+    let report = run("--columns x?,drive* --x theta1 --out a.csv --plot a.svg");
+    assert!(file("a.csv").starts_with("theta1 [rad],x1 [m],x2 [m],x3 [m],drive_torque [N*m]\n"));
+    assert!(report.contains("x3 at the end") && !report.contains("y1 at the end"), "{report}");
+    let svg = file("a.svg");
+    assert!(svg.contains("theta1 (rad)") && svg.contains("position (m)") && !svg.contains("time (s)"));
+    let report = run("--compare omega=100,200 --columns x3 --out b.csv --plot b.svg");
+    for part in ["omega = 100 rpm", "omega = 200 rpm"] {
+        assert!(report.contains(part) && file("b.svg").contains(part), "{part}");
+    }
+    let csv = file("b.csv");
+    assert!(csv.starts_with("omega [rpm],t [s],x3 [m]\n100.0,0.0,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 2 * 201);
+}
+
+#[test]
+fn inputs_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.csv"), "t [s],crank_torque [N*mm]\n0,0\n0.1,500\n").unwrap();
+    let run =
+        |arguments: &str| mbs(folder.path(), &format!("simulate slider-crank-free --end 0.1s {arguments}"));
+    let end = |arguments: &str| {
+        let output = run(&format!("--json {arguments}"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        json["final"]["theta1"]["value"].as_f64().unwrap()
+    };
+    let (none, rising, constant) = (end(""), end("--input @in.csv"), end("--input crank_torque=0.5"));
+    assert!(none < rising && rising < constant, "{none} {rising} {constant}");
+    let twice = run("--input @in.csv --input crank_torque=1");
+    assert!(text(twice.stderr).contains("set to a value and read from a file"));
+}
