@@ -1,5 +1,7 @@
 //! Formulas to expressions, with dimensions checked on the way.
 
+use std::collections::BTreeSet;
+
 use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
@@ -8,7 +10,10 @@ use super::Meaning;
 use super::functions;
 use super::names::{Place, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
-use crate::syntax::{Formula, FormulaKind};
+use crate::syntax::{Formula, FormulaKind, Operation, Operator};
+
+/// Names may build on each other this deep before those below are resolved first.
+const DEEPEST: usize = 128;
 
 impl Scope<'_> {
     /// The expression of a formula; `None` if it has errors, which are added.
@@ -27,20 +32,10 @@ impl Scope<'_> {
                 let inner = self.formula(inner, place, errors)?;
                 Some(Typed { expr: self.arena.neg(inner.expr), ..inner })
             }
-            FormulaKind::Binary { op: '^', op_span, left, right } => {
-                self.power(left, right, *op_span, place, errors)
+            FormulaKind::Power { base, op_span, exponent } => {
+                self.power(base, exponent, *op_span, place, errors)
             }
-            FormulaKind::Binary { op, op_span, left, right } => {
-                let (l, r) = (self.formula(left, place, errors), self.formula(right, place, errors));
-                let (l, r) = (l?, r?);
-                let result = match op {
-                    '+' | '-' => self.add(*op, *op_span, (left, l), (right, r)),
-                    '*' => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
-                    _ => self.divide(right, l, r),
-                };
-                let typed = errors.take(result)?;
-                self.finite(typed, &[l.expr, r.expr], *op_span, errors)
-            }
+            FormulaKind::Chain { first, rest } => self.chain(first, rest, place, errors),
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
             FormulaKind::Component { call, member } => self.component(call, member, place, errors),
             FormulaKind::WithUnit { inner, unit } => {
@@ -59,6 +54,47 @@ impl Scope<'_> {
                 Some(Typed { expr, dimension: Some(unit.unit.dimension) })
             }
         }
+    }
+
+    /// From left to right; what has no value of its own has been reported.
+    fn chain(
+        &mut self,
+        first: &Formula,
+        rest: &[Operation],
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let mut value = self.formula(first, place, errors);
+        // Only what is written, no result of an operation, may lack its unit.
+        let mut left = Some(first);
+        for operation in rest {
+            let operand = self.formula(&operation.operand, place, errors);
+            value = match (value, operand) {
+                (Some(l), Some(r)) => self.operate(operation, (left, l), r, errors),
+                _ => None,
+            };
+            left = None;
+        }
+        value
+    }
+
+    fn operate(
+        &mut self,
+        Operation { op, op_span, operand }: &Operation,
+        (left, l): (Option<&Formula>, Typed),
+        r: Typed,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let result = match op {
+            Operator::Plus => self.add(Number::ONE, *op_span, (left, l), (operand, r)),
+            Operator::Minus => self.add(Number::MINUS_ONE, *op_span, (left, l), (operand, r)),
+            Operator::Times => {
+                Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) })
+            }
+            Operator::Over => self.divide(operand, l, r),
+        };
+        let typed = errors.take(result)?;
+        self.finite(typed, &[l.expr, r.expr], *op_span, errors)
     }
 
     /// As [`formula`](Self::formula), of the given dimension.
@@ -117,9 +153,14 @@ impl Scope<'_> {
                 _ => Vec::new(),
             },
             FormulaKind::Negative(inner) => self.bare_parameters(inner),
-            FormulaKind::Binary { left, right, .. } => {
-                let mut bare = self.bare_parameters(left);
-                bare.extend(self.bare_parameters(right));
+            FormulaKind::Chain { first, rest } => {
+                let operands = rest.iter().map(|operation| &operation.operand);
+                let all = std::iter::once(&**first).chain(operands);
+                all.flat_map(|operand| self.bare_parameters(operand)).collect()
+            }
+            FormulaKind::Power { base, exponent, .. } => {
+                let mut bare = self.bare_parameters(base);
+                bare.extend(self.bare_parameters(exponent));
                 bare
             }
             _ => Vec::new(),
@@ -165,8 +206,67 @@ impl Scope<'_> {
         self.allowed(typed, name, place, errors)
     }
 
-    /// Resolves a `let` or `const` that is met for the first time.
+    /// Resolves a `let` or `const` that is met for the first time. Those that it
+    /// builds on are met on the way; where there are many, they come first, so
+    /// that the recursion has an end.
     pub fn definition(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
+        if self.depth > DEEPEST + 1 {
+            return self.endless(name, errors);
+        }
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            for below in self.untouched_below(name) {
+                if self.is_untouched(&below) {
+                    self.resolve_definition(&below, errors);
+                }
+            }
+        }
+        let typed = self.resolve_definition(name, errors);
+        self.depth -= 1;
+        typed
+    }
+
+    /// The definitions that one builds on, each behind its own.
+    fn untouched_below(&self, name: &str) -> Vec<String> {
+        let names_in = |name: &str| match self.values.get(name) {
+            Some(Value::Definition(definition)) if self.is_untouched(name) => definition.formula.names(),
+            _ => Vec::new(),
+        };
+        let mut seen = BTreeSet::from([name.to_owned()]);
+        let mut way = vec![(name.to_owned(), names_in(name))];
+        let mut found = Vec::new();
+        while let Some((_, names)) = way.last_mut() {
+            match names.pop() {
+                Some(next) if seen.insert(next.clone()) => {
+                    let names = names_in(&next);
+                    way.push((next, names));
+                }
+                Some(_) => {}
+                None => found.extend(way.pop().map(|(name, _)| name)),
+            }
+        }
+        found.pop();
+        found
+    }
+
+    fn is_untouched(&self, name: &str) -> bool {
+        let Some(Value::Definition(definition)) = self.values.get(name) else { return false };
+        matches!(definition.state, State::Untouched)
+    }
+
+    /// With all that it builds on resolved, only a circle is this deep.
+    fn endless(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
+        if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
+            definition.state = State::Failed;
+            errors.push(
+                Diagnostic::new(definition.span, format!("`{name}` is defined through itself"))
+                    .help("break the circle: one of the names on it needs a value of its own"),
+            );
+        }
+        None
+    }
+
+    fn resolve_definition(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
         let Some(Value::Definition(definition)) = self.values.get_mut(name) else { return None };
         definition.state = State::Open;
         let (formula, place) =
@@ -249,22 +349,21 @@ impl Scope<'_> {
 
     fn add(
         &mut self,
-        op: char,
+        sign: Number,
         op_span: Span,
-        (left, l): (&Formula, Typed),
+        (left, l): (Option<&Formula>, Typed),
         (right, r): (&Formula, Typed),
     ) -> Result<Typed, Diagnostic> {
-        let sign = if op == '-' { Number::MINUS_ONE } else { Number::ONE };
         let expr = self.arena.sum(&[(l.expr, Number::ONE), (r.expr, sign)]);
         match (l.dimension, r.dimension) {
             (Some(a), Some(b)) if a != b => {
-                let message = match op {
-                    '-' => format!("{} cannot be subtracted from {}", described(b), described(a)),
-                    _ => format!("{} and {} cannot be added", described(a), described(b)),
+                let message = match sign.is_negative() {
+                    true => format!("{} cannot be subtracted from {}", described(b), described(a)),
+                    false => format!("{} and {} cannot be added", described(a), described(b)),
                 };
                 // The number without a unit is the likely culprit.
-                let bare = [left, right]
-                    .into_iter()
+                let mut written = left.into_iter().chain([right]);
+                let bare = written
                     .find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
                 Err(match bare {
                     Some(number) => Diagnostic::new(number.span, message)
@@ -354,7 +453,8 @@ fn product(l: Typed, r: Typed) -> Option<Dimension> {
 
 /// `0.052/3 [kg]` divides by 3 kg: a unit belongs to the number before it.
 pub(super) fn unit_help_for_products(formula: &Formula) -> Option<String> {
-    let FormulaKind::Binary { op: '*' | '/', right, .. } = &formula.kind else { return None };
-    let FormulaKind::Number { unit: Some(unit), .. } = &right.kind else { return None };
+    let FormulaKind::Chain { rest, .. } = &formula.kind else { return None };
+    let last = rest.last().filter(|last| matches!(last.op, Operator::Times | Operator::Over))?;
+    let FormulaKind::Number { unit: Some(unit), .. } = &last.operand.kind else { return None };
     Some(format!("the unit belongs to the number before it alone; write `( … ) [{}]`", unit.text))
 }

@@ -110,6 +110,8 @@ pub struct Scope<'a> {
     pub energies: Option<Energies>,
     pub time: Symbol,
     pub local: Option<Local>,
+    /// Definitions that are being resolved, one in the other.
+    pub depth: usize,
     pub profiles: BTreeMap<String, Profile>,
 }
 
@@ -139,6 +141,7 @@ impl<'a> Scope<'a> {
             energies: None,
             time: Arena::new().symbol("t", Stage::Variable),
             local: None,
+            depth: 0,
             profiles: BTreeMap::new(),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);

@@ -2,13 +2,13 @@
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::{self, Unit};
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Punct, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
 
-use super::{Formula, FormulaKind, UnitText, Vector};
+use super::{Formula, FormulaKind, Operation, Operator, UnitText, Vector};
 
 /// Parentheses, powers and signs may nest this deep.
 const DEEPEST: usize = 128;
@@ -20,19 +20,36 @@ impl Parse for Formula {
 }
 
 fn sum(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
-    let mut left = product(input, depth)?;
-    while input.peek(Token![+]) || input.peek(Token![-]) {
-        left = binary(left, operator(input)?, product(input, depth)?);
-    }
-    Ok(left)
+    chain(input, &|input| product(input, depth), &[('+', Operator::Plus), ('-', Operator::Minus)])
 }
 
 fn product(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
-    let mut left = signed(input, depth)?;
-    while input.peek(Token![*]) || input.peek(Token![/]) {
-        left = binary(left, operator(input)?, signed(input, depth)?);
+    chain(input, &|input| signed(input, depth), &[('*', Operator::Times), ('/', Operator::Over)])
+}
+
+/// Operands with operators between them, which are of one rank.
+fn chain(
+    input: ParseStream<'_>,
+    operand: &dyn Fn(ParseStream<'_>) -> Result<Formula>,
+    operators: &[(char, Operator)],
+) -> Result<Formula> {
+    let first = operand(input)?;
+    let mut rest = Vec::new();
+    while let Some(op) = next_operator(input, operators) {
+        let (_, op_span) = operator(input)?;
+        rest.push(Operation { op, op_span, operand: operand(input)? });
     }
-    Ok(left)
+    if rest.is_empty() {
+        return Ok(first);
+    }
+    // `join` gives the first token alone on stable compilers; errors therefore
+    // go to single tokens, and this span is only the formula's beginning.
+    Ok(Formula { span: first.span, kind: FormulaKind::Chain { first: Box::new(first), rest } })
+}
+
+fn next_operator(input: ParseStream<'_>, operators: &[(char, Operator)]) -> Option<Operator> {
+    let punct = input.fork().parse::<Punct>().ok()?;
+    operators.iter().find(|(mark, _)| *mark == punct.as_char()).map(|(_, operator)| *operator)
 }
 
 /// A sign binds looser than `^`: −x² is −(x²).
@@ -51,21 +68,18 @@ fn signed(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     }
     let base = with_unit(input, depth)?;
     if input.peek(Token![^]) {
-        let operator = operator(input)?;
-        return Ok(binary(base, operator, signed(input, depth + 1)?));
+        let (_, op_span) = operator(input)?;
+        let exponent = Box::new(signed(input, depth + 1)?);
+        return Ok(Formula {
+            span: base.span,
+            kind: FormulaKind::Power { base: Box::new(base), op_span, exponent },
+        });
     }
     Ok(base)
 }
 
-fn binary(left: Formula, (op, op_span): (char, Span), right: Formula) -> Formula {
-    // `join` gives the first token alone on stable compilers; errors therefore
-    // go to single tokens, and this span is only the formula's beginning.
-    let span = left.span;
-    Formula { span, kind: FormulaKind::Binary { op, op_span, left: Box::new(left), right: Box::new(right) } }
-}
-
 fn operator(input: ParseStream<'_>) -> Result<(char, Span)> {
-    let punct: proc_macro2::Punct = input.parse()?;
+    let punct: Punct = input.parse()?;
     Ok((punct.as_char(), punct.span()))
 }
 
@@ -194,6 +208,15 @@ impl Parse for UnitText {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
         let content;
         let bracket = bracketed!(content in input);
+        let inner;
+        // `[$u]` around the fragment of a macro
+        let content = match content.peek(token::Paren) && is_one_token(&content) {
+            true => {
+                parenthesized!(inner in content);
+                inner
+            }
+            false => content,
+        };
         let tokens: TokenStream = content.fork().parse()?;
         let text = tokens.to_string().replace(' ', "");
         if content.is_empty() {
@@ -204,6 +227,11 @@ impl Parse for UnitText {
         }
         Ok(Self { text, unit: unit(&content)? })
     }
+}
+
+fn is_one_token(input: ParseStream<'_>) -> bool {
+    let ahead = input.fork();
+    ahead.parse::<TokenTree>().is_ok() && ahead.is_empty()
 }
 
 /// A unit, inside its brackets.
@@ -222,6 +250,10 @@ pub(super) fn unit(content: ParseStream<'_>) -> Result<Unit> {
 }
 
 fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
+    if input.peek(token::Paren) {
+        let message = "a unit has no parentheses; `/` applies to the next factor alone, as in `[N/m/s]`";
+        return Err(input.error(message));
+    }
     if input.peek(Lit) {
         let literal: Lit = input.parse()?;
         return match &literal {
@@ -293,7 +325,7 @@ fn in_unit(inner: Formula, unit: UnitText) -> Formula {
 pub(super) fn is_vector(input: ParseStream<'_>) -> bool {
     let ahead = input.fork();
     let Ok(group) = ahead.parse::<proc_macro2::Group>() else { return false };
-    let is_comma = |token| matches!(token, proc_macro2::TokenTree::Punct(p) if p.as_char() == ',');
+    let is_comma = |token| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
     input.peek(token::Paren) && group.stream().into_iter().any(is_comma)
 }
 

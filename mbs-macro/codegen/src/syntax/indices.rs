@@ -148,10 +148,11 @@ impl Indices {
     }
 
     fn product(&self, input: ParseStream<'_>) -> Result<i64> {
-        if input.parse::<Option<Token![-]>>()?.is_some() {
-            return Ok(-self.factor(input)?);
-        }
+        let is_negative = input.parse::<Option<Token![-]>>()?.is_some();
         let mut value = self.factor(input)?;
+        if is_negative {
+            value = value.checked_neg().ok_or_else(|| too_large(input))?;
+        }
         while input.parse::<Option<Token![*]>>()?.is_some() {
             value = value.checked_mul(self.factor(input)?).ok_or_else(|| too_large(input))?;
         }

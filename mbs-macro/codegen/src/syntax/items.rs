@@ -12,7 +12,7 @@ use super::indices::Indices;
 use super::statements::Reader;
 use super::words::{block, definition, doc, equals, name, name_before_unit, path, semicolon};
 use super::{Comparison, Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
-use super::{elements, joints, profiles, solver};
+use super::{elements, groups, joints, profiles, solver};
 use crate::diagnostics::{Diagnostics, nearest};
 
 const KEYWORDS: &[&str] = &[
@@ -50,8 +50,8 @@ const KEYWORDS: &[&str] = &[
 /// All errors of shape.
 pub fn parse(tokens: TokenStream) -> std::result::Result<Declaration, Diagnostics> {
     let mut errors = Diagnostics::default();
-    let parsed = (|input: ParseStream<'_>| declaration(input, &mut errors)).parse2(tokens);
-    match parsed {
+    let parser = |input: ParseStream<'_>| declaration(input, &mut errors);
+    match groups::delimited(tokens).and_then(|tokens| parser.parse2(tokens)) {
         Ok(declaration) => errors.finish(declaration),
         Err(error) => {
             errors.push(error);

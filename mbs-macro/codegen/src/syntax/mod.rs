@@ -2,6 +2,7 @@
 
 mod elements;
 mod formula;
+mod groups;
 mod indices;
 mod items;
 mod joints;
@@ -320,6 +321,39 @@ impl Formula {
     pub fn name(name: &Ident) -> Self {
         Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
     }
+
+    /// The plain names in it.
+    pub fn names(&self) -> Vec<String> {
+        match &self.kind {
+            FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
+            FormulaKind::Name(name) => vec![name.to_string()],
+            FormulaKind::Negative(inner)
+            | FormulaKind::Component { call: inner, .. }
+            | FormulaKind::WithUnit { inner, .. } => inner.names(),
+            FormulaKind::Chain { first, rest } => {
+                let rest = rest.iter().flat_map(|operation| operation.operand.names());
+                first.names().into_iter().chain(rest).collect()
+            }
+            FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
+            FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
+        }
+    }
+}
+
+/// An operator of a chain with what stands behind it.
+#[derive(Clone)]
+pub struct Operation {
+    pub op: Operator,
+    pub op_span: Span,
+    pub operand: Formula,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Operator {
+    Plus,
+    Minus,
+    Times,
+    Over,
 }
 
 #[derive(Clone)]
@@ -333,12 +367,16 @@ pub enum FormulaKind {
     /// `crank.tip.x`
     Member(Vec<Ident>),
     Negative(Box<Formula>),
-    /// `op` is one of `+ - * / ^`; the span is the operator's.
-    Binary {
-        op: char,
+    /// `a + b - c`, or `a*b/c`: from left to right. A list, so that a long one
+    /// is not deep.
+    Chain {
+        first: Box<Formula>,
+        rest: Vec<Operation>,
+    },
+    Power {
+        base: Box<Formula>,
         op_span: Span,
-        left: Box<Formula>,
-        right: Box<Formula>,
+        exponent: Box<Formula>,
     },
     Call {
         function: Ident,
