@@ -58,7 +58,7 @@ pub struct Model {
     pub loads: Vec<Load>,
     /// Loads that depend on multipliers.
     pub reactive_loads: Vec<Work>,
-    /// What properties of elements have to satisfy.
+    /// What properties of joints and elements have to satisfy.
     pub checks: Vec<Check>,
     /// Energies of springs.
     pub potentials: Vec<Expr>,
@@ -193,11 +193,29 @@ pub struct Check {
     pub value: Expr,
     pub is_strict: bool,
     pub property: &'static str,
-    pub element: String,
+    /// What has it.
+    pub owner: String,
     pub span: Span,
 }
 
 pub struct Start {
+    /// How to mend a declared value that is 0, where 0 is not allowed.
+    pub zero_help: Option<&'static str>,
+}
+
+impl Check {
+    /// What has to hold.
+    pub fn rule(&self) -> &'static str {
+        if self.is_strict { "it has to be positive" } else { "it must not be negative" }
+    }
+}
+
+/// The distance between the places of a spring that has no direction where
+/// they coincide.
+pub struct Gap {
+    pub distance: Expr,
+    /// That of the spring.
+    pub name: proc_macro2::Ident,
     pub coordinate: usize,
     pub is_rate: bool,
     pub is_guess: bool,

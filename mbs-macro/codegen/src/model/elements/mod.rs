@@ -213,8 +213,9 @@ impl Resolver<'_> {
                 value: *value,
                 is_strict: row.range == Range::Positive,
                 property: row.name,
-                element: element.name.to_string(),
+                owner: element.name.to_string(),
                 span: property.name.span(),
+                zero_help: None,
             });
         }
         Some(values)
