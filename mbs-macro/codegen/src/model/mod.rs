@@ -61,6 +61,8 @@ pub struct Model {
     /// What properties of joints and elements have to satisfy.
     pub checks: Vec<Check>,
     /// Energies of springs.
+    /// Places of springs that must not coincide.
+    pub gaps: Vec<Gap>,
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
@@ -214,6 +216,9 @@ impl Check {
 /// they coincide.
 pub struct Gap {
     pub distance: Expr,
+}
+
+pub struct Start {
     /// That of the spring.
     pub name: proc_macro2::Ident,
     pub coordinate: usize,

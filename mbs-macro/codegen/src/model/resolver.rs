@@ -10,7 +10,7 @@ use super::energies;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
+    Body, Check, Constraint, Coordinate, Gap, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
     Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -64,6 +64,7 @@ pub(super) struct Resolver<'a> {
     pub loads: Vec<Load>,
     pub reactive_loads: Vec<Work>,
     pub checks: Vec<Check>,
+    pub gaps: Vec<Gap>,
     pub potentials: Vec<Expr>,
     pub load_names: Vec<(String, Span)>,
     pub starts: Vec<Start>,
@@ -95,6 +96,7 @@ impl<'a> Resolver<'a> {
             loads: Vec::new(),
             reactive_loads: Vec::new(),
             checks: Vec::new(),
+            gaps: Vec::new(),
             potentials: Vec::new(),
             load_names: Vec::new(),
             starts: Vec::new(),
@@ -190,6 +192,7 @@ impl<'a> Resolver<'a> {
             loads: self.loads,
             reactive_loads: self.reactive_loads,
             checks: self.checks,
+            gaps: self.gaps,
             potentials: self.potentials,
             start: self.starts,
             outputs: self.outputs,

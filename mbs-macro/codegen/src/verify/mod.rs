@@ -6,6 +6,7 @@ mod closure;
 mod correction;
 mod echelon;
 mod floating;
+mod gaps;
 mod generic;
 mod jets;
 mod manifold;
@@ -40,6 +41,9 @@ pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) 
     let mut errors = Diagnostics::default();
     check_declared_values(model, &mut errors);
     let rows = rank::check_independence(model, equations, samples, &mut errors);
+    if errors.is_empty() {
+        gaps::check_gaps(model, equations, samples, &rows, &mut errors);
+    }
     errors.finish(rows)
 }
 
