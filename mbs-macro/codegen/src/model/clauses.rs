@@ -5,7 +5,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
 use super::joints::{self, Connection};
-use super::names::{Local, Place, Typed};
+use super::names::Place;
 use super::places::GROUND;
 use super::Check;
 use super::resolver::Resolver;
@@ -33,9 +33,6 @@ const TEETH: [Size; 2] = [
     Size { property: "first number of teeth", words: "a number of teeth", dimension: Dimension::NONE },
     Size { property: "second number of teeth", words: "a number of teeth", dimension: Dimension::NONE },
 ];
-
-/// The name of the polar angle in the profile of a cam.
-pub const POLAR_ANGLE: &str = "angle";
 
 impl Resolver<'_> {
     /// A joint with its places and clauses; `None` if one has errors, which are
@@ -169,17 +166,6 @@ impl Resolver<'_> {
     fn body_angle(&mut self, body: &Ident) -> Option<Expr> {
         let frame = self.scope.frame(body).map(|frame| frame.angle);
         self.errors.take(frame)
-    }
-
-    /// The curve ρ(angle) of a cam, a length.
-    fn polar_profile(&mut self, joint: &Joint, formula: &Formula, angle: Expr) -> Option<Expr> {
-        let typed = Typed { expr: angle, dimension: Some(Dimension::NONE) };
-        self.scope.local = Some(Local { name: POLAR_ANGLE, typed });
-        let what = format!("the profile of `{}`", joint.name);
-        let place = (what.as_str(), Dimension::LENGTH);
-        let profile = self.scope.formula_of(formula, Place::Property, place, &mut self.errors);
-        self.scope.local = None;
-        profile
     }
 
     /// What a joint turns has to be able to.

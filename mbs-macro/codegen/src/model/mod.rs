@@ -3,6 +3,7 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod cams;
 mod clauses;
 mod connections;
 mod declare;
@@ -60,9 +61,9 @@ pub struct Model {
     pub reactive_loads: Vec<Work>,
     /// What properties of joints and elements have to satisfy.
     pub checks: Vec<Check>,
-    /// Energies of springs.
     /// Places of springs that must not coincide.
     pub gaps: Vec<Gap>,
+    /// Energies of springs.
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
     pub outputs: Vec<Output>,
@@ -190,7 +191,7 @@ pub struct Work {
     pub span: Span,
 }
 
-/// A property that must be positive, or just not negative.
+/// A property of a joint or an element that must be positive, or just not negative.
 pub struct Check {
     pub value: Expr,
     pub is_strict: bool,
@@ -198,9 +199,6 @@ pub struct Check {
     /// What has it.
     pub owner: String,
     pub span: Span,
-}
-
-pub struct Start {
     /// How to mend a declared value that is 0, where 0 is not allowed.
     pub zero_help: Option<&'static str>,
 }
@@ -216,11 +214,11 @@ impl Check {
 /// they coincide.
 pub struct Gap {
     pub distance: Expr,
+    /// That of the spring.
+    pub name: proc_macro2::Ident,
 }
 
 pub struct Start {
-    /// That of the spring.
-    pub name: proc_macro2::Ident,
     pub coordinate: usize,
     pub is_rate: bool,
     pub is_guess: bool,
