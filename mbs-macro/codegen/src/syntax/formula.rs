@@ -8,10 +8,46 @@ use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
 
+use super::words::helped;
 use super::{Formula, FormulaKind, Operation, Operator, UnitText, Vector};
 
 /// Parentheses, powers and signs may nest this deep.
 const DEEPEST: usize = 128;
+
+impl Formula {
+    /// The formula that is a name.
+    pub fn name(name: &Ident) -> Self {
+        Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
+    }
+
+    /// As it is written, if it is a name or a path of names.
+    pub fn path(&self) -> Option<String> {
+        match &self.kind {
+            FormulaKind::Name(name) => Some(name.to_string()),
+            FormulaKind::Member(path) => {
+                Some(path.iter().map(ToString::to_string).collect::<Vec<_>>().join("."))
+            }
+            _ => None,
+        }
+    }
+
+    /// The plain names in it.
+    pub fn names(&self) -> Vec<String> {
+        match &self.kind {
+            FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
+            FormulaKind::Name(name) => vec![name.to_string()],
+            FormulaKind::Negative(inner)
+            | FormulaKind::Component { call: inner, .. }
+            | FormulaKind::WithUnit { inner, .. } => inner.names(),
+            FormulaKind::Chain { first, rest } => {
+                let rest = rest.iter().flat_map(|operation| operation.operand.names());
+                first.names().into_iter().chain(rest).collect()
+            }
+            FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
+            FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
+        }
+    }
+}
 
 impl Parse for Formula {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
@@ -107,13 +143,15 @@ fn with_unit(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
 /// mistake, or an index that is not known.
 pub(super) fn bracket_after_name(input: ParseStream<'_>, name: &Ident) -> Error {
     let is_unit = input.fork().parse::<UnitText>().is_ok();
-    input.error(if is_unit {
-        format!("`{name}` has a unit of its own; units in brackets follow numbers, as in `60 [mm]`")
-    } else {
-        format!(
-            "the index of `{name}` is not known here\n\nhelp: an index is 0 or more, made of whole numbers, loop variables and whole constants, as in `{name}[i-1]`"
-        )
-    })
+    if is_unit {
+        let message = "has a unit of its own; units in brackets follow numbers, as in `60 [mm]`";
+        return input.error(format!("`{name}` {message}"));
+    }
+    let message = format!("the index of `{name}` is not known here");
+    let help = format!(
+        "an index is 0 or more, made of whole numbers, loop variables and whole constants, as in `{name}[i-1]`"
+    );
+    helped(input.span(), message, help)
 }
 
 fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
@@ -134,7 +172,11 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     if input.peek(Ident::peek_any) {
         let name = Ident::parse_any(input)?;
         let span = name.span();
-        if !input.peek(token::Paren) {
+        if !input.peek(token::Paren) || name == "if" {
+            if name == "if" {
+                let help = "a value that depends on a sign is written with `max(0, x)`, `min(a, b)`, `abs(x)` or `(1 + sign(x))/2`";
+                return Err(helped(span, "`if` chooses statements and cannot stand in a formula", help));
+            }
             if syn::parse_str::<Ident>(&name.to_string()).is_err() {
                 return Err(Error::new(
                     span,
@@ -191,10 +233,7 @@ fn number(literal: &Lit) -> Result<Formula> {
         } else {
             format!("write a product with `*`: `{digits}*{suffix}`")
         };
-        return Err(Error::new(
-            literal.span(),
-            format!("`{digits}{suffix}` is not a number\n\nhelp: {help}"),
-        ));
+        return Err(helped(literal.span(), format!("`{digits}{suffix}` is not a number"), help));
     }
     let value = Number::parse(&digits)
         .ok_or_else(|| Error::new(literal.span(), "this number is too large for a double"))?;
@@ -274,8 +313,11 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
             Some((a, b)) => Some(format!("{a}*{b}")),
             None => crate::diagnostics::nearest(&text, units::known()).map(str::to_owned),
         };
-        let hint = meant.map_or(String::new(), |meant| format!("\n\nhelp: did you mean `{meant}`?"));
-        Error::new(name.span(), format!("{}{hint}", units::UnitError::unknown(&text)))
+        let unknown = units::UnitError::unknown(&text);
+        match meant {
+            Some(meant) => helped(name.span(), unknown, format!("did you mean `{meant}`?")),
+            None => Error::new(name.span(), unknown),
+        }
     })?;
     if !input.peek(Token![^]) {
         return Ok(unit);

@@ -6,6 +6,7 @@ mod groups;
 mod indices;
 mod items;
 mod joints;
+mod keywords;
 mod profiles;
 mod solver;
 mod statements;
@@ -17,6 +18,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
 pub use joints::JOINTS;
+pub use keywords::{Keyword, KeywordKind, keywords};
 
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
@@ -314,30 +316,6 @@ pub struct UnitText {
 pub struct Formula {
     pub span: Span,
     pub kind: FormulaKind,
-}
-
-impl Formula {
-    /// The formula that is a name.
-    pub fn name(name: &Ident) -> Self {
-        Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
-    }
-
-    /// The plain names in it.
-    pub fn names(&self) -> Vec<String> {
-        match &self.kind {
-            FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
-            FormulaKind::Name(name) => vec![name.to_string()],
-            FormulaKind::Negative(inner)
-            | FormulaKind::Component { call: inner, .. }
-            | FormulaKind::WithUnit { inner, .. } => inner.names(),
-            FormulaKind::Chain { first, rest } => {
-                let rest = rest.iter().flat_map(|operation| operation.operand.names());
-                first.names().into_iter().chain(rest).collect()
-            }
-            FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
-            FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
-        }
-    }
 }
 
 /// An operator of a chain with what stands behind it.
