@@ -13,7 +13,7 @@ mechanism! {
 
 mechanism! {
     pub Formulas {
-        dof = 2;
+        dof = 3;
         param l = 1 [m];
         param gap = 1 [m];
         param teeth = -20;
