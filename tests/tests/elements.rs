@@ -210,7 +210,9 @@ fn spring_without_length_is_regular_where_its_places_coincide() -> Result<(), Er
         let (state, found) = (*run.state(), run.outputs()?);
         // the direction is softened by (1e-12 m)², against y > 1e-6 m from the second step on
         assert!((state.q.y - state.q.yt).abs() < 1e-11, "{} {}", state.q.y, state.q.yt);
-        assert!((found.tension - (4.0 * state.q.y.abs() + 0.3 * state.v.y * state.q.y.signum())).abs() < 1e-9);
+        assert!(
+            (found.tension - (4.0 * state.q.y.abs() + 0.3 * state.v.y * state.q.y.signum())).abs() < 1e-9
+        );
         assert!((found.loss + 0.3 * state.v.y * state.v.y).abs() < 1e-9);
     }
     let energy = run.mechanism().potential_energy(run.state());

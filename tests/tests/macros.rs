@@ -29,7 +29,9 @@ fn fragments_in_formulas_keep_their_grouping() {
                 }
             };
             // through a second macro, so that groups stand in groups
-            (nested $u:expr) => { given!(1 * $u, -3, 60 [mm], rod.edge.x); };
+            (nested $u:expr) => {
+                given!(1 * $u, -3, 60[mm], rod.edge.x);
+            };
         }
         given!(nested 1 + 1);
     }

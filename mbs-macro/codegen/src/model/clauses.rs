@@ -4,10 +4,11 @@ use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
+use super::Check;
+use super::formula::in_radians;
 use super::joints::{self, Connection};
 use super::names::Place;
 use super::places::GROUND;
-use super::Check;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Clause, Formula, Joint, JointKind, Vector};
@@ -112,7 +113,10 @@ impl Resolver<'_> {
             JointKind::Rack | JointKind::Rolling => {
                 ("the place at which the angles are equal", Dimension::LENGTH)
             }
-            _ => ("the angle between the bodies", Dimension::NONE),
+            _ => {
+                self.errors.take(in_radians(formula))?;
+                ("the angle between the bodies", Dimension::NONE)
+            }
         };
         self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
     }

@@ -1,7 +1,5 @@
 //! Formulas to expressions, with dimensions checked on the way.
 
-use std::collections::BTreeSet;
-
 use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Expr, Number, Symbol};
 use proc_macro2::{Ident, Span};
@@ -11,9 +9,6 @@ use super::functions;
 use super::names::{Place, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind, Operation, Operator};
-
-/// Names may build on each other this deep before those below are resolved first.
-const DEEPEST: usize = 128;
 
 impl Scope<'_> {
     /// The expression of a formula; `None` if it has errors, which are added.
@@ -88,9 +83,7 @@ impl Scope<'_> {
         let result = match op {
             Operator::Plus => self.add(Number::ONE, *op_span, (left, l), (operand, r)),
             Operator::Minus => self.add(Number::MINUS_ONE, *op_span, (left, l), (operand, r)),
-            Operator::Times => {
-                Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) })
-            }
+            Operator::Times => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
             Operator::Over => self.divide(operand, l, r),
         };
         let typed = errors.take(result)?;
@@ -198,87 +191,13 @@ impl Scope<'_> {
                 }
                 State::Untouched => self.definition(&text, errors)?,
             },
+            Some(Value::Refused(_)) => return None,
             None => {
                 errors.push(self.unknown(name));
                 return None;
             }
         };
         self.allowed(typed, name, place, errors)
-    }
-
-    /// Resolves a `let` or `const` that is met for the first time. Those that it
-    /// builds on are met on the way; where there are many, they come first, so
-    /// that the recursion has an end.
-    pub fn definition(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
-        if self.depth > DEEPEST + 1 {
-            return self.endless(name, errors);
-        }
-        self.depth += 1;
-        if self.depth > DEEPEST {
-            for below in self.untouched_below(name) {
-                if self.is_untouched(&below) {
-                    self.resolve_definition(&below, errors);
-                }
-            }
-        }
-        let typed = self.resolve_definition(name, errors);
-        self.depth -= 1;
-        typed
-    }
-
-    /// The definitions that one builds on, each behind its own.
-    fn untouched_below(&self, name: &str) -> Vec<String> {
-        let names_in = |name: &str| match self.values.get(name) {
-            Some(Value::Definition(definition)) if self.is_untouched(name) => definition.formula.names(),
-            _ => Vec::new(),
-        };
-        let mut seen = BTreeSet::from([name.to_owned()]);
-        let mut way = vec![(name.to_owned(), names_in(name))];
-        let mut found = Vec::new();
-        while let Some((_, names)) = way.last_mut() {
-            match names.pop() {
-                Some(next) if seen.insert(next.clone()) => {
-                    let names = names_in(&next);
-                    way.push((next, names));
-                }
-                Some(_) => {}
-                None => found.extend(way.pop().map(|(name, _)| name)),
-            }
-        }
-        found.pop();
-        found
-    }
-
-    fn is_untouched(&self, name: &str) -> bool {
-        let Some(Value::Definition(definition)) = self.values.get(name) else { return false };
-        matches!(definition.state, State::Untouched)
-    }
-
-    /// With all that it builds on resolved, only a circle is this deep.
-    fn endless(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
-        if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
-            definition.state = State::Failed;
-            errors.push(
-                Diagnostic::new(definition.span, format!("`{name}` is defined through itself"))
-                    .help("break the circle: one of the names on it needs a value of its own"),
-            );
-        }
-        None
-    }
-
-    fn resolve_definition(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
-        let Some(Value::Definition(definition)) = self.values.get_mut(name) else { return None };
-        definition.state = State::Open;
-        let (formula, place) =
-            (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
-        // a definition means the same wherever it is used
-        let local = self.local.take();
-        let typed = self.formula(formula, place, errors);
-        self.local = local;
-        if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
-            definition.state = typed.map_or(State::Failed, State::Done);
-        }
-        typed
     }
 
     /// Refuses what an expression may not depend on in this place.
@@ -363,8 +282,7 @@ impl Scope<'_> {
                 };
                 // The number without a unit is the likely culprit.
                 let mut written = left.into_iter().chain([right]);
-                let bare = written
-                    .find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
+                let bare = written.find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
                 Err(match bare {
                     Some(number) => Diagnostic::new(number.span, message)
                         .help("a number without a unit is dimensionless; give it one, as in `5 [mm]`"),
@@ -457,4 +375,27 @@ pub(super) fn unit_help_for_products(formula: &Formula) -> Option<String> {
     let last = rest.last().filter(|last| matches!(last.op, Operator::Times | Operator::Over))?;
     let FormulaKind::Number { unit: Some(unit), .. } = &last.operand.kind else { return None };
     Some(format!("the unit belongs to the number before it alone; write `( … ) [{}]`", unit.text))
+}
+
+/// More than a turn, in radians and rounded.
+const TURN: f64 = 6.3;
+
+/// A bare number that is an angle is in radians. One of more than a turn is
+/// taken for degrees without their unit.
+///
+/// # Errors
+/// That, with both ways to write it.
+pub(super) fn in_radians(formula: &Formula) -> Result<(), Diagnostic> {
+    let (sign, number) = match &formula.kind {
+        FormulaKind::Negative(inner) => ("-", &inner.kind),
+        kind => ("", kind),
+    };
+    let FormulaKind::Number { value, unit: None } = number else { return Ok(()) };
+    let value = value.to_f64();
+    if value <= TURN {
+        return Ok(());
+    }
+    let message = "this angle is more than a turn: a bare number is in radians";
+    let help = format!("write `{sign}{value} [deg]`, or `{sign}{value} [rad]`");
+    Err(Diagnostic::new(formula.span, message).help(help))
 }

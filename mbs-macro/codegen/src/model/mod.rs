@@ -7,6 +7,7 @@ mod cams;
 mod clauses;
 mod connections;
 mod declare;
+mod definitions;
 mod elements;
 pub mod energies;
 mod formula;

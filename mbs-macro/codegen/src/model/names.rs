@@ -26,8 +26,14 @@ pub struct Typed {
 
 /// What a name in a formula stands for.
 pub enum Value<'a> {
-    Symbol { symbol: Symbol, dimension: Dimension, span: Span },
+    Symbol {
+        symbol: Symbol,
+        dimension: Dimension,
+        span: Span,
+    },
     Definition(Definition<'a>),
+    /// Declared with an error: what uses it has none of its own.
+    Refused(Span),
 }
 
 /// A `let` or `const`, resolved when first needed.
@@ -185,6 +191,7 @@ impl Value<'_> {
         match self {
             Self::Symbol { span, .. } => *span,
             Self::Definition(definition) => definition.span,
+            Self::Refused(span) => *span,
         }
     }
 }

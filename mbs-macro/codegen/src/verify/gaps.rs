@@ -37,7 +37,8 @@ pub fn check_gaps(
     for gap in &model.gaps {
         if model.arena.evaluate(&[gap.distance], &values)[0] <= nearest {
             let name = &gap.name;
-            let message = format!("the places of `{name}` coincide at the start, so that it has no direction");
+            let message =
+                format!("the places of `{name}` coincide at the start, so that it has no direction");
             let error = Diagnostic::new(name.span(), message).help(
                 "declare a start where they are apart; a spring without a free length, `length = 0`, has no such position",
             );

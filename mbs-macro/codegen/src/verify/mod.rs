@@ -40,6 +40,10 @@ use crate::reactive::Circular;
 pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<Rows, Diagnostics> {
     let mut errors = Diagnostics::default();
     check_declared_values(model, &mut errors);
+    // with such values, what follows says nothing
+    if !errors.is_empty() {
+        return Err(errors);
+    }
     let rows = rank::check_independence(model, equations, samples, &mut errors);
     if errors.is_empty() {
         gaps::check_gaps(model, equations, samples, &rows, &mut errors);

@@ -11,8 +11,8 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Expr, Number};
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, Number};
 use proc_macro2::Span;
 
 use super::super::Gap;
@@ -21,7 +21,7 @@ use super::super::measures::Exerts;
 use super::super::resolver::Resolver;
 use super::{FORCE, Property, Resolved, TORQUE, missing};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Element, ElementKind};
+use crate::syntax::{Element, ElementKind, ElementProperty, Formula, FormulaKind, Load};
 
 pub const LINEAR: &[Property] = &[
     Property::fixed("stiffness", Dimension::of(1, 0, -2)),
@@ -36,15 +36,22 @@ pub const TORSIONAL: &[Property] = &[
 ];
 
 /// A spring without stiffness and damping does nothing; one with stiffness
-/// needs to know where it is at rest.
+/// needs to know where it is at rest, and one without does not.
 pub fn is_said(element: &Element, given: &BTreeMap<String, Span>, free: &str) -> Result<(), Diagnostic> {
-    let has = |name: &str| given.contains_key(name);
+    let is_zero = |value: &Load| match value {
+        Load::Scalar(Formula { kind: FormulaKind::Number { value, .. }, .. }) => value.is_zero(),
+        _ => false,
+    };
+    let is_none = |property: &&ElementProperty| property.name == "stiffness" && is_zero(&property.value);
+    let is_elastic = !element.properties.iter().any(|property| is_none(&property));
+    let has = |name: &str| given.contains_key(name) && (name != "stiffness" || is_elastic);
     let what = match (has("stiffness"), has("damping"), has(free)) {
         (false, false, _) => "`stiffness` or `damping`".to_owned(),
         (true, _, false) => format!("`{free}`, at which it is free of force"),
         _ => return Ok(()),
     };
-    Err(missing(element, &what, &format!("{{ stiffness = …; {free} = …; damping = …; }}")))
+    let example = format!("{{ stiffness = …; {free} = …; damping = …; }}");
+    Err(missing(element, &what, &example))
 }
 
 impl Resolver<'_> {
