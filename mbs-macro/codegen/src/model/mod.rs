@@ -215,6 +215,8 @@ impl Check {
 /// they coincide.
 pub struct Gap {
     pub distance: Expr,
+    /// Its length without force.
+    pub free: Expr,
     /// That of the spring.
     pub name: proc_macro2::Ident,
 }

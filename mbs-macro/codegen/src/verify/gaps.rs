@@ -1,15 +1,18 @@
 //! Springs whose places coincide where the motion starts.
 
+use mbs_symbolic::units::Dimension;
+
 use super::Samples;
 use super::assembly::Assembly;
 use super::rank::Rows;
-use super::samples::typical_length;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::{Meaning, Model};
 
-/// Places that are closer than this share of the mechanism's size coincide.
+/// Places that are closer than this share of the free length coincide,
 const COINCIDENT: f64 = 1e-9;
+/// or of the positions, which are rounded.
+const ROUNDED: f64 = 1e-13;
 
 /// A spring with a free length has a direction at the start.
 pub fn check_gaps(
@@ -33,9 +36,12 @@ pub fn check_gaps(
         Meaning::Coordinate(at) => closing.at.q[at],
         _ => f64::NAN,
     });
-    let nearest = COINCIDENT * typical_length(model);
+    let is_length = |at: &usize| model.coordinates[*at].quantity.dimension == Dimension::LENGTH;
+    let positions = (0..model.coordinates.len()).filter(is_length).map(|at| closing.at.q[at].abs());
+    let largest = positions.fold(0.0, f64::max);
     for gap in &model.gaps {
-        if model.arena.evaluate(&[gap.distance], &values)[0] <= nearest {
+        let found = model.arena.evaluate(&[gap.distance, gap.free], &values);
+        if found[0] <= COINCIDENT * found[1].abs() + ROUNDED * largest {
             let name = &gap.name;
             let message =
                 format!("the places of `{name}` coincide at the start, so that it has no direction");

@@ -70,7 +70,7 @@ impl Resolver<'_> {
             return;
         }
         let distance = joints::distance_between(&mut self.scope.arena, &spring.first, &spring.second);
-        self.gaps.push(Gap { distance, name: spring.element.name.clone() });
+        self.gaps.push(Gap { distance, free, name: spring.element.name.clone() });
         let elongation = self.scope.arena.sub(distance, free);
         let tension = self.tension(spring, elongation);
         self.apply_tension(spring, tension, elongation);
