@@ -4,8 +4,9 @@
 //! cargo run --release -p tests --example fuzz -- --minutes 10 --seed 1
 //! ```
 //!
-//! Inputs are compiled in child processes, so that an overflow of the stack or a
-//! runaway compilation is attributed to its input and the run goes on. What
+//! Inputs are compiled in child processes of limited memory, each input in limited
+//! time, so that an overflow of the stack or a runaway compilation is attributed to
+//! its input and the run goes on. What
 //! fails is cut down to its smallest part and written to `tests/corpus`; the run
 //! depends on nothing but `--seed` and its length.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a tool for a terminal")]
@@ -26,47 +27,14 @@ const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
 const BATCH: u64 = 2_000;
 /// Cutting down one finding.
 const REDUCTION: Duration = Duration::from_secs(60);
-/// Kinds of statements whose share in what compiles is reported.
-const WORDS: &[&str] = &[
-    "dof",
-    "crate",
-    "param",
-    "const",
-    "input",
-    "let",
-    "gravity",
-    "body",
-    "constraint",
-    "drive",
-    "coupler",
-    "force",
-    "torque",
-    "start",
-    "output",
-    "point",
-    "profile",
-    "spring",
-    "torsion_spring",
-    "require",
-    "for",
-    "if",
-    "assembly",
-    "instance",
-    "revolute",
-    "fixed",
-    "prismatic",
-    "point_on_line",
-    "pin_slot",
-    "distance",
-    "gear",
-    "internal_gear",
-    "belt",
-    "crossed_belt",
-    "rack",
-    "rolling",
-    "cam",
-    "invisible",
-];
+/// KiB of memory that a child process may take, where the system can hold it to that.
+const MEMORY: u32 = 4 << 20;
+
+/// The words whose share in what compiles is reported.
+fn words() -> Vec<&'static str> {
+    let keywords = mbs_codegen::keywords().into_iter().map(|keyword| keyword.word);
+    keywords.chain(["invisible"]).collect()
+}
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
@@ -120,7 +88,17 @@ impl Options {
     fn child(&self, task: &[String]) -> io::Result<Child> {
         let of_run =
             ["--seed".to_owned(), self.seed.to_string(), "--limit".to_owned(), self.limit.to_string()];
-        Command::new(std::env::current_exe()?)
+        let this = std::env::current_exe()?;
+        let mut command = match cfg!(unix) {
+            // what a shell is held to, its successor is too
+            true => {
+                let mut shell = Command::new("sh");
+                shell.arg("-c").arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")).arg(this);
+                shell
+            }
+            false => Command::new(this),
+        };
+        command
             .args(of_run.iter().chain(task))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -139,7 +117,7 @@ fn batch(options: &Options, first: u64) -> Outcome {
         out.flush()?;
         let text = input(&seeds, options.seed, index);
         let verdict = judge(&text, options.limit());
-        let words = if verdict == Verdict::Compiled { words(&text) } else { String::new() };
+        let words = if verdict == Verdict::Compiled { words_in(&text) } else { String::new() };
         writeln!(out, "{verdict:?}\t{words}")?;
         out.flush()?;
         // the thread that is left behind ends with the process
@@ -150,9 +128,9 @@ fn batch(options: &Options, first: u64) -> Outcome {
     Ok(())
 }
 
-fn words(text: &str) -> String {
+fn words_in(text: &str) -> String {
     let all: HashSet<&str> = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
-    WORDS.iter().filter(|word| all.contains(*word)).copied().collect::<Vec<_>>().join(" ")
+    words().into_iter().filter(|word| all.contains(word)).collect::<Vec<_>>().join(" ")
 }
 
 fn one(options: &Options) -> Outcome {
@@ -291,8 +269,8 @@ fn report(tally: &Tally) {
         "{inputs} inputs: {compiled} compiled, {refused} refused, {no_tokens} no tokens, {once_slow} slow once"
     );
     println!("in those that compiled:");
-    for word in WORDS {
-        println!("  {word:16} {}", tally.words.get(*word).unwrap_or(&0));
+    for word in words() {
+        println!("  {word:16} {}", tally.words.get(word).unwrap_or(&0));
     }
     for (failure, times) in &tally.failures {
         println!("{times} times {failure}");

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::time::Duration;
 
+use mbs_codegen::KeywordKind;
 use tests::fuzzing::verdict::{Verdict, judge};
 
 /// Far more than the milliseconds that these take, on any machine.
@@ -35,9 +36,6 @@ fn every_file_is_answered() {
 /// Each keyword of the language occurs in a file that compiles.
 #[test]
 fn seeds_use_every_statement() {
-    const KEYWORDS: &str = "dof crate param const input let gravity body constraint drive coupler force torque \
-        start output point profile spring torsion_spring require for if assembly instance revolute fixed \
-        prismatic point_on_line pin_slot distance gear internal_gear belt crossed_belt rack rolling cam";
     let valid = corpus().into_iter().filter(|(path, _)| path.contains("valid_"));
     let words: BTreeSet<String> = valid
         .flat_map(|(_, text)| {
@@ -45,6 +43,43 @@ fn seeds_use_every_statement() {
             words.collect::<Vec<_>>()
         })
         .collect();
-    let missing: Vec<_> = KEYWORDS.split_whitespace().filter(|word| !words.contains(*word)).collect();
+    let keywords = mbs_codegen::keywords().into_iter().map(|keyword| keyword.word);
+    let missing: Vec<_> = keywords.filter(|word| !words.contains(*word)).collect();
     assert!(missing.is_empty(), "no seed uses {missing:?}");
+}
+
+/// Each keyword of the language stands on the language page, as code.
+#[test]
+fn language_page_names_every_keyword() {
+    let page = fs::read_to_string("../mbs-runtime/src/language.md").expect("the page is there");
+    let code: BTreeSet<&str> = page
+        .split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '`'))
+        .filter_map(|word| word.strip_prefix('`'))
+        .map(|word| word.trim_end_matches('`'))
+        .collect();
+    let keywords = mbs_codegen::keywords().into_iter().map(|keyword| keyword.word);
+    let missing: Vec<_> = keywords.filter(|word| !code.contains(word)).collect();
+    assert!(missing.is_empty(), "the page does not explain {missing:?}");
+}
+
+/// Every form of the table of keywords is one that the parser reads.
+#[test]
+fn forms_of_keywords_are_read() {
+    for keyword in mbs_codegen::keywords() {
+        let form = match keyword.kind {
+            KeywordKind::Statement | KeywordKind::Block => keyword.form.to_owned(),
+            KeywordKind::Joint => format!("{} name {};", keyword.word, keyword.form),
+            KeywordKind::Element => format!("{} name {}", keyword.word, keyword.form),
+        };
+        let form = form.replace(", …)", ", (180 [deg], 30 [mm]), (270 [deg], 20 [mm]))").replace('…', "");
+        let tokens = format!("Form {{ dof = 1; {form} }}").parse().expect("tokens");
+        let errors = mbs_codegen::compile(tokens).err().into_iter();
+        let texts: Vec<String> =
+            errors.flat_map(|errors| errors.iter().map(|e| e.text()).collect::<Vec<_>>()).collect();
+        // names are missing, shapes are right
+        let shapes = ["expected", "begin a statement", "clause", "takes no", "needs"];
+        let wrong = texts.iter().find(|text| shapes.iter().any(|shape| text.contains(shape)));
+        assert!(wrong.is_none(), "{form}: {wrong:?}");
+        assert!(!keyword.meaning.is_empty());
+    }
 }

@@ -372,3 +372,29 @@ fn screw_drives_its_nut() -> Result<(), Error> {
     assert!((solved.multipliers.thread / -(400.0 + 6.0 * k * alpha) - 1.0).abs() < 1e-13);
     Ok(())
 }
+
+mechanism! {
+    /// A cam of n lobes: closed for whole n alone.
+    LobedCam {
+        dof = 1;
+        param n = 3;
+        param r = 20 [mm];
+        body disk (angle = phi) { inertia = 1e-5 [kg*m^2]; }
+        body follower (y) { mass = 0.4 [kg]; }
+        cam lift (disk, follower) = r*(1 + 0.1*cos(n*angle + 1));
+        start { guess y = 20 [mm]; }
+    }
+}
+
+/// The radius would jump where the polar angle passes half a turn.
+#[test]
+fn cam_that_does_not_close_is_refused_at_run_time() {
+    let with = |n| LobedCam::new(LobedCamParameters { n, r: 0.02 });
+    assert!(with(4.0).is_ok());
+    let refused = with(2.5).unwrap_err();
+    let Error::Parameter { name, value, .. } = refused else { panic!("{refused:?}") };
+    assert_eq!(name, "jump of the radius of lift");
+    // r/10 (cos(2.5π + 1) − cos(−2.5π + 1)) = −r/5 sin(2.5π) sin 1
+    assert!((value + 0.004 * 1.0_f64.sin()).abs() < 1e-15, "{value}");
+    assert!(LobedCam::<f32>::new(LobedCamParameters { n: 5.0, r: 0.02 }).is_ok());
+}

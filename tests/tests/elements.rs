@@ -182,3 +182,46 @@ fn places([xa, ya, phia, xb, yb, phib]: [Jet; 6]) -> Places {
     let slide = ux * (tip[0] - mark[0]) + uy * (tip[1] - mark[1]);
     Places { tip, mark, slide, angle: phia - phib }
 }
+
+mechanism! {
+    /// A mass on a spring without a free length, and the same force by its components.
+    Isotropic {
+        dof = 4;
+        param k = 4 [N/m];
+        param c = 0.3 [N*s/m];
+        gravity = (0, -9.81) [m/s^2];
+        body bob (x, y) { mass = 1 [kg]; }
+        spring coil (bob, ground) { stiffness = k; length = 0; damping = c; }
+        body twin (xt, yt) { mass = 1 [kg]; }
+        force pull on twin = (-k*xt, -k*yt - c*der(yt));
+        start { x = 0; y = 0; }
+        output tension [N] = force(coil);
+        output loss [W] = power(coil) + der(k*distance(bob, ground)^2)/2;
+    }
+}
+
+/// A spring whose free length is 0 pulls with −k r, also where its places coincide.
+#[test]
+fn spring_without_length_is_regular_where_its_places_coincide() -> Result<(), Error> {
+    let (h, c) = (1e-3, 0.3);
+    // Both stages of the first step are at y = 0, where the damper has no direction: it
+    // misses c g h in the second, so c g h²/2 of the speed, and by ω of the place.
+    for (c, deviation) in [(0.0, 1e-13), (c, c * 9.81 * h * h / 2.0 / 2.0)] {
+        let parameters = IsotropicParameters { c, ..Default::default() };
+        let mut run = Simulation::new(Isotropic::new(parameters)?, h)?;
+        assert_eq!(run.outputs()?.tension, 0.0);
+        for _ in 0..2000 {
+            run.step()?;
+            let (state, found) = (*run.state(), run.outputs()?);
+            let (y, v) = (state.q.y, state.v.y);
+            assert!((y - state.q.yt).abs() <= deviation, "{y} {}", state.q.yt);
+            // the direction is kept from its kink by (1e-12 m)², against y > 1e-6 m
+            assert!((found.tension - (4.0 * y.abs() + c * v * y.signum())).abs() < 1e-9);
+            assert!((found.loss + c * v * v).abs() < 1e-9);
+        }
+        let energy = run.mechanism().potential_energy(run.state());
+        let (y, yt) = (run.state().q.y, run.state().q.yt);
+        assert!((energy - (2.0 * y * y + 9.81 * (y + yt))).abs() < 1e-12);
+    }
+    Ok(())
+}

@@ -218,3 +218,38 @@ fn force_at_a_point_has_its_moment() -> Result<(), Error> {
     assert!(forces.into_array().iter().all(|force| force.is_finite()));
     Ok(())
 }
+
+mechanism! {
+    /// Every size of a joint that has to be positive.
+    Sizes {
+        dof = 1;
+        param length = 1 [m];
+        param radius = 1 [m];
+        param teeth = 20;
+        body bob (x, y) { mass = 1 [kg]; }
+        distance link (bob, ground) = length - 0.5 [m];
+        body wheel (xw, yw, phi) { mass = 1 [kg]; inertia = 1 [kg*m^2]; }
+        rolling contact (wheel, ground) along (1, 0) radius radius;
+        body fan (angle = turn) { inertia = 1 [kg*m^2]; }
+        body drum (angle = psi) { inertia = 1 [kg*m^2]; }
+        belt strap (wheel, fan) radii (radius, 2*radius);
+        gear mesh (fan, drum) teeth (20, teeth);
+        constraint together: psi = x/(1 [m]);
+        start { x = 0; guess y = -0.5 [m]; guess yw = 1 [m]; }
+    }
+}
+
+/// A negative length would turn the meaning of the tension round.
+#[test]
+fn sizes_of_joints_that_are_not_positive_are_refused_at_run_time() {
+    let declared = SizesParameters::default();
+    let refused = |parameters| Sizes::new(parameters).unwrap_err().to_string();
+    let length = |length| refused(SizesParameters { length, ..declared });
+    assert_eq!(length(0.4), "`distance of link` is -0.09999999999999998, but it has to be positive");
+    assert_eq!(length(0.5), "`distance of link` is 0, but it has to be positive");
+    let radius = refused(SizesParameters { radius: -1.0, ..declared });
+    assert_eq!(radius, "`radius of contact` is -1, but it has to be positive");
+    let teeth = refused(SizesParameters { teeth: 0.0, ..declared });
+    assert_eq!(teeth, "`second number of teeth of mesh` is 0, but it has to be positive");
+    assert!(Sizes::new(declared).is_ok());
+}

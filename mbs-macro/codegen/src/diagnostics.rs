@@ -4,6 +4,9 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
+/// What stands between an error and how to mend it.
+pub const HELP: &str = "\n\nhelp: ";
+
 /// One error: what is wrong, where, and how to mend it.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
@@ -43,22 +46,34 @@ impl Diagnostic {
             .help("this is not your mistake; please report it with the declaration")
     }
 
-    /// The text as the compiler shows it.
+    /// The text as the compiler shows it: one error, with its notes as lines.
     pub fn text(&self) -> String {
-        match &self.help {
-            Some(help) => format!("{}\n\nhelp: {help}", self.message),
-            None => self.message.clone(),
+        let mut text = self.message.clone();
+        if let Some(help) = &self.help {
+            text += HELP;
+            text += help;
         }
+        let mut separator = if self.help.is_some() { "\n" } else { "\n\n" };
+        for (span, note) in &self.notes {
+            text += &format!("{separator}note: {}", located(note, *span));
+            separator = "\n";
+        }
+        text
     }
 
     fn to_tokens(&self) -> TokenStream {
         let text = self.text();
-        let mut tokens = quote_spanned!(self.span=> ::core::compile_error!(#text););
-        for (span, note) in &self.notes {
-            let note = format!("note: {note}");
-            tokens.extend(quote_spanned!(*span=> ::core::compile_error!(#note);));
-        }
-        tokens
+        quote_spanned!(self.span=> ::core::compile_error!(#text);)
+    }
+}
+
+/// What is said of a place with its line: macros have no other way to show a
+/// second place than a second error.
+fn located(note: &str, place: Span) -> String {
+    match (place.start().line, note.strip_suffix("here")) {
+        (0, _) => note.to_owned(),
+        (line, Some(start)) => format!("{start}in line {line}"),
+        (line, None) => format!("{note}, line {line}"),
     }
 }
 
@@ -66,7 +81,12 @@ impl From<syn::Error> for Diagnostic {
     /// The errors combined with the first are its notes.
     fn from(error: syn::Error) -> Self {
         let notes = error.clone().into_iter().skip(1).map(|note| (note.span(), note.to_string())).collect();
-        Self { notes, ..Self::new(error.span(), error.to_string()) }
+        let text = error.to_string();
+        let (message, help) = match text.split_once(HELP) {
+            Some((message, help)) => (message, Some(help.to_owned())),
+            None => (text.as_str(), None),
+        };
+        Self { help, notes, ..Self::new(error.span(), message) }
     }
 }
 

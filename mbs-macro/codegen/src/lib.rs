@@ -30,6 +30,7 @@ mod verify;
 use proc_macro2::TokenStream;
 
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use syntax::{Keyword, KeywordKind, keywords};
 
 /// What `mechanism! { … }` expands to; errors become `compile_error!`.
 pub fn expand(declaration: TokenStream) -> TokenStream {

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use mbs_codegen::{KeywordKind, keywords};
 use proc_macro2::TokenStream;
 
 use crate::random::Random;
@@ -109,21 +110,11 @@ const FUNCTIONS: &[&str] = &[
     "sine",
 ];
 
-const JOINTS: &[&str] = &[
-    "revolute",
-    "fixed",
-    "point_on_line",
-    "pin_slot",
-    "prismatic",
-    "distance",
-    "gear",
-    "internal_gear",
-    "belt",
-    "crossed_belt",
-    "rack",
-    "rolling",
-    "cam",
-];
+/// The words of the language that declare things of a kind.
+fn words(kind: KeywordKind) -> Vec<&'static str> {
+    let of_kind = keywords().into_iter().filter(|keyword| keyword.kind == kind);
+    of_kind.map(|keyword| keyword.word).collect()
+}
 
 /// A whole declaration.
 pub fn declaration(random: &mut Random) -> String {
@@ -217,7 +208,7 @@ fn statement(random: &mut Random, depth: usize) -> String {
     let r = random;
     let name = name(r);
     let doc = if r.once_in(20) { "/// what it is\n" } else { "" };
-    let text = match r.below(if depth > 3 { 20 } else { 25 }) {
+    let text = match r.below(if depth > 3 { 22 } else { 27 }) {
         0 => format!("dof = {};", r.of(NUMBERS)),
         1 => format!("param {name} = {};", number(r)),
         2 => format!("param {name} = {} where {name} {} {};", formula(r, 1), comparison(r), formula(r, 2)),
@@ -236,12 +227,7 @@ fn statement(random: &mut Random, depth: usize) -> String {
         11 => format!("point {name} on {} = {};", self::name(r), vector(r)),
         12 => format!("force {name} on {} = {};", place(r), vector(r)),
         13 => format!("torque {name} on {} = {};", place(r), formula(r, 1)),
-        14 => {
-            let word = r.of(&["spring", "torsion_spring"]);
-            let (k, l, c) = (formula(r, 2), formula(r, 2), formula(r, 2));
-            let of = format!("({}, {})", place(r), place(r));
-            format!("{word} {name} {of} {{ stiffness = {k}; length = {l}; angle = {l}; damping = {c}; }}")
-        }
+        14 => element(r, &name),
         15 => format!(
             "start {{ {} = {}; guess {name} = {}; der({name}) = 1; }}",
             place(r),
@@ -255,19 +241,58 @@ fn statement(random: &mut Random, depth: usize) -> String {
             let points = (0..r.below(6)).map(|at| format!("({at}, {}),", formula(r, 3))).collect::<String>();
             format!("profile {name} = spline({points}) period {};", formula(r, 2))
         }
-        20 | 21 => format!("for {name} in {}..={} {{ {} }}", whole(r), whole(r), statement(r, depth + 1)),
-        22 => {
+        20 => solver(r),
+        21 => element(r, &name),
+        22 | 23 => format!("for {name} in {}..={} {{ {} }}", whole(r), whole(r), statement(r, depth + 1)),
+        24 => {
             let (first, second) = (statement(r, depth + 1), statement(r, depth + 1));
             format!("if {} {} {} {{ {first} }} else {{ {second} }}", whole(r), comparison(r), whole(r))
         }
-        23 => format!("assembly {name} {{ {} {} }}", statement(r, depth + 1), statement(r, depth + 1)),
+        25 => format!("assembly {name} {{ {} {} }}", statement(r, depth + 1), statement(r, depth + 1)),
         _ => format!("instance {name}: {} {{ {} = {}; }}", self::name(r), self::name(r), formula(r, 2)),
     };
     format!("{doc}{text}")
 }
 
+/// Most of its properties are given that it needs.
+fn element(r: &mut Random, name: &str) -> String {
+    let word = *r.of(&words(KeywordKind::Element));
+    let properties: &[&str] = match word {
+        "spring" => &["stiffness", "length", "damping"],
+        "torsion_spring" => &["stiffness", "angle", "damping"],
+        "motor" => &["stall", "no_load", "level"],
+        "friction" => &["coefficient", "normal", "transition", "viscous"],
+        "torsion_friction" => &["torque", "coefficient", "normal", "radius", "transition", "viscous"],
+        "drag" => &["density", "area", "coefficient", "wind"],
+        _ => &["stiffness", "torque"],
+    };
+    let mut block = String::new();
+    for property in properties {
+        if !r.once_in(4) {
+            let value = if r.once_in(8) { vector(r) } else { formula(r, 2) };
+            let _ = write!(block, "{property} = {value}; ");
+        }
+    }
+    let along = if word == "friction" { format!(" along {}", vector(r)) } else { String::new() };
+    match word {
+        "drag" => format!("{word} {name} on {} {{ {block}}}", place(r)),
+        _ => format!("{word} {name} ({}, {}){along} {{ {block}}}", place(r), place(r)),
+    }
+}
+
+/// How the mechanism is to be solved.
+fn solver(r: &mut Random) -> String {
+    match r.below(5) {
+        0 => "redundant = minimum_norm;".to_owned(),
+        1 => format!("limit {} = {};", r.of(&["operations", "stack", "unrolled", "power"]), r.of(NUMBERS)),
+        2 => format!("step = {} [ms];", r.of(NUMBERS)),
+        3 => format!("feedback = {}({}, {});", r.of(&["held", "per_stage", "sin"]), number(r), number(r)),
+        _ => format!("step = 1 [ms]; feedback = held({} [1/s], {} [1/s]);", r.below(2000), r.below(2000)),
+    }
+}
+
 fn joint(r: &mut Random, name: &str) -> String {
-    let mut text = format!("{} {name} ({}, {})", r.of(JOINTS), place(r), place(r));
+    let mut text = format!("{} {name} ({}, {})", r.of(&words(KeywordKind::Joint)), place(r), place(r));
     for _ in 0..r.below(4) {
         let clause = match r.below(7) {
             0 => format!(" along {}", vector(r)),

@@ -57,6 +57,7 @@ fn declarations(stream: TokenStream) -> Vec<TokenStream> {
 
 /// Statements that the mechanisms of the files use rarely or never.
 const WRITTEN: &[&str] = &[
+    include_str!("../../corpus/valid_beam.txt"),
     include_str!("../../corpus/valid_chain.txt"),
     include_str!("../../corpus/valid_cylinder.txt"),
     include_str!("../../corpus/valid_joints.txt"),
@@ -66,4 +67,5 @@ const WRITTEN: &[&str] = &[
     include_str!("../../corpus/valid_transmissions.txt"),
     include_str!("../../corpus/valid_valve_drive.txt"),
     include_str!("../../corpus/valid_weights.txt"),
+    include_str!("../../corpus/valid_winch.txt"),
 ];

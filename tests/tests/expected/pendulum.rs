@@ -241,7 +241,7 @@ pub struct PendulumOutputs<T = ::core::primitive::f64> {
     pub tension: T,
     /**Angle from the lowest position.
 
-`angle`: a dimensionless.*/
+`angle`: an angle [rad].*/
     pub angle: T,
 }
 impl<T: ::mbs_runtime::Real> ::core::default::Default for PendulumOutputs<T> {

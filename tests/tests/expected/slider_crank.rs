@@ -119,7 +119,7 @@ pub struct SliderCrankParameters<T = ::core::primitive::f64> {
 1/12 for slender rods, 0 for point masses. The paper's torques come
 out with 1/3.
 
-`inertia_factor`: a dimensionless, declared as 0.08333333333333333.*/
+`inertia_factor`: a bare number, declared as 0.08333333333333333.*/
     pub inertia_factor: T,
     /**Speed of the crank.
 
@@ -206,13 +206,13 @@ pub struct SliderCrankCoordinates<T = ::core::primitive::f64> {
     pub x1: T,
     ///`y1`: a length [m].
     pub y1: T,
-    ///`theta1`: a dimensionless.
+    ///`theta1`: an angle [rad].
     pub theta1: T,
     ///`x2`: a length [m].
     pub x2: T,
     ///`y2`: a length [m].
     pub y2: T,
-    ///`theta2`: a dimensionless.
+    ///`theta2`: an angle [rad].
     pub theta2: T,
     ///`x3`: a length [m].
     pub x3: T,

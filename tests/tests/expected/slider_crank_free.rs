@@ -122,7 +122,7 @@ pub struct SliderCrankFreeParameters<T = ::core::primitive::f64> {
     pub m3: T,
     /**Moment of inertia of crank and rod about their middles over m l².
 
-`inertia_factor`: a dimensionless, declared as 0.08333333333333333.*/
+`inertia_factor`: a bare number, declared as 0.08333333333333333.*/
     pub inertia_factor: T,
     /**Speed of the crank at the start.
 
@@ -260,13 +260,13 @@ pub struct SliderCrankFreeCoordinates<T = ::core::primitive::f64> {
     pub x1: T,
     ///`y1`: a length [m].
     pub y1: T,
-    ///`theta1`: a dimensionless.
+    ///`theta1`: an angle [rad].
     pub theta1: T,
     ///`x2`: a length [m].
     pub x2: T,
     ///`y2`: a length [m].
     pub y2: T,
-    ///`theta2`: a dimensionless.
+    ///`theta2`: an angle [rad].
     pub theta2: T,
     ///`x3`: a length [m].
     pub x3: T,

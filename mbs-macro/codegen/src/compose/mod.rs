@@ -68,8 +68,9 @@ impl Way {
 pub fn compose(mut declaration: Declaration) -> Result<Declaration, Diagnostics> {
     let mut errors = Diagnostics::default();
     declaration.items = flatten(declaration.items, &BTreeMap::new(), &mut Way::default(), &mut errors).0;
+    let bodies = bodies(&declaration.items);
     for item in &mut declaration.items {
-        names::visit(item, &mut |mention| check(&mention, &mut errors));
+        names::visit(item, &mut |mention| check(&mention, &bodies, &mut errors));
     }
     errors.finish(declaration)
 }
@@ -314,19 +315,35 @@ fn shorten(mention: Mention<'_>, instances: &BTreeSet<String>) {
     }
 }
 
+/// The bodies by name, with their coordinates.
+fn bodies(items: &[Item]) -> BTreeMap<String, Vec<String>> {
+    let of_item = |item: &Item| match &item.kind {
+        ItemKind::Body { name, coordinates, .. } => {
+            Some((name.to_string(), coordinates.iter().map(|c| c.name.to_string()).collect()))
+        }
+        _ => None,
+    };
+    items.iter().filter_map(of_item).collect()
+}
+
 /// What still has a way that leads nowhere.
-fn check(mention: &Mention<'_>, errors: &mut Diagnostics) {
+fn check(mention: &Mention<'_>, bodies: &BTreeMap<String, Vec<String>>, errors: &mut Diagnostics) {
     let first = match mention {
         Mention::Place(place) => place.prefix.first(),
         Mention::Coordinate(path, _) => path.first(),
         _ => None,
     };
-    if let Some(name) = first {
-        errors.push(
-            Diagnostic::new(name.span(), format!("there is no instance `{name}`"))
-                .help("a longer path leads through the instances of assemblies: `instance left: Leg;`"),
-        );
-    }
+    let Some(name) = first else { return };
+    let error = match (mention, bodies.get(&name.to_string())) {
+        (Mention::Coordinate(..), Some(coordinates)) => {
+            let message = format!("`{name}` is a body, where `start` gives values to coordinates");
+            Diagnostic::new(name.span(), message)
+                .help(format!("write those of `{name}` by their names: {}", listing(coordinates)))
+        }
+        _ => Diagnostic::new(name.span(), format!("there is no instance `{name}`"))
+            .help("a longer path leads through the instances of assemblies: `instance left: Leg;`"),
+    };
+    errors.push(error);
 }
 
 fn prefixed(instance: &Ident, name: &Ident) -> Ident {

@@ -187,9 +187,13 @@ fn in_formula(formula: &mut Formula, visit: &mut dyn FnMut(Mention<'_>)) {
         FormulaKind::Negative(inner)
         | FormulaKind::WithUnit { inner, .. }
         | FormulaKind::Component { call: inner, .. } => in_formula(inner, visit),
-        FormulaKind::Binary { left, right, .. } => {
-            in_formula(left, visit);
-            in_formula(right, visit);
+        FormulaKind::Chain { first, rest } => {
+            in_formula(first, visit);
+            rest.iter_mut().for_each(|operation| in_formula(&mut operation.operand, visit));
+        }
+        FormulaKind::Power { base, exponent, .. } => {
+            in_formula(base, visit);
+            in_formula(exponent, visit);
         }
         FormulaKind::Call { function, arguments } => {
             visit(Mention::Function(function));

@@ -103,11 +103,9 @@ fn parameter_checks(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     }
     let is_known = |check: &&Check| model.arena.stage(check.value) == Stage::Parameter;
     for (check, value) in model.checks.iter().filter(is_known).zip(outputs) {
-        let (comparison, requirement) = match check.is_strict {
-            true => (quote!(>), "it has to be positive"),
-            false => (quote!(>=), "it must not be negative"),
-        };
-        let name = format!("{} of {}", check.property, check.element);
+        let comparison = if check.is_strict { quote!(>) } else { quote!(>=) };
+        let requirement = check.rule();
+        let name = format!("{} of {}", check.property, check.owner);
         checks.extend(quote! {
             if !(#value #comparison T::from_f64(0.0)) {
                 return ::core::result::Result::Err(#runtime::Error::Parameter {

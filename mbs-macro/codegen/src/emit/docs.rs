@@ -2,10 +2,12 @@
 
 use std::fmt::Write;
 
+use mbs_symbolic::units::{self, Dimension};
 use mbs_symbolic::{Elimination, Expr, Strategy, Unknown};
 
 use super::info::{FunctionCount, function_counts};
 use crate::derive::Equations;
+use crate::diagnostics::described;
 use crate::model::{Model, Quantity};
 use crate::plan::Plan;
 
@@ -91,25 +93,35 @@ pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
     if !text.is_empty() {
         text.push_str("\n\n");
     }
+    let what = kind(quantity);
     match declared {
         Some(value) if quantity.unit.is_empty() => {
-            let _ = write!(text, "`{}`: a {}, declared as {value}.", quantity.name, quantity.dimension);
+            let _ = write!(text, "`{}`: {what}, declared as {value}.", quantity.name);
         }
         Some(value) => {
             let _ = write!(
                 text,
-                "`{}`: a {}, declared as {} {} = {value} in SI units.",
+                "`{}`: {what}, declared as {} {} = {value} in SI units.",
                 quantity.name,
-                quantity.dimension,
                 value / quantity.scale,
                 quantity.unit
             );
         }
         None => {
-            let _ = write!(text, "`{}`: a {}.", quantity.name, quantity.dimension);
+            let _ = write!(text, "`{}`: {what}.", quantity.name);
         }
     }
     text
+}
+
+/// What a quantity is, with its article: `a length [m]`, `an angle [rad]`.
+fn kind(quantity: &Quantity) -> String {
+    let is_angle = |unit| units::lookup(unit).is_some_and(|unit| unit.dimension == Dimension::NONE);
+    match quantity.dimension == Dimension::NONE {
+        true if is_angle(&quantity.unit) => "an angle [rad]".to_owned(),
+        true => "a bare number".to_owned(),
+        false => described(quantity.dimension),
+    }
 }
 
 /// Documentation of the functions.

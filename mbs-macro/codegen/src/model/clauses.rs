@@ -2,17 +2,38 @@
 
 use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 
+use super::Check;
+use super::formula::in_radians;
 use super::joints::{self, Connection};
-use super::names::{Local, Place, Typed};
+use super::names::Place;
 use super::places::GROUND;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Clause, Formula, Joint, JointKind, Vector};
 
-/// The name of the polar angle in the profile of a cam.
-pub const POLAR_ANGLE: &str = "angle";
+const COINCIDENT: &str = "points that coincide are a `revolute` joint";
+
+/// A size of a transmission, which has to be positive.
+struct Size {
+    property: &'static str,
+    /// With its article.
+    words: &'static str,
+    dimension: Dimension,
+}
+
+const RADIUS: Size = Size { property: "radius", words: "the radius", dimension: Dimension::LENGTH };
+
+const RADII: [Size; 2] = [
+    Size { property: "first radius", words: "a radius", dimension: Dimension::LENGTH },
+    Size { property: "second radius", words: "a radius", dimension: Dimension::LENGTH },
+];
+
+const TEETH: [Size; 2] = [
+    Size { property: "first number of teeth", words: "a number of teeth", dimension: Dimension::NONE },
+    Size { property: "second number of teeth", words: "a number of teeth", dimension: Dimension::NONE },
+];
 
 impl Resolver<'_> {
     /// A joint with its places and clauses; `None` if one has errors, which are
@@ -36,13 +57,12 @@ impl Resolver<'_> {
                 }
                 Clause::Equals(formula) => value = self.distance_of(joint, formula),
                 Clause::Radius(formula) => {
-                    sizes =
-                        self.size(joint, formula, "the radius", Dimension::LENGTH).map(|radius| [radius; 2]);
+                    sizes = self.size(joint, formula, &RADIUS).map(|radius| [radius; 2]);
                 }
-                Clause::Radii(vector) => sizes = self.pair(joint, vector, "a radius", Dimension::LENGTH),
+                Clause::Radii(vector) => sizes = self.pair(joint, vector, &RADII),
                 Clause::Teeth(vector) => {
                     unit = Dimension::NONE;
-                    let teeth = self.pair(joint, vector, "a number of teeth", Dimension::NONE);
+                    let teeth = self.pair(joint, vector, &TEETH);
                     let ratio = teeth.and_then(|[first, second]| self.scope.arena.div(second, first));
                     sizes = ratio.map(|ratio| [one, ratio]);
                 }
@@ -93,7 +113,10 @@ impl Resolver<'_> {
             JointKind::Rack | JointKind::Rolling => {
                 ("the place at which the angles are equal", Dimension::LENGTH)
             }
-            _ => ("the angle between the bodies", Dimension::NONE),
+            _ => {
+                self.errors.take(in_radians(formula))?;
+                ("the angle between the bodies", Dimension::NONE)
+            }
         };
         self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
     }
@@ -102,52 +125,51 @@ impl Resolver<'_> {
         let what = ("the distance", Dimension::LENGTH);
         let length = self.scope.formula_of(formula, Place::Property, what, &mut self.errors)?;
         if self.scope.arena.is_zero(length) {
-            self.errors.push(
-                Diagnostic::new(formula.span, format!("the distance of `{}` is 0", joint.name))
-                    .help("points that coincide are a `revolute` joint"),
-            );
+            let message = format!("the distance of `{}` is 0", joint.name);
+            self.errors.push(Diagnostic::new(formula.span, message).help(COINCIDENT));
             return None;
         }
+        self.is_positive(joint, "distance", length, formula.span);
         Some(length)
     }
 
-    /// A radius or a number of teeth: positive, as far as that is known here.
-    fn size(&mut self, joint: &Joint, formula: &Formula, word: &str, unit: Dimension) -> Option<Expr> {
-        let what = format!("{word} of `{}`", joint.name);
-        let size = self.scope.formula_of(formula, Place::Property, (&what, unit), &mut self.errors)?;
-        let Some(number) = self.scope.arena.as_number(size) else { return Some(size) };
+    /// What a joint cannot have otherwise, at compile time and at run time.
+    fn is_positive(&mut self, joint: &Joint, property: &'static str, value: Expr, span: Span) {
+        let zero_help = (property == "distance").then_some(COINCIDENT);
+        let owner = joint.name.to_string();
+        self.checks.push(Check { value, is_strict: true, property, owner, span, zero_help });
+    }
+
+    /// A radius or a number of teeth: positive.
+    fn size(&mut self, joint: &Joint, formula: &Formula, size: &Size) -> Option<Expr> {
+        let what = format!("{} of `{}`", size.words, joint.name);
+        let value =
+            self.scope.formula_of(formula, Place::Property, (&what, size.dimension), &mut self.errors)?;
+        let Some(number) = self.scope.arena.as_number(value) else {
+            self.is_positive(joint, size.property, value, formula.span);
+            return Some(value);
+        };
         let (fault, help) = if number.is_zero() || number.is_negative() {
             let fault = if number.is_zero() { "0" } else { "negative" };
             (fault, "it has to be positive; the kind of joint says which way the bodies turn")
-        } else if unit == Dimension::NONE && number.as_integer().is_none() {
+        } else if size.dimension == Dimension::NONE && number.as_integer().is_none() {
             ("not a whole number", "teeth are counted; any other ratio is one of `radii`")
         } else {
-            return Some(size);
+            return Some(value);
         };
         self.errors.push(Diagnostic::new(formula.span, format!("{what} is {fault}")).help(help));
         None
     }
 
-    fn pair(&mut self, joint: &Joint, vector: &Vector, word: &str, unit: Dimension) -> Option<[Expr; 2]> {
-        let first = self.size(joint, &vector.x, word, unit);
-        let second = self.size(joint, &vector.y, word, unit);
+    fn pair(&mut self, joint: &Joint, vector: &Vector, sizes: &[Size; 2]) -> Option<[Expr; 2]> {
+        let first = self.size(joint, &vector.x, &sizes[0]);
+        let second = self.size(joint, &vector.y, &sizes[1]);
         Some([first?, second?])
     }
 
     fn body_angle(&mut self, body: &Ident) -> Option<Expr> {
         let frame = self.scope.frame(body).map(|frame| frame.angle);
         self.errors.take(frame)
-    }
-
-    /// The curve ρ(angle) of a cam, a length.
-    fn polar_profile(&mut self, joint: &Joint, formula: &Formula, angle: Expr) -> Option<Expr> {
-        let typed = Typed { expr: angle, dimension: Some(Dimension::NONE) };
-        self.scope.local = Some(Local { name: POLAR_ANGLE, typed });
-        let what = format!("the profile of `{}`", joint.name);
-        let place = (what.as_str(), Dimension::LENGTH);
-        let profile = self.scope.formula_of(formula, Place::Property, place, &mut self.errors);
-        self.scope.local = None;
-        profile
     }
 
     /// What a joint turns has to be able to.

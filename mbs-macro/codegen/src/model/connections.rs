@@ -4,6 +4,7 @@ use mbs_symbolic::{Expr, Symbol};
 use proc_macro2::Ident;
 
 use super::joints::{self, JointRow};
+use super::places::GROUND;
 use super::reactions::KnownJoint;
 use super::resolver::Resolver;
 use super::{Constraint, Meaning, Source};
@@ -49,7 +50,8 @@ impl Resolver<'_> {
             let row = rows.as_ref().and_then(|rows| rows.get(at));
             let is_restricting = row.is_some_and(|row| self.depends_on_coordinates(row.phi));
             if row.is_some() && !is_restricting {
-                self.errors.push(useless_row(joint, suffix));
+                let error = self.useless_row(joint, suffix);
+                self.errors.push(error);
             }
             if let Some(known) = self.scope.rows.get_mut(&name.to_string()) {
                 known.is_broken = !is_restricting;
@@ -89,6 +91,49 @@ impl Resolver<'_> {
         let is_coordinate = |&symbol: &Symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_));
         self.scope.arena.symbols_in(phi).iter().filter(|symbol| is_coordinate(symbol)).count()
     }
+
+    /// The error for a row in which nothing can move.
+    fn useless_row(&self, joint: &Joint, suffix: &str) -> Diagnostic {
+        let what = match suffix {
+            "_x" => " along x",
+            "_y" => " along y",
+            "_normal" => " across its line",
+            "_angle" => " in its angle",
+            _ => "",
+        };
+        let missing = match joint.kind {
+            JointKind::Revolute | JointKind::Rolling => self.missing_coordinate(&joint.first.body),
+            _ => None,
+        };
+        let help = match (joint.kind, missing) {
+            (JointKind::Rolling, Some(missing)) => {
+                format!(
+                    "{missing}: the contact holds the wheel at its height, so that it needs both positions"
+                )
+            }
+            (JointKind::Revolute, Some(missing)) => format!("remove the joint, or {missing}"),
+            (JointKind::Revolute | JointKind::Rolling, None) => {
+                "remove the joint, or give a body the coordinate that is missing".to_owned()
+            }
+            _ => "remove the joint: its bodies cannot move otherwise".to_owned(),
+        };
+        let message =
+            format!("joint `{}` restricts nothing{what}: neither of its places can move so", joint.name);
+        Diagnostic::new(joint.name.span(), message).help(help)
+    }
+
+    /// What to write for a position that a body lacks.
+    fn missing_coordinate(&self, body: &Ident) -> Option<String> {
+        let frame = self.scope.bodies.get(&body.to_string()).filter(|_| body != GROUND)?;
+        let fixed = frame.origin.map(|component| self.scope.arena.as_number(component).is_some());
+        let missing = match fixed {
+            [true, false] => "coordinate x",
+            [false, true] => "coordinate y",
+            [true, true] => "coordinates x and y",
+            [false, false] => return None,
+        };
+        Some(format!("give `{body}` the {missing}"))
+    }
 }
 
 fn source(joint: &Joint) -> Source {
@@ -98,22 +143,4 @@ fn source(joint: &Joint) -> Source {
 
 fn row_name(joint: &Joint, suffix: &str) -> Ident {
     Ident::new(&format!("{}{suffix}", joint.name), joint.name.span())
-}
-
-/// The error for a row in which nothing can move.
-fn useless_row(joint: &Joint, suffix: &str) -> Diagnostic {
-    let what = match suffix {
-        "_x" => " along x",
-        "_y" => " along y",
-        "_normal" => " across its line",
-        "_angle" => " in its angle",
-        _ => "",
-    };
-    let help = match joint.kind {
-        JointKind::Revolute => "remove the joint, or give a body the coordinate that is missing",
-        _ => "remove the joint: its bodies cannot move otherwise",
-    };
-    let message =
-        format!("joint `{}` restricts nothing{what}: neither of its places can move so", joint.name);
-    Diagnostic::new(joint.name.span(), message).help(help)
 }

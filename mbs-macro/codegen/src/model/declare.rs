@@ -79,6 +79,7 @@ impl<'a> Resolver<'a> {
     fn declare_body(&mut self, name: &Ident, coordinates: &[syntax::Coordinate]) {
         let text = name.to_string();
         if text == GROUND {
+            self.refuse(coordinates);
             self.errors.push(
                 Diagnostic::new(name.span(), "`ground` is what does not move and cannot be declared")
                     .help("choose another name for the body"),
@@ -87,12 +88,15 @@ impl<'a> Resolver<'a> {
         }
         if let Some((_, earlier)) = self.body_names.get(&text) {
             self.errors.push(duplicate(name, *earlier));
+            self.refuse(coordinates);
             return;
         }
         let body = self.bodies.len();
         self.body_names.insert(text.clone(), (body, name.span()));
         let mut positions = Vec::new();
-        if coordinates.is_empty() || coordinates.len() > 3 {
+        let mut is_broken = coordinates.is_empty() || coordinates.len() > 3;
+        if is_broken {
+            self.refuse(coordinates.get(3..).unwrap_or_default());
             self.errors.push(
                 Diagnostic::new(name.span(), format!("body `{text}` has {} coordinates", coordinates.len()))
                     .help("a planar body has one to three: x, y and its angle"),
@@ -100,7 +104,11 @@ impl<'a> Resolver<'a> {
         }
         for (at, coordinate) in coordinates.iter().enumerate().take(3) {
             let result = direction(coordinate, at, coordinates.len());
-            let Some(direction) = self.errors.take(result) else { continue };
+            let Some(direction) = self.errors.take(result) else {
+                self.refuse(&coordinates[at..=at]);
+                is_broken = true;
+                continue;
+            };
             let taken = positions.iter().any(|&other: &usize| self.coordinates[other].direction == direction);
             if taken {
                 self.errors.push(
@@ -110,6 +118,8 @@ impl<'a> Resolver<'a> {
                     )
                     .help("say which direction each one has: `(x = s, angle = phi)`"),
                 );
+                self.refuse(&coordinates[at..=at]);
+                is_broken = true;
                 continue;
             }
             positions.push(self.coordinates.len());
@@ -121,7 +131,9 @@ impl<'a> Resolver<'a> {
             let coordinate = positions.iter().find(|&&at| self.coordinates[at].direction == direction);
             coordinate.map_or(zero, |&at| self.scope.arena.variable(self.coordinates[at].position))
         });
-        self.scope.bodies.insert(text.clone(), Frame::new(names, [x, y], angle));
+        let mut frame = Frame::new(names, [x, y], angle);
+        frame.is_broken = is_broken;
+        self.scope.bodies.insert(text.clone(), frame);
         self.bodies.push(Body {
             name: text,
             span: name.span(),
@@ -129,6 +141,13 @@ impl<'a> Resolver<'a> {
             mass: zero,
             inertia: zero,
         });
+    }
+
+    /// Enters coordinates that have an error.
+    fn refuse(&mut self, coordinates: &[syntax::Coordinate]) {
+        for name in coordinates.iter().map(|coordinate| &coordinate.name) {
+            self.scope.values.entry(name.to_string()).or_insert(Value::Refused(name.span()));
+        }
     }
 
     fn declare_coordinate(&mut self, name: &Ident, direction: Direction, body: usize) {

@@ -8,7 +8,7 @@ use super::Meaning;
 use super::functions;
 use super::names::{Place, Scope, State, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
-use crate::syntax::{Formula, FormulaKind};
+use crate::syntax::{Formula, FormulaKind, Operation, Operator};
 
 impl Scope<'_> {
     /// The expression of a formula; `None` if it has errors, which are added.
@@ -27,20 +27,10 @@ impl Scope<'_> {
                 let inner = self.formula(inner, place, errors)?;
                 Some(Typed { expr: self.arena.neg(inner.expr), ..inner })
             }
-            FormulaKind::Binary { op: '^', op_span, left, right } => {
-                self.power(left, right, *op_span, place, errors)
+            FormulaKind::Power { base, op_span, exponent } => {
+                self.power(base, exponent, *op_span, place, errors)
             }
-            FormulaKind::Binary { op, op_span, left, right } => {
-                let (l, r) = (self.formula(left, place, errors), self.formula(right, place, errors));
-                let (l, r) = (l?, r?);
-                let result = match op {
-                    '+' | '-' => self.add(*op, *op_span, (left, l), (right, r)),
-                    '*' => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
-                    _ => self.divide(right, l, r),
-                };
-                let typed = errors.take(result)?;
-                self.finite(typed, &[l.expr, r.expr], *op_span, errors)
-            }
+            FormulaKind::Chain { first, rest } => self.chain(first, rest, place, errors),
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
             FormulaKind::Component { call, member } => self.component(call, member, place, errors),
             FormulaKind::WithUnit { inner, unit } => {
@@ -59,6 +49,45 @@ impl Scope<'_> {
                 Some(Typed { expr, dimension: Some(unit.unit.dimension) })
             }
         }
+    }
+
+    /// From left to right; what has no value of its own has been reported.
+    fn chain(
+        &mut self,
+        first: &Formula,
+        rest: &[Operation],
+        place: Place,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let mut value = self.formula(first, place, errors);
+        // Only what is written, no result of an operation, may lack its unit.
+        let mut left = Some(first);
+        for operation in rest {
+            let operand = self.formula(&operation.operand, place, errors);
+            value = match (value, operand) {
+                (Some(l), Some(r)) => self.operate(operation, (left, l), r, errors),
+                _ => None,
+            };
+            left = None;
+        }
+        value
+    }
+
+    fn operate(
+        &mut self,
+        Operation { op, op_span, operand }: &Operation,
+        (left, l): (Option<&Formula>, Typed),
+        r: Typed,
+        errors: &mut Diagnostics,
+    ) -> Option<Typed> {
+        let result = match op {
+            Operator::Plus => self.add(Number::ONE, *op_span, (left, l), (operand, r)),
+            Operator::Minus => self.add(Number::MINUS_ONE, *op_span, (left, l), (operand, r)),
+            Operator::Times => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
+            Operator::Over => self.divide(operand, l, r),
+        };
+        let typed = errors.take(result)?;
+        self.finite(typed, &[l.expr, r.expr], *op_span, errors)
     }
 
     /// As [`formula`](Self::formula), of the given dimension.
@@ -117,9 +146,14 @@ impl Scope<'_> {
                 _ => Vec::new(),
             },
             FormulaKind::Negative(inner) => self.bare_parameters(inner),
-            FormulaKind::Binary { left, right, .. } => {
-                let mut bare = self.bare_parameters(left);
-                bare.extend(self.bare_parameters(right));
+            FormulaKind::Chain { first, rest } => {
+                let operands = rest.iter().map(|operation| &operation.operand);
+                let all = std::iter::once(&**first).chain(operands);
+                all.flat_map(|operand| self.bare_parameters(operand)).collect()
+            }
+            FormulaKind::Power { base, exponent, .. } => {
+                let mut bare = self.bare_parameters(base);
+                bare.extend(self.bare_parameters(exponent));
                 bare
             }
             _ => Vec::new(),
@@ -157,28 +191,13 @@ impl Scope<'_> {
                 }
                 State::Untouched => self.definition(&text, errors)?,
             },
+            Some(Value::Refused(_)) => return None,
             None => {
                 errors.push(self.unknown(name));
                 return None;
             }
         };
         self.allowed(typed, name, place, errors)
-    }
-
-    /// Resolves a `let` or `const` that is met for the first time.
-    pub fn definition(&mut self, name: &str, errors: &mut Diagnostics) -> Option<Typed> {
-        let Some(Value::Definition(definition)) = self.values.get_mut(name) else { return None };
-        definition.state = State::Open;
-        let (formula, place) =
-            (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
-        // a definition means the same wherever it is used
-        let local = self.local.take();
-        let typed = self.formula(formula, place, errors);
-        self.local = local;
-        if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
-            definition.state = typed.map_or(State::Failed, State::Done);
-        }
-        typed
     }
 
     /// Refuses what an expression may not depend on in this place.
@@ -249,23 +268,21 @@ impl Scope<'_> {
 
     fn add(
         &mut self,
-        op: char,
+        sign: Number,
         op_span: Span,
-        (left, l): (&Formula, Typed),
+        (left, l): (Option<&Formula>, Typed),
         (right, r): (&Formula, Typed),
     ) -> Result<Typed, Diagnostic> {
-        let sign = if op == '-' { Number::MINUS_ONE } else { Number::ONE };
         let expr = self.arena.sum(&[(l.expr, Number::ONE), (r.expr, sign)]);
         match (l.dimension, r.dimension) {
             (Some(a), Some(b)) if a != b => {
-                let message = match op {
-                    '-' => format!("{} cannot be subtracted from {}", described(b), described(a)),
-                    _ => format!("{} and {} cannot be added", described(a), described(b)),
+                let message = match sign.is_negative() {
+                    true => format!("{} cannot be subtracted from {}", described(b), described(a)),
+                    false => format!("{} and {} cannot be added", described(a), described(b)),
                 };
                 // The number without a unit is the likely culprit.
-                let bare = [left, right]
-                    .into_iter()
-                    .find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
+                let mut written = left.into_iter().chain([right]);
+                let bare = written.find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
                 Err(match bare {
                     Some(number) => Diagnostic::new(number.span, message)
                         .help("a number without a unit is dimensionless; give it one, as in `5 [mm]`"),
@@ -354,7 +371,31 @@ fn product(l: Typed, r: Typed) -> Option<Dimension> {
 
 /// `0.052/3 [kg]` divides by 3 kg: a unit belongs to the number before it.
 pub(super) fn unit_help_for_products(formula: &Formula) -> Option<String> {
-    let FormulaKind::Binary { op: '*' | '/', right, .. } = &formula.kind else { return None };
-    let FormulaKind::Number { unit: Some(unit), .. } = &right.kind else { return None };
+    let FormulaKind::Chain { rest, .. } = &formula.kind else { return None };
+    let last = rest.last().filter(|last| matches!(last.op, Operator::Times | Operator::Over))?;
+    let FormulaKind::Number { unit: Some(unit), .. } = &last.operand.kind else { return None };
     Some(format!("the unit belongs to the number before it alone; write `( … ) [{}]`", unit.text))
+}
+
+/// More than a turn, in radians and rounded.
+const TURN: f64 = 6.3;
+
+/// A bare number that is an angle is in radians. One of more than a turn is
+/// taken for degrees without their unit.
+///
+/// # Errors
+/// That, with both ways to write it.
+pub(super) fn in_radians(formula: &Formula) -> Result<(), Diagnostic> {
+    let (sign, number) = match &formula.kind {
+        FormulaKind::Negative(inner) => ("-", &inner.kind),
+        kind => ("", kind),
+    };
+    let FormulaKind::Number { value, unit: None } = number else { return Ok(()) };
+    let value = value.to_f64();
+    if value <= TURN {
+        return Ok(());
+    }
+    let message = "this angle is more than a turn: a bare number is in radians";
+    let help = format!("write `{sign}{value} [deg]`, or `{sign}{value} [rad]`");
+    Err(Diagnostic::new(formula.span, message).help(help))
 }

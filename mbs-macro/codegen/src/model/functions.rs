@@ -7,7 +7,8 @@ use mbs_symbolic::{Function, Number, Symbol};
 use proc_macro2::Ident;
 
 use super::Meaning;
-use super::joints;
+use super::formula::in_radians;
+use super::joints::{self, row_suffixes};
 use super::laws::LAWS;
 use super::measures::MEASURES;
 use super::names::{Place, Scope, Typed};
@@ -108,6 +109,9 @@ impl Scope<'_> {
         let values: Vec<_> = arguments.iter().map(|argument| self.formula(argument, place, errors)).collect();
         let values: Vec<_> = values.into_iter().collect::<Option<_>>()?;
         let dimension = errors.take(function_dimension(function, name, arguments, &values))?;
+        if let (Function::Sin | Function::Cos | Function::Tan, [argument]) = (function, arguments) {
+            errors.take(in_radians(argument))?;
+        }
         let expr = match values[..] {
             [x] if function == Function::Sqrt
                 && self.arena.as_number(x.expr).is_some_and(Number::is_negative) =>
@@ -197,6 +201,14 @@ impl Scope<'_> {
         };
         let text = row.to_string();
         let Some(known) = self.rows.get(&text) else {
+            let suffixes = self.joints.get(&text).map_or(&[][..], |joint| row_suffixes(joint.kind));
+            let rows: Vec<String> = suffixes.iter().map(|suffix| format!("{text}{suffix}")).collect();
+            if let [first, ..] = &rows[..] {
+                let message = format!("joint `{text}` has several multipliers: {}", listing(&rows));
+                return Err(Diagnostic::new(row.span(), message).help(format!(
+                    "the size of its force is `reaction({text})`; one multiplier is `lambda({first})`"
+                )));
+            }
             let error = Diagnostic::new(row.span(), format!("there is no constraint `{text}`"));
             return Err(match nearest(&text, self.rows.keys().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
@@ -204,7 +216,8 @@ impl Scope<'_> {
             });
         };
         if name == "effort" && !known.is_drive {
-            return Err(Diagnostic::new(row.span(), format!("`{text}` is a constraint, not a drive"))
+            let kind = if self.joints.contains_key(&text) { "joint" } else { "constraint" };
+            return Err(Diagnostic::new(row.span(), format!("`{text}` is a {kind}, not a drive"))
                 .help(format!("its multiplier is `lambda({text})`")));
         }
         if !place.allows(Meaning::Multiplier(known.position)) {

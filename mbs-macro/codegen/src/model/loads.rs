@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Span};
 
 use super::joints;
 use super::measures::Exerts;
-use super::names::{Place, duplicate};
+use super::names::{Place, Value, duplicate};
 use super::resolver::Resolver;
 use super::{Load, Meaning, Work};
 use crate::diagnostics::{Diagnostic, listing, nearest};
@@ -48,6 +48,7 @@ impl Resolver<'_> {
                 )
                 .help("name the body whose point it is"),
             ),
+            _ if matches!(self.scope.values.get(&target_text), Some(Value::Refused(_))) => {}
             _ => {
                 let bodies: Vec<_> = self.bodies.iter().map(|body| body.name.clone()).collect();
                 let coordinates = self.coordinates.iter().map(|c| c.quantity.name.clone());

@@ -1,7 +1,7 @@
 //! Functions that measure the mechanism: what its elements exert and do, how
 //! fast its points are, how its bodies stand. Those of joints are in `reactions`.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Expr, Function, Number};
@@ -307,7 +307,7 @@ pub(super) fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
 }
 
 pub(super) fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = &'n String>) -> Diagnostic {
-    let known: Vec<&str> = known.map(String::as_str).collect();
+    let known: BTreeSet<&str> = known.map(String::as_str).collect();
     let error = Diagnostic::new(name.span(), format!("there is no {what} `{name}`"));
     match nearest(&name.to_string(), known.iter().copied()) {
         Some(near) => error.help(format!("did you mean `{near}`?")),

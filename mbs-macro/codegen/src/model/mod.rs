@@ -3,9 +3,11 @@
 //! After this stage there are no names to look up and no units: only symbols,
 //! expressions in SI units, and positions in lists.
 
+mod cams;
 mod clauses;
 mod connections;
 mod declare;
+mod definitions;
 mod elements;
 pub mod energies;
 mod formula;
@@ -58,8 +60,10 @@ pub struct Model {
     pub loads: Vec<Load>,
     /// Loads that depend on multipliers.
     pub reactive_loads: Vec<Work>,
-    /// What properties of elements have to satisfy.
+    /// What properties of joints and elements have to satisfy.
     pub checks: Vec<Check>,
+    /// Places of springs that must not coincide.
+    pub gaps: Vec<Gap>,
     /// Energies of springs.
     pub potentials: Vec<Expr>,
     pub start: Vec<Start>,
@@ -191,13 +195,33 @@ pub struct Work {
     pub span: Span,
 }
 
-/// A property that must be positive, or just not negative.
+/// A property of a joint or an element that must be positive, or just not negative.
 pub struct Check {
     pub value: Expr,
     pub is_strict: bool,
     pub property: &'static str,
-    pub element: String,
+    /// What has it.
+    pub owner: String,
     pub span: Span,
+    /// How to mend a declared value that is 0, where 0 is not allowed.
+    pub zero_help: Option<&'static str>,
+}
+
+impl Check {
+    /// What has to hold.
+    pub fn rule(&self) -> &'static str {
+        if self.is_strict { "it has to be positive" } else { "it must not be negative" }
+    }
+}
+
+/// The distance between the places of a spring that has no direction where
+/// they coincide.
+pub struct Gap {
+    pub distance: Expr,
+    /// Its length without force.
+    pub free: Expr,
+    /// That of the spring.
+    pub name: proc_macro2::Ident,
 }
 
 pub struct Start {

@@ -26,8 +26,14 @@ pub struct Typed {
 
 /// What a name in a formula stands for.
 pub enum Value<'a> {
-    Symbol { symbol: Symbol, dimension: Dimension, span: Span },
+    Symbol {
+        symbol: Symbol,
+        dimension: Dimension,
+        span: Span,
+    },
     Definition(Definition<'a>),
+    /// Declared with an error: what uses it has none of its own.
+    Refused(Span),
 }
 
 /// A `let` or `const`, resolved when first needed.
@@ -110,6 +116,8 @@ pub struct Scope<'a> {
     pub energies: Option<Energies>,
     pub time: Symbol,
     pub local: Option<Local>,
+    /// Definitions that are being resolved, one in the other.
+    pub depth: usize,
     pub profiles: BTreeMap<String, Profile>,
 }
 
@@ -139,6 +147,7 @@ impl<'a> Scope<'a> {
             energies: None,
             time: Arena::new().symbol("t", Stage::Variable),
             local: None,
+            depth: 0,
             profiles: BTreeMap::new(),
         };
         scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
@@ -182,6 +191,7 @@ impl Value<'_> {
         match self {
             Self::Symbol { span, .. } => *span,
             Self::Definition(definition) => definition.span,
+            Self::Refused(span) => *span,
         }
     }
 }

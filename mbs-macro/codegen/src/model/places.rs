@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, Node};
 use proc_macro2::{Ident, Span};
 
 use super::joints::{self, Placed};
@@ -23,6 +23,8 @@ pub struct Frame {
     pub coordinates: Vec<String>,
     pub origin: [Expr; 2],
     pub angle: Expr,
+    /// Its coordinates have errors: what uses it has none of its own.
+    pub is_broken: bool,
     points: BTreeMap<String, Point>,
 }
 
@@ -34,7 +36,7 @@ struct Point {
 
 impl Frame {
     pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
-        Self { coordinates, origin, angle, points: BTreeMap::new() }
+        Self { coordinates, origin, angle, is_broken: false, points: BTreeMap::new() }
     }
 
     /// The place on the body of the point called `name`, if there is one.
@@ -97,6 +99,9 @@ impl Scope<'_> {
     pub fn attachment(&mut self, attachment: &Attachment, errors: &mut Diagnostics) -> Option<Placed> {
         let frame = errors.take(self.frame(&attachment.body))?;
         let (origin, angle) = (frame.origin, frame.angle);
+        if frame.is_broken {
+            return None;
+        }
         let Some(name) = &attachment.point else { return Some(Placed { position: origin, angle }) };
         let Some(point) = frame.points.get(&name.to_string()) else {
             errors.push(self.unknown_point(&attachment.body, name, frame));
@@ -106,9 +111,37 @@ impl Scope<'_> {
         Some(joints::place(&mut self.arena, origin, angle, local))
     }
 
+    /// The coordinate of a body that is called or meant by this name.
+    fn coordinate_at(&self, frame: &Frame, name: &str) -> Option<String> {
+        if let Some(known) = frame.coordinates.iter().find(|known| *known == name) {
+            return Some(known.clone());
+        }
+        let expr = match name {
+            "x" => frame.origin[0],
+            "y" => frame.origin[1],
+            "angle" => frame.angle,
+            _ => return None,
+        };
+        match self.arena.node(expr) {
+            Node::Symbol(symbol) => Some(self.arena.name(*symbol).to_owned()),
+            _ => None,
+        }
+    }
+
     fn unknown_point(&self, body: &Ident, name: &Ident, frame: &Frame) -> Diagnostic {
         let error = Diagnostic::new(name.span(), format!("body `{body}` has no point `{name}`"));
         let text = name.to_string();
+        if let Some(coordinate) = self.coordinate_at(frame, &text) {
+            let message = format!("`{body}.{name}` is a coordinate, where a place is expected");
+            return Diagnostic::new(name.span(), message).help(format!(
+                "a force along it is written `on {coordinate}`; a place is `{body}` or one of its points"
+            ));
+        }
+        if MEMBERS.contains(&text.as_str()) {
+            let what = if text == "angle" { "angle" } else { &format!("{text} coordinate") };
+            return Diagnostic::new(name.span(), format!("body `{body}` has no {what}"))
+                .help(format!("its coordinates are {}", listing(&frame.coordinates)));
+        }
         let others = self.bodies.iter().filter_map(|(other, frame)| Some((other, frame.points.get(&text)?)));
         let others: Vec<_> = others.collect();
         if let [(_, point), ..] = others.as_slice() {

@@ -122,8 +122,9 @@ impl Scope<'_> {
     fn wrenches(&mut self, name: &Ident, joint: &Ident) -> Result<Vec<(Expr, Wrench)>, Diagnostic> {
         let text = joint.to_string();
         let Some(known) = self.joints.get(&text) else {
-            if self.rows.contains_key(&text) {
-                return Err(Diagnostic::new(joint.span(), format!("`{text}` is a constraint, not a joint"))
+            if let Some(row) = self.rows.get(&text) {
+                let kind = if row.is_drive { "drive" } else { "constraint" };
+                return Err(Diagnostic::new(joint.span(), format!("`{text}` is a {kind}, not a joint"))
                     .help(format!("its multiplier is `lambda({text})`")));
             }
             return Err(unknown(joint, "joint", self.joints.keys()));

@@ -10,8 +10,8 @@ use super::energies;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Load, Meaning, Model, Output, Parameter, Quantity,
-    Requirement, Solver, Start, Symbols, Work,
+    Body, Check, Closes, Constraint, Coordinate, Gap, Load, Meaning, Model, Output, Parameter, Quantity, Requirement,
+    Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -65,6 +65,7 @@ pub(super) struct Resolver<'a> {
     pub loads: Vec<Load>,
     pub reactive_loads: Vec<Work>,
     pub checks: Vec<Check>,
+    pub gaps: Vec<Gap>,
     pub potentials: Vec<Expr>,
     pub load_names: HashMap<String, Span>,
     pub starts: Vec<Start>,
@@ -99,6 +100,7 @@ impl<'a> Resolver<'a> {
             loads: Vec::new(),
             reactive_loads: Vec::new(),
             checks: Vec::new(),
+            gaps: Vec::new(),
             potentials: Vec::new(),
             load_names: HashMap::new(),
             starts: Vec::new(),
@@ -196,6 +198,7 @@ impl<'a> Resolver<'a> {
             loads: self.loads,
             reactive_loads: self.reactive_loads,
             checks: self.checks,
+            gaps: self.gaps,
             potentials: self.potentials,
             start: self.starts,
             start_time: self.start_time.map_or(zero, |(time, _)| time),

@@ -5,12 +5,12 @@ use mbs_symbolic::{Expr, Number};
 use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
-use super::formula::unit_help_for_products;
-use super::names::{Definition, Place, State, Typed, Value, duplicate};
+use super::formula::{in_radians, unit_help_for_products};
+use super::names::{Place, Typed, Value, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Meaning, Output, Requirement, Source, Start};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
-use crate::syntax::{self, Formula, Item, ItemKind, Role};
+use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn resolve_places(&mut self, item: &Item) {
@@ -24,10 +24,15 @@ impl<'a> Resolver<'a> {
             return self.resolve_joint(joint, &item.doc);
         }
         let ItemKind::Constraint { name, role, left, equals, right } = &item.kind else { return };
-        let l = self.scope.formula(left, Place::Constraint, &mut self.errors);
-        let r = self.scope.formula(right, Place::Constraint, &mut self.errors);
-        let result = self.equation((name, *role), l, r, *equals);
-        let resolved = result.and_then(|result| self.errors.take(result));
+        let resolved = match self.errors.take(prescribes_position(name, *role, left, right)) {
+            None => None,
+            Some(()) => {
+                let l = self.scope.formula(left, Place::Constraint, &mut self.errors);
+                let r = self.scope.formula(right, Place::Constraint, &mut self.errors);
+                let result = self.equation((name, *role), l, r, *equals);
+                result.and_then(|result| self.errors.take(result))
+            }
+        };
         if let Some(row) = self.scope.rows.get_mut(&name.to_string()) {
             row.is_broken = resolved.is_none();
             row.dimension = resolved.map(|(_, dimension)| dimension);
@@ -152,8 +157,7 @@ impl<'a> Resolver<'a> {
         let before = self.errors.len();
         self.resolve_parameter(name, formula);
         if self.errors.len() > before {
-            let failed = Definition { formula, is_constant: true, span: name.span(), state: State::Failed };
-            self.scope.values.insert(name.to_string(), Value::Definition(failed));
+            self.scope.values.insert(name.to_string(), Value::Refused(name.span()));
         }
     }
 
@@ -301,6 +305,9 @@ impl<'a> Resolver<'a> {
             return;
         }
         let Some(coordinate) = self.coordinate_named(&text) else {
+            if matches!(self.scope.values.get(&text), Some(Value::Refused(_))) {
+                return;
+            }
             let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
             let hint = match nearest(&text, names.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -323,6 +330,10 @@ impl<'a> Resolver<'a> {
         if let Some(earlier) = earlier {
             let earlier = earlier.span;
             self.repeated(&what, entry.coordinate.span(), earlier);
+            return;
+        }
+        let is_angle = !entry.is_rate && dimension == Dimension::NONE;
+        if is_angle && self.errors.take(in_radians(&entry.value)).is_none() {
             return;
         }
         let value =
@@ -391,6 +402,23 @@ impl<'a> Resolver<'a> {
         let quantity = quantity(name, doc, &text, unit);
         self.outputs.push(Output { quantity, value: typed.expr });
     }
+}
+
+/// A drive gives a position over time, whose rate follows.
+fn prescribes_position(name: &Ident, role: Role, left: &Formula, right: &Formula) -> Result<(), Diagnostic> {
+    let FormulaKind::Call { function, arguments } = &left.kind else { return Ok(()) };
+    let [moved] = &arguments[..] else { return Ok(()) };
+    if role != Role::Drive || function != "der" {
+        return Ok(());
+    }
+    let moved = moved.path().unwrap_or("…".to_owned());
+    let rate = match &right.kind {
+        FormulaKind::Number { value, unit: Some(unit) } => format!("{} [{}]", value.to_f64(), unit.text),
+        _ => right.path().unwrap_or("rate".to_owned()),
+    };
+    let message = format!("`{name}` prescribes a rate, where a drive prescribes a position");
+    let help = format!("write the position over time, `{moved} = {rate}*t` for a constant rate");
+    Err(Diagnostic::new(function.span(), message).help(help))
 }
 
 /// The SI unit in the description of a dimension, `[m/s]`, without brackets.

@@ -17,8 +17,10 @@ pub struct Shape {
     is_between: bool,
     /// Whether `along (ux, uy)` follows the places.
     has_direction: bool,
-    /// What follows its name, in messages.
-    example: &'static str,
+    /// What follows its name.
+    pub example: &'static str,
+    /// What it does.
+    pub meaning: &'static str,
 }
 
 /// Every element.
@@ -29,6 +31,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: true,
         has_direction: false,
         example: "(arm.end, ground) { stiffness = 100 [N/m]; length = 0.1 [m]; }",
+        meaning: "pulls two points together or apart, with a damper",
     },
     Shape {
         word: "torsion_spring",
@@ -36,6 +39,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: true,
         has_direction: false,
         example: "(arm, ground) { stiffness = 5 [N*m]; angle = 0; }",
+        meaning: "turns two bodies against each other, with a damper",
     },
     Shape {
         word: "motor",
@@ -43,6 +47,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: true,
         has_direction: false,
         example: "(rotor, ground) { stall = 2 [N*m]; no_load = 3000 [rpm]; }",
+        meaning: "turns a body along its torque-speed line",
     },
     Shape {
         word: "friction",
@@ -50,6 +55,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: true,
         has_direction: true,
         example: "(block, ground) along (1, 0) { coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }",
+        meaning: "brakes what slides",
     },
     Shape {
         word: "torsion_friction",
@@ -57,6 +63,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: true,
         has_direction: false,
         example: "(arm, ground) { torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }",
+        meaning: "brakes what turns",
     },
     Shape {
         word: "drag",
@@ -64,6 +71,7 @@ pub const ELEMENTS: &[Shape] = &[
         is_between: false,
         has_direction: false,
         example: "on plate { density = 1.2 [kg/m^3]; area = 0.1 [m^2]; coefficient = 1; }",
+        meaning: "brakes what moves through a fluid",
     },
 ];
 

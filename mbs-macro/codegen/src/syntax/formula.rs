@@ -2,16 +2,52 @@
 
 use mbs_symbolic::Number;
 use mbs_symbolic::units::{self, Unit};
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Punct, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
 
-use super::{Formula, FormulaKind, UnitText, Vector};
+use super::words::helped;
+use super::{Formula, FormulaKind, Operation, Operator, UnitText, Vector};
 
 /// Parentheses, powers and signs may nest this deep.
 const DEEPEST: usize = 128;
+
+impl Formula {
+    /// The formula that is a name.
+    pub fn name(name: &Ident) -> Self {
+        Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
+    }
+
+    /// As it is written, if it is a name or a path of names.
+    pub fn path(&self) -> Option<String> {
+        match &self.kind {
+            FormulaKind::Name(name) => Some(name.to_string()),
+            FormulaKind::Member(path) => {
+                Some(path.iter().map(ToString::to_string).collect::<Vec<_>>().join("."))
+            }
+            _ => None,
+        }
+    }
+
+    /// The plain names in it.
+    pub fn names(&self) -> Vec<String> {
+        match &self.kind {
+            FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
+            FormulaKind::Name(name) => vec![name.to_string()],
+            FormulaKind::Negative(inner)
+            | FormulaKind::Component { call: inner, .. }
+            | FormulaKind::WithUnit { inner, .. } => inner.names(),
+            FormulaKind::Chain { first, rest } => {
+                let rest = rest.iter().flat_map(|operation| operation.operand.names());
+                first.names().into_iter().chain(rest).collect()
+            }
+            FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
+            FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
+        }
+    }
+}
 
 impl Parse for Formula {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
@@ -20,19 +56,36 @@ impl Parse for Formula {
 }
 
 fn sum(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
-    let mut left = product(input, depth)?;
-    while input.peek(Token![+]) || input.peek(Token![-]) {
-        left = binary(left, operator(input)?, product(input, depth)?);
-    }
-    Ok(left)
+    chain(input, &|input| product(input, depth), &[('+', Operator::Plus), ('-', Operator::Minus)])
 }
 
 fn product(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
-    let mut left = signed(input, depth)?;
-    while input.peek(Token![*]) || input.peek(Token![/]) {
-        left = binary(left, operator(input)?, signed(input, depth)?);
+    chain(input, &|input| signed(input, depth), &[('*', Operator::Times), ('/', Operator::Over)])
+}
+
+/// Operands with operators between them, which are of one rank.
+fn chain(
+    input: ParseStream<'_>,
+    operand: &dyn Fn(ParseStream<'_>) -> Result<Formula>,
+    operators: &[(char, Operator)],
+) -> Result<Formula> {
+    let first = operand(input)?;
+    let mut rest = Vec::new();
+    while let Some(op) = next_operator(input, operators) {
+        let (_, op_span) = operator(input)?;
+        rest.push(Operation { op, op_span, operand: operand(input)? });
     }
-    Ok(left)
+    if rest.is_empty() {
+        return Ok(first);
+    }
+    // `join` gives the first token alone on stable compilers; errors therefore
+    // go to single tokens, and this span is only the formula's beginning.
+    Ok(Formula { span: first.span, kind: FormulaKind::Chain { first: Box::new(first), rest } })
+}
+
+fn next_operator(input: ParseStream<'_>, operators: &[(char, Operator)]) -> Option<Operator> {
+    let punct = input.fork().parse::<Punct>().ok()?;
+    operators.iter().find(|(mark, _)| *mark == punct.as_char()).map(|(_, operator)| *operator)
 }
 
 /// A sign binds looser than `^`: −x² is −(x²).
@@ -51,21 +104,18 @@ fn signed(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     }
     let base = with_unit(input, depth)?;
     if input.peek(Token![^]) {
-        let operator = operator(input)?;
-        return Ok(binary(base, operator, signed(input, depth + 1)?));
+        let (_, op_span) = operator(input)?;
+        let exponent = Box::new(signed(input, depth + 1)?);
+        return Ok(Formula {
+            span: base.span,
+            kind: FormulaKind::Power { base: Box::new(base), op_span, exponent },
+        });
     }
     Ok(base)
 }
 
-fn binary(left: Formula, (op, op_span): (char, Span), right: Formula) -> Formula {
-    // `join` gives the first token alone on stable compilers; errors therefore
-    // go to single tokens, and this span is only the formula's beginning.
-    let span = left.span;
-    Formula { span, kind: FormulaKind::Binary { op, op_span, left: Box::new(left), right: Box::new(right) } }
-}
-
 fn operator(input: ParseStream<'_>) -> Result<(char, Span)> {
-    let punct: proc_macro2::Punct = input.parse()?;
+    let punct: Punct = input.parse()?;
     Ok((punct.as_char(), punct.span()))
 }
 
@@ -93,13 +143,15 @@ fn with_unit(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
 /// mistake, or an index that is not known.
 pub(super) fn bracket_after_name(input: ParseStream<'_>, name: &Ident) -> Error {
     let is_unit = input.fork().parse::<UnitText>().is_ok();
-    input.error(if is_unit {
-        format!("`{name}` has a unit of its own; units in brackets follow numbers, as in `60 [mm]`")
-    } else {
-        format!(
-            "the index of `{name}` is not known here\n\nhelp: an index is 0 or more, made of whole numbers, loop variables and whole constants, as in `{name}[i-1]`"
-        )
-    })
+    if is_unit {
+        let message = "has a unit of its own; units in brackets follow numbers, as in `60 [mm]`";
+        return input.error(format!("`{name}` {message}"));
+    }
+    let message = format!("the index of `{name}` is not known here");
+    let help = format!(
+        "an index is 0 or more, made of whole numbers, loop variables and whole constants, as in `{name}[i-1]`"
+    );
+    helped(input.span(), message, help)
 }
 
 fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
@@ -120,7 +172,11 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     if input.peek(Ident::peek_any) {
         let name = Ident::parse_any(input)?;
         let span = name.span();
-        if !input.peek(token::Paren) {
+        if !input.peek(token::Paren) || name == "if" {
+            if name == "if" {
+                let help = "a value that depends on a sign is written with `max(0, x)`, `min(a, b)`, `abs(x)` or `(1 + sign(x))/2`";
+                return Err(helped(span, "`if` chooses statements and cannot stand in a formula", help));
+            }
             if syn::parse_str::<Ident>(&name.to_string()).is_err() {
                 return Err(Error::new(
                     span,
@@ -180,10 +236,7 @@ fn number(literal: &Lit) -> Result<Formula> {
         } else {
             format!("write a product with `*`: `{digits}*{suffix}`")
         };
-        return Err(Error::new(
-            literal.span(),
-            format!("`{digits}{suffix}` is not a number\n\nhelp: {help}"),
-        ));
+        return Err(helped(literal.span(), format!("`{digits}{suffix}` is not a number"), help));
     }
     let value = Number::parse(&digits)
         .ok_or_else(|| Error::new(literal.span(), "this number is too large for a double"))?;
@@ -197,6 +250,15 @@ impl Parse for UnitText {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
         let content;
         let bracket = bracketed!(content in input);
+        let inner;
+        // `[$u]` around the fragment of a macro
+        let content = match content.peek(token::Paren) && is_one_token(&content) {
+            true => {
+                parenthesized!(inner in content);
+                inner
+            }
+            false => content,
+        };
         let tokens: TokenStream = content.fork().parse()?;
         let text = tokens.to_string().replace(' ', "");
         if content.is_empty() {
@@ -207,6 +269,11 @@ impl Parse for UnitText {
         }
         Ok(Self { text, unit: unit(&content)? })
     }
+}
+
+fn is_one_token(input: ParseStream<'_>) -> bool {
+    let ahead = input.fork();
+    ahead.parse::<TokenTree>().is_ok() && ahead.is_empty()
 }
 
 /// A unit, inside its brackets.
@@ -225,6 +292,10 @@ pub(super) fn unit(content: ParseStream<'_>) -> Result<Unit> {
 }
 
 fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
+    if input.peek(token::Paren) {
+        let message = "a unit has no parentheses; `/` applies to the next factor alone, as in `[N/m/s]`";
+        return Err(input.error(message));
+    }
     if input.peek(Lit) {
         let literal: Lit = input.parse()?;
         return match &literal {
@@ -245,8 +316,11 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
             Some((a, b)) => Some(format!("{a}*{b}")),
             None => crate::diagnostics::nearest(&text, units::known()).map(str::to_owned),
         };
-        let hint = meant.map_or(String::new(), |meant| format!("\n\nhelp: did you mean `{meant}`?"));
-        Error::new(name.span(), format!("{}{hint}", units::UnitError::unknown(&text)))
+        let unknown = units::UnitError::unknown(&text);
+        match meant {
+            Some(meant) => helped(name.span(), unknown, format!("did you mean `{meant}`?")),
+            None => Error::new(name.span(), unknown),
+        }
     })?;
     if !input.peek(Token![^]) {
         return Ok(unit);
@@ -296,7 +370,7 @@ fn in_unit(inner: Formula, unit: UnitText) -> Formula {
 pub(super) fn is_vector(input: ParseStream<'_>) -> bool {
     let ahead = input.fork();
     let Ok(group) = ahead.parse::<proc_macro2::Group>() else { return false };
-    let is_comma = |token| matches!(token, proc_macro2::TokenTree::Punct(p) if p.as_char() == ',');
+    let is_comma = |token| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
     input.peek(token::Paren) && group.stream().into_iter().any(is_comma)
 }
 

@@ -12,6 +12,8 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Error, Result, Token, parenthesized, token};
 
+use super::words::helped;
+
 /// Whole numbers that are known while statements are read.
 #[derive(Clone, Default)]
 pub struct Indices {
@@ -59,10 +61,8 @@ impl Indices {
         let taken = self.variables.contains_key(&name) || self.constants.contains_key(&name);
         if taken || units::lookup(&name).is_some() || name == "t" || name == "pi" {
             let what = if taken { "already has a value here" } else { "has a meaning of its own" };
-            return Err(Error::new(
-                variable.span(),
-                format!("`{name}` {what}\n\nhelp: give the loop variable another name, such as `i`"),
-            ));
+            let help = "give the loop variable another name, such as `i`";
+            return Err(helped(variable.span(), format!("`{name}` {what}"), help));
         }
         let mut indices = self.clone();
         indices.variables.insert(name, value);
@@ -148,10 +148,11 @@ impl Indices {
     }
 
     fn product(&self, input: ParseStream<'_>) -> Result<i64> {
-        if input.parse::<Option<Token![-]>>()?.is_some() {
-            return Ok(-self.factor(input)?);
-        }
+        let is_negative = input.parse::<Option<Token![-]>>()?.is_some();
         let mut value = self.factor(input)?;
+        if is_negative {
+            value = value.checked_neg().ok_or_else(|| too_large(input))?;
+        }
         while input.parse::<Option<Token![*]>>()?.is_some() {
             value = value.checked_mul(self.factor(input)?).ok_or_else(|| too_large(input))?;
         }
@@ -179,12 +180,8 @@ impl Indices {
         })?;
         let text = name.to_string();
         self.variables.get(&text).or_else(|| self.constants.get(&text)).copied().ok_or_else(|| {
-            Error::new(
-                name.span(),
-                format!(
-                    "`{text}` is not a whole number that is known here\n\nhelp: declare it, `const {text} = 3;`, or use a loop variable"
-                ),
-            )
+            let message = format!("`{text}` is not a whole number that is known here");
+            helped(name.span(), message, format!("declare it, `const {text} = 3;`, or use a loop variable"))
         })
     }
 }

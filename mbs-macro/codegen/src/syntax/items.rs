@@ -9,41 +9,12 @@ use syn::{Error, Result, Token, braced, parenthesized, token};
 
 use super::formula::{end, is_vector};
 use super::indices::Indices;
+use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
-use super::words::{block, definition, doc, equals, name, name_before_unit, path, semicolon};
+use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon};
 use super::{Comparison, Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
-use super::{elements, joints, profiles, solver};
+use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
-
-const KEYWORDS: &[&str] = &[
-    "dof",
-    "redundant",
-    "limit",
-    "step",
-    "feedback",
-    "closes",
-    "crate",
-    "param",
-    "const",
-    "input",
-    "let",
-    "gravity",
-    "body",
-    "constraint",
-    "drive",
-    "coupler",
-    "force",
-    "torque",
-    "start",
-    "output",
-    "point",
-    "profile",
-    "require",
-    "for",
-    "if",
-    "assembly",
-    "instance",
-];
 
 /// Reads a declaration.
 ///
@@ -51,8 +22,8 @@ const KEYWORDS: &[&str] = &[
 /// All errors of shape.
 pub fn parse(tokens: TokenStream) -> std::result::Result<Declaration, Diagnostics> {
     let mut errors = Diagnostics::default();
-    let parsed = (|input: ParseStream<'_>| declaration(input, &mut errors)).parse2(tokens);
-    match parsed {
+    let parser = |input: ParseStream<'_>| declaration(input, &mut errors);
+    match groups::delimited(tokens).and_then(|tokens| parser.parse2(tokens)) {
         Ok(declaration) => errors.finish(declaration),
         Err(error) => {
             errors.push(error);
@@ -85,61 +56,35 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     let keyword = Ident::parse_any(input).map_err(|error| {
         Error::new(error.span(), format!("a statement is expected here: {}", statements().join(", ")))
     })?;
-    let kind = match keyword.to_string().as_str() {
-        "dof" => dof(input, keyword.span()),
-        "redundant" => solver::redundant(input, keyword.span()),
-        "limit" => solver::limit(input, keyword.span()),
-        "step" => solver::step(input, keyword.span()),
-        "feedback" => solver::feedback(input, keyword.span()),
-        "closes" => solver::closes(input, keyword.span()),
-        "crate" => crate_path(input, keyword.span()),
-        "param" => parameter(input),
-        "const" => constant(input),
-        "input" => input_item(input),
-        "let" => let_item(input),
-        "gravity" => gravity(input, keyword.span()),
-        "body" => body(input),
-        "constraint" => constraint(input, Role::Constraint),
-        "drive" => constraint(input, Role::Drive),
-        "coupler" => constraint(input, Role::Coupler),
-        "force" => force(input, false),
-        "torque" => force(input, true),
-        "start" => start(input),
-        "output" => output(input),
-        "point" => joints::point(input),
-        "require" => require(input),
-        "instance" => instance(input),
-        "profile" => profiles::profile(input),
-        word => {
-            let joint = joints::JOINTS.iter().find(|shape| shape.word == word);
-            let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
-            match (joint, element) {
-                (Some(shape), _) => joints::joint(input, shape),
-                (None, Some(shape)) => elements::element(input, shape),
-                (None, None) => Err(unknown_statement(&keyword, word)),
-            }
-        }
+    let word = keyword.to_string();
+    let statement = STATEMENTS.iter().find(|(known, ..)| *known == word);
+    let joint = joints::JOINTS.iter().find(|shape| shape.word == word);
+    let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
+    let kind = match (statement, joint, element) {
+        (Some((.., read)), _, _) => read(input, keyword.span()),
+        (None, Some(shape), _) => joints::joint(input, shape),
+        (None, None, Some(shape)) => elements::element(input, shape),
+        (None, None, None) => Err(unknown_statement(&keyword, &word)),
     }?;
     Ok((doc, kind))
 }
 
 /// The words that begin statements.
 fn statements() -> Vec<&'static str> {
-    let elements = elements::ELEMENTS.iter().map(|shape| shape.word);
-    let joints = joints::JOINTS.iter().map(|shape| shape.word);
-    KEYWORDS.iter().copied().chain(elements).chain(joints).collect()
+    keywords().into_iter().map(|keyword| keyword.word).collect()
 }
 
 fn unknown_statement(keyword: &Ident, word: &str) -> Error {
     let known = statements();
-    let hint = match nearest(word, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("statements begin with {}", known.join(", ")),
+    let help = match (neighbour(word), nearest(word, known.iter().copied())) {
+        (Some(help), _) => help.to_owned(),
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) => format!("statements begin with {}", known.join(", ")),
     };
-    Error::new(keyword.span(), format!("`{word}` does not begin a statement\n\nhelp: {hint}"))
+    helped(keyword.span(), format!("`{word}` does not begin a statement"), help)
 }
 
-fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+pub(super) fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     let value: syn::LitInt = input.parse().map_err(|error| {
         Error::new(error.span(), "a whole number is expected here: the degrees of freedom that are left")
@@ -151,7 +96,7 @@ fn dof(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Dof { keyword, value: small.into() })
 }
 
-fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+pub(super) fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     let path = input.call(syn::Path::parse_mod_style).map_err(|error| {
         Error::new(error.span(), "the path of the runtime is expected here, as in `crate = ::my_runtime;`")
@@ -161,7 +106,7 @@ fn crate_path(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Crate { keyword, path })
 }
 
-fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name(input)?;
     equals(input)?;
     let value = input.parse()?;
@@ -201,14 +146,14 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
 }
 
 /// `require crank < rod;`
-fn require(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn require(input: ParseStream<'_>) -> Result<ItemKind> {
     let condition = condition(input)?;
     semicolon(input)?;
     Ok(ItemKind::Require { of: None, condition })
 }
 
 /// `instance left: Leg { phase = 120 [deg]; }`
-fn instance(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn instance(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name(input)?;
     let example = format!("instance {name}: Leg {{ length = 0.5 [m]; }}");
     input.parse::<Token![:]>().map_err(|error| {
@@ -228,17 +173,17 @@ fn instance(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Instance { name, assembly, bindings })
 }
 
-fn constant(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn constant(input: ParseStream<'_>) -> Result<ItemKind> {
     let (name, value) = definition(input)?;
     Ok(ItemKind::Constant { name, value })
 }
 
-fn let_item(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn let_item(input: ParseStream<'_>) -> Result<ItemKind> {
     let (name, value) = definition(input)?;
     Ok(ItemKind::Let { name, value })
 }
 
-fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name_before_unit(input)?;
     if !input.peek(token::Bracket) {
         return Err(input
@@ -249,7 +194,7 @@ fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Input { name, unit })
 }
 
-fn gravity(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+pub(super) fn gravity(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     if !is_vector(input) {
         return Err(input.error("gravity is a vector: `gravity = (0, -9.81) [m/s^2];`"));
@@ -259,7 +204,7 @@ fn gravity(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     Ok(ItemKind::Gravity { keyword, value })
 }
 
-fn body(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn body(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name(input)?;
     if !input.peek(token::Paren) {
         return Err(input.error(format!("a body needs its coordinates: `body {name} (x, y, theta) {{ … }}`")));
@@ -292,7 +237,7 @@ fn coordinate(input: ParseStream<'_>) -> Result<Coordinate> {
     Ok(Coordinate { direction, name, written })
 }
 
-fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind> {
+pub(super) fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind> {
     let name = name(input)?;
     input.parse::<Token![:]>().map_err(|error| {
         let example = match role {
@@ -309,7 +254,7 @@ fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind> {
     Ok(ItemKind::Constraint { name, role, left, equals, right })
 }
 
-fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
+pub(super) fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
     let word = if is_torque { "torque" } else { "force" };
     let what = name(input)?;
     let on = input.span();
@@ -330,7 +275,7 @@ fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
     Ok(ItemKind::Force { name: what, is_torque, target, frame, value })
 }
 
-fn start(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn start(input: ParseStream<'_>) -> Result<ItemKind> {
     block(input, "start { theta = 0; }")?;
     let content;
     braced!(content in input);
@@ -366,7 +311,7 @@ fn start_entry(input: ParseStream<'_>) -> Result<StartEntry> {
     Ok(StartEntry { is_guess, is_rate, prefix: path, coordinate, value })
 }
 
-fn output(input: ParseStream<'_>) -> Result<ItemKind> {
+pub(super) fn output(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name_before_unit(input)?;
     let unit = if input.peek(token::Bracket) { Some(input.parse()?) } else { None };
     equals(input)?;

@@ -9,7 +9,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::words::{equals, name, semicolon};
+use super::words::{equals, helped, name, semicolon};
 use super::{Attachment, Clause, ClauseKind, ItemKind, Joint, JointKind};
 use crate::diagnostics::nearest;
 
@@ -20,8 +20,10 @@ pub struct Shape {
     /// Of each of these groups, one clause is needed and no other is taken.
     needs: &'static [&'static [ClauseKind]],
     takes: &'static [ClauseKind],
-    /// How its clauses are written.
-    example: &'static str,
+    /// How its places and clauses are written.
+    pub example: &'static str,
+    /// What it does.
+    pub meaning: &'static str,
 }
 
 use ClauseKind::{Along, At, Carrier, Equals, Radii, Radius, Teeth};
@@ -33,8 +35,9 @@ const fn shape(
     needs: &'static [&'static [ClauseKind]],
     takes: &'static [ClauseKind],
     example: &'static str,
+    meaning: &'static str,
 ) -> Shape {
-    Shape { word, kind, needs, takes, example }
+    Shape { word, kind, needs, takes, example, meaning }
 }
 
 /// Transmissions between turning bodies are alike.
@@ -44,19 +47,19 @@ const LINE_AND_RADIUS: &[&[ClauseKind]] = &[&[Along], &[Radius]];
 /// The words that declare joints.
 #[rustfmt::skip]
 pub const JOINTS: &[Shape] = &[
-    shape("revolute", JointKind::Revolute, &[], &[], "(crank.tip, rod.base)"),
-    shape("fixed", JointKind::Fixed, &[], &[At], "(arm.end, hand.base) at 90 [deg]"),
-    shape("prismatic", JointKind::Prismatic, &[&[Along]], &[At], "(slider, ground.rail) along (1, 0)"),
-    shape("point_on_line", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)"),
-    shape("pin_slot", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)"),
-    shape("distance", JointKind::Distance, &[&[Equals]], &[], "(bob, ground.hook) = 0.5 [m]"),
-    shape("gear", JointKind::Gear, SIZES, &[Carrier, At], "(sun, planet) radii (20 [mm], 40 [mm]) carrier arm"),
-    shape("internal_gear", JointKind::InternalGear, SIZES, &[Carrier, At], "(ring, planet) radii (80 [mm], 20 [mm]) carrier arm"),
-    shape("belt", JointKind::Belt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])"),
-    shape("crossed_belt", JointKind::CrossedBelt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])"),
-    shape("rack", JointKind::Rack, LINE_AND_RADIUS, &[At], "(pinion, bar) along (1, 0) radius 15 [mm]"),
-    shape("rolling", JointKind::Rolling, LINE_AND_RADIUS, &[At], "(wheel, ground.track) along (1, 0) radius 0.3 [m]"),
-    shape("cam", JointKind::Cam, &[&[Equals]], &[], "(disk, follower.tip) = r0*(1 + 0.2*cos(angle))"),
+    shape("revolute", JointKind::Revolute, &[], &[], "(crank.tip, rod.base)", "two points coincide"),
+    shape("fixed", JointKind::Fixed, &[], &[At], "(arm.end, hand.base) at 90 [deg]", "two bodies move as one"),
+    shape("prismatic", JointKind::Prismatic, &[&[Along]], &[At], "(slider, ground.rail) along (1, 0)", "a body slides along another without turning against it"),
+    shape("point_on_line", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)", "a point stays on a line of another body"),
+    shape("pin_slot", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)", "a pin stays in a slot, the same as `point_on_line`"),
+    shape("distance", JointKind::Distance, &[&[Equals]], &[], "(bob, ground.hook) = 0.5 [m]", "two points keep their distance"),
+    shape("gear", JointKind::Gear, SIZES, &[Carrier, At], "(sun, planet) radii (20 [mm], 40 [mm]) carrier arm", "two gears turn against each other"),
+    shape("internal_gear", JointKind::InternalGear, SIZES, &[Carrier, At], "(ring, planet) radii (80 [mm], 20 [mm]) carrier arm", "a gear turns in a ring"),
+    shape("belt", JointKind::Belt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])", "two pulleys turn the same way"),
+    shape("crossed_belt", JointKind::CrossedBelt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])", "two pulleys turn opposite ways"),
+    shape("rack", JointKind::Rack, LINE_AND_RADIUS, &[At], "(pinion, bar) along (1, 0) radius 15 [mm]", "a pinion meshes with a rack"),
+    shape("rolling", JointKind::Rolling, LINE_AND_RADIUS, &[At], "(wheel, ground.track) along (1, 0) radius 0.3 [m]", "a wheel rolls on a track without slip"),
+    shape("cam", JointKind::Cam, &[&[Equals]], &[], "(disk, follower.tip) = r0*(1 + 0.2*cos(angle))", "a point follows the profile of a cam"),
 ];
 
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
@@ -96,11 +99,11 @@ fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -
         let (kind, span) = clause_word(input, shape, example)?;
         if let Some((earlier, first)) = given.iter().find(|(earlier, _)| excludes(shape, kind, *earlier)) {
             let message = if *earlier == kind {
-                format!("{kind} of `{name}` is given twice\n\nhelp: keep one of them")
+                format!("{kind} of `{name}` is given twice")
             } else {
-                format!("`{name}` has {kind} and {earlier}, which say the same\n\nhelp: keep one of them")
+                format!("`{name}` has {kind} and {earlier}, which say the same")
             };
-            let mut error = Error::new(span, message);
+            let mut error = helped(span, message, "keep one of them");
             error.combine(Error::new(*first, format!("{earlier} of `{name}` is first given here")));
             return Err(error);
         }
@@ -111,8 +114,8 @@ fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -
         if !given.iter().any(|(kind, _)| group.contains(kind)) {
             let missing: Vec<_> = group.iter().map(ToString::to_string).collect();
             let missing = missing.join(" or ");
-            let message = format!("`{} {name}` needs {missing}\n\nhelp: as in `{example}`", shape.word);
-            return Err(Error::new(name.span(), message));
+            let message = format!("`{} {name}` needs {missing}", shape.word);
+            return Err(helped(name.span(), message, format!("as in `{example}`")));
         }
     }
     semicolon(input)?;
@@ -156,11 +159,10 @@ fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(
         if taken.contains(&Equals) {
             return Ok((Equals, span));
         }
-        return Err(Error::new(span, format!("`{}` takes no {Equals}{}", shape.word, help(&taken, example))));
+        return Err(helped(span, format!("`{}` takes no {Equals}", shape.word), help(&taken, example)));
     }
     let Ok(word) = input.fork().call(Ident::parse_any) else {
-        let message = format!("a clause or `;` is expected here{}", help(&taken, example));
-        return Err(Error::new(span, message));
+        return Err(helped(span, "a clause or `;` is expected here", help(&taken, example)));
     };
     let text = word.to_string();
     match ClauseKind::WORDS.iter().find(|(known, _)| *known == text) {
@@ -169,28 +171,28 @@ fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(
             Ok((*kind, span))
         }
         Some((_, kind)) => {
-            Err(Error::new(span, format!("`{}` takes no {kind}{}", shape.word, help(&taken, example))))
+            Err(helped(span, format!("`{}` takes no {kind}", shape.word), help(&taken, example)))
         }
-        None if units::lookup(&text).is_some() => Err(Error::new(
-            span,
-            format!("`{text}` is no clause\n\nhelp: units stand in brackets: `[{text}]`"),
-        )),
+        None if units::lookup(&text).is_some() => {
+            let help = format!("units stand in brackets: `[{text}]`");
+            Err(helped(span, format!("`{text}` is no clause"), help))
+        }
         None => {
             let words = ClauseKind::WORDS.iter().filter(|(_, kind)| taken.contains(kind));
-            let hint = match nearest(&text, words.map(|(word, _)| *word)) {
-                Some(near) => format!("\n\nhelp: did you mean `{near}`?"),
+            let help = match nearest(&text, words.map(|(word, _)| *word)) {
+                Some(near) => format!("did you mean `{near}`?"),
                 None => help(&taken, example),
             };
-            Err(Error::new(span, format!("`{text}` is no clause of `{}`{hint}", shape.word)))
+            Err(helped(span, format!("`{text}` is no clause of `{}`", shape.word), help))
         }
     }
 }
 
 fn help(taken: &[ClauseKind], example: &str) -> String {
     if taken.is_empty() {
-        return "\n\nhelp: end the statement with `;` here".to_owned();
+        return "end the statement with `;` here".to_owned();
     }
-    format!("\n\nhelp: as in `{example}`")
+    format!("as in `{example}`")
 }
 
 fn clause(input: ParseStream<'_>, kind: ClauseKind) -> Result<Clause> {

@@ -2,9 +2,11 @@
 
 mod elements;
 mod formula;
+mod groups;
 mod indices;
 mod items;
 mod joints;
+mod keywords;
 mod profiles;
 mod solver;
 mod statements;
@@ -16,6 +18,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
 pub use joints::JOINTS;
+pub use keywords::{Keyword, KeywordKind, keywords};
 
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
@@ -317,11 +320,20 @@ pub struct Formula {
     pub kind: FormulaKind,
 }
 
-impl Formula {
-    /// The formula that is a name.
-    pub fn name(name: &Ident) -> Self {
-        Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
-    }
+/// An operator of a chain with what stands behind it.
+#[derive(Clone)]
+pub struct Operation {
+    pub op: Operator,
+    pub op_span: Span,
+    pub operand: Formula,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Operator {
+    Plus,
+    Minus,
+    Times,
+    Over,
 }
 
 #[derive(Clone)]
@@ -335,12 +347,16 @@ pub enum FormulaKind {
     /// `crank.tip.x`
     Member(Vec<Ident>),
     Negative(Box<Formula>),
-    /// `op` is one of `+ - * / ^`; the span is the operator's.
-    Binary {
-        op: char,
+    /// `a + b - c`, or `a*b/c`: from left to right. A list, so that a long one
+    /// is not deep.
+    Chain {
+        first: Box<Formula>,
+        rest: Vec<Operation>,
+    },
+    Power {
+        base: Box<Formula>,
         op_span: Span,
-        left: Box<Formula>,
-        right: Box<Formula>,
+        exponent: Box<Formula>,
     },
     Call {
         function: Ident,

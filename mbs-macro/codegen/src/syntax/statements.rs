@@ -260,8 +260,8 @@ fn condition(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result
     Ok(compare(&left, &whole(input, indices, example)?))
 }
 
-/// Moves behind the next `;`, or behind a `{ … }` that ends a statement, and
-/// gives what stands before.
+/// Moves behind the next `;`, or behind a `{ … }` that ends a statement with its
+/// `else`, and gives what stands before.
 fn take_statement(input: ParseStream<'_>) -> TokenStream {
     let mut tokens = TokenStream::new();
     while let Ok(token) = input.parse::<TokenTree>() {
@@ -271,7 +271,7 @@ fn take_statement(input: ParseStream<'_>) -> TokenStream {
         if is_block && input.peek(Token![;]) {
             tokens.extend(input.parse::<TokenTree>());
         }
-        if is_end || is_block {
+        if is_end || (is_block && !input.peek(Token![else])) {
             break;
         }
     }
@@ -286,15 +286,15 @@ fn take(input: ParseStream<'_>, tokens: TokenStream) -> Result<()> {
     Ok(())
 }
 
-/// Statements in the source of a block.
+/// At least as many as there are statements in the source of a block, those in
+/// its blocks included.
 fn count_statements(block: TokenStream) -> usize {
-    let parser = |input: ParseStream<'_>| {
-        let mut count = 0;
-        while !input.is_empty() {
-            take_statement(input);
-            count += 1;
+    let of = |token| match token {
+        TokenTree::Punct(punct) => usize::from(punct.as_char() == ';'),
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+            1 + count_statements(group.stream())
         }
-        Ok(count)
+        _ => 0,
     };
-    parser.parse2(block).unwrap_or(0)
+    block.into_iter().map(of).sum()
 }

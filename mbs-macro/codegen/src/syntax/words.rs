@@ -9,6 +9,7 @@ use syn::{Attribute, Error, Result, Token, token};
 
 use super::Formula;
 use super::formula::bracket_after_name;
+use crate::diagnostics::HELP;
 
 /// The text of doc comments; other attributes are refused.
 pub(super) fn doc(input: ParseStream<'_>) -> Result<String> {
@@ -25,6 +26,11 @@ pub(super) fn doc(input: ParseStream<'_>) -> Result<String> {
         lines.push(line.strip_prefix(' ').unwrap_or(&line).to_owned());
     }
     Ok(lines.join("\n"))
+}
+
+/// An error that says how to mend it.
+pub(super) fn helped(span: Span, message: impl std::fmt::Display, help: impl std::fmt::Display) -> Error {
+    Error::new(span, format!("{message}{HELP}{help}"))
 }
 
 pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
@@ -74,7 +80,7 @@ fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
     let message = "an operator or `;` is expected before this";
     match input.fork().call(Ident::parse_any) {
         Ok(word) if units::lookup(&word.to_string()).is_some() => {
-            Error::new(span, format!("{message}\n\nhelp: units stand in brackets: `[{word}]`"))
+            helped(span, message, format!("units stand in brackets: `[{word}]`"))
         }
         _ => Error::new(span, message),
     }

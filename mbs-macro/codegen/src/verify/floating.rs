@@ -1,14 +1,17 @@
 //! Bodies that no joint or constraint connects to the ground.
 
-use crate::model::{Meaning, Model};
+use crate::model::{Body, Direction, Meaning, Model};
 
 /// Their names. Two bodies are connected by an equation in coordinates of both,
-/// and a body to the ground by one in its own alone. Drives do not count: a
-/// motor turns a shaft but does not carry it.
+/// and a body to the ground by one in its own alone, or by a position that it
+/// lacks: `body slider (x)` stays on the x axis. Drives do not count: a motor
+/// turns a shaft but does not carry it.
 pub fn floating_bodies(model: &Model) -> Vec<&str> {
     let held: Vec<Vec<usize>> =
         model.constraints.iter().filter(|c| !c.is_drive).map(|c| bodies_in(model, c.phi)).collect();
-    let mut is_grounded = vec![false; model.bodies.len()];
+    let lacks = |body: &Body, direction| model.coordinate_of(body, direction).is_none();
+    let is_guided = |body: &Body| lacks(body, Direction::X) || lacks(body, Direction::Y);
+    let mut is_grounded: Vec<bool> = model.bodies.iter().map(is_guided).collect();
     // From the ground outwards, until nothing is added.
     let mut count = 0;
     loop {

@@ -6,6 +6,7 @@ mod closure;
 mod correction;
 mod echelon;
 mod floating;
+mod gaps;
 mod generic;
 mod jets;
 mod manifold;
@@ -22,7 +23,7 @@ mod start;
 mod validation;
 mod words;
 
-use mbs_symbolic::{Undetermined, Unknown};
+use mbs_symbolic::{Stage, Undetermined, Unknown};
 
 pub use closure::check_closure;
 pub use rank::Rows;
@@ -43,7 +44,14 @@ use crate::reactive::Circular;
 pub fn check_equations(model: &Model, equations: &Equations, samples: &Samples) -> Result<Rows, Diagnostics> {
     let mut errors = Diagnostics::default();
     check_declared_values(model, &mut errors);
+    // with such values, what follows says nothing
+    if !errors.is_empty() {
+        return Err(errors);
+    }
     let rows = rank::check_independence(model, equations, samples, &mut errors);
+    if errors.is_empty() {
+        gaps::check_gaps(model, equations, samples, &rows, &mut errors);
+    }
     errors.finish(rows)
 }
 
@@ -64,12 +72,14 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     }
     for check in &model.checks {
         let value = model.arena.evaluate(&[check.value], &values)[0];
-        // what depends on the motion is not known here, and not a number
-        if value < 0.0 || (check.is_strict && value == 0.0) {
+        // what depends on the motion is not known here
+        let is_known = model.arena.stage(check.value) != Stage::Variable;
+        let is_met = if check.is_strict { value > 0.0 } else { value >= 0.0 };
+        if is_known && !is_met {
             let is_number = model.arena.as_number(check.value).is_some();
             let at = if is_number { "" } else { " at the declared parameters" };
-            let message = format!("the {} of `{}` is {value}{at}", check.property, check.element);
-            let help = if check.is_strict { "it has to be positive" } else { "it must not be negative" };
+            let message = format!("the {} of `{}` is {value}{at}", check.property, check.owner);
+            let help = check.zero_help.filter(|_| value == 0.0).unwrap_or(check.rule());
             errors.push(Diagnostic::new(check.span, message).help(help));
         }
     }

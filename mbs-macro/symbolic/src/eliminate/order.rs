@@ -163,7 +163,7 @@ impl Order {
     ///
     /// Pairs come first as long as a mass is uncertain: a mass that is eliminated
     /// leaves no 0 on the diagonal of its rows.
-    pub fn choose(&mut self, arena: &Arena, matrix: &Kkt) -> Result<Option<Next>, Undetermined> {
+    pub fn choose(&mut self, arena: &mut Arena, matrix: &Kkt) -> Result<Option<Next>, Undetermined> {
         if let Some(pair) = self.best().filter(|candidate| candidate.class <= Class::LastPair) {
             return Ok(Some(Next::Pivot(pair.pivot)));
         }
@@ -189,7 +189,7 @@ impl Order {
 
     /// Leaves no mass uncertain; gives the rows that have to be added to the mass
     /// block for that. Without any, a regular system has a definite mass block.
-    fn make_certain(&mut self, arena: &Arena, matrix: &Kkt) -> Result<Vec<Unknown>, Undetermined> {
+    fn make_certain(&mut self, arena: &mut Arena, matrix: &Kkt) -> Result<Vec<Unknown>, Undetermined> {
         let uncertain = without_certain(arena, matrix, std::mem::take(&mut self.uncertain));
         let nothing = |unknown: &Unknown| {
             matrix.get(*unknown, *unknown).is_none() && matrix.neighbours(*unknown).next().is_none()
@@ -259,8 +259,12 @@ impl Order {
 /// With M ≥ 0 in the quadratic sense, xᵀMx = 0 for x over the uncertain ones
 /// implies Mx = 0, and the row of such a coordinate reads M_zz x_z = 0. Ends
 /// since every round takes one out.
-fn without_certain(arena: &Arena, matrix: &Kkt, mut uncertain: BTreeSet<Unknown>) -> BTreeSet<Unknown> {
-    let is_certain = |uncertain: &BTreeSet<Unknown>, unknown: Unknown| {
+fn without_certain(
+    arena: &mut Arena,
+    matrix: &Kkt,
+    mut uncertain: BTreeSet<Unknown>,
+) -> BTreeSet<Unknown> {
+    let mut is_certain = |uncertain: &BTreeSet<Unknown>, unknown: Unknown| {
         let is_positive = matrix.get(unknown, unknown).is_some_and(|mass| arena.is_positive(mass));
         is_positive && matrix.neighbours(unknown).all(|(other, _)| !uncertain.contains(&other))
     };

@@ -16,6 +16,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
 use super::Check;
+use super::formula::in_radians;
 use super::joints::Placed;
 use super::names::Place;
 use super::resolver::Resolver;
@@ -204,6 +205,9 @@ impl Resolver<'_> {
             }
         };
         let mut read = |formula: &Formula| {
+            if row.name == "angle" {
+                self.errors.take(in_radians(formula))?;
+            }
             self.scope.formula_of(formula, row.place, (&what, row.dimension), &mut self.errors)
         };
         let values: Option<Vec<Expr>> = formulas.iter().map(|formula| read(formula)).collect();
@@ -213,8 +217,9 @@ impl Resolver<'_> {
                 value: *value,
                 is_strict: row.range == Range::Positive,
                 property: row.name,
-                element: element.name.to_string(),
+                owner: element.name.to_string(),
                 span: property.name.span(),
+                zero_help: None,
             });
         }
         Some(values)

@@ -174,12 +174,12 @@ pub fn rotate(arena: &mut Arena, angle: Expr, [x, y]: [Expr; 2]) -> [Expr; 2] {
     [arena.sub(xc, ys), arena.add(xs, yc)]
 }
 
-/// p₁ − p₂
 fn separation(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
     difference(arena, &connection.first, &connection.second)
 }
 
-fn difference(arena: &mut Arena, first: &Placed, second: &Placed) -> [Expr; 2] {
+/// p₁ − p₂
+pub fn difference(arena: &mut Arena, first: &Placed, second: &Placed) -> [Expr; 2] {
     let ([x1, y1], [x2, y2]) = (first.position, second.position);
     [arena.sub(x1, x2), arena.sub(y1, y2)]
 }

@@ -1,0 +1,130 @@
+//! The words that begin statements: what they are, how they are written, what
+//! they do. Parser, messages, documentation and tests read this one table, to
+//! which joints and elements add their own.
+
+use proc_macro2::Span;
+use syn::Result;
+use syn::parse::ParseStream;
+
+use super::elements::ELEMENTS;
+use super::joints::JOINTS;
+use super::{ItemKind, Role, items, joints, profiles, solver};
+
+/// A word with which a statement begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keyword {
+    /// The word.
+    pub word: &'static str,
+    /// What it declares.
+    pub kind: KeywordKind,
+    /// How the statement is written; of a joint or an element, what stands
+    /// behind its name.
+    pub form: &'static str,
+    /// What it does, in a few words.
+    pub meaning: &'static str,
+}
+
+/// What a statement declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeywordKind {
+    /// Quantities, bodies, equations, loads, settings.
+    Statement,
+    /// A joint between two places.
+    Joint,
+    /// A force element with a block of properties.
+    Element,
+    /// Statements that repeat, choose or gather others.
+    Block,
+}
+
+/// Reads what follows the word, whose span is given.
+type Read = fn(ParseStream<'_>, Span) -> Result<ItemKind>;
+
+/// A word, how its statement is written, what that does, and what reads it.
+pub type Statement = (&'static str, &'static str, &'static str, Read);
+
+#[rustfmt::skip]
+pub const STATEMENTS: &[Statement] = &[
+    ("dof", "dof = 1;", "the degrees of freedom that are left, as a contract", items::dof),
+    ("redundant", "redundant = minimum_norm;", "lets constraints repeat others", solver::redundant),
+    ("limit", "limit operations = 200;", "bounds what the generated code may cost", solver::limit),
+    ("step", "step = 0.5 [ms];", "the step that the mechanism is meant for", solver::step),
+    ("feedback", "feedback = held(1500 [1/s], 2000 [1/s]);", "the gains that it is meant for", solver::feedback),
+    ("closes", "closes = 0 [s] .. 0.3 [s];", "the span over which it has to be assembled", solver::closes),
+    ("crate", "crate = ::my_runtime;", "where generated code finds the runtime", items::crate_path),
+    ("param", "param l = 60 [mm] where l > 0;", "a quantity that a program may change", |input, _| items::parameter(input)),
+    ("const", "const k = 1/12;", "a number that is folded into the code", |input, _| items::constant(input)),
+    ("input", "input u [N*m];", "a quantity that a program sets at every step", |input, _| items::input_item(input)),
+    ("let", "let s = sin(theta);", "a name for an expression", |input, _| items::let_item(input)),
+    ("gravity", "gravity = (0, -9.81) [m/s^2];", "acts on every body that has a mass", items::gravity),
+    ("body", "body rod (x, y, theta) { mass = m; inertia = j; }", "a rigid body with its coordinates", |input, _| items::body(input)),
+    ("point", "point tip on rod = (l/2, 0);", "a place on a body", |input, _| joints::point(input)),
+    ("constraint", "constraint rod: x = l*cos(theta);", "an equation between coordinates", |input, _| items::constraint(input, Role::Constraint)),
+    ("drive", "drive motor: theta = omega*t;", "an equation that is enforced from outside", |input, _| items::constraint(input, Role::Drive)),
+    ("coupler", "coupler screw: x = lead/(2*pi)*theta;", "an equation that is a transmission", |input, _| items::constraint(input, Role::Coupler)),
+    ("profile", "profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];", "a periodic function through points", |input, _| profiles::profile(input)),
+    ("force", "force push on rod.tip = (fx, fy);", "a force on a body, or along a coordinate", |input, _| items::force(input, false)),
+    ("torque", "torque turn on rod = m;", "a torque on a body", |input, _| items::force(input, true)),
+    ("start", "start { theta = 30 [deg]; guess x = l; }", "where the motion starts", |input, _| items::start(input)),
+    ("output", "output power [W] = u*der(theta);", "a value to be recorded", |input, _| items::output(input)),
+    ("require", "require l1 < l2;", "a condition between parameters", |input, _| items::require(input)),
+    ("instance", "instance left: Leg { length = 0.5 [m]; }", "a part that an assembly describes", |input, _| items::instance(input)),
+];
+
+/// Statements with statements in them, which are read on tokens.
+#[rustfmt::skip]
+const BLOCKS: &[(&str, &str, &str)] = &[
+    ("for", "for i in 1..=N { … }", "repeats statements"),
+    ("if", "if i > 1 { … } else { … }", "chooses statements by whole numbers"),
+    ("assembly", "assembly Leg { … }", "describes a part that is used more than once"),
+];
+
+/// All words with which statements begin, in the order of the language page.
+pub fn keywords() -> Vec<Keyword> {
+    let of = |kind| move |(word, form, meaning)| Keyword { word, kind, form, meaning };
+    let statements = STATEMENTS.iter().map(|&(word, form, meaning, _)| (word, form, meaning));
+    let joints = JOINTS.iter().map(|shape| (shape.word, shape.example, shape.meaning));
+    let elements = ELEMENTS.iter().map(|shape| (shape.word, shape.example, shape.meaning));
+    let mut all: Vec<Keyword> = statements.map(of(KeywordKind::Statement)).collect();
+    all.extend(joints.map(of(KeywordKind::Joint)));
+    all.extend(elements.map(of(KeywordKind::Element)));
+    all.extend(BLOCKS.iter().copied().map(of(KeywordKind::Block)));
+    all
+}
+
+/// Words that begin no statement here, though they do elsewhere, and what to
+/// write for them.
+#[rustfmt::skip]
+const NEIGHBOURS: &[(&[&str], &str)] = &[
+    (&["hinge", "pin", "pivot", "bearing", "rotational", "revolute_joint"], "two places that coincide are a `revolute` joint: `revolute pin (crank.tip, rod.base);`"),
+    (&["joint"], "a joint begins with its kind: `revolute`, `prismatic`, `fixed`, `point_on_line`, `distance`, `gear`, `belt`, `rack`, `rolling` or `cam`"),
+    (&["contact", "collision", "stop", "bumper"], "what rolls is a `rolling` joint, what follows a curve a `cam`; an end stop is a force: `force stop on x = -k*max(0, x - gap);`"),
+    (&["damper", "dashpot", "shock_absorber"], "a damper is a spring without stiffness: `spring name (a.p, b.q) { damping = c; }`, or `torsion_spring` between angles"),
+    (&["torsional_spring", "rotational_spring", "spiral_spring"], "a spring between angles is a `torsion_spring`"),
+    (&["slider", "guide", "rail", "translational", "slot", "groove"], "what slides without turning is a `prismatic` joint, a pin in a slot a `pin_slot`: `prismatic name (block, ground) along (1, 0);`"),
+    (&["bushing", "mount", "pad"], "an elastic bearing is a `spring { length = 0; … }` and a `torsion_spring` at the same place"),
+    (&["weld", "rigid", "clamp", "lock"], "two bodies that move as one are a `fixed` joint"),
+    (&["link", "bar", "rod", "rope", "cable", "string", "strut"], "a link with a mass is a `body`, one without is a `distance` joint: `distance name (a.p, b.q) = l;`"),
+    (&["pulley", "chain", "timing_belt"], "two pulleys or sprockets are a `belt` joint"),
+    (&["mass", "inertia"], "masses and inertias are properties of bodies: `body rod (x, y, theta) { mass = …; inertia = …; }`"),
+    (&["wheel", "disc", "disk", "part", "solid"], "what moves is a `body`: `body wheel (x, y, phi) { mass = …; inertia = …; }`"),
+    (&["screw", "nut", "transmission", "ratio"], "a transmission between coordinates is a `coupler`: `coupler screw: x = lead/(2*pi)*phi;`"),
+    (&["rack_pinion", "pinion"], "a pinion on a rack is a `rack` joint"),
+    (&["planetary", "sun", "ring", "spur_gear"], "gears of a planetary train are `gear` and `internal_gear` joints with a `carrier`"),
+    (&["actuator", "cylinder", "servo"], "what is prescribed is a `drive`: `drive push: distance(a.p, b.q) = l + v*t;`; what pushes with a known force is a `force`"),
+    (&["velocity", "speed", "position", "motion", "prescribe"], "a prescribed motion is a `drive`: `drive motor: theta = omega*t;`"),
+    (&["equation", "eq", "condition"], "an equation between coordinates is a `constraint`, a condition between parameters a `require`"),
+    (&["load", "moment"], "a load is a `force` or a `torque`"),
+    (&["sensor", "measure", "record", "plot"], "what is to be recorded is an `output`"),
+    (&["initial", "init", "initially"], "the motion begins where `start { … }` says"),
+    (&["coordinate", "state", "variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`"),
+    (&["marker", "frame", "node"], "a place on a body is a `point`: `point tip on rod = (l/2, 0);`"),
+    (&["ground", "fixed_body", "world", "base"], "the ground is a body that is there already, called `ground`"),
+    (&["component", "subsystem", "module", "submodel"], "a part that is used more than once is an `assembly`"),
+];
+
+/// What to write for a word that other programs know.
+pub fn neighbour(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase();
+    NEIGHBOURS.iter().find(|(words, _)| words.contains(&word.as_str())).map(|(_, help)| *help)
+}
