@@ -8,8 +8,8 @@ mod step;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use mbs_symbolic::{
-    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy,
-    Undetermined, Unknown, WatchedPivot, factor_within, lower, lower_whole,
+    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy, Undetermined,
+    Unknown, WatchedPivot, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;

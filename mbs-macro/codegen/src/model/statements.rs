@@ -294,7 +294,7 @@ impl<'a> Resolver<'a> {
                 _ => self.coordinates.iter().position(|c| c.quantity.name == name),
             },
             Some(Value::Definition(_)) => self.coordinates.iter().position(|c| c.quantity.name == name),
-            None => None,
+            Some(Value::Refused(_)) | None => None,
         }
     }
 

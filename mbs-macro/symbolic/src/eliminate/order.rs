@@ -259,11 +259,7 @@ impl Order {
 /// With M ≥ 0 in the quadratic sense, xᵀMx = 0 for x over the uncertain ones
 /// implies Mx = 0, and the row of such a coordinate reads M_zz x_z = 0. Ends
 /// since every round takes one out.
-fn without_certain(
-    arena: &mut Arena,
-    matrix: &Kkt,
-    mut uncertain: BTreeSet<Unknown>,
-) -> BTreeSet<Unknown> {
+fn without_certain(arena: &mut Arena, matrix: &Kkt, mut uncertain: BTreeSet<Unknown>) -> BTreeSet<Unknown> {
     let mut is_certain = |uncertain: &BTreeSet<Unknown>, unknown: Unknown| {
         let is_positive = matrix.get(unknown, unknown).is_some_and(|mass| arena.is_positive(mass));
         is_positive && matrix.neighbours(unknown).all(|(other, _)| !uncertain.contains(&other))
