@@ -106,50 +106,27 @@ impl Run<'_> {
         let Repetition { start, length, count } = repetition;
         let sources: Vec<[Source; 2]> = (0..length).map(|at| repetition.sources(self.program, at)).collect();
         let keeping: Vec<Keeping> = (0..length).map(|at| Keeping::of(self.slots, &repetition, at)).collect();
-        let mut carried = Vec::new();
-        for source in sources.iter().flatten() {
-            if let Source::Carried(_, first) = source {
-                carried.push(self.outside(*first)?);
-            }
-        }
-        let columns: HashMap<&Source, Column> = sources
+        let mut columns = Columns::default();
+        let feeds: Vec<[Feed; 2]> = sources
             .iter()
-            .flatten()
-            .filter_map(|source| match source {
-                Source::Each(operands) => {
-                    Some(Column::of(self.slots, operands).map(|column| (source, column)))
-                }
-                _ => None,
-            })
+            .map(|[a, b]| Some([self.feed(a, &mut columns)?, self.feed(b, &mut columns)?]))
             .collect::<Option<_>>()?;
         let mut results = vec![f64::NAN; length];
         for copy in 0..count {
             // an operand of a copy is read when it is first needed, and held
-            let mut held: HashMap<&Source, f64> = HashMap::new();
+            let mut held: Vec<Option<f64>> = vec![None; columns.list.len()];
             let before = std::mem::replace(&mut results, vec![f64::NAN; length]);
-            let mut places = carried.iter();
-            for (at, sources) in sources.iter().enumerate() {
+            for (at, feeds) in feeds.iter().enumerate() {
                 let mut operands = [f64::NAN; 2];
-                for (operand, source) in operands.iter_mut().zip(sources) {
-                    *operand = match source {
-                        Source::Same(same) => self.outside(*same)?,
-                        Source::Own(own) => results[*own],
-                        Source::Carried(from, _) => {
-                            let first = *places.next()?;
-                            if copy == 0 { first } else { before[*from] }
-                        }
-                        Source::Each(operands) => match held.get(source) {
-                            Some(held) => *held,
-                            None => {
-                                let value = match columns.get(source)? {
-                                    Column::Kept(array, rule) => {
-                                        self.read(Place { array: *array, at: rule.at(copy) })?
-                                    }
-                                    Column::Given => (self.given)(operands[copy])?,
-                                };
-                                held.insert(source, value);
-                                value
-                            }
+                for (operand, feed) in operands.iter_mut().zip(feeds) {
+                    *operand = match *feed {
+                        Feed::Same(same) => self.outside(same)?,
+                        Feed::Own(own) => results[own],
+                        Feed::Carried(_, first) if copy == 0 => first,
+                        Feed::Carried(from, _) => before[from],
+                        Feed::Each(column) => match held[column] {
+                            Some(value) => value,
+                            None => *held[column].insert(self.each(&columns.list[column], copy)?),
                         },
                     };
                 }
@@ -166,17 +143,58 @@ impl Run<'_> {
         }
         Some(())
     }
+
+    fn feed<'s>(&self, source: &'s Source, columns: &mut Columns<'s>) -> Option<Feed> {
+        Some(match source {
+            Source::Same(same) => Feed::Same(*same),
+            Source::Own(own) => Feed::Own(*own),
+            Source::Carried(from, first) => Feed::Carried(*from, self.outside(*first)?),
+            Source::Each(operands) => match columns.known.get(source) {
+                Some(&column) => Feed::Each(column),
+                None => {
+                    columns.list.push(Column::of(self.slots, operands)?);
+                    columns.known.insert(source, columns.list.len() - 1);
+                    Feed::Each(columns.list.len() - 1)
+                }
+            },
+        })
+    }
+
+    /// What a column has for a copy.
+    fn each(&self, column: &Column<'_>, copy: usize) -> Option<f64> {
+        match column {
+            Column::Kept(array, rule) => self.read(Place { array: *array, at: rule.at(copy) }),
+            Column::Given(operands) => (self.given)(operands[copy]),
+        }
+    }
+}
+
+/// What an instruction of a loop gets as an operand.
+enum Feed {
+    Same(Operand),
+    Own(usize),
+    /// A result of the copy before, and the value in the first one.
+    Carried(usize, f64),
+    /// The position of a column.
+    Each(usize),
+}
+
+/// The operands that are others in every copy, each once.
+#[derive(Default)]
+struct Columns<'s> {
+    list: Vec<Column<'s>>,
+    known: HashMap<&'s Source, usize>,
 }
 
 /// Where the copies of a loop find an operand that is another one each time.
-enum Column {
+enum Column<'s> {
     Kept(Kind, Rule),
     /// Numbers, hoisted values, and components of vectors, which nothing overwrites.
-    Given,
+    Given(&'s [Operand]),
 }
 
-impl Column {
-    fn of(slots: &Slots, operands: &[Operand]) -> Option<Self> {
+impl<'s> Column<'s> {
+    fn of(slots: &Slots, operands: &'s [Operand]) -> Option<Self> {
         let places = operands.iter().map(|operand| match operand {
             Operand::Value(value) => slots.of(*value),
             _ => None,
@@ -187,7 +205,7 @@ impl Column {
                 let is_one = places.iter().all(|place| place.array == array);
                 is_one.then(|| Self::Kept(array, Rule::of(places.iter().map(|place| place.at).collect())))
             }
-            None => operands.iter().all(|o| !matches!(o, Operand::Value(_))).then_some(Self::Given),
+            None => operands.iter().all(|o| !matches!(o, Operand::Value(_))).then_some(Self::Given(operands)),
         }
     }
 }
