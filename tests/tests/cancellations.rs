@@ -33,7 +33,7 @@ mechanism! {
         body b (x = s) { mass = 1 [kg]; }
         point p on a = (0.1 [m], -0.7 [m]);
         rolling j (b, a.p) along (1, 0) radius 0.25 [m];
-        start { theta = 60 [deg]; guess s = -0.5 [m]; der(theta) = 0.4 [rad/s]; }
+        start { guess theta = 60 [deg]; guess s = -0.5 [m]; der(x) = 0.4 [m/s]; }
     }
 }
 

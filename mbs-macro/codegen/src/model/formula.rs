@@ -392,7 +392,10 @@ pub(super) fn in_radians(formula: &Formula) -> Result<(), Diagnostic> {
     };
     let FormulaKind::Number { value, unit: None } = number else { return Ok(()) };
     let value = value.to_f64();
-    if value <= TURN {
+    // the number of a copy, as in `sin(i)`, is not written as one
+    let text = formula.span.source_text();
+    let is_written = text.is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit() || c == '-'));
+    if value <= TURN || !is_written {
         return Ok(());
     }
     let message = "this angle is more than a turn: a bare number is in radians";

@@ -41,15 +41,18 @@ fn report(
     limits: &[f64],
     errors: &mut Diagnostics,
 ) {
-    for start in model.start.iter().filter(|start| start.is_rate == is_rate && !start.is_guess) {
+    let values = model.start.iter().filter(|start| start.is_rate == is_rate && !start.is_guess);
+    for (place, start) in values.enumerate() {
         let at = start.coordinate;
         if (kept[at] - declared[at]).abs() > limits[at] {
-            errors.push(not_kept(model, start, declared[at], kept[at]));
+            // what is left of rounding is 0
+            let kept = if kept[at].abs() < 1e-6 * limits[at] { 0.0 } else { kept[at] };
+            errors.push(not_kept(model, start, place == 0, declared[at], kept));
         }
     }
 }
 
-fn not_kept(model: &Model, start: &Start, declared: f64, kept: f64) -> Diagnostic {
+fn not_kept(model: &Model, start: &Start, is_first: bool, declared: f64, kept: f64) -> Diagnostic {
     let name = &model.coordinates[start.coordinate].quantity.name;
     let (what, of) = if start.is_rate {
         (format!("der({name})"), rate as fn(&Model, usize, f64) -> String)
@@ -57,11 +60,13 @@ fn not_kept(model: &Model, start: &Start, declared: f64, kept: f64) -> Diagnosti
         (name.clone(), value as fn(&Model, usize, f64) -> String)
     };
     let [declared, kept] = [declared, kept].map(|value| of(model, start.coordinate, value));
-    let message = format!(
-        "`{what}` cannot start at {declared}: with the values that are declared before it, the constraints make it {kept}"
-    );
+    let (with, or_others) = match is_first {
+        true => ("", ""),
+        false => (" and the values before it", ", or make guesses of the others"),
+    };
+    let message = format!("`{what}` cannot start at {declared}: the constraints{with} make it {kept}");
     Diagnostic::new(start.span, message).help(format!(
-        "write `{what} = {kept};`, or `guess {what} = {declared};` if it is a first guess, or make guesses of the others"
+        "write `{what} = {kept};`, or `guess {what} = {declared};` if it is a first guess{or_others}"
     ))
 }
 

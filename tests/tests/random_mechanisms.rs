@@ -1,0 +1,33 @@
+//! Random mechanisms as a person might declare them: each compiles, or is refused with
+//! a reason in its own words, in a few seconds.
+//!
+//! `MECHANISMS=2000 cargo test --release -p tests --test random_mechanisms` tries more.
+#![allow(clippy::expect_used, reason = "a test")]
+
+use std::time::Duration;
+
+use tests::fuzzing::verdict::{Verdict, judge};
+use tests::linkages::declaration;
+
+const MECHANISMS: u64 = 300;
+
+/// None of them is large.
+const LIMIT: Duration = Duration::from_secs(5);
+
+#[test]
+fn random_mechanisms_compile_or_are_refused_with_a_reason() {
+    let count = std::env::var("MECHANISMS").map_or(MECHANISMS, |text| text.parse().expect("a number"));
+    let mut compiled = 0;
+    for number in 0..count {
+        let text = declaration(number);
+        // a machine that is busy with something else gets a second chance
+        let verdict = match judge(&text, LIMIT) {
+            Verdict::TooSlow => judge(&text, LIMIT),
+            verdict => verdict,
+        };
+        assert!(!verdict.is_failure() && verdict != Verdict::NoTokens, "{verdict:?} of\n{text}");
+        compiled += u64::from(verdict == Verdict::Compiled);
+    }
+    // Joints are placed at random, so that some repeat what others say.
+    assert!(2 * compiled > count, "{compiled} of {count} compile");
+}
