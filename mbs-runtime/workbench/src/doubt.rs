@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mbs_runtime::{Derivation, Dimension, Info, Sketch};
+use mbs_runtime::{Derivation, Dimension, Info, Sketch, WorstPlace};
 
 use crate::Column;
 use crate::number::significant;
@@ -14,6 +14,9 @@ const VIOLATION: f64 = 1e-3;
 /// The change of an energy that nothing changes, as a share of the energy that was in
 /// motion, from which on a run is doubted.
 const ENERGY: f64 = 1e-2;
+/// Decimal digits below which a run is doubted. Half of those of a double: an error of that
+/// size grows in motions that are sensitive, and nothing else tells of it.
+const DIGITS: f64 = 7.0;
 /// The share of it that forces without a potential may have changed by, for a mechanism
 /// to count as one that keeps its energy.
 const WORK: f64 = 1e-3;
@@ -41,6 +44,15 @@ pub enum Doubt {
         change: f64,
         /// How much was in motion, in J.
         moved: f64,
+    },
+    /// The run passed so near to a singular position that few digits were left.
+    Digits {
+        /// How many decimal digits the accelerations of the worst step had.
+        left: f64,
+        /// When that was, in s.
+        at: f64,
+        /// The constraint or the coordinate that lost them; empty if none is to blame.
+        name: &'static str,
     },
     /// A quantity was not a number, or infinite.
     NotFinite {
@@ -72,6 +84,15 @@ impl fmt::Display for Doubt {
                 digits(*change),
                 digits(*moved)
             ),
+            Self::Digits { left, at, name } => {
+                let whose = if name.is_empty() { String::new() } else { format!(" of `{name}`") };
+                write!(
+                    f,
+                    "only {left:.0} digits{whose} were left at t = {} s, near a singular position: what follows may \
+                     depend on the step; compare with another --step",
+                    digits(*at)
+                )
+            }
             Self::NotFinite { name, value, at } => {
                 write!(f, "`{name}` is {value} from t = {} s on", digits(*at))
             }
@@ -210,6 +231,13 @@ fn keeps_energy(info: &Info, derivation: &Derivation) -> bool {
     derivation.phi_t.is_empty() && !derivation.forces.iter().any(|force| words(force.text).any(changes_it))
 }
 
+/// Whether the worst step of a run had fewer digits than a motion can be trusted with.
+pub(crate) fn few_digits(left: f64, place: Option<WorstPlace>) -> Option<Doubt> {
+    let WorstPlace { t, constraint, coordinate } = place.filter(|_| left < DIGITS)?;
+    let name = if constraint.is_empty() { coordinate } else { constraint };
+    Some(Doubt::Digits { left, at: t, name })
+}
+
 /// The columns that were not numbers throughout.
 fn not_finite(columns: &[Column]) -> impl Iterator<Item = Doubt> {
     let times = columns.first().map_or(&[][..], |time| &time.values);
@@ -293,6 +321,15 @@ mod tests {
         assert!(doubts::<Damped>(settings(20e-3, 0.4)).is_empty());
         // Nor is it kept where a force without a potential acts.
         assert!(doubts::<Pushed>(settings(20e-3, 0.4)).is_empty());
+    }
+
+    #[test]
+    fn a_pass_that_leaves_few_digits() {
+        let place = WorstPlace { t: 0.25, constraint: "rod", coordinate: "x" };
+        assert_eq!(few_digits(8.0, Some(place)), None);
+        let doubt = few_digits(4.2, Some(place)).unwrap();
+        assert_eq!(doubt, Doubt::Digits { left: 4.2, at: 0.25, name: "rod" });
+        assert!(doubt.to_string().starts_with("only 4 digits of `rod` were left at t = 0.25 s"), "{doubt}");
     }
 
     #[test]

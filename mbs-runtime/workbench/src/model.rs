@@ -7,7 +7,7 @@ use mbs_runtime::{
     Simulation, State,
 };
 
-use crate::doubt::{Watch, size};
+use crate::doubt::{Watch, few_digits, size};
 use crate::members::{self, Members};
 use crate::recording::{Column, Recording, Summary};
 use crate::settings::{FeedbackKind, Settings, StartKind};
@@ -243,7 +243,8 @@ fn record<M: Mechanism<Real = f64>, F: Feedback>(
     summary.steps = taken;
     summary.end = simulation.time();
     summary.energy_end = simulation.energy();
-    let doubts = watch.doubts(&columns);
+    let mut doubts = watch.doubts(&columns);
+    doubts.extend(few_digits(simulation.digits_left(), simulation.worst_place()));
     Recording { columns, coordinates: M::INFO.coordinates.len(), summary, ended, doubts }
 }
 
