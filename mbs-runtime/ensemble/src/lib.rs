@@ -41,9 +41,9 @@
 //! # What comes out
 //!
 //! Per member its final state, its steps, the error that ended it early if one
-//! did, how many digits its worst step left, and what an [`Observe`]r made of its states: [`Extremes`] of outputs,
-//! the largest [`Violation`]s, [`Samples`] of the states, a pair of these, `()` for
-//! nothing, or an observer of your own.
+//! did, how many digits its worst step left, and what an [`Observe`]r made of its
+//! states: [`Extremes`] of outputs, the largest [`Violation`]s, [`Samples`] of the
+//! states, a pair of these, `()` for nothing, or an observer of your own.
 //!
 //! # Errors
 //!

@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_ensemble::{Ensemble, Extremes, Observe, Violation};
-use mbs_runtime::{Components, Error, Simulation, mechanism};
+use mbs_runtime::{Error, Simulation, mechanism};
 
 mechanism! {
     /// A driven slider with a force that ends in no number: q̈ does not feel it.
@@ -93,30 +93,51 @@ fn what_an_observer_cannot_see_ends_the_member() {
 }
 
 mechanism! {
-    /// A bead on a hyperbola.
-    Bead {
-        dof = 1;
-        param near = 1e-3 [m];
-        body bead (x, y) { mass = 1 [kg]; }
-        constraint curve: x^2 - y^2 = near^2;
-        start { y = -1 [m]; guess x = 1 [m]; der(y) = 2 [m/s]; }
+    /// A slider-crank with a rod that is hardly longer than the crank: upright, the guide
+    /// hardly determines its angle.
+    SliderCrank {
+        dof = 0;
+        param excess = 1;
+        const crank = 1 [m];
+        const omega = 1 [rad/s];
+        let rod = crank*(1 + excess);
+        body wheel  (angle = phi) { inertia = 1 [kg*m^2]; }
+        body link   (angle = psi) { inertia = 1 [kg*m^2]; }
+        body slider (x)           { mass = 1 [kg]; }
+        constraint guide: crank*sin(phi) + rod*sin(psi) = 0;
+        constraint pin: x = crank*cos(phi) + rod*cos(psi);
+        drive motor: phi = omega*t;
+        start { guess x = 2 [m]; }
     }
 }
 
-/// A bead on a hyperbola passes its vertex as close to the crossing of the asymptotes as
-/// the parameter says: the size of the terms over the pivot.
+/// Upright, cos ψ = −√(1 − 1/(1 + δ)²) ≈ √(2δ), which both stages of a step divide by.
 #[test]
 fn members_tell_how_close_they_came() {
-    let bead = |near: f64| Simulation::new(Bead::new(BeadParameters { near })?, 1e-5);
-    let nears = [0.5, 1e-2, 1e-3, 0.1];
-    let runs = Ensemble::new(0.8).run(4, |index| bead(nears[index]), &()).expect("nobody cancels");
-    for (near, run) in nears.into_iter().zip(runs) {
+    let member = |excess: f64| {
+        Simulation::new(SliderCrank::new(SliderCrankParameters { excess })?, excess.sqrt() / 50.0)
+    };
+    let excesses = [1.0, 1e-2, 1e-4, 1e-6];
+    let runs = Ensemble::new(2.0).run(4, |index| member(excesses[index]), &()).expect("nobody cancels");
+    for (excess, run) in excesses.into_iter().zip(runs) {
         let run = run.expect("a start");
-        let mut alone = bead(near).expect("a start");
-        let end = alone.advance_to(0.8);
-        assert_eq!((run.ended, run.state), (end.err(), *alone.state()));
+        let mut alone = member(excess).expect("a start");
+        alone.advance_to(2.0).expect("a motion");
+        assert_eq!((run.ended, run.state), (None, *alone.state()));
         assert_eq!((run.digits_left, run.worst_place), (alone.digits_left(), alone.worst_place()));
-        println!("{near}: {} {:?} {:?}", alone.worst_growth(), alone.digits_left(), alone.worst_place());
-        assert!(run.state.q.into_array().into_iter().all(f64::is_finite));
+        let expected = 2.0 / (1.0 - 1.0 / (1.0 + excess).powi(2)).sqrt();
+        let growth = alone.worst_growth();
+        println!("{excess}: {growth} {expected} {} {:?}", run.digits_left, run.worst_place);
+        assert!((growth / expected - 1.0).abs() < 0.01, "{excess}: {growth} {expected}");
+        assert!((run.digits_left + (f64::EPSILON * growth).log10()).abs() < 1e-12);
+        match run.worst_place {
+            None => assert!(growth <= 64.0),
+            Some(place) => {
+                assert_eq!((place.constraint, place.coordinate), ("guide", "psi"));
+                // where cos ψ is at most twice its smallest
+                let apart = (place.t - std::f64::consts::FRAC_PI_2).abs();
+                assert!(growth > 64.0 && apart < 2.0 * (2.0 * excess).sqrt(), "{place:?}");
+            }
+        }
     }
 }
