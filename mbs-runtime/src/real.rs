@@ -8,7 +8,7 @@ use crate::spline::Spline;
 
 /// A real scalar: what a generated solver needs to know of its number type.
 ///
-/// Implemented for `f32` and `f64`. With the feature `std` the elementary
+/// Implemented for `f32`, `f64` and vectors of either ([`Lanes`](crate::Lanes)). With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
 /// 10⁵ rad are this crate's own, inlined, within 2 units in the last place up to

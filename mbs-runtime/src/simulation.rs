@@ -1,15 +1,16 @@
 //! A mechanism in motion.
 
 mod builder;
+mod examination;
 
 pub use self::builder::Builder;
 
+use self::examination::{check_defined, check_inputs};
 use crate::components::sum_of;
-use crate::heun::{Solution, check_solution, heun_step};
+use crate::heun::heun_step;
 use crate::mechanism::growth_limit;
-use crate::reach::reach;
 use crate::watch::{Watch, WorstPlace, digits_left};
-use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State, spare};
+use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
 
 /// A mechanism being integrated in time.
 ///
@@ -171,50 +172,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.state = next;
         self.steps += 1;
         Ok(())
-    }
-
-    /// A step after which the growth has risen: whether its constraints can still be met,
-    /// and which pivot it is.
-    #[cold]
-    fn examine_step(&mut self, next: &State<M::Coordinates>, growth: M::Real) -> Result<(), Error> {
-        if self.keeps_constraints() {
-            reach(&self.mechanism, next, &self.inputs, self.step)?;
-        }
-        spare::check(&self.mechanism, next, self.watch.length)?;
-        if self.watch.is_new(growth) {
-            let State { t, q, .. } = &self.state;
-            let share = M::Real::from_f64(0.125) * growth;
-            let worst = self.mechanism.worst_pivot(*t, q).filter(|(_, growth)| *growth > share);
-            self.watch.remember(growth, *t, worst.map(|(at, _)| at));
-        }
-        Ok(())
-    }
-
-    /// Why a step failed: an input, or a position that cannot be reached from one that
-    /// was good, or what the step says.
-    #[cold]
-    fn cause(&self, error: Error, t_next: M::Real) -> Error {
-        if let Err(input) = check_inputs::<M>(&self.inputs) {
-            return input;
-        }
-        let Self { mechanism, state, inputs, gains, step, .. } = self;
-        let is_good = mechanism.stabilized(state, inputs, gains).growth < growth_limit()
-            && mechanism.phi(t_next, &state.q).is_finite();
-        if !is_good || !self.keeps_constraints() || reach(mechanism, state, inputs, *step).is_err() {
-            return error;
-        }
-        reach(mechanism, &State { t: t_next, ..*state }, inputs, *step).err().unwrap_or(error)
-    }
-
-    /// Whether redundant constraints, which steps do not look at, are met all the same.
-    #[inline(always)]
-    fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
-        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
-    }
-
-    /// Whether a violation is meant to decay.
-    fn keeps_constraints(&self) -> bool {
-        self.baumgarte.is_stable(self.step.to_f64())
     }
 
     /// Advances by whole steps until less than half a step is left to `end` seconds.
@@ -397,21 +354,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.examine(solved.acceleration, solved.multipliers, solved.growth).map(|()| solved)
     }
 
-    /// Takes values and not references, so that what is healthy need not be in memory.
-    #[cold]
-    fn examine(
-        &self,
-        acceleration: M::Coordinates,
-        multipliers: M::Constraints,
-        growth: M::Real,
-    ) -> Result<(), Error> {
-        let (t, q) = (self.state.t, &self.state.q);
-        let solution = Solution { t, q, value: &acceleration, growth, pivots: M::INFO.pivots };
-        check_solution(&solution, || self.mechanism.worst_pivot(t, q))
-            .and_then(|()| check_defined(t, "the multiplier of constraint", multipliers))
-            .map_err(|error| self.blame_inputs(error))
-    }
-
     /// The declared outputs in the present state.
     ///
     /// # Errors
@@ -426,15 +368,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         }
         check_defined(self.state.t, "the output", outputs).map(|()| outputs)
     }
-
-    /// An input that is not finite is the cause of whatever failed after it.
-    #[cold]
-    fn blame_inputs(&self, error: Error) -> Error {
-        match check_inputs::<M>(&self.inputs) {
-            Ok(()) => error,
-            Err(bad_input) => bad_input,
-        }
-    }
 }
 
 /// Time is a number of steps: at its size in the scalar a step has to be four roundings
@@ -442,25 +375,4 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
 fn check_time<T: Real>(t: f64, step: f64) -> Result<(), Error> {
     let is_counted = 4.0 * T::EPSILON.to_f64() * t.abs() <= step;
     if is_counted { Ok(()) } else { Err(Error::Time { t, step }) }
-}
-
-/// Refuses results that are not finite.
-#[cold]
-fn check_defined<C: Components>(t: C::Real, what: &'static str, results: C) -> Result<(), Error> {
-    for (&value, &name) in results.into_array().as_ref().iter().zip(C::NAMES) {
-        if !value.is_finite() {
-            return Err(Error::Undefined { t: t.to_f64(), what, name, value: value.to_f64() });
-        }
-    }
-    Ok(())
-}
-
-fn check_inputs<M: Mechanism>(inputs: &M::Inputs) -> Result<(), Error> {
-    let array = inputs.into_array();
-    for (&value, &name) in array.as_ref().iter().zip(M::Inputs::NAMES) {
-        if !value.is_finite() {
-            return Err(Error::Input { name, value: value.to_f64() });
-        }
-    }
-    Ok(())
 }

@@ -8,9 +8,10 @@
 //! | `syntax` | `Declaration`, a span on every node | shapes are right, names unresolved |
 //! | `compose` | `Declaration` | sub-assemblies are gone, only plain statements are left |
 //! | `model` | `Model` | names are symbols, dimensions agree |
-//! | `derive` | `Equations` | bodies, joints and forces are gone, only expressions are left |
-//! | `verify` | – | constraints are independent, the contract holds, the mechanism closes |
+//! | `derive` | `Equations` | what follows computes with expressions; bodies, joints and forces are left for words |
+//! | `verify` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
+//! | `verify` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `emit` | tokens | what is written computes what was checked |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is

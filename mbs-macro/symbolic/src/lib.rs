@@ -1,6 +1,6 @@
 //! The symbolic engine behind `mechanism!`: expressions, derivatives,
 //! elimination of constrained systems, straight-line programs. It knows no
-//! tokens and no joints, and has no dependencies.
+//! tokens and no joints, and needs no more than a hasher and an ordered map.
 //!
 //! 1. An [`Arena`] holds [`Expr`]essions, each once, in a canonical form that
 //!    its constructors keep: exact constants, like terms collected, sines and

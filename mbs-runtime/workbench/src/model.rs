@@ -26,6 +26,12 @@ pub trait Model: Send + Sync {
     /// The equations and their elimination.
     fn derivation(&self) -> &'static Derivation;
 
+    /// The declared start, and what the constraints make of it.
+    ///
+    /// # Errors
+    /// A start that cannot be made consistent.
+    fn start(&self) -> Result<Vec<StartValue>, Error>;
+
     /// What a run is asked to do where nothing else is said.
     fn defaults(&self) -> Settings {
         Settings::default()
@@ -54,6 +60,19 @@ pub trait Model: Send + Sync {
     /// Settings that the mechanism does not have or refuses; what happens to a
     /// member is no error here.
     fn sweep(&self, settings: &Settings, members: Members<'_>) -> Result<(), Error>;
+}
+
+/// A coordinate or its rate at the start of a run, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartValue {
+    /// The coordinate, or `der(…)` of it.
+    pub name: String,
+    /// As it is declared, guesses included.
+    pub declared: f64,
+    /// As it starts.
+    pub kept: f64,
+    /// Its unit.
+    pub unit: String,
 }
 
 /// The mechanism `M` as a [`Model`].
@@ -86,6 +105,31 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
 
     fn derivation(&self) -> &'static Derivation {
         M::DERIVATION
+    }
+
+    fn start(&self) -> Result<Vec<StartValue>, Error> {
+        let mechanism = M::new(M::Parameters::default())?;
+        let declared = mechanism.declared_start();
+        let kept = mbs_runtime::start::consistent(&mechanism, &declared)?;
+        let values = |of: fn(&State<M::Coordinates>) -> M::Coordinates| {
+            let [declared, kept] = [&declared, &kept].map(|state| of(state).into_array().as_ref().to_vec());
+            declared.into_iter().zip(kept)
+        };
+        let coordinates = M::INFO.coordinates.iter();
+        let positions = coordinates
+            .clone()
+            .zip(values(|state| state.q))
+            .map(|(quantity, values)| (quantity.name.to_owned(), Unit::of_coordinate(quantity), values));
+        let rates = coordinates.zip(values(|state| state.v)).map(|(quantity, values)| {
+            (format!("der({})", quantity.name), Unit::of_coordinate(quantity).per_second(), values)
+        });
+        let value = |(name, unit, (declared, kept)): (String, Unit, (f64, f64))| StartValue {
+            name,
+            declared,
+            kept,
+            unit: unit.name().to_owned(),
+        };
+        Ok(positions.chain(rates).map(value).collect())
     }
 
     fn defaults(&self) -> Settings {

@@ -23,6 +23,7 @@ mod reactions;
 mod resolver;
 mod sketch;
 mod solver;
+mod starts;
 mod statements;
 
 use mbs_symbolic::units::Dimension;

@@ -7,6 +7,8 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use mbs_runtime::{Derivation, Formula, Info};
 
 use crate::app::Models;
+use crate::model::StartValue;
+use crate::number::significant;
 use crate::{Error, Table, say};
 
 pub(crate) fn command() -> Command {
@@ -25,7 +27,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let name = matches.get_one::<String>("mechanism").map_or("", String::as_str);
     let model = models.get(name)?;
     let (info, derivation) = (model.info(), model.derivation());
-    let text = if matches.get_flag("latex") { latex(info, derivation) } else { plain(info, derivation) };
+    let text = if matches.get_flag("latex") {
+        latex(info, derivation)
+    } else {
+        plain(info, derivation) + &start(&model.start()?)
+    };
     say(text.trim_end())
 }
 
@@ -115,6 +121,18 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         table.row(std::iter::once(function.name).chain(counts.iter().map(String::as_str)));
     }
     section(&mut text, "Operations per call, instructions as written, and loops over repeated parts", &table);
+    text
+}
+
+/// The declared start, and by how much the constraints move it.
+fn start(values: &[StartValue]) -> String {
+    let mut table = Table::new(["", "declared", "starts at", "moved by", ""]);
+    for StartValue { name, declared, kept, unit } in values {
+        let [declared, kept, moved] = [*declared, *kept, kept - declared].map(|value| significant(value, 6));
+        table.row([name, &declared, &kept, &moved, unit]);
+    }
+    let mut text = String::new();
+    section(&mut text, "Start, made consistent with the constraints", &table);
     text
 }
 
