@@ -282,8 +282,9 @@ fn element(r: &mut Random, name: &str) -> String {
 
 /// How the mechanism is to be solved.
 fn solver(r: &mut Random) -> String {
-    match r.below(5) {
+    match r.below(6) {
         0 => "redundant = minimum_norm;".to_owned(),
+        4 => format!("closes {}= {} .. {};", r.of(&["", "theta ", "x ", "t "]), number(r), number(r)),
         1 => format!("limit {} = {};", r.of(&["operations", "stack", "unrolled", "power"]), r.of(NUMBERS)),
         2 => format!("step = {} [ms];", r.of(NUMBERS)),
         3 => format!("feedback = {}({}, {});", r.of(&["held", "per_stage", "sin"]), number(r), number(r)),

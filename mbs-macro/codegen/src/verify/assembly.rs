@@ -162,9 +162,15 @@ impl<'a> Assembly<'a> {
     /// The rows whose derivatives vanish against what they compare: they restrict no
     /// motion there, as (x − y)² = 0 where it is met.
     pub fn flat_rows(&self, at: &Position) -> Vec<usize> {
-        let slopes = self.jacobian(at).1;
+        let (jacobian, scales) = self.jacobian(at);
         let sizes = self.sizes(at);
-        let is_flat = |row: &usize| slopes[*row] <= FLAT * sizes[*row];
+        // over a typical length, or over all of a coordinate that is larger
+        let reach = |column: usize| (at.q[column] / self.units[column]).abs().max(1.0);
+        let slope = |row: usize| {
+            let entries = jacobian[row].iter().map(|&(column, entry)| entry.abs() * reach(column));
+            scales[row] * entries.fold(0.0, f64::max)
+        };
+        let is_flat = |row: &usize| slope(*row) <= FLAT * sizes[*row];
         (0..sizes.len()).filter(is_flat).collect()
     }
 

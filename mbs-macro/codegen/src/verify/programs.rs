@@ -136,7 +136,7 @@ impl<'a> Programs<'a> {
         let values = self.model.values(|meaning| known(meaning, at, &[], &[]));
         let growths = self.plan.pivots.evaluate(&values, &self.hoisted);
         let (worst, growth) = largest(&growths);
-        let is_lost = !(growth < GROWTH_LIMIT);
+        let is_lost = growth >= GROWTH_LIMIT;
         is_lost.then(|| self.plan.pivot_names.get(worst).copied().unwrap_or_default())
     }
 }

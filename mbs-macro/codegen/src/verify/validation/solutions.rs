@@ -169,15 +169,26 @@ impl Point<'_> {
                 .sum();
             let constraints: f64 =
                 along.iter().zip(multipliers).map(|(row, &m)| count(row.first * Rounded::exact(m))).sum();
-            if exceeds(inertia + constraints, terms.get()) {
+            let terms = terms.get() + self.augmented(accelerations);
+            if exceeds(inertia + constraints, terms) {
                 return Err(format!(
                     "`reactions` do not balance the forces: {:e} is left of {:e}",
                     inertia + constraints,
-                    terms.get()
+                    terms
                 ));
             }
         }
         Ok(())
+    }
+}
+
+impl Point<'_> {
+    /// What rows add to the mass block where some coordinate has no mass: terms of the
+    /// size of the other masses, which cancel, also where all forces are 0.
+    fn augmented(&self, accelerations: &[f64]) -> f64 {
+        let masses = || (0..accelerations.len()).map(|at| self.mass(at).value);
+        let fastest = accelerations.iter().fold(0.0_f64, |fastest, a| fastest.max(a.abs()));
+        if masses().any(|mass| mass == 0.0) { masses().sum::<f64>() * fastest } else { 0.0 }
     }
 }
 
