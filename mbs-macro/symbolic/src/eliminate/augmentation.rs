@@ -49,25 +49,31 @@ impl Work<'_> {
     }
 
     /// The weight of a row: such that it adds what the mass of one of its
-    /// coordinates is, so that neither hides the other in rounding.
+    /// coordinates is, so that neither hides the other in rounding. An entry that is
+    /// a plain number says how; others may be what rounding left of a cancelled one,
+    /// and count together.
     fn weight(&mut self, entries: &[(Unknown, Expr)]) -> Expr {
-        for &(unknown, entry) in entries {
-            let mass = self.matrix.get(unknown, unknown);
-            let mass =
-                mass.filter(|_| self.matrix.is_massive(unknown)).and_then(|mass| self.arena.anchor(mass));
-            if let (Some(mass), Some(size)) = (mass, self.arena.bound(entry)) {
-                return self.arena.product(&[(mass, 1), (size, -2)]);
-            }
-        }
-        let masses: Vec<_> =
-            self.matrix.unknowns().filter(|&unknown| self.matrix.is_massive(unknown)).collect();
-        let mass = masses.into_iter().find_map(|unknown| {
-            let mass = self.matrix.get(unknown, unknown)?;
-            self.arena.anchor(mass)
+        let of_number = entries.iter().find_map(|&(unknown, entry)| {
+            let number = self.arena.as_number(entry)?;
+            let is_sound = (1e-3..1e3).contains(&number.abs().to_f64());
+            let mass = self.mass_of(unknown).filter(|_| is_sound)?;
+            Some(self.arena.product(&[(mass, 1), (entry, -2)]))
         });
+        if let Some(weight) = of_number {
+            return weight;
+        }
+        let unknowns: Vec<_> =
+            entries.iter().map(|(unknown, _)| *unknown).chain(self.matrix.unknowns()).collect();
+        let mass = unknowns.into_iter().find_map(|unknown| self.mass_of(unknown));
         let mass = mass.unwrap_or(self.arena.one());
         let size = square_sum(self.arena, entries);
         self.arena.product(&[(mass, 1), (size, -1)])
+    }
+
+    /// What a coordinate with a mass of its own weighs at least.
+    fn mass_of(&mut self, unknown: Unknown) -> Option<Expr> {
+        let mass = self.matrix.get(unknown, unknown).filter(|_| self.matrix.is_massive(unknown))?;
+        self.arena.anchor(mass)
     }
 }
 
