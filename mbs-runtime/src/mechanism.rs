@@ -62,7 +62,8 @@ pub struct Stepped<C: Components> {
     /// The sum of the pivot growths of both stages; see [`Mechanism`].
     pub growth: C::Real,
     /// The sum of positions and velocities, up to their signs: finite only if all
-    /// of them are.
+    /// of them are. Of a step that gives reactions, accelerations and multipliers
+    /// belong to the sum too.
     pub sum: C::Real,
 }
 
@@ -172,8 +173,8 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     }
 
     /// The same with q̈ and λ at the start of the step, without feedback terms, in the
-    /// operations of [`reactions`](Self::reactions); `sum` is finite only if these q̈
-    /// are too.
+    /// operations of [`reactions`](Self::reactions); `sum` is finite only if these are
+    /// too.
     #[inline(always)]
     #[allow(clippy::type_complexity, reason = "the parts have names")]
     fn fused_step_with_reactions<F: Feedback>(

@@ -136,7 +136,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         if let Some((fused, reactions)) =
             mechanism.fused_step_with_reactions::<F>(state, inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
-            && (fused.sum + sum_of(reactions.multipliers)).is_finite()
+            && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
         {
             self.state = fused.next;

@@ -119,12 +119,12 @@ impl Body {
             [growth, _] => (TokenStream::new(), growth),
             with_reactions => {
                 let acceleration = of_coordinates(&with_reactions[..n]);
-                let multipliers = named(&names.constraints.of_t, &fields.rows, &with_reactions[n + 1..][..m]);
-                let growth_here = &with_reactions[n + 1 + m];
+                let multipliers = named(&names.constraints.of_t, &fields.rows, &with_reactions[n..n + m]);
+                let growth_here = &with_reactions[n + m + 1];
                 let reactions = quote! {
                     #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth_here }
                 };
-                (reactions, &with_reactions[n])
+                (reactions, &with_reactions[n + m])
             }
         };
         let sum = outputs.last();

@@ -75,11 +75,12 @@ fn kinds(
         _ => false,
     };
     let n = model.coordinates.len();
-    // What is finite only if a step is good: q⁺, v⁺, and the accelerations where they
-    // are given.
-    let finite = if reactions.is_some() { 3 * n } else { 2 * n };
+    // What belongs to coordinates: q⁺, v⁺, and q̈ where it is given.
+    let of_coordinates = if reactions.is_some() { 3 * n } else { 2 * n };
     let are_written_together =
-        |a: usize, b: usize| a.max(b) < finite && a / n == b / n && is_place(a % n, b % n);
+        |a: usize, b: usize| a.max(b) < of_coordinates && a / n == b / n && is_place(a % n, b % n);
+    // What is finite only if a step is good: these, and λ.
+    let finite = if reactions.is_some() { 3 * n + model.constraints.len() } else { 2 * n };
     let is_constant = |symbol: Symbol| {
         !matches!(
             meaning(symbol),
@@ -149,15 +150,15 @@ fn in_stages(
     let clean = reactions.map(|reactions| reactions.evaluate_with(&without_feedback, &hoisted));
     let mut results: Vec<f64> = (0..n).map(|at| q[at] + half_h * (v[at] + predicted[at])).collect();
     results.extend((0..n).map(|at| v[at] + half_h * (here[at] + there[at])));
-    results.extend(clean.iter().flat_map(|clean| &clean[..n]));
+    results.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
     results.extend(here.last().zip(there.last()).map(|(here, there)| here + there));
-    results.extend(clean.iter().flat_map(|clean| &clean[n..n + m + 1]));
+    results.extend(clean.iter().flat_map(|clean| clean.last()));
     results
 }
 
 /// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the
-/// first, or computes its own. With reactions: q⁺, v⁺, q̈, the growth, λ and its own
-/// growth.
+/// first, or computes its own. With reactions: q⁺, v⁺, q̈, λ, the growth, and that of
+/// the reactions.
 fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Program>) -> Program {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
@@ -183,7 +184,7 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
     let zero = Operand::Number(Number::ZERO);
     let none = model.symbols.feedback.iter().map(|&symbol| (symbol, zero)).collect();
     let clean = reactions.map(|reactions| steps.append(reactions, &none)).unwrap_or_default();
-    let (clean_acceleration, multipliers) = clean.split_at(n.min(clean.len()));
+    let (clean_growth, reactions) = clean.split_last().unzip();
 
     let mut outputs = Vec::new();
     for at in 0..n {
@@ -194,11 +195,11 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
         let sum = steps.push(Operation::Add, here_acceleration[at], there[at], None);
         outputs.push(steps.axpy(half_h, sum, v[at]));
     }
-    outputs.extend(clean_acceleration);
+    outputs.extend(reactions.unwrap_or_default());
     if let (Some(&here), Some(&there)) = (here.last(), there.last()) {
         outputs.push(steps.push(Operation::Add, here, there, None));
     }
-    outputs.extend(multipliers);
+    outputs.extend(clean_growth);
     Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
 }
 
@@ -254,5 +255,35 @@ impl Fusion {
             values.push(self.push(instruction.operation, a, b, instruction.name.clone()));
         }
         program.outputs.iter().map(|&output| read(output, &values)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Program, check, step};
+    use crate::verify::planned::{DECLARATION, Planned, corrupted, needed};
+
+    /// With and without reactions, with both kinds of feedback.
+    #[test]
+    fn every_wrong_instruction_of_a_fused_step_is_caught() {
+        let planned = Planned::new(DECLARATION);
+        let (model, plan) = (&planned.model, &planned.plan);
+        let first = &plan.stabilized;
+        for second in [&plan.constrained, &plan.stabilized] {
+            for reactions in [None, Some(&plan.reactions)] {
+                let right = step(model, first, second, reactions);
+                let is_accepted = |step: &Program| check(model, [first, second], reactions, step).is_ok();
+                assert!(is_accepted(&right));
+                let mut tried = 0;
+                for at in needed(&right, true) {
+                    let mut wrong = right.clone();
+                    let Some(operation) = corrupted(wrong.instructions[at].operation) else { continue };
+                    wrong.instructions[at].operation = operation;
+                    assert!(!is_accepted(&wrong), "instruction {at}: {:?}", right.instructions[at]);
+                    tried += 1;
+                }
+                assert!(tried > 100, "{tried}");
+            }
+        }
     }
 }

@@ -29,6 +29,8 @@ pub use closure::check_closure;
 pub use rank::Rows;
 pub use samples::Samples;
 pub use validation::check_programs;
+#[cfg(test)]
+pub(crate) use validation::tests as planned;
 
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};

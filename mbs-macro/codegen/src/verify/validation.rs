@@ -148,4 +148,4 @@ impl Point<'_> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -274,12 +274,12 @@ impl Woven {
                 _ => scalars.push(output),
             }
         }
-        let sum = pairs.into_iter().reduce(|a, b| self.push(Step::Pair(Operation::Add, a, b)));
+        let sum = in_a_tree(pairs.into_iter().collect(), |a, b| self.push(Step::Pair(Operation::Add, a, b)));
         if let Some(sum) = sum {
             scalars.extend([Scalar::Lane(sum, Lane::First), Scalar::Lane(sum, Lane::Second)]);
         }
         let add = |a, b| Scalar::Step(self.push(Step::Scalar(Operation::Add, a, b, None)));
-        let sum = scalars.into_iter().reduce(add);
+        let sum = in_a_tree(scalars, add);
         self.outputs.extend(sum);
     }
 
@@ -301,4 +301,14 @@ impl Woven {
             count(|step| matches!(step, Step::Flip(..))),
         ]
     }
+}
+
+/// Adds neighbours until one is left: no addition waits for more than log₂ of their
+/// number before it.
+fn in_a_tree<T: Copy>(mut terms: Vec<T>, mut add: impl FnMut(T, T) -> T) -> Option<T> {
+    while terms.len() > 1 {
+        terms =
+            terms.chunks(2).filter_map(|neighbours| neighbours.iter().copied().reduce(&mut add)).collect();
+    }
+    terms.first().copied()
 }

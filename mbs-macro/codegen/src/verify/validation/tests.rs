@@ -8,7 +8,7 @@ use crate::verify::{Samples, check_equations};
 use crate::{derive, model, syntax};
 
 /// A loop with a drive, a spring, an output and most kinds of rows.
-const DECLARATION: &str = "FourBar {
+pub(crate) const DECLARATION: &str = "FourBar {
     dof = 1;
     param l1 = 0.3 [m]; param l2 = 0.8 [m]; param l3 = 0.6 [m]; param d = 0.7 [m]; param k = 20 [N/m];
     gravity = (0.5, -9.81) [m/s^2];
@@ -26,15 +26,15 @@ const DECLARATION: &str = "FourBar {
 }";
 
 /// What the checks say of a plan, again and again.
-struct Planned {
-    model: model::Model,
+pub(crate) struct Planned {
+    pub model: model::Model,
     equations: derive::Equations,
     samples: Samples,
-    plan: Plan,
+    pub plan: Plan,
 }
 
 impl Planned {
-    fn new(declaration: &str) -> Self {
+    pub fn new(declaration: &str) -> Self {
         let declaration = syntax::parse(declaration.parse().expect("tokens")).expect("the right shape");
         let mut model = model::resolve(&declaration).expect("resolvable");
         let equations = derive::derive(&mut model);
@@ -50,7 +50,7 @@ impl Planned {
 }
 
 /// Another operation of the same operands; `None` where there is none.
-fn corrupted(operation: Operation) -> Option<Operation> {
+pub(crate) fn corrupted(operation: Operation) -> Option<Operation> {
     Some(match operation {
         Operation::Add => Operation::Sub,
         Operation::Sub => Operation::Add,
@@ -61,7 +61,7 @@ fn corrupted(operation: Operation) -> Option<Operation> {
 }
 
 /// The instructions that results other than the pivot growth need.
-fn needed(program: &Program, is_solving: bool) -> Vec<usize> {
+pub(crate) fn needed(program: &Program, is_solving: bool) -> Vec<usize> {
     let outputs = program.outputs.len() - usize::from(is_solving);
     let mut needed = vec![false; program.instructions.len()];
     let mut open: Vec<Operand> = program.outputs[..outputs].to_vec();
