@@ -865,9 +865,10 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let v64 = Single::<T>::new(self.parameters.mass) * p31.second();
         let lambda_rod = -v64;
         let p66 = p32 + p36;
-        let p67 = p66 + p42;
-        let p68 = p67 + p63;
-        let v69 = p68.first() + p68.second();
+        let p67 = p42 + p63;
+        let p68 = p66 + p67;
+        let v69 = lambda_rod + p68.first();
+        let v70 = v69 + p68.second();
         (
             ::mbs_runtime::Stepped {
                 next: ::mbs_runtime::State {
@@ -882,7 +883,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
-                sum: v69.get(),
+                sum: v70.get(),
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
@@ -992,9 +993,10 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let v75 = Single::<T>::new(self.parameters.mass) * p38.second();
         let lambda_rod = -v75;
         let p77 = p39 + p43;
-        let p78 = p77 + p49;
-        let p79 = p78 + p74;
-        let v80 = p79.first() + p79.second();
+        let p78 = p49 + p74;
+        let p79 = p77 + p78;
+        let v80 = lambda_rod + p79.first();
+        let v81 = v80 + p79.second();
         (
             ::mbs_runtime::Stepped {
                 next: ::mbs_runtime::State {
@@ -1009,7 +1011,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
-                sum: v80.get(),
+                sum: v81.get(),
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
