@@ -1,6 +1,6 @@
 //! Vectors whose components have names.
 
-use crate::Real;
+use crate::{Real, vectors};
 
 /// A vector with one named field per component, such as the coordinates of a
 /// mechanism: people write `q.theta1`, loops see an array.
@@ -40,9 +40,7 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     #[must_use]
     fn map(self, f: impl Fn(Self::Real) -> Self::Real) -> Self {
         let mut array = self.into_array();
-        for x in array.as_mut() {
-            *x = f(*x);
-        }
+        vectors::map(array.as_mut(), f);
         Self::from_array(array)
     }
 
@@ -51,9 +49,7 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     #[must_use]
     fn zip_map(self, other: Self, f: impl Fn(Self::Real, Self::Real) -> Self::Real) -> Self {
         let mut array = self.into_array();
-        for (x, &y) in array.as_mut().iter_mut().zip(other.into_array().as_ref()) {
-            *x = f(*x, y);
-        }
+        vectors::zip_map(array.as_mut(), other.into_array().as_ref(), f);
         Self::from_array(array)
     }
 
@@ -75,52 +71,26 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     /// Euclidean norm, √(Σ xᵢ²).
     #[inline(always)]
     fn norm(self) -> Self::Real {
-        let zero = Self::Real::default();
-        let array = self.into_array();
-        array.as_ref().iter().fold(zero, |sum, &x| sum + x * x).sqrt()
+        vectors::norm(self.into_array().as_ref())
     }
 
     /// Index and magnitude of the component that is largest in magnitude, a
     /// NaN counting as larger than everything; (0, 0) of an empty vector.
     fn largest(self) -> (usize, Self::Real) {
-        let mut largest = (0, Self::Real::default());
-        for (at, &x) in self.into_array().as_ref().iter().enumerate() {
-            let magnitude = x.abs();
-            let is_nan = magnitude.partial_cmp(&magnitude).is_none();
-            if is_nan {
-                return (at, magnitude);
-            }
-            if magnitude > largest.1 {
-                largest = (at, magnitude);
-            }
-        }
-        largest
+        vectors::largest(self.into_array().as_ref())
     }
 
     /// Whether every component is finite.
     #[inline(always)]
     fn is_finite(self) -> bool {
-        let mut finite = true;
-        for x in self.into_array().as_ref() {
-            finite &= x.is_finite();
-        }
-        finite
+        vectors::is_finite(self.into_array().as_ref())
     }
 }
 
-/// Not finite if a component is not, and shorter than a test of each. Four sums, none of
-/// which waits for another.
+/// Σ xᵢ, not finite if a component is not.
 #[inline(always)]
 pub(crate) fn sum_of<C: Components>(components: C) -> C::Real {
-    let array = components.into_array();
-    let mut sums = [C::Real::default(); 4];
-    for four in array.as_ref().chunks(4) {
-        for (sum, &x) in sums.iter_mut().zip(four) {
-            *sum = *sum + x;
-        }
-    }
-    let [a, b, c, d] = sums;
-    (a + b) + (c + d)
+    vectors::sum(components.into_array().as_ref())
 }
 
 /// The components of a mechanism that has none of that kind: no inputs, say.

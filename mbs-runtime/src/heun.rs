@@ -1,7 +1,8 @@
 //! Heun's method on the first-order form (q, v)˙ = (v, q̈).
 
+use crate::equations::{Arrays, Named};
 use crate::mechanism::growth_limit;
-use crate::{Components, Error, Feedback, Gains, Mechanism, Pivot, Real, State};
+use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State, diagnosis};
 
 /// One step of Heun's method (Jiang 2025, Eq. 9):
 ///
@@ -104,97 +105,19 @@ pub(crate) fn correct<T: Real>(
     }
 }
 
-/// Names what went wrong in a step that failed its test: a pivot in one of its
-/// two stages, else what first ceased to be finite.
+/// Names what went wrong in a step that failed its test.
 #[cold]
+#[inline(never)]
 fn diagnose<M: Mechanism>(
     mechanism: &M,
     stages: [&State<M::Coordinates>; 2],
     solved: [(M::Coordinates, M::Real); 2],
 ) -> Error {
-    // If only the sum of two growths is over the limit, the larger is over half.
-    let half_limit = M::Real::from_f64(0.5) * growth_limit();
-    for (stage, (acceleration, growth)) in stages.into_iter().zip(solved) {
-        if let Err(error) = check_finite(stage) {
-            return error;
-        }
-        if is_over(growth, half_limit) || !acceleration.is_finite() {
-            let worst = mechanism.worst_pivot(stage.t, &stage.q);
-            let pivots = M::INFO.pivots;
-            let solution = Solution { t: stage.t, q: &stage.q, value: &acceleration, growth, pivots };
-            return solution.cause(half_limit, worst);
-        }
-    }
-    // Both stages are healthy, so the sum that leaves them is not.
-    let [_, last] = stages;
-    Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
-}
-
-/// Whether a growth reaches a limit; one that is no number does.
-fn is_over<T: Real>(growth: T, limit: T) -> bool {
-    let is_below = growth < limit;
-    !is_below
-}
-
-/// What [`check_solution`] looks at.
-pub(crate) struct Solution<'a, C: Components> {
-    pub t: C::Real,
-    pub q: &'a C,
-    pub value: &'a C,
-    pub growth: C::Real,
-    /// The pivots of its elimination.
-    pub pivots: &'static [Pivot],
-}
-
-/// `Ok` if a solution is finite and the growth leaves digits in every pivot,
-/// else the error that names the pivot or the coordinate; `worst` finds it.
-pub(crate) fn check_solution<C: Components>(
-    solution: &Solution<'_, C>,
-    worst: impl FnOnce() -> Option<(usize, C::Real)>,
-) -> Result<(), Error> {
-    if solution.value.is_finite() && solution.growth < growth_limit() {
-        return Ok(());
-    }
-    Err(solution.cause(growth_limit(), worst()))
-}
-
-impl<C: Components> Solution<'_, C> {
-    /// Why the solution is no good: a position that is not finite, a pivot, or,
-    /// with all pivots healthy, the component that is not finite.
-    fn cause(&self, limit: C::Real, worst: Option<(usize, C::Real)>) -> Error {
-        if let Some(error) = non_finite(self.t, *self.q) {
-            return error;
-        }
-        let worst_growth = worst.map_or(self.growth, |(_, growth)| growth);
-        if !is_over(self.growth, limit)
-            && !is_over(worst_growth, limit)
-            && let Some(error) = non_finite(self.t, *self.value)
-        {
-            return error;
-        }
-        // Where every pivot is healthy, something else has no solution: friction
-        // that jams.
-        let share = C::Real::from_f64(1.0 / 64.0) * limit;
-        let culprit = worst.filter(|(_, growth)| is_over(*growth, share));
-        let pivot = culprit.and_then(|(at, _)| self.pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
-        let growth = if is_over(self.growth, limit) { self.growth } else { worst_growth };
-        Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth: growth.to_f64() }
-    }
-}
-
-/// `Ok` if positions and velocities are finite.
-pub(crate) fn check_finite<C: Components>(state: &State<C>) -> Result<(), Error> {
-    match non_finite(state.t, state.q).or_else(|| non_finite(state.t, state.v)) {
-        Some(error) => Err(error),
-        None => Ok(()),
-    }
-}
-
-/// The error that names the first component that is not finite.
-fn non_finite<C: Components>(t: C::Real, components: C) -> Option<Error> {
-    let array = components.into_array();
-    let at = array.as_ref().iter().position(|x| !x.is_finite())?;
-    let coordinate = C::NAMES.get(at).copied()?;
-    Some(Error::NonFinite { t: t.to_f64(), coordinate })
+    let stages = stages.map(Arrays::of);
+    let solved = solved.map(|(acceleration, growth)| (acceleration.into_array(), growth));
+    diagnosis::diagnose(
+        &Named(mechanism),
+        stages.each_ref().map(Arrays::at),
+        solved.each_ref().map(|(acceleration, growth)| (acceleration.as_ref(), *growth)),
+    )
 }

@@ -122,6 +122,11 @@ impl Info {
         self.functions.iter().find(|f| f.name == name).map(|f| f.operations)
     }
 
+    /// The name of a constraint; empty where there is none.
+    pub(crate) fn constraint_name(&self, row: usize) -> &'static str {
+        self.constraints.get(row).map_or("", |constraint| constraint.name)
+    }
+
     /// An `Info` from its parts. For generated code.
     #[doc(hidden)]
     #[allow(clippy::too_many_arguments, reason = "one argument per field, called by generated code only")]

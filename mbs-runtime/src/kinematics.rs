@@ -1,7 +1,9 @@
 //! Kinematic analysis: the motion from the constraints alone.
 
-use crate::heun::{Solution, check_solution};
-use crate::{Baumgarte, Components, Error, Held, Mechanism, State, start};
+use crate::diagnosis::{Solution, check_solution};
+use crate::equations::{Arrays, At, Equations, Named, consistent};
+use crate::room::{OnStack, Room};
+use crate::{Baumgarte, Components, Error, Held, Mechanism, Real, State};
 
 /// Position, velocity and acceleration at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,15 +43,31 @@ impl<M: Mechanism> Kinematics<M> {
     /// # Errors
     /// [`Error::NotAssembled`] or [`Error::Singular`].
     pub fn at(&mut self, t: M::Real) -> Result<Motion<M::Coordinates>, Error> {
-        let still = M::Coordinates::splat(M::Real::default());
-        let state = start::consistent(&self.mechanism, &State { t, q: self.guess, v: still })?;
-        let none = Baumgarte::<Held>::NONE.gains();
-        let solved = self.mechanism.stabilized(&state, &M::Inputs::default(), &none);
-        let q = &state.q;
-        let solution =
-            Solution { t, q, value: &solved.acceleration, growth: solved.growth, pivots: M::INFO.pivots };
-        check_solution(&solution, || self.mechanism.worst_pivot(t, q))?;
+        let still = M::Coordinates::splat(M::Real::default()).into_array();
+        let (mut q, mut v, mut acceleration) = (self.guess.into_array(), still, still);
+        let (equations, inputs) = (&Named(&self.mechanism), M::Inputs::default().into_array());
+        let mut room = OnStack::<M>::new();
+        let [of_q, of_v, of_a] = [&mut q, &mut v, &mut acceleration].map(AsMut::as_mut);
+        solve(equations, t, [of_q, of_v, of_a], inputs.as_ref(), &mut room.room())?;
+        let state = Arrays { t, q, v }.state();
         self.guess = state.q;
-        Ok(Motion { state, acceleration: solved.acceleration })
+        Ok(Motion { state, acceleration: Components::from_array(acceleration) })
     }
+}
+
+/// Moves q onto Φ = 0, v onto Φ̇ = 0, and gives q̈.
+fn solve<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    [q, v, acceleration]: [&mut [T]; 3],
+    inputs: &[T],
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    consistent(equations, t, q, v, room)?;
+    let [feedback, ..] = &mut room.constraints;
+    let none = Baumgarte::<Held>::NONE.gains();
+    let growth = equations.stabilized(At { t, q, v }, inputs, &none, acceleration, feedback);
+    let info = equations.info();
+    let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
+    check_solution(&solution, || equations.worst_pivot(t, q))
 }

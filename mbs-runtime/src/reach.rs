@@ -1,10 +1,13 @@
 //! Whether constraints can be met at all.
 
-use crate::{Components, Error, Mechanism, Real, State};
+use crate::equations::{At, Equations};
+use crate::room::Room;
+use crate::{Error, Real, vectors};
 
 const NEWTON_ITERATIONS: usize = 30;
 
-/// `Ok` if Φ(q, t) = 0 has a solution near `at.q`, else [`Error::OutOfReach`].
+/// `Ok` if Φ(q, t) = 0 has a solution near `q`, else [`Error::OutOfReach`]; h is the step
+/// in s.
 ///
 /// Newton's iteration, undamped, that moves all coordinates as little as it can in the
 /// norm of the mass matrix. It has to come to rest at rounding, which a pivot growth
@@ -14,29 +17,39 @@ const NEWTON_ITERATIONS: usize = 30;
 ///
 /// The corrections are the differences of accelerations with and without feedback, in a
 /// state at rest, so that no velocity adds to their rounding.
-pub(crate) fn reach<M: Mechanism>(
-    mechanism: &M,
-    at: &State<M::Coordinates>,
-    inputs: &M::Inputs,
-    h: M::Real,
+///
+/// # Errors
+/// [`Error::OutOfReach`].
+pub fn reach<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &[T],
+    inputs: &[T],
+    h: T,
+    room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
-    let zero = M::Real::default();
-    let no_feedback = M::Constraints::splat(zero);
-    let mut state = State { v: M::Coordinates::splat(zero), ..*at };
-    let mut best = mechanism.phi(state.t, &state.q);
-    let number = M::Real::from_f64;
+    let [position, still, moved, unmoved, ..] = &mut room.coordinates;
+    let [phi, best, feedback, no_feedback, ..] = &mut room.constraints;
+    let number = T::from_f64;
+    vectors::copy(position, q);
+    vectors::fill(still, T::default());
+    vectors::fill(no_feedback, T::default());
+    equations.phi(t, position, best);
     for iteration in 0..NEWTON_ITERATIONS {
-        let phi = mechanism.phi(state.t, &state.q);
-        if phi.norm() < best.norm() {
-            best = phi;
+        equations.phi(t, position, phi);
+        if vectors::norm(phi) < vectors::norm(best) {
+            vectors::copy(best, phi);
         }
-        let feedback = phi.map(|x| -(x / (h * h)));
-        let moved = mechanism.constrained(&state, inputs, &feedback);
-        let unmoved = mechanism.constrained(&state, inputs, &no_feedback).acceleration;
-        let correction = moved.acceleration.zip_map(unmoved, |a, b| h * h * (a - b));
-        let size = correction.largest().1;
-        let roundings = number(64.0) + moved.growth;
-        let is_at_rest = size <= roundings * M::Real::EPSILON * (number(1.0) + state.q.largest().1);
+        vectors::copy(feedback, phi);
+        vectors::map(feedback, |x| -(x / (h * h)));
+        let at = At { t, q: position, v: still };
+        let growth = equations.constrained(at, inputs, feedback, moved);
+        equations.constrained(at, inputs, no_feedback, unmoved);
+        vectors::zip_map(moved, unmoved, |a, b| h * h * (a - b));
+        let correction: &[T] = moved;
+        let size = vectors::largest(correction).1;
+        let roundings = number(64.0) + growth;
+        let is_at_rest = size <= roundings * T::EPSILON * (number(1.0) + vectors::largest(position).1);
         // without a first correction it is a drive that ends, and not a position
         if is_at_rest || (iteration == 0 && !size.is_finite()) {
             return Ok(());
@@ -44,9 +57,14 @@ pub(crate) fn reach<M: Mechanism>(
         if !size.is_finite() {
             break;
         }
-        state.q = state.q.zip_map(correction, |q, d| q + d);
+        vectors::add(position, correction);
     }
-    let (row, violation) = best.largest();
-    let constraint = M::Constraints::NAMES.get(row).copied().unwrap_or("");
-    Err(Error::OutOfReach { t: at.t.to_f64(), constraint, violation: violation.to_f64() })
+    let (row, violation) = vectors::largest(best);
+    Err(out_of_reach(equations, t, row, violation))
+}
+
+/// What cannot be met at a time.
+pub(crate) fn out_of_reach<T: Real>(equations: &dyn Equations<T>, t: T, row: usize, violation: T) -> Error {
+    let constraint = equations.info().constraint_name(row);
+    Error::OutOfReach { t: t.to_f64(), constraint, violation: violation.to_f64() }
 }

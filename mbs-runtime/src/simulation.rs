@@ -4,9 +4,10 @@ mod builder;
 mod examination;
 
 pub use self::builder::Builder;
+pub use self::examination::Examination;
 
-use self::examination::{check_defined, check_inputs};
 use crate::components::sum_of;
+use crate::diagnosis::check_defined;
 use crate::heun::heun_step;
 use crate::mechanism::growth_limit;
 use crate::watch::{Watch, WorstPlace, digits_left};
@@ -366,7 +367,8 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         if sum_of(outputs).is_finite() {
             return Ok(outputs);
         }
-        check_defined(self.state.t, "the output", outputs).map(|()| outputs)
+        let name = |at: usize| M::Outputs::NAMES.get(at).copied().unwrap_or("");
+        check_defined(self.state.t, "the output", outputs.into_array().as_ref(), name).map(|()| outputs)
     }
 }
 

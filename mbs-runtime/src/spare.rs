@@ -1,7 +1,9 @@
 //! Redundant constraints take no part in a step: they are watched, because with parameters
 //! for which they fit at one instant only they would be violated in silence.
 
-use crate::{Components, Error, Mechanism, Real, State};
+use crate::equations::Equations;
+use crate::reach::out_of_reach;
+use crate::{Components, Error, Info, Mechanism, Real, State, vectors};
 
 /// The share of the size of a mechanism by which a redundant constraint may be violated:
 /// as much as in a start that is given.
@@ -19,7 +21,7 @@ pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>, le
     let phi = mechanism.phi(at.t, &at.q).into_array();
     for &row in M::INFO.redundant {
         if let Some(phi) = phi.as_ref().get(row) {
-            margin = margin.min(allowed::<M>(row, length) - phi.abs());
+            margin = margin.min(allowed(M::INFO, row, length) - phi.abs());
         }
     }
     margin
@@ -27,33 +29,31 @@ pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>, le
 
 /// What is allowed, in the unit of the constraint.
 #[inline(always)]
-fn allowed<M: Mechanism>(row: usize, length: M::Real) -> M::Real {
-    let exponent = M::INFO.constraints.get(row).map_or(0, |constraint| constraint.dimension.length);
-    (0..exponent).fold(M::Real::from_f64(SHARE), |size, _| size * length)
+fn allowed<T: Real>(info: &Info, row: usize, length: T) -> T {
+    let exponent = info.constraints.get(row).map_or(0, |constraint| constraint.dimension.length);
+    (0..exponent).fold(T::from_f64(SHARE), |size, _| size * length)
 }
 
 /// The error that names the redundant constraint which is violated most, if one is.
-pub(crate) fn check<M: Mechanism>(
-    mechanism: &M,
-    at: &State<M::Coordinates>,
-    length: M::Real,
+pub(crate) fn check<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &[T],
+    length: T,
+    phi: &mut [T],
 ) -> Result<(), Error> {
-    let phi = mechanism.phi(at.t, &at.q).into_array();
-    let mut worst: Option<(usize, M::Real)> = None;
-    for &row in M::INFO.redundant {
-        let violation = phi.as_ref().get(row).map_or(M::Real::default(), |phi| phi.abs());
-        let excess = violation / allowed::<M>(row, length);
-        let is_kept = excess <= M::Real::from_f64(1.0);
+    let info = equations.info();
+    equations.phi(t, q, phi);
+    let mut worst: Option<(usize, T)> = None;
+    for &row in info.redundant {
+        let excess = vectors::magnitude(phi, row) / allowed(info, row, length);
+        let is_kept = excess <= T::from_f64(1.0);
         if !is_kept && worst.is_none_or(|(_, most)| excess > most) {
             worst = Some((row, excess));
         }
     }
-    let Some((row, _)) = worst else { return Ok(()) };
-    Err(out_of_reach::<M>(at.t, row, phi.as_ref().get(row).map_or(f64::NAN, |phi| phi.abs().to_f64())))
-}
-
-/// What cannot be met at a time.
-pub(crate) fn out_of_reach<M: Mechanism>(t: M::Real, row: usize, violation: f64) -> Error {
-    let constraint = M::Constraints::NAMES.get(row).copied().unwrap_or("");
-    Error::OutOfReach { t: t.to_f64(), constraint, violation }
+    match worst {
+        None => Ok(()),
+        Some((row, _)) => Err(out_of_reach(equations, t, row, vectors::magnitude(phi, row))),
+    }
 }

@@ -16,7 +16,7 @@ const REMEMBERED_FROM: f64 = 64.0;
 /// step, or that has doubled since its pivot was looked for. Such a step is examined:
 /// whether its constraints can still be met, and which pivot it is.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Watch<T> {
+pub struct Watch<T> {
     /// A growth over this is examined.
     pub alarm: T,
     /// The largest growth of a step so far.

@@ -1,8 +1,12 @@
 //! What can be chosen before a simulation starts.
 
-use super::{Simulation, check_inputs, check_time};
+use super::{Simulation, check_time};
+use crate::diagnosis::check_inputs;
+use crate::equations::{Arrays, Named};
+use crate::room::OnStack;
+use crate::start::{self, Start};
 use crate::watch::Watch;
-use crate::{Baumgarte, Error, Feedback, Held, Mechanism, Real, State, start};
+use crate::{Baumgarte, Components, Error, Feedback, Held, Mechanism, Real, State};
 
 /// The choices before a simulation starts; see [`Simulation::builder`].
 #[derive(Clone, Copy, Debug)]
@@ -14,17 +18,6 @@ pub struct Builder<M: Mechanism, F: Feedback = Held> {
     state: State<M::Coordinates>,
     start: Start,
     allow_unstable: bool,
-}
-
-/// What is done with the state before it becomes the start.
-#[derive(Clone, Copy, Debug)]
-enum Start {
-    /// The declared one is made consistent.
-    Declared,
-    /// A given one has to be consistent.
-    Given,
-    /// It may be anything.
-    Unchecked,
 }
 
 impl<M: Mechanism> Builder<M> {
@@ -146,25 +139,20 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             let (alpha, beta) = (self.baumgarte.alpha(), self.baumgarte.beta());
             return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
         }
-        check_inputs::<M>(&self.inputs)?;
+        let inputs = self.inputs.into_array();
+        check_inputs(M::INFO, inputs.as_ref())?;
         check_time::<M::Real>(self.state.t.to_f64(), h.to_f64())?;
-        let state = match self.start {
-            Start::Declared => start::consistent(&self.mechanism, &self.state)?,
-            Start::Given | Start::Unchecked => self.state,
+        let Arrays { t, mut q, mut v } = Arrays::of(&self.state);
+        let preparation = start::Preparation {
+            start: self.start,
+            inputs: inputs.as_ref(),
+            step: h,
+            keeps_constraints: self.baumgarte.is_stable(step),
         };
-        crate::heun::check_finite(&state)?;
-        if matches!(self.start, Start::Given) {
-            start::check(&self.mechanism, &state, h)?;
-        }
-        let is_watched = self.baumgarte.is_stable(step)
-            && !M::INFO.redundant.is_empty()
-            && !matches!(self.start, Start::Unchecked);
-        let length = if is_watched {
-            start::check_redundant_accelerations(&self.mechanism, &state, &self.inputs, h)?;
-            start::length(&self.mechanism, &state)
-        } else {
-            M::Real::from_f64(f64::INFINITY)
-        };
+        let equations = &Named(&self.mechanism);
+        let mut room = OnStack::<M>::new();
+        let length = preparation.prepare(equations, t, q.as_mut(), v.as_mut(), &mut room.room())?;
+        let state = Arrays { t, q, v }.state();
         Ok(Simulation {
             mechanism: self.mechanism,
             inputs: self.inputs,

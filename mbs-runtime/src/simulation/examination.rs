@@ -2,58 +2,137 @@
 //! went wrong, and what.
 
 use super::Simulation;
-use crate::heun::{Solution, check_solution};
+use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution};
+use crate::equations::{Arrays, At, Equations, Named};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
-use crate::{Components, Error, Feedback, Mechanism, Real, State, spare};
+use crate::room::{OnStack, Room};
+use crate::watch::Watch;
+use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State, spare, vectors};
+
+/// A run to be examined, in its last good state.
+#[derive(Clone, Copy)]
+pub struct Examination<'a, T> {
+    /// The mechanism.
+    pub equations: &'a dyn Equations<T>,
+    /// The last good state.
+    pub at: At<'a, T>,
+    /// The inputs, held over the step.
+    pub inputs: &'a [T],
+    /// The gains of the feedback.
+    pub gains: Gains<T>,
+    /// The step in s.
+    pub step: T,
+    /// Whether violations of the constraints are meant to decay.
+    pub keeps_constraints: bool,
+}
+
+impl<T: Real> Examination<'_, T> {
+    /// Examines a step to `next` after which the growth has risen: whether its constraints
+    /// can still be met, and which pivot it is, which the watch remembers.
+    ///
+    /// # Errors
+    /// [`Error::OutOfReach`].
+    pub fn examine_step(
+        &self,
+        next: At<'_, T>,
+        growth: T,
+        watch: &mut Watch<T>,
+        room: &mut Room<'_, T>,
+    ) -> Result<(), Error> {
+        let Self { equations, at: At { t, q, .. }, inputs, step, .. } = *self;
+        if self.keeps_constraints {
+            reach(equations, next.t, next.q, inputs, step, room)?;
+        }
+        let [phi, ..] = &mut room.constraints;
+        spare::check(equations, next.t, next.q, watch.length, phi)?;
+        if watch.is_new(growth) {
+            let share = T::from_f64(0.125) * growth;
+            let worst = equations.worst_pivot(t, q).filter(|(_, growth)| *growth > share);
+            watch.remember(growth, t, worst.map(|(at, _)| at));
+        }
+        Ok(())
+    }
+
+    /// Why a step to `t_next` failed: an input, or a position that cannot be reached from
+    /// one that was good, or what the step says.
+    pub fn cause(&self, error: Error, t_next: T, room: &mut Room<'_, T>) -> Error {
+        let Self { equations, at, inputs, step, .. } = *self;
+        if let Err(input) = check_inputs(equations.info(), inputs) {
+            return input;
+        }
+        if !self.is_good(t_next, room) || !self.keeps_constraints {
+            return error;
+        }
+        let mut reach_at = |t| reach(equations, t, at.q, inputs, step, room);
+        if reach_at(at.t).is_err() {
+            return error;
+        }
+        reach_at(t_next).err().unwrap_or(error)
+    }
+
+    /// Whether the state has accelerations, and its positions constraints at `t_next`.
+    fn is_good(&self, t_next: T, room: &mut Room<'_, T>) -> bool {
+        let Self { equations, at, inputs, gains, .. } = self;
+        let [acceleration, ..] = &mut room.coordinates;
+        let [feedback, phi, ..] = &mut room.constraints;
+        let growth = equations.stabilized(*at, inputs, gains, acceleration, feedback);
+        equations.phi(t_next, at.q, phi);
+        growth < growth_limit() && vectors::is_finite(phi)
+    }
+
+    /// Examines q̈ and λ of the state.
+    ///
+    /// # Errors
+    /// [`Error::Input`], [`Error::Singular`], [`Error::NonFinite`] of an acceleration,
+    /// [`Error::Undefined`] of a multiplier.
+    pub fn examine(&self, acceleration: &[T], multipliers: &[T], growth: T) -> Result<(), Error> {
+        let Self { equations, at: At { t, q, .. }, inputs, .. } = *self;
+        let info = equations.info();
+        let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
+        let name = |row| info.constraint_name(row);
+        check_solution(&solution, || equations.worst_pivot(t, q))
+            .and_then(|()| check_defined(t, "the multiplier of constraint", multipliers, name))
+            // an input that is not finite is the cause of whatever failed after it
+            .map_err(|error| check_inputs(info, inputs).err().unwrap_or(error))
+    }
+}
 
 impl<M: Mechanism, F: Feedback> Simulation<M, F> {
-    /// A step after which the growth has risen: whether its constraints can still be met,
-    /// and which pivot it is.
+    /// What `examine` finds out about this run.
+    #[cold]
+    #[inline(never)]
+    fn examined<R>(&self, examine: impl FnOnce(Examination<'_, M::Real>, &mut Room<'_, M::Real>) -> R) -> R {
+        let (state, inputs) = (Arrays::of(&self.state), self.inputs.into_array());
+        let examination = Examination {
+            equations: &Named(&self.mechanism),
+            at: state.at(),
+            inputs: inputs.as_ref(),
+            gains: self.gains,
+            step: self.step,
+            keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
+        };
+        examine(examination, &mut OnStack::<M>::new().room())
+    }
+
+    /// See [`Examination::examine_step`].
     #[cold]
     pub(super) fn examine_step(
         &mut self,
         next: &State<M::Coordinates>,
         growth: M::Real,
     ) -> Result<(), Error> {
-        if self.keeps_constraints() {
-            reach(&self.mechanism, next, &self.inputs, self.step)?;
-        }
-        spare::check(&self.mechanism, next, self.watch.length)?;
-        if self.watch.is_new(growth) {
-            let State { t, q, .. } = &self.state;
-            let share = M::Real::from_f64(0.125) * growth;
-            let worst = self.mechanism.worst_pivot(*t, q).filter(|(_, growth)| *growth > share);
-            self.watch.remember(growth, *t, worst.map(|(at, _)| at));
-        }
+        let mut watch = self.watch;
+        let next = Arrays::of(next);
+        self.examined(|run, room| run.examine_step(next.at(), growth, &mut watch, room))?;
+        self.watch = watch;
         Ok(())
     }
 
-    /// Why a step failed: an input, or a position that cannot be reached from one that
-    /// was good, or what the step says.
+    /// See [`Examination::cause`].
     #[cold]
     pub(super) fn cause(&self, error: Error, t_next: M::Real) -> Error {
-        if let Err(input) = check_inputs::<M>(&self.inputs) {
-            return input;
-        }
-        let Self { mechanism, state, inputs, gains, step, .. } = self;
-        let is_good = mechanism.stabilized(state, inputs, gains).growth < growth_limit()
-            && mechanism.phi(t_next, &state.q).is_finite();
-        if !is_good || !self.keeps_constraints() || reach(mechanism, state, inputs, *step).is_err() {
-            return error;
-        }
-        reach(mechanism, &State { t: t_next, ..*state }, inputs, *step).err().unwrap_or(error)
-    }
-
-    /// Whether redundant constraints, which steps do not look at, are met all the same.
-    #[inline(always)]
-    pub(super) fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
-        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
-    }
-
-    /// Whether a violation is meant to decay.
-    fn keeps_constraints(&self) -> bool {
-        self.baumgarte.is_stable(self.step.to_f64())
+        self.examined(|run, room| run.cause(error, t_next, room))
     }
 
     /// Takes values and not references, so that what is healthy need not be in memory.
@@ -64,40 +143,13 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         multipliers: M::Constraints,
         growth: M::Real,
     ) -> Result<(), Error> {
-        let (t, q) = (self.state.t, &self.state.q);
-        let solution = Solution { t, q, value: &acceleration, growth, pivots: M::INFO.pivots };
-        check_solution(&solution, || self.mechanism.worst_pivot(t, q))
-            .and_then(|()| check_defined(t, "the multiplier of constraint", multipliers))
-            .map_err(|error| self.blame_inputs(error))
+        let (acceleration, multipliers) = (acceleration.into_array(), multipliers.into_array());
+        self.examined(|run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
     }
 
-    /// An input that is not finite is the cause of whatever failed after it.
-    #[cold]
-    fn blame_inputs(&self, error: Error) -> Error {
-        match check_inputs::<M>(&self.inputs) {
-            Ok(()) => error,
-            Err(bad_input) => bad_input,
-        }
+    /// Whether redundant constraints, which steps do not look at, are met all the same.
+    #[inline(always)]
+    pub(super) fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
+        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
     }
-}
-
-/// Refuses results that are not finite.
-#[cold]
-pub(super) fn check_defined<C: Components>(t: C::Real, what: &'static str, results: C) -> Result<(), Error> {
-    for (&value, &name) in results.into_array().as_ref().iter().zip(C::NAMES) {
-        if !value.is_finite() {
-            return Err(Error::Undefined { t: t.to_f64(), what, name, value: value.to_f64() });
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn check_inputs<M: Mechanism>(inputs: &M::Inputs) -> Result<(), Error> {
-    let array = inputs.into_array();
-    for (&value, &name) in array.as_ref().iter().zip(M::Inputs::NAMES) {
-        if !value.is_finite() {
-            return Err(Error::Input { name, value: value.to_f64() });
-        }
-    }
-    Ok(())
 }

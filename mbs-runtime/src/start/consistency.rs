@@ -1,8 +1,11 @@
 //! Whether a state is consistent.
 
-use super::jacobian::column;
-use crate::heun::check_finite;
-use crate::{Components, Error, Mechanism, Real, State, spare};
+use super::jacobian::Jacobian;
+use crate::diagnosis::check_finite;
+use crate::equations::{At, Equations};
+use crate::reach::out_of_reach;
+use crate::room::Room;
+use crate::{Error, Info, Real, vectors};
 
 /// The share of the size of a mechanism by which a start that is given may violate its
 /// constraints.
@@ -10,109 +13,69 @@ const SHARE: f64 = 1e-3;
 /// Roundings of positions that a rate may amount to within a step.
 const ROUNDINGS: f64 = 1024.0;
 
-/// `Ok` if a state can be the start of a run with steps of `step` seconds just as it is.
-///
-/// The states of other runs are consistent in this sense, whose violations are of the
-/// order of h² or h³ and which the feedback of the next steps removes; a coordinate that
-/// was changed by hand is not.
-///
-/// Each constraint Φᵢ has the size Sᵢ = Σⱼ |∂Φᵢ/∂qⱼ| sⱼ, where sⱼ is 1 rad for an angle,
-/// and for a length that of the mechanism: the largest coordinate or lever arm. Allowed is
-///
-/// ```text
-/// |Φᵢ| ≤ 10⁻³ Sᵢ      |Φ̇ᵢ| ≤ 10⁻³ max(Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, Sᵢ maxⱼ |vⱼ|/sⱼ)
-/// ```
-///
-/// and for |Φ̇ᵢ| at rest the rounding 1024 ε Sᵢ/h.
+/// `Ok` if a state can be the start of a run with steps of `step` seconds just as it is;
+/// see [`start::check`](crate::start::check).
 ///
 /// # Errors
 /// [`Error::Inconsistent`], [`Error::NonFinite`].
-pub fn check<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>, step: M::Real) -> Result<(), Error> {
-    check_finite(state)?;
-    let sizes = Sizes::of(mechanism, state);
-    let share = M::Real::from_f64(SHARE);
-    let at_rest = M::Real::from_f64(ROUNDINGS) * M::Real::EPSILON / step;
-    let allowed = sizes.rows.map(|size| share * size);
-    let allowed_rates = sizes.rates.zip_map(sizes.rows, |rate, size| share * rate + at_rest * size);
-    check_rows(state.t, mechanism.phi(state.t, &state.q), allowed, false)?;
-    check_rows(state.t, mechanism.phi_dot(state), allowed_rates, true)
+pub fn check<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    step: T,
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    check_finite(equations.info(), at)?;
+    let share = T::from_f64(SHARE);
+    let at_rest = T::from_f64(ROUNDINGS) * T::EPSILON / step;
+    check_sizes(equations, at, room, |row, rate| (share * row, share * rate + at_rest * row))
 }
 
 /// `Ok` if a state came out consistent, far within what [`check`] allows.
-pub(super) fn check_projected<M: Mechanism>(
-    mechanism: &M,
-    state: &State<M::Coordinates>,
+pub(super) fn check_projected<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
-    let sizes = Sizes::of(mechanism, state);
-    let share = M::Real::EPSILON.sqrt();
-    let allowed = |sizes: M::Constraints| sizes.map(|size| share * size);
-    check_rows(state.t, mechanism.phi(state.t, &state.q), allowed(sizes.rows), false)?;
-    check_rows(state.t, mechanism.phi_dot(state), allowed(sizes.rates), true)
+    let share = T::EPSILON.sqrt();
+    check_sizes(equations, at, room, |row, rate| (share * row, share * rate))
 }
 
-/// Refuses a start in which redundant constraints are met, but not by its accelerations:
-/// with parameters for which they fit at this instant only.
-///
-/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind.
-pub(crate) fn check_redundant_accelerations<M: Mechanism>(
-    mechanism: &M,
-    state: &State<M::Coordinates>,
-    inputs: &M::Inputs,
-    step: M::Real,
+/// Refuses a state with more violation of a constraint or of its rate than `allowed` by
+/// the sizes of both.
+fn check_sizes<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    room: &mut Room<'_, T>,
+    allowed: impl Fn(T, T) -> (T, T),
 ) -> Result<(), Error> {
-    let zero = M::Real::default();
-    let number = M::Real::from_f64;
-    let a = mechanism.constrained(state, inputs, &M::Constraints::splat(zero)).acceleration;
-    if !a.is_finite() {
-        // the first step says why
-        return Ok(());
+    let [direction, ..] = &mut room.coordinates;
+    let [rows, rates, phi_t, found, ..] = &mut room.constraints;
+    let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
+    measure(&mut jacobian, at.v, rows, rates, found);
+    for (row, rate) in rows.iter_mut().zip(rates.iter_mut()) {
+        (*row, *rate) = allowed(*row, *rate);
     }
-    let apart = number(1.0 / 16.0) * step;
-    let rates = |h: M::Real| {
-        let speed = state.v.zip_map(a, |v, a| v + number(0.5) * h * a);
-        let q = state.q.zip_map(speed, |q, v| q + h * v);
-        mechanism.phi_dot(&State { t: state.t + h, q, v: state.v.zip_map(a, |v, a| v + h * a) })
-    };
-    let difference = rates(apart).zip_map(rates(-apart), |ahead, behind| ahead - behind);
-    let sizes = Sizes::of(mechanism, state);
-    let mut allowed = sizes.rates.zip_map(sizes.rows, |rate, size| {
-        let turning = if size > zero { rate * rate / size } else { zero };
-        number(SHARE) * turning + number(64.0) * M::Real::EPSILON * rate / apart
-    });
-    for (at, a) in a.into_array().as_ref().iter().enumerate() {
-        let entries = column(mechanism, state, at);
-        allowed = allowed.zip_map(entries, |sum, entry| sum + number(SHARE) * (entry * *a).abs());
-    }
-    let (found, allowed) = (difference.into_array(), allowed.into_array());
-    for &row in M::INFO.redundant {
-        let [Some(found), Some(allowed)] = [found.as_ref().get(row), allowed.as_ref().get(row)] else {
-            continue;
-        };
-        let acceleration = found.abs() / (number(2.0) * apart);
-        if acceleration > *allowed {
-            let violation = number(0.5) * step * step * acceleration;
-            return Err(spare::out_of_reach::<M>(state.t + step, row, violation.to_f64()));
-        }
-    }
-    Ok(())
+    equations.phi(at.t, at.q, found);
+    check_rows(equations.info(), at.t, found, rows, false)?;
+    equations.phi_dot(at, found);
+    check_rows(equations.info(), at.t, found, rates, true)
 }
 
 /// Refuses the row that exceeds what is allowed by the largest factor.
-fn check_rows<R: Components>(t: R::Real, rows: R, allowed: R, is_rate: bool) -> Result<(), Error> {
-    let mut worst: Option<(&'static str, R::Real, R::Real)> = None;
-    let (rows, allowed) = (rows.into_array(), allowed.into_array());
-    for ((&row, &allowed), &name) in rows.as_ref().iter().zip(allowed.as_ref()).zip(R::NAMES) {
-        let violation = row.abs();
+fn check_rows<T: Real>(info: &Info, t: T, found: &[T], allowed: &[T], is_rate: bool) -> Result<(), Error> {
+    let mut worst: Option<(usize, T, T)> = None;
+    for (row, (found, &allowed)) in found.iter().zip(allowed).enumerate() {
+        let violation = found.abs();
         let is_kept = violation <= allowed;
         if !is_kept && worst.is_none_or(|(_, most, limit)| violation * limit > most * allowed) {
-            worst = Some((name, violation, allowed));
+            worst = Some((row, violation, allowed));
         }
     }
     match worst {
         None => Ok(()),
-        Some((constraint, violation, allowed)) => Err(Error::Inconsistent {
+        Some((row, violation, allowed)) => Err(Error::Inconsistent {
             t: t.to_f64(),
-            constraint,
+            constraint: info.constraint_name(row),
             is_rate,
             violation: violation.to_f64(),
             allowed: allowed.to_f64(),
@@ -120,51 +83,100 @@ fn check_rows<R: Components>(t: R::Real, rows: R, allowed: R, is_rate: bool) -> 
     }
 }
 
-/// How large constraints and their rates are.
-struct Sizes<R> {
-    /// Sᵢ
-    rows: R,
-    /// max(Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, Sᵢ maxⱼ |vⱼ|/sⱼ)
-    rates: R,
-}
-
-impl<R: Components> Sizes<R> {
-    fn of<M: Mechanism<Constraints = R, Real = R::Real>>(
-        mechanism: &M,
-        state: &State<M::Coordinates>,
-    ) -> Self {
-        let zero = R::Real::default();
-        let length = length(mechanism, state);
-        let one = R::Real::from_f64(1.0);
-        let mut rows = R::splat(zero);
-        let mut rates = mechanism.phi_dot(&State { v: M::Coordinates::splat(zero), ..*state }).map(Real::abs);
-        let mut fastest = zero;
-        let velocities = state.v.into_array();
-        for (at, (coordinate, &v)) in M::INFO.coordinates.iter().zip(velocities.as_ref()).enumerate() {
-            let scale = if coordinate.dimension.length == 0 { one } else { length };
-            let entries = column(mechanism, state, at).map(Real::abs);
-            rows = rows.zip_map(entries, |sum, entry| sum + entry * scale);
-            rates = rates.zip_map(entries, |sum, entry| sum + entry * v.abs());
-            if scale > zero {
-                fastest = fastest.max(v.abs() / scale);
-            }
-        }
-        rates = rates.zip_map(rows, |rate, size| rate.max(size * fastest));
-        Self { rows, rates }
+/// Refuses a start in which redundant constraints are met, but not by its accelerations:
+/// with parameters for which they fit at this instant only.
+///
+/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind.
+pub(super) fn check_redundant_accelerations<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    step: T,
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    let [acceleration, q, v, direction, ..] = &mut room.coordinates;
+    let [difference, rows, rates, phi_t, entries, ..] = &mut room.constraints;
+    let (zero, number) = (T::default(), T::from_f64);
+    let no_feedback = &mut *entries;
+    vectors::fill(no_feedback, zero);
+    equations.constrained(at, inputs, no_feedback, acceleration);
+    if !vectors::is_finite(acceleration) {
+        // the first step says why
+        return Ok(());
     }
+    let apart = number(1.0 / 16.0) * step;
+    let mut rates_after = |h: T, phi_dot: &mut [T]| {
+        vectors::copy(v, at.v);
+        vectors::add_scaled(v, number(0.5) * h, acceleration);
+        vectors::copy(q, at.q);
+        vectors::add_scaled(q, h, v);
+        vectors::copy(v, at.v);
+        vectors::add_scaled(v, h, acceleration);
+        equations.phi_dot(At { t: at.t + h, q, v }, phi_dot);
+    };
+    rates_after(apart, difference);
+    rates_after(-apart, entries);
+    vectors::zip_map(difference, entries, |ahead, behind| ahead - behind);
+
+    let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
+    measure(&mut jacobian, at.v, rows, rates, entries);
+    vectors::zip_map(rates, rows, |rate, size| {
+        let turning = if size > zero { rate * rate / size } else { zero };
+        number(SHARE) * turning + number(64.0) * T::EPSILON * rate / apart
+    });
+    let allowed = rates;
+    for (j, &a) in acceleration.iter().enumerate() {
+        jacobian.column(j, entries);
+        vectors::zip_map(allowed, entries, |sum, entry| sum + number(SHARE) * (entry * a).abs());
+    }
+    for &row in equations.info().redundant {
+        let acceleration = vectors::magnitude(difference, row) / (number(2.0) * apart);
+        if acceleration > vectors::magnitude(allowed, row) {
+            let violation = number(0.5) * step * step * acceleration;
+            return Err(out_of_reach(equations, at.t + step, row, violation));
+        }
+    }
+    Ok(())
 }
 
-/// The largest coordinate that is a length, or lever arm of an angle.
-pub(crate) fn length<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>) -> M::Real {
-    let mut largest = M::Real::default();
-    let positions = state.q.into_array();
-    for (at, (coordinate, q)) in M::INFO.coordinates.iter().zip(positions.as_ref()).enumerate() {
+/// How large constraints and their rates are: `rows` become Sᵢ, and `rates` become
+/// max(Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, Sᵢ maxⱼ |vⱼ|/sⱼ).
+fn measure<T: Real>(
+    jacobian: &mut Jacobian<'_, T>,
+    v: &[T],
+    rows: &mut [T],
+    rates: &mut [T],
+    entries: &mut [T],
+) {
+    let zero = T::default();
+    let length = length(jacobian, entries);
+    vectors::fill(rows, zero);
+    vectors::copy(rates, jacobian.phi_t);
+    vectors::map(rates, Real::abs);
+    let mut fastest = zero;
+    for (j, (coordinate, v)) in jacobian.info().coordinates.iter().zip(v).enumerate() {
+        let scale = if coordinate.dimension.length == 0 { T::from_f64(1.0) } else { length };
+        jacobian.column(j, entries);
+        vectors::zip_map(rows, entries, |sum, entry| sum + entry.abs() * scale);
+        vectors::zip_map(rates, entries, |sum, entry| sum + entry.abs() * v.abs());
+        if scale > zero {
+            fastest = fastest.max(v.abs() / scale);
+        }
+    }
+    vectors::zip_map(rates, rows, |rate, size| rate.max(size * fastest));
+}
+
+/// The largest coordinate that is a length, or lever arm of an angle, in m.
+pub(super) fn length<T: Real>(jacobian: &mut Jacobian<'_, T>, entries: &mut [T]) -> T {
+    let mut largest = T::default();
+    let (info, q) = (jacobian.info(), jacobian.q);
+    for (j, (coordinate, q)) in info.coordinates.iter().zip(q).enumerate() {
         if coordinate.dimension.length != 0 {
             largest = largest.max(q.abs());
             continue;
         }
-        let entries = column(mechanism, state, at).into_array();
-        for (constraint, entry) in M::INFO.constraints.iter().zip(entries.as_ref()) {
+        jacobian.column(j, entries);
+        for (constraint, entry) in info.constraints.iter().zip(entries.iter()) {
             if constraint.dimension.length == 1 {
                 largest = largest.max(entry.abs());
             }

@@ -1,138 +1,136 @@
 //! A guess made consistent by moving some of its coordinates.
 
+use super::assembly::{Iterate, newton};
 use super::consistency::check_projected;
-use super::jacobian::{along, column, unit};
-use super::newton;
-use crate::heun::check_finite;
-use crate::{Components, Error, Mechanism, Real, State};
+use super::jacobian::Jacobian;
+use crate::diagnosis::check_finite;
+use crate::equations::{At, Equations};
+use crate::room::Room;
+use crate::{Error, Info, Real, vectors};
 
-/// The consistent state nearest to `guess` that keeps the coordinates called `positions`
-/// and the velocities of those called `velocities`, to the bit.
-///
-/// The others move least in the norm of the mass matrix; massless coordinates count as
-/// much as the lightest of the others. As many values can be kept as there are degrees of
-/// freedom, if the constraints leave them free. [`consistent`](super::consistent) does
-/// the same with the values that the declaration prescribes, in straight-line code.
-///
-/// Newton's iteration; each of its linear systems is solved by conjugate gradients, so
-/// that a choice made at run time needs neither a matrix nor a heap. It takes about n²
-/// evaluations of Φ̇ for n coordinates.
-///
-/// # Example
-/// ```
-/// # use mbs_runtime::{Error, Simulation, mechanism, start};
-/// # mechanism! {
-/// #     pub Pendulum {
-/// #         dof = 1;
-/// #         param length = 1 [m];
-/// #         gravity = (0, -9.81) [m/s^2];
-/// #         body bob (x, y) { mass = 2 [kg]; }
-/// #         constraint rod: x^2 + y^2 = length^2;
-/// #         start { x = length; guess y = 0; }
-/// #     }
-/// # }
-/// let pendulum = Pendulum::declared();
-/// let mut guess = *Simulation::new(pendulum, 1e-3)?.state();
-/// (guess.q.y, guess.v.x) = (-0.6, 1.2);
-/// let start = start::project(&pendulum, &guess, &["y"], &["x"])?;
-/// assert!((start.q.x - 0.8).abs() < 1e-15 && start.q.y == -0.6);
-/// assert!((start.v.y - 1.6).abs() < 1e-15 && start.v.x == 1.2);
-/// # Ok::<(), Error>(())
-/// ```
+/// Makes (q, v) the nearest consistent state that keeps the coordinates called `positions`
+/// and the velocities of those called `velocities`; see
+/// [`start::project`](crate::start::project).
 ///
 /// # Errors
-/// [`Error::NoCoordinate`], [`Error::NonFinite`]; [`Error::NotAssembled`] or
-/// [`Error::Inconsistent`] if there is no such state with so much kept.
-pub fn project<M: Mechanism>(
-    mechanism: &M,
-    guess: &State<M::Coordinates>,
-    positions: &[&'static str],
-    velocities: &[&'static str],
-) -> Result<State<M::Coordinates>, Error> {
-    let [positions, velocities] = [free::<M>(positions)?, free::<M>(velocities)?];
-    check_finite(guess)?;
-    let mobility = mobility(mechanism, guess);
-    let masked = |mask: M::Coordinates| mobility.zip_map(mask, |mobility, free| mobility * free);
-    let (of_positions, of_velocities) = (masked(positions), masked(velocities));
-    let mut state = *guess;
-    state.q = newton(mechanism, guess.t, &guess.q, |q, residual| {
-        Ok(least(mechanism, &State { q: *q, ..*guess }, of_positions, residual))
+/// [`Error::NoCoordinate`], [`Error::NonFinite`], [`Error::NotAssembled`],
+/// [`Error::Inconsistent`]; q and v are left where the iteration was.
+pub fn project<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    v: &mut [T],
+    [positions, velocities]: [&[&'static str]; 2],
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    let [of_positions, of_velocities, delta, next, slope, direction, moved, unit] = &mut room.coordinates;
+    let [phi, residual, rest, image, entries, phi_t] = &mut room.constraints;
+    free(equations.info(), positions, of_positions)?;
+    free(equations.info(), velocities, of_velocities)?;
+    check_finite(equations.info(), At { t, q, v })?;
+    let mobility = &mut *delta;
+    find_mobility(equations, t, q, unit, mobility);
+    vectors::zip_map(of_positions, mobility, |free, mobility| mobility * free);
+    vectors::zip_map(of_velocities, mobility, |free, mobility| mobility * free);
+
+    let mut search = Search { slope, direction, moved, rest, image, entries };
+    newton(equations, t, q, Iterate { delta, next, phi, residual }, |q, residual, delta| {
+        let mut jacobian = Jacobian::new(equations, t, q, unit, phi_t);
+        search.least(&mut jacobian, of_positions, residual, delta);
+        Ok(())
     })?;
+    let mut jacobian = Jacobian::new(equations, t, q, unit, phi_t);
     // two refinements, because one solution is as good as its rounding
     for _ in 0..3 {
-        let residual = mechanism.phi_dot(&state).map(|x| -x);
-        let correction = least(mechanism, &state, of_velocities, &residual);
-        state.v = state.v.zip_map(correction, |v, d| v + d);
+        equations.phi_dot(At { t, q, v }, residual);
+        vectors::negate(residual);
+        search.least(&mut jacobian, of_velocities, residual, delta);
+        vectors::add(v, delta);
     }
-    check_projected(mechanism, &state).map(|()| state)
+    check_projected(equations, At { t, q, v }, room)
 }
 
 /// 0 for coordinates to keep, 1 for the others.
-fn free<M: Mechanism>(keep: &[&'static str]) -> Result<M::Coordinates, Error> {
-    let mut free = M::Coordinates::splat(M::Real::from_f64(1.0));
+fn free<T: Real>(info: &Info, keep: &[&'static str], free: &mut [T]) -> Result<(), Error> {
+    vectors::fill(free, T::from_f64(1.0));
     for &name in keep {
-        free = free.with(name, M::Real::default()).ok_or(Error::NoCoordinate { name })?;
+        let mut names = info.coordinates.iter().map(|coordinate| coordinate.name);
+        let at = names.position(|other| other == name).ok_or(Error::NoCoordinate { name })?;
+        vectors::set(free, at, T::default());
     }
-    Ok(free)
+    Ok(())
 }
 
 /// 1/√mⱼ, with mⱼ = 2T for q̇ⱼ = 1.
-fn mobility<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>) -> M::Coordinates {
-    let (zero, one) = (M::Real::default(), M::Real::from_f64(1.0));
-    let mut array = M::Coordinates::splat(zero).into_array();
-    for (j, mobility) in array.as_mut().iter_mut().enumerate() {
-        let mass = M::Real::from_f64(2.0) * mechanism.kinetic_energy(&State { v: unit(j), ..*at });
+fn find_mobility<T: Real>(equations: &dyn Equations<T>, t: T, q: &[T], unit: &mut [T], mobility: &mut [T]) {
+    let (zero, one) = (T::default(), T::from_f64(1.0));
+    vectors::fill(unit, zero);
+    for (j, mobility) in mobility.iter_mut().enumerate() {
+        vectors::set(unit, j, one);
+        let mass = T::from_f64(2.0) * equations.kinetic_energy(At { t, q, v: unit });
+        vectors::set(unit, j, zero);
         *mobility = if mass > zero { one / mass.sqrt() } else { zero };
     }
-    let mobility: M::Coordinates = Components::from_array(array);
-    let lightest = mobility.largest().1;
+    let lightest = vectors::largest(mobility).1;
     let of_massless = if lightest > zero { lightest } else { one };
-    mobility.map(|mobility| if mobility > zero { mobility } else { of_massless })
+    vectors::map(mobility, |mobility| if mobility > zero { mobility } else { of_massless });
 }
 
-/// The Δ of Φ_q Δ = `residual` for which Σ (Δⱼ/wⱼ)² is least, with the mobilities w; 0
-/// where they are 0. Conjugate gradients of ‖residual − Φ_q W y‖², Δ = W y.
-fn least<M: Mechanism>(
-    mechanism: &M,
-    at: &State<M::Coordinates>,
-    mobility: M::Coordinates,
-    residual: &M::Constraints,
-) -> M::Coordinates {
-    let forward = |y: M::Coordinates| along(mechanism, at, y.zip_map(mobility, |y, w| y * w));
-    let backward = |rows: M::Constraints| {
-        let mut array = mobility.into_array();
-        for (j, w) in array.as_mut().iter_mut().enumerate() {
-            if *w != M::Real::default() {
-                *w = *w * dot(column(mechanism, at, j), rows);
+/// What the search for a least correction works with: conjugate gradients of
+/// ‖residual − Φ_q W y‖², Δ = W y, with the mobilities W.
+struct Search<'a, T> {
+    /// W Φ_qᵀ (residual − Φ_q W y)
+    slope: &'a mut [T],
+    /// The direction in which y is changed,
+    direction: &'a mut [T],
+    /// and W times it.
+    moved: &'a mut [T],
+    /// residual − Φ_q W y
+    rest: &'a mut [T],
+    /// Φ_q W times the direction.
+    image: &'a mut [T],
+    /// A column of Φ_q.
+    entries: &'a mut [T],
+}
+
+impl<T: Real> Search<'_, T> {
+    /// The Δ of Φ_q Δ = `residual` for which Σ (Δⱼ/wⱼ)² is least, with the mobilities w; 0
+    /// where they are 0.
+    fn least(&mut self, jacobian: &mut Jacobian<'_, T>, mobility: &[T], residual: &[T], delta: &mut [T]) {
+        let y = delta;
+        vectors::fill(y, T::default());
+        vectors::copy(self.rest, residual);
+        self.find_slope(jacobian, mobility);
+        vectors::copy(self.direction, self.slope);
+        let small = T::EPSILON * vectors::norm(residual);
+        for _ in 0..2 * y.len() {
+            let steepness = vectors::dot(self.slope, self.slope);
+            vectors::copy(self.moved, self.direction);
+            vectors::zip_map(self.moved, mobility, |d, w| d * w);
+            jacobian.along(self.moved, self.image);
+            let length = steepness / vectors::dot(self.image, self.image);
+            if !length.is_finite() {
+                break;
+            }
+            vectors::add_scaled(y, length, self.direction);
+            vectors::zip_map(self.rest, self.image, |rest, d| rest - length * d);
+            if vectors::norm(self.rest) <= small {
+                break;
+            }
+            self.find_slope(jacobian, mobility);
+            let turn = vectors::dot(self.slope, self.slope) / steepness;
+            vectors::zip_map(self.direction, self.slope, |d, slope| slope + turn * d);
+        }
+        vectors::zip_map(y, mobility, |y, w| y * w);
+    }
+
+    fn find_slope(&mut self, jacobian: &mut Jacobian<'_, T>, mobility: &[T]) {
+        vectors::copy(self.slope, mobility);
+        for (j, slope) in self.slope.iter_mut().enumerate() {
+            if *slope != T::default() {
+                jacobian.column(j, self.entries);
+                *slope = *slope * vectors::dot(self.entries, self.rest);
             }
         }
-        <M::Coordinates as Components>::from_array(array)
-    };
-    let mut y = M::Coordinates::splat(M::Real::default());
-    let mut rest = *residual;
-    let mut slope = backward(rest);
-    let mut direction = slope;
-    let small = M::Real::EPSILON * residual.norm();
-    for _ in 0..2 * M::Coordinates::NAMES.len() {
-        let steepness = dot(slope, slope);
-        let image = forward(direction);
-        let length = steepness / dot(image, image);
-        if !length.is_finite() {
-            break;
-        }
-        y = y.zip_map(direction, |y, d| y + length * d);
-        rest = rest.zip_map(image, |rest, d| rest - length * d);
-        if rest.norm() <= small {
-            break;
-        }
-        slope = backward(rest);
-        let turn = dot(slope, slope) / steepness;
-        direction = slope.zip_map(direction, |slope, d| slope + turn * d);
     }
-    y.zip_map(mobility, |y, w| y * w)
-}
-
-fn dot<C: Components>(a: C, b: C) -> C::Real {
-    let (a, b) = (a.into_array(), b.into_array());
-    a.as_ref().iter().zip(b.as_ref()).fold(C::Real::default(), |sum, (&a, &b)| sum + a * b)
 }

@@ -1,0 +1,119 @@
+//! What is wrong with a solution or a state, in the names of the declaration.
+
+use crate::equations::{At, Equations};
+use crate::mechanism::growth_limit;
+use crate::{Error, Info, Pivot, Real, vectors};
+
+/// What [`check_solution`] looks at.
+pub(crate) struct Solution<'a, T> {
+    pub t: T,
+    pub q: &'a [T],
+    /// Accelerations, or a correction of positions or velocities.
+    pub value: &'a [T],
+    pub growth: T,
+    pub info: &'a Info,
+    /// The pivots of its elimination.
+    pub pivots: &'static [Pivot],
+}
+
+/// `Ok` if a solution is finite and the growth leaves digits in every pivot,
+/// else the error that names the pivot or the coordinate; `worst` finds it.
+pub(crate) fn check_solution<T: Real>(
+    solution: &Solution<'_, T>,
+    worst: impl FnOnce() -> Option<(usize, T)>,
+) -> Result<(), Error> {
+    if vectors::is_finite(solution.value) && solution.growth < growth_limit() {
+        return Ok(());
+    }
+    Err(solution.cause(growth_limit(), worst()))
+}
+
+/// Names what went wrong in a step that failed its test: a pivot in one of its
+/// two stages, else what first ceased to be finite. `solved` are q̈ and growth of each.
+pub(crate) fn diagnose<T: Real>(
+    equations: &dyn Equations<T>,
+    stages: [At<'_, T>; 2],
+    solved: [(&[T], T); 2],
+) -> Error {
+    let info = equations.info();
+    // If only the sum of two growths is over the limit, the larger is over half.
+    let half_limit = T::from_f64(0.5) * growth_limit();
+    for (stage, (acceleration, growth)) in stages.into_iter().zip(solved) {
+        if let Err(error) = check_finite(info, stage) {
+            return error;
+        }
+        if is_over(growth, half_limit) || !vectors::is_finite(acceleration) {
+            let At { t, q, .. } = stage;
+            let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
+            return solution.cause(half_limit, equations.worst_pivot(t, q));
+        }
+    }
+    // Both stages are healthy, so the sum that leaves them is not.
+    let [_, last] = stages;
+    Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
+}
+
+/// Whether a growth reaches a limit; one that is no number does.
+fn is_over<T: Real>(growth: T, limit: T) -> bool {
+    let is_below = growth < limit;
+    !is_below
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// Why the solution is no good: a position that is not finite, a pivot, or,
+    /// with all pivots healthy, the component that is not finite.
+    fn cause(&self, limit: T, worst: Option<(usize, T)>) -> Error {
+        if let Some(error) = non_finite(self.info, self.t, self.q) {
+            return error;
+        }
+        let worst_growth = worst.map_or(self.growth, |(_, growth)| growth);
+        if !is_over(self.growth, limit)
+            && !is_over(worst_growth, limit)
+            && let Some(error) = non_finite(self.info, self.t, self.value)
+        {
+            return error;
+        }
+        // Where every pivot is healthy, something else has no solution: friction
+        // that jams.
+        let share = T::from_f64(1.0 / 64.0) * limit;
+        let culprit = worst.filter(|(_, growth)| is_over(*growth, share));
+        let pivot = culprit.and_then(|(at, _)| self.pivots.get(at));
+        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+        let growth = if is_over(self.growth, limit) { self.growth } else { worst_growth };
+        Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth: growth.to_f64() }
+    }
+}
+
+/// `Ok` if positions and velocities are finite.
+pub(crate) fn check_finite<T: Real>(info: &Info, at: At<'_, T>) -> Result<(), Error> {
+    match non_finite(info, at.t, at.q).or_else(|| non_finite(info, at.t, at.v)) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// The error that names the first component that is not finite.
+fn non_finite<T: Real>(info: &Info, t: T, components: &[T]) -> Option<Error> {
+    let (at, _) = vectors::first_non_finite(components)?;
+    let coordinate = info.coordinates.get(at)?.name;
+    Some(Error::NonFinite { t: t.to_f64(), coordinate })
+}
+
+/// `Ok` if the inputs are finite.
+pub(crate) fn check_inputs<T: Real>(info: &Info, inputs: &[T]) -> Result<(), Error> {
+    let Some((at, value)) = vectors::first_non_finite(inputs) else { return Ok(()) };
+    let name = info.inputs.get(at).map_or("", |input| input.name);
+    Err(Error::Input { name, value: value.to_f64() })
+}
+
+/// Refuses results that are not finite; `name` gives that of each.
+#[cold]
+pub(crate) fn check_defined<T: Real>(
+    t: T,
+    what: &'static str,
+    results: &[T],
+    name: impl Fn(usize) -> &'static str,
+) -> Result<(), Error> {
+    let Some((at, value)) = vectors::first_non_finite(results) else { return Ok(()) };
+    Err(Error::Undefined { t: t.to_f64(), what, name: name(at), value: value.to_f64() })
+}

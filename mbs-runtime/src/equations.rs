@@ -1,0 +1,199 @@
+//! The equations of a mechanism on slices. What is rarely done with a mechanism (making
+//! starts consistent and checking them, finding out why a step failed) is written once,
+//! behind this interface, and not compiled again for each mechanism. It also holds
+//! mechanisms whose number of coordinates is known at run time only.
+//!
+//! Vectors have a component per coordinate (`q`, `v`, `acceleration`, `correction`), per
+//! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
+//! [`Info`]. SI units, angles in rad.
+
+pub use crate::reach::reach;
+pub use crate::room::Room;
+pub use crate::simulation::Examination;
+pub use crate::start::assembly::{assemble, consistent, project_velocities};
+pub use crate::start::consistency::check;
+pub use crate::start::projection::project;
+pub use crate::start::{Preparation, Start};
+pub use crate::watch::Watch;
+
+use crate::{Components, Gains, Info, Mechanism, Real, State, vectors};
+
+/// Time, positions and velocities as slices.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a, T> {
+    /// Time in s.
+    pub t: T,
+    /// Coordinates q: lengths in m, angles in rad.
+    pub q: &'a [T],
+    /// Velocities v = q̇, per second.
+    pub v: &'a [T],
+}
+
+/// A mechanism with constraints Φ(q, t) = 0 and the equations of motion of Eq. (8), as
+/// [`Mechanism`] has them, on slices.
+///
+/// Methods that solve a system write the solution into the last slices that they are
+/// given and return the pivot growth. None of them allocates or panics; slices of another
+/// length than that of their vector are filled as far as both go.
+pub trait Equations<T: Real> {
+    /// Names, dimensions, redundant rows and pivots.
+    fn info(&self) -> &Info;
+
+    /// Φ(q, t)
+    fn phi(&self, t: T, q: &[T], phi: &mut [T]);
+
+    /// Φ̇ = Φ_q v + Φ_t
+    fn phi_dot(&self, at: At<'_, T>, phi_dot: &mut [T]);
+
+    /// Solves Eq. (8) for q̈ and gives the feedback −2αΦ̇ − β²Φ that went into it.
+    fn stabilized(
+        &self,
+        at: At<'_, T>,
+        inputs: &[T],
+        gains: &Gains<T>,
+        acceleration: &mut [T],
+        feedback: &mut [T],
+    ) -> T;
+
+    /// Solves for q̈ with γ + `feedback` below.
+    fn constrained(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
+
+    /// The smallest Δq, in the norm of the mass matrix, with Φ_q Δq = `residual` and
+    /// Δq = 0 for coordinates that the start prescribes.
+    fn position_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T;
+
+    /// The smallest Δv, in the norm of the mass matrix, with Φ_q Δv = `residual` and
+    /// Δv = 0 for velocities that the start prescribes.
+    fn velocity_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T;
+
+    /// Index into [`Info::pivots`] of the pivot with the largest growth, and that growth,
+    /// if the elimination has any pivot that can vanish.
+    fn worst_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)>;
+
+    /// The same for the corrections of a start, as an index into [`Info::start_pivots`].
+    fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)>;
+
+    /// Kinetic energy ½ vᵀMv in J.
+    fn kinetic_energy(&self, at: At<'_, T>) -> T;
+}
+
+/// A mechanism with named components as [`Equations`].
+pub(crate) struct Named<'a, M>(pub &'a M);
+
+impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
+    fn info(&self) -> &Info {
+        M::INFO
+    }
+
+    fn phi(&self, t: M::Real, q: &[M::Real], phi: &mut [M::Real]) {
+        write(self.0.phi(t, &read(q)), phi);
+    }
+
+    fn phi_dot(&self, at: At<'_, M::Real>, phi_dot: &mut [M::Real]) {
+        write(self.0.phi_dot(&at.state()), phi_dot);
+    }
+
+    fn stabilized(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        gains: &Gains<M::Real>,
+        acceleration: &mut [M::Real],
+        feedback: &mut [M::Real],
+    ) -> M::Real {
+        let solved = self.0.stabilized(&at.state(), &read(inputs), gains);
+        write(solved.acceleration, acceleration);
+        write(solved.feedback, feedback);
+        solved.growth
+    }
+
+    fn constrained(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        feedback: &[M::Real],
+        acceleration: &mut [M::Real],
+    ) -> M::Real {
+        let solved = self.0.constrained(&at.state(), &read(inputs), &read(feedback));
+        write(solved.acceleration, acceleration);
+        solved.growth
+    }
+
+    fn position_correction(
+        &self,
+        t: M::Real,
+        q: &[M::Real],
+        residual: &[M::Real],
+        correction: &mut [M::Real],
+    ) -> M::Real {
+        let solved = self.0.position_correction(t, &read(q), &read(residual));
+        write(solved.acceleration, correction);
+        solved.growth
+    }
+
+    fn velocity_correction(
+        &self,
+        t: M::Real,
+        q: &[M::Real],
+        residual: &[M::Real],
+        correction: &mut [M::Real],
+    ) -> M::Real {
+        let solved = self.0.velocity_correction(t, &read(q), &read(residual));
+        write(solved.acceleration, correction);
+        solved.growth
+    }
+
+    fn worst_pivot(&self, t: M::Real, q: &[M::Real]) -> Option<(usize, M::Real)> {
+        self.0.worst_pivot(t, &read(q))
+    }
+
+    fn worst_start_pivot(&self, t: M::Real, q: &[M::Real]) -> Option<(usize, M::Real)> {
+        self.0.worst_start_pivot(t, &read(q))
+    }
+
+    fn kinetic_energy(&self, at: At<'_, M::Real>) -> M::Real {
+        self.0.kinetic_energy(&at.state())
+    }
+}
+
+/// Named components from a slice. Called and not inlined, because moves from arrays to
+/// fields at every call are most of the code of a large mechanism.
+#[inline(never)]
+fn read<C: Components>(slice: &[C::Real]) -> C {
+    let mut array = C::splat(C::Real::default()).into_array();
+    vectors::copy(array.as_mut(), slice);
+    C::from_array(array)
+}
+
+/// Named components into a slice.
+#[inline(never)]
+fn write<C: Components>(components: C, slice: &mut [C::Real]) {
+    vectors::copy(slice, components.into_array().as_ref());
+}
+
+impl<T: Real> At<'_, T> {
+    fn state<C: Components<Real = T>>(&self) -> State<C> {
+        State { t: self.t, q: read(self.q), v: read(self.v) }
+    }
+}
+
+/// A state with named components as arrays, of which [`At`] is a view.
+pub(crate) struct Arrays<C: Components> {
+    pub t: C::Real,
+    pub q: C::Array,
+    pub v: C::Array,
+}
+
+impl<C: Components> Arrays<C> {
+    pub fn of(state: &State<C>) -> Self {
+        Self { t: state.t, q: state.q.into_array(), v: state.v.into_array() }
+    }
+
+    pub fn at(&self) -> At<'_, C::Real> {
+        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+
+    pub fn state(self) -> State<C> {
+        State { t: self.t, q: C::from_array(self.q), v: C::from_array(self.v) }
+    }
+}

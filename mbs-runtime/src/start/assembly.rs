@@ -1,0 +1,169 @@
+//! Positions on Φ = 0 and velocities on Φ̇ = 0, near a guess.
+
+use crate::diagnosis::{Solution, check_solution};
+use crate::equations::{At, Equations};
+use crate::room::Room;
+use crate::{Error, Real, vectors};
+
+const NEWTON_ITERATIONS: usize = 50;
+const STEP_HALVINGS: usize = 10;
+
+/// Makes (q, v) the nearest state that satisfies Φ = 0 and Φ̇ = 0; see
+/// [`start::consistent`](crate::start::consistent).
+///
+/// # Errors
+/// [`Error::NotAssembled`], [`Error::Singular`]; q and v are left where the iteration was.
+pub fn consistent<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    v: &mut [T],
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    assemble(equations, t, q, room)?;
+    project_velocities(equations, t, q, v, room)
+}
+
+/// Moves q onto Φ(q, t) = 0; see [`start::assemble`](crate::start::assemble).
+///
+/// # Errors
+/// As [`consistent`].
+pub fn assemble<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    let [delta, next, ..] = &mut room.coordinates;
+    let [phi, residual, ..] = &mut room.constraints;
+    newton(equations, t, q, Iterate { delta, next, phi, residual }, |q, residual, delta| {
+        let growth = equations.position_correction(t, q, residual, delta);
+        check_correction(equations, t, q, delta, growth)
+    })
+}
+
+/// What Newton's iteration works with.
+pub(super) struct Iterate<'a, T> {
+    /// A correction of positions,
+    pub delta: &'a mut [T],
+    /// and positions after a part of it.
+    pub next: &'a mut [T],
+    /// Φ
+    pub phi: &'a mut [T],
+    /// −Φ
+    pub residual: &'a mut [T],
+}
+
+/// Newton's iteration on q with a correction for each residual.
+pub(super) fn newton<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    room: Iterate<'_, T>,
+    mut correct: impl FnMut(&[T], &[T], &mut [T]) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Iterate { delta, next, phi, residual } = room;
+    equations.phi(t, q, phi);
+    for _ in 0..NEWTON_ITERATIONS {
+        vectors::copy(residual, phi);
+        vectors::negate(residual);
+        correct(q, residual, delta)?;
+        let rounding = T::from_f64(4.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
+        if vectors::largest(delta).1 <= rounding {
+            vectors::add(q, delta);
+            return check_redundant(equations, t, q, phi);
+        }
+        damped(equations, t, q, delta, next, phi);
+    }
+    let (row, violation) = vectors::largest(phi);
+    // Newton may circle at rounding level, where Φ itself is at rounding.
+    let rounding = T::from_f64(64.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
+    if violation <= rounding {
+        return check_redundant(equations, t, q, phi);
+    }
+    Err(not_assembled(equations, t, row, violation))
+}
+
+/// Redundant constraints take no part in the corrections: with parameters for
+/// which they do not fit, they stay violated.
+fn check_redundant<T: Real>(equations: &dyn Equations<T>, t: T, q: &[T], phi: &mut [T]) -> Result<(), Error> {
+    let redundant = equations.info().redundant;
+    if redundant.is_empty() {
+        return Ok(());
+    }
+    equations.phi(t, q, phi);
+    // Half the digits: far above the rounding of any assembly.
+    let limit = T::EPSILON.sqrt() * (T::from_f64(1.0) + vectors::largest(q).1);
+    for &row in redundant {
+        let violation = vectors::magnitude(phi, row);
+        if violation > limit {
+            return Err(not_assembled(equations, t, row, violation));
+        }
+    }
+    Ok(())
+}
+
+fn not_assembled<T: Real>(equations: &dyn Equations<T>, t: T, row: usize, violation: T) -> Error {
+    let constraint = equations.info().constraint_name(row);
+    Error::NotAssembled { t: t.to_f64(), constraint, violation: violation.to_f64() }
+}
+
+/// q becomes q + δ, or what the longest halved step that does not enlarge ‖Φ‖ leads to,
+/// and Φ what it is there.
+fn damped<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    delta: &[T],
+    next: &mut [T],
+    phi: &mut [T],
+) {
+    let violation = vectors::norm(phi);
+    let mut length = T::from_f64(1.0);
+    for halvings in 0..=STEP_HALVINGS {
+        vectors::copy(next, q);
+        vectors::add_scaled(next, length, delta);
+        equations.phi(t, next, phi);
+        if vectors::norm(phi) < violation || halvings == STEP_HALVINGS {
+            break;
+        }
+        length = T::from_f64(0.5) * length;
+    }
+    vectors::copy(q, next);
+}
+
+/// Moves v onto Φ_q v = −Φ_t; see
+/// [`start::project_velocities`](crate::start::project_velocities).
+///
+/// # Errors
+/// [`Error::Singular`].
+pub fn project_velocities<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &[T],
+    v: &mut [T],
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    let [delta, ..] = &mut room.coordinates;
+    let [residual, ..] = &mut room.constraints;
+    for _ in 0..2 {
+        equations.phi_dot(At { t, q, v }, residual);
+        vectors::negate(residual);
+        let growth = equations.velocity_correction(t, q, residual, delta);
+        check_correction(equations, t, q, delta, growth)?;
+        vectors::add(v, delta);
+    }
+    Ok(())
+}
+
+fn check_correction<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &[T],
+    value: &[T],
+    growth: T,
+) -> Result<(), Error> {
+    let info = equations.info();
+    let solution = Solution { t, q, value, growth, info, pivots: info.start_pivots };
+    check_solution(&solution, || equations.worst_start_pivot(t, q))
+}

@@ -1,0 +1,115 @@
+//! Vectors as slices. Sums run in the same order wherever they are taken, for named
+//! components as for slices of a length known at run time.
+
+use crate::Real;
+
+/// Euclidean norm, √(Σ xᵢ²).
+#[inline(always)]
+pub(crate) fn norm<T: Real>(x: &[T]) -> T {
+    x.iter().fold(T::default(), |sum, &x| sum + x * x).sqrt()
+}
+
+/// Σ xᵢ yᵢ
+pub(crate) fn dot<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::default(), |sum, (&x, &y)| sum + x * y)
+}
+
+/// Σ xᵢ, not finite if a component is not, and shorter than a test of each. Four sums,
+/// none of which waits for another.
+#[inline(always)]
+pub(crate) fn sum<T: Real>(x: &[T]) -> T {
+    let mut sums = [T::default(); 4];
+    for four in x.chunks(4) {
+        for (sum, &x) in sums.iter_mut().zip(four) {
+            *sum = *sum + x;
+        }
+    }
+    let [a, b, c, d] = sums;
+    (a + b) + (c + d)
+}
+
+/// Index and magnitude of the component that is largest in magnitude, a NaN counting as
+/// larger than everything; (0, 0) of an empty vector.
+pub(crate) fn largest<T: Real>(x: &[T]) -> (usize, T) {
+    let mut largest = (0, T::default());
+    for (at, &x) in x.iter().enumerate() {
+        let magnitude = x.abs();
+        let is_nan = magnitude.partial_cmp(&magnitude).is_none();
+        if is_nan {
+            return (at, magnitude);
+        }
+        if magnitude > largest.1 {
+            largest = (at, magnitude);
+        }
+    }
+    largest
+}
+
+/// Whether every component is finite.
+#[inline(always)]
+pub(crate) fn is_finite<T: Real>(x: &[T]) -> bool {
+    let mut finite = true;
+    for x in x {
+        finite &= x.is_finite();
+    }
+    finite
+}
+
+/// Index and value of the first component that is not finite.
+pub(crate) fn first_non_finite<T: Real>(x: &[T]) -> Option<(usize, T)> {
+    let mut components = x.iter().copied().enumerate();
+    components.find(|(_, x)| !x.is_finite())
+}
+
+/// The magnitude of a component; 0 where there is none.
+pub(crate) fn magnitude<T: Real>(x: &[T], at: usize) -> T {
+    x.get(at).map_or(T::default(), |x| x.abs())
+}
+
+/// Every component becomes `value`.
+pub(crate) fn fill<T: Real>(x: &mut [T], value: T) {
+    map(x, |_| value);
+}
+
+/// One component becomes `value`, if there is one at that index.
+pub(crate) fn set<T: Real>(x: &mut [T], at: usize, value: T) {
+    if let Some(x) = x.get_mut(at) {
+        *x = value;
+    }
+}
+
+/// xᵢ becomes yᵢ. No panic where lengths differ: the shorter one ends it.
+pub(crate) fn copy<T: Real>(x: &mut [T], y: &[T]) {
+    zip_map(x, y, |_, y| y);
+}
+
+/// xᵢ becomes xᵢ + yᵢ.
+pub(crate) fn add<T: Real>(x: &mut [T], y: &[T]) {
+    zip_map(x, y, |x, y| x + y);
+}
+
+/// xᵢ becomes xᵢ + `factor` yᵢ.
+pub(crate) fn add_scaled<T: Real>(x: &mut [T], factor: T, y: &[T]) {
+    zip_map(x, y, |x, y| x + factor * y);
+}
+
+/// xᵢ becomes −xᵢ.
+pub(crate) fn negate<T: Real>(x: &mut [T]) {
+    map(x, |x| -x);
+}
+
+/// xᵢ becomes f(xᵢ).
+#[inline(always)]
+pub(crate) fn map<T: Real>(x: &mut [T], f: impl Fn(T) -> T) {
+    for x in x {
+        *x = f(*x);
+    }
+}
+
+/// xᵢ becomes f(xᵢ, yᵢ).
+#[inline(always)]
+pub(crate) fn zip_map<T: Real>(x: &mut [T], y: &[T], f: impl Fn(T, T) -> T) {
+    for (x, &y) in x.iter_mut().zip(y) {
+        *x = f(*x, y);
+    }
+}
