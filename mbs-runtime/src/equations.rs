@@ -12,8 +12,8 @@ pub use crate::room::Room;
 pub use crate::simulation::Examination;
 pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
+pub use crate::start::preparation::{Preparation, Start};
 pub use crate::start::projection::project;
-pub use crate::start::{Preparation, Start};
 pub use crate::watch::Watch;
 
 use crate::{Components, Gains, Info, Mechanism, Real, State, vectors};

@@ -3,11 +3,8 @@
 pub(crate) mod assembly;
 pub(crate) mod consistency;
 mod jacobian;
-mod preparation;
+pub(crate) mod preparation;
 pub(crate) mod projection;
-
-#[doc(hidden)]
-pub use preparation::{Preparation, Start};
 
 use crate::equations::{Arrays, Named};
 use crate::room::OnStack;

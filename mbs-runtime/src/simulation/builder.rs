@@ -4,7 +4,7 @@ use super::{Simulation, check_time};
 use crate::diagnosis::check_inputs;
 use crate::equations::{Arrays, Named};
 use crate::room::OnStack;
-use crate::start::{self, Start};
+use crate::start::{self, preparation::Start};
 use crate::watch::Watch;
 use crate::{Baumgarte, Components, Error, Feedback, Held, Mechanism, Real, State};
 
@@ -143,7 +143,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
         check_inputs(M::INFO, inputs.as_ref())?;
         check_time::<M::Real>(self.state.t.to_f64(), h.to_f64())?;
         let Arrays { t, mut q, mut v } = Arrays::of(&self.state);
-        let preparation = start::Preparation {
+        let preparation = start::preparation::Preparation {
             start: self.start,
             inputs: inputs.as_ref(),
             step: h,
