@@ -98,13 +98,17 @@ impl<T: Real> Examination<'_, T> {
     }
 }
 
+/// What is done with a run to be examined.
+type Examine<'a, T> = dyn FnMut(&Examination<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
+
 impl<M: Mechanism, F: Feedback> Simulation<M, F> {
-    /// What `examine` finds out about this run.
+    /// What `examine` finds out about this run. By reference, so that this is compiled once
+    /// for all that is to be found out.
     #[cold]
     #[inline(never)]
-    fn examined<R>(&self, examine: impl FnOnce(Examination<'_, M::Real>, &mut Room<'_, M::Real>) -> R) -> R {
+    fn examined(&self, examine: &mut Examine<'_, M::Real>) -> Result<(), Error> {
         let (state, inputs) = (Arrays::of(&self.state), self.inputs.into_array());
-        let examination = Examination {
+        let run = Examination {
             equations: &Named(&self.mechanism),
             at: state.at(),
             inputs: inputs.as_ref(),
@@ -112,7 +116,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             step: self.step,
             keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
         };
-        examine(examination, &mut OnStack::<M>::new().room())
+        examine(&run, &mut OnStack::<M>::new().room())
     }
 
     /// See [`Examination::examine_step`].
@@ -124,7 +128,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     ) -> Result<(), Error> {
         let mut watch = self.watch;
         let next = Arrays::of(next);
-        self.examined(|run, room| run.examine_step(next.at(), growth, &mut watch, room))?;
+        self.examined(&mut |run, room| run.examine_step(next.at(), growth, &mut watch, room))?;
         self.watch = watch;
         Ok(())
     }
@@ -132,7 +136,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// See [`Examination::cause`].
     #[cold]
     pub(super) fn cause(&self, error: Error, t_next: M::Real) -> Error {
-        self.examined(|run, room| run.cause(error, t_next, room))
+        self.examined(&mut |run, room| Err(run.cause(error, t_next, room))).err().unwrap_or(error)
     }
 
     /// Takes values and not references, so that what is healthy need not be in memory.
@@ -144,7 +148,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         growth: M::Real,
     ) -> Result<(), Error> {
         let (acceleration, multipliers) = (acceleration.into_array(), multipliers.into_array());
-        self.examined(|run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
+        self.examined(&mut |run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
     }
 
     /// Whether redundant constraints, which steps do not look at, are met all the same.
