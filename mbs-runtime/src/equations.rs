@@ -33,8 +33,8 @@ pub struct At<'a, T> {
 /// [`Mechanism`] has them, on slices.
 ///
 /// Methods that solve a system write the solution into the last slices that they are
-/// given and return the pivot growth. None of them allocates or panics; slices of another
-/// length than that of their vector are filled as far as both go.
+/// given and return the pivot growth. None of them panics. Every slice is as long as its
+/// vector; what comes from others means nothing.
 pub trait Equations<T: Real> {
     /// Names, dimensions, redundant rows and pivots.
     fn info(&self) -> &Info;
@@ -156,19 +156,26 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
     }
 }
 
-/// Named components from a slice. Called and not inlined, because moves from arrays to
-/// fields at every call are most of the code of a large mechanism.
+/// Named components from a slice of as many numbers; 0 from another. Called and not
+/// inlined, because moves between arrays and fields would be most of the code of every
+/// method.
 #[inline(never)]
 fn read<C: Components>(slice: &[C::Real]) -> C {
     let mut array = C::splat(C::Real::default()).into_array();
-    vectors::copy(array.as_mut(), slice);
+    // a length that the compiler knows makes moves of the loop
+    if slice.len() == array.as_ref().len() {
+        vectors::copy(array.as_mut(), slice);
+    }
     C::from_array(array)
 }
 
-/// Named components into a slice.
+/// Named components into a slice of as many numbers.
 #[inline(never)]
 fn write<C: Components>(components: C, slice: &mut [C::Real]) {
-    vectors::copy(slice, components.into_array().as_ref());
+    let array = components.into_array();
+    if slice.len() == array.as_ref().len() {
+        vectors::copy(slice, array.as_ref());
+    }
 }
 
 impl<T: Real> At<'_, T> {

@@ -79,6 +79,7 @@ pub(crate) fn set<T: Real>(x: &mut [T], at: usize, value: T) {
 }
 
 /// xᵢ becomes yᵢ. No panic where lengths differ: the shorter one ends it.
+#[inline(always)]
 pub(crate) fn copy<T: Real>(x: &mut [T], y: &[T]) {
     zip_map(x, y, |_, y| y);
 }
