@@ -7,6 +7,7 @@
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
 //! [`Info`]. SI units, angles in rad.
 
+pub use crate::diagnosis::diagnose;
 pub use crate::reach::reach;
 pub use crate::room::Room;
 pub use crate::simulation::Examination;

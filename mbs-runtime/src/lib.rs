@@ -40,6 +40,7 @@
 //! * [`Simulation`]: integration in time; [`Builder`] has the choices;
 //! * [`Baumgarte`]: feedback, its gains and when they are stable;
 //! * [`Kinematics`]: the motion of a fully driven mechanism, without integration;
+//! * [`equations`]: starts and examinations on slices, without named components;
 //! * [`Error`]: what can go wrong.
 //!
 //! # Symbols

@@ -126,6 +126,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         next: &State<M::Coordinates>,
         growth: M::Real,
     ) -> Result<(), Error> {
+        // `run` borrows what the watch belongs to
         let mut watch = self.watch;
         let next = Arrays::of(next);
         self.examined(&mut |run, room| run.examine_step(next.at(), growth, &mut watch, room))?;
