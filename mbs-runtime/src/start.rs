@@ -5,7 +5,7 @@ mod jacobian;
 mod projection;
 
 pub use consistency::check;
-pub(crate) use consistency::{check_redundant_accelerations, length};
+pub(crate) use consistency::{check_feedback, check_redundant_accelerations, length};
 pub use projection::project;
 
 use crate::heun::{Solution, check_solution};

@@ -5,11 +5,11 @@ use super::Simulation;
 use crate::heun::{Solution, check_solution};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
-use crate::{Components, Error, Feedback, Mechanism, Real, State, spare};
+use crate::{Components, Error, Feedback, Mechanism, Real, State, spare, start};
 
 impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// A step after which the growth has risen: whether its constraints can still be met,
-    /// and which pivot it is.
+    /// whether it has kept its digits, and which pivot it is.
     #[cold]
     pub(super) fn examine_step(
         &mut self,
@@ -20,6 +20,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             reach(&self.mechanism, next, &self.inputs, self.step)?;
         }
         spare::check(&self.mechanism, next, self.watch.length)?;
+        self.keeps_digits(next, growth)?;
         if self.watch.is_new(growth) {
             let State { t, q, .. } = &self.state;
             let share = M::Real::from_f64(0.125) * growth;
@@ -27,6 +28,31 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             self.watch.remember(growth, *t, worst.map(|(at, _)| at));
         }
         Ok(())
+    }
+
+    /// Refuses a step from which rounding has taken half of its digits, growth > 1/√ε, and
+    /// that has left a violation whose feedback would change the motion as a whole: within
+    /// some steps it would leave every scale.
+    #[cold]
+    fn keeps_digits(&self, next: &State<M::Coordinates>, growth: M::Real) -> Result<(), Error> {
+        let Self { mechanism, state, step, .. } = self;
+        let has_lost_half = M::Real::EPSILON * growth * growth > M::Real::from_f64(1.0);
+        let is_watched = self.keeps_constraints() && start::check(mechanism, state, *step).is_ok();
+        if !has_lost_half || !is_watched {
+            return Ok(());
+        }
+        let [here, there] = [state, next].map(|at| mechanism.worst_pivot(at.t, &at.q));
+        let after = there.map_or(M::Real::from_f64(1.0), |(_, growth)| growth);
+        if start::check_feedback(mechanism, next, after, *step).is_ok() {
+            return Ok(());
+        }
+        let worst = match [here, there] {
+            [Some(here), Some(there)] if there.1 > here.1 => Some(there),
+            [here, there] => here.or(there),
+        };
+        let pivot = worst.and_then(|(at, _)| M::INFO.pivots.get(at));
+        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+        Err(Error::Singular { t: state.t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
     }
 
     /// Why a step failed: an input, or a position that cannot be reached from one that

@@ -50,6 +50,26 @@ pub(super) fn check_projected<M: Mechanism>(
     check_rows(state.t, mechanism.phi_dot(state), allowed(sizes.rates), true)
 }
 
+/// `Ok` if a violation is small enough for its feedback to be small beside the motion.
+///
+/// Feedback changes velocities by the order of Φ̇, and positions by that of Φ, times the
+/// pivot growth: that has to stay below a tenth of the velocities, and of the size.
+pub(crate) fn check_feedback<M: Mechanism>(
+    mechanism: &M,
+    state: &State<M::Coordinates>,
+    growth: M::Real,
+    step: M::Real,
+) -> Result<(), Error> {
+    check_finite(state)?;
+    let sizes = Sizes::of(mechanism, state);
+    let share = M::Real::from_f64(0.1) / growth;
+    let at_rest = M::Real::from_f64(ROUNDINGS) * M::Real::EPSILON / step;
+    let allowed = sizes.rows.map(|size| share * size);
+    let allowed_rates = sizes.motion.zip_map(sizes.rows, |motion, size| share * motion + at_rest * size);
+    check_rows(state.t, mechanism.phi(state.t, &state.q), allowed, false)?;
+    check_rows(state.t, mechanism.phi_dot(state), allowed_rates, true)
+}
+
 /// Refuses a start in which redundant constraints are met, but not by its accelerations:
 /// with parameters for which they fit at this instant only.
 ///
@@ -124,6 +144,8 @@ fn check_rows<R: Components>(t: R::Real, rows: R, allowed: R, is_rate: bool) -> 
 struct Sizes<R> {
     /// Sᵢ
     rows: R,
+    /// Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|
+    motion: R,
     /// max(Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, Sᵢ maxⱼ |vⱼ|/sⱼ)
     rates: R,
 }
@@ -137,20 +159,21 @@ impl<R: Components> Sizes<R> {
         let length = length(mechanism, state);
         let one = R::Real::from_f64(1.0);
         let mut rows = R::splat(zero);
-        let mut rates = mechanism.phi_dot(&State { v: M::Coordinates::splat(zero), ..*state }).map(Real::abs);
+        let mut motion =
+            mechanism.phi_dot(&State { v: M::Coordinates::splat(zero), ..*state }).map(Real::abs);
         let mut fastest = zero;
         let velocities = state.v.into_array();
         for (at, (coordinate, &v)) in M::INFO.coordinates.iter().zip(velocities.as_ref()).enumerate() {
             let scale = if coordinate.dimension.length == 0 { one } else { length };
             let entries = column(mechanism, state, at).map(Real::abs);
             rows = rows.zip_map(entries, |sum, entry| sum + entry * scale);
-            rates = rates.zip_map(entries, |sum, entry| sum + entry * v.abs());
+            motion = motion.zip_map(entries, |sum, entry| sum + entry * v.abs());
             if scale > zero {
                 fastest = fastest.max(v.abs() / scale);
             }
         }
-        rates = rates.zip_map(rows, |rate, size| rate.max(size * fastest));
-        Self { rows, rates }
+        let rates = motion.zip_map(rows, |rate, size| rate.max(size * fastest));
+        Self { rows, motion, rates }
     }
 }
 
