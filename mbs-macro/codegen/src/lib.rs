@@ -12,24 +12,28 @@
 //! | `verify` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `verify` | – | the mechanism closes from its start, is regular there and keeps its values |
-//! | `emit` | tokens | what is written computes what was checked |
+//! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
+//! | `target` | tokens | what is written computes what was checked |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
 //! the last.
 #![forbid(unsafe_code)]
 
+pub mod compiled;
 mod compose;
 mod derive;
 mod diagnostics;
-mod emit;
 mod model;
 mod plan;
+mod quantity;
 mod reactive;
 mod syntax;
+mod target;
 mod verify;
 
 use proc_macro2::TokenStream;
 
+pub use compiled::{Compiled, FunctionId};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use syntax::{Keyword, KeywordKind, keywords};
 
@@ -38,11 +42,19 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
     compile(declaration).unwrap_or_else(|errors| errors.to_compile_errors())
 }
 
-/// Compiles a declaration: the whole pipeline.
+/// Compiles a declaration to Rust.
 ///
 /// # Errors
 /// All errors of the first stage that has any.
 pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
+    target::rust(&analyse(declaration)?)
+}
+
+/// Compiles a declaration to what every target is printed from: the whole pipeline.
+///
+/// # Errors
+/// All errors of the first stage that has any.
+pub fn analyse(declaration: TokenStream) -> Result<Compiled, Diagnostics> {
     let declaration = syntax::parse(declaration)?;
     let declaration = compose::compose(declaration)?;
     let mut model = model::resolve(&declaration)?;
@@ -54,5 +66,5 @@ pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     verify::check_closure(&model, &equations, &plan)?;
     verify::check_limit(&model, &plan)?;
     verify::check_programs(&model, &equations, &plan, &samples)?;
-    emit::emit(&model, &equations, &plan)
+    Ok(Compiled::new(model, &equations, plan))
 }

@@ -2,14 +2,15 @@
 //! alone is hoisted, and every function has its instructions.
 
 mod correction;
+mod input;
 mod minimum_norm;
 mod step;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use mbs_symbolic::{
-    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Stage, Strategy, Undetermined,
-    Unknown, WatchedPivot, factor_within, lower, lower_whole,
+    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Strategy, Undetermined, Unknown,
+    WatchedPivot, factor_within, lower, lower_whole,
 };
 
 use crate::derive::Equations;
@@ -17,7 +18,8 @@ use crate::model::Model;
 use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
 use correction::correction;
-pub use step::FusedStep;
+pub use input::Input;
+pub use step::{FusedStep, Kinds};
 
 /// An order that changes more entries than this per unknown fills the matrix of a
 /// chain, and is given up.
@@ -383,8 +385,7 @@ fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<E
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
     let declared = model.requirements.iter().flat_map(|r| [r.difference, r.value]);
-    let checks = model.checks.iter().map(|check| check.value);
-    let checks = checks.filter(|&value| model.arena.stage(value) == Stage::Parameter);
+    let checks = model.known_checks().map(|check| check.value);
     declared.chain(equations.mass.iter().copied()).chain(checks).collect()
 }
 

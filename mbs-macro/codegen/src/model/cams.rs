@@ -13,7 +13,8 @@ use super::names::{Local, Place, Typed};
 use super::resolver::Resolver;
 use super::{Meaning, Requirement};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Comparison, Formula, Joint};
+use crate::quantity::Comparison;
+use crate::syntax::{Formula, Joint};
 
 /// The name of the polar angle in the profile of a cam.
 const POLAR_ANGLE: &str = "angle";

@@ -8,8 +8,9 @@ use super::measures::Source;
 use super::names::{Definition, Row, State, Value, duplicate};
 use super::places::{Frame, GROUND};
 use super::resolver::Resolver;
-use super::{Body, Coordinate, Direction, Meaning, Parameter, Quantity};
+use super::{Body, Coordinate, Direction, Meaning, Parameter};
 use crate::diagnostics::Diagnostic;
+use crate::quantity::Quantity;
 use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {

@@ -27,14 +27,14 @@ mod starts;
 mod statements;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Expr, Symbol};
+use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
 pub use sketch::{Link, Sketch};
-pub use solver::{Feedback, Solver};
+pub use solver::Solver;
 
-use crate::syntax::Comparison;
+use crate::quantity::{Comparison, Quantity};
 
 /// A resolved mechanism.
 pub struct Model {
@@ -105,16 +105,6 @@ pub struct Symbols {
     pub step: Symbol,
     pub half_step: Symbol,
     pub next_time: Symbol,
-}
-
-/// A name with its unit, for tools.
-#[derive(Clone)]
-pub struct Quantity {
-    pub name: String,
-    pub doc: String,
-    pub unit: String,
-    pub scale: f64,
-    pub dimension: Dimension,
 }
 
 pub struct Parameter {
@@ -251,6 +241,11 @@ impl Model {
     /// The coordinate of this direction of a body, if it has one.
     pub fn coordinate_of(&self, body: &Body, direction: Direction) -> Option<usize> {
         body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction == direction)
+    }
+
+    /// The checks that parameters alone decide.
+    pub fn known_checks(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().filter(|check| self.arena.stage(check.value) == Stage::Parameter)
     }
 
     /// Symbol values for evaluation: declared parameters, and `other` for the rest.

@@ -10,10 +10,11 @@ use super::energies;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Gap, Load, Meaning, Model, Output, Parameter, Quantity,
-    Requirement, Solver, Start, Symbols, Work,
+    Body, Check, Closes, Constraint, Coordinate, Gap, Load, Meaning, Model, Output, Parameter, Requirement,
+    Solver, Start, Symbols, Work,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::quantity::Quantity;
 use crate::syntax::{Declaration, Item, ItemKind};
 
 /// Resolves names and checks dimensions.

@@ -13,6 +13,7 @@ const LONGEST: usize = 3072;
 
 /// The steps of a mechanism that is small enough.
 pub struct FusedStep {
+    /// That give the state after a step.
     pub alone: Kinds,
     /// That also give the reactions at their start.
     pub with_reactions: Option<Kinds>,
@@ -20,7 +21,9 @@ pub struct FusedStep {
 
 /// A step with each kind of feedback.
 pub struct Kinds {
+    /// The second stage is given the feedback of the first.
     pub held: Woven,
+    /// Each stage has its own.
     pub per_stage: Woven,
 }
 

@@ -12,9 +12,10 @@ use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon};
-use super::{Comparison, Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
+use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
+use crate::quantity::Comparison;
 
 /// Reads a declaration.
 ///

@@ -20,6 +20,8 @@ pub use items::parse;
 pub use joints::JOINTS;
 pub use keywords::{Keyword, KeywordKind, keywords};
 
+use crate::quantity::Comparison;
+
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
     pub doc: String,
@@ -123,26 +125,6 @@ pub enum Limited {
     Stack,
     /// Instructions of a program before its repeated parts become loops.
     Unrolled,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Comparison {
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-}
-
-impl Comparison {
-    /// Whether `difference` compares so with 0.
-    pub fn holds(self, difference: f64) -> bool {
-        match self {
-            Self::Less => difference < 0.0,
-            Self::LessOrEqual => difference <= 0.0,
-            Self::Greater => difference > 0.0,
-            Self::GreaterOrEqual => difference >= 0.0,
-        }
-    }
 }
 
 /// A coordinate of a body, with its direction where that was written:

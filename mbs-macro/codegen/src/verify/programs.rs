@@ -2,15 +2,13 @@
 
 use super::assembly::{Assembly, Position};
 use super::samples::units;
+use crate::compiled::GROWTH_LIMIT;
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
 
 const ITERATIONS: usize = 50;
 const HALVINGS: usize = 10;
-
-/// The pivot growth from which on a position is singular: that of the runtime.
-const GROWTH_LIMIT: f64 = 1.0 / (1024.0 * f64::EPSILON);
 
 /// Corrections below this, in units of the coordinates and relative to the position,
 /// change nothing any more.

@@ -11,8 +11,8 @@ use super::access::Access;
 use super::long::{self, Array, Kind, Place, Slots};
 use super::names::{Names, field};
 use super::splines::spline_name;
+use crate::compiled::{Compiled, FunctionId, Input};
 use crate::diagnostics::Diagnostic;
-use crate::model::{Meaning, Model};
 
 /// Statements that run a program, and its outputs.
 pub struct Body {
@@ -84,15 +84,16 @@ pub fn named(of_t: &TokenStream, fields: &[Ident], values: &[TokenStream]) -> To
 
 /// A program as one list of statements, or if it is long, as loops and
 /// functions of bounded size.
-pub fn body(model: &Model, names: &Names, program: &Program, access: &Access) -> Body {
-    let blocks = long::blocks(model, program);
+pub fn body(compiled: &Compiled, names: &Names, function: FunctionId, access: &Access) -> Body {
+    let program = compiled.program(function);
+    let blocks = long::blocks(compiled, program);
     let range = match &blocks[..] {
         [] => 0..0,
         [Block::Straight(range)] => range.clone(),
-        _ => return long::body(model, names, program, access, &blocks),
+        _ => return long::body(compiled, names, program, access, &blocks),
     };
     let pairs = Pairs::new(program);
-    let mut writer = Writer::new(model, program, access, &pairs, range.clone());
+    let mut writer = Writer::new(compiled, program, access, &pairs, range.clone());
     range.for_each(|at| writer.instruction(at));
     let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
     Body { statements: writer.statements, outputs, places: None, slots: 0, runtime: names.runtime.clone() }
@@ -128,7 +129,7 @@ impl Pairs {
 
 /// Writes some instructions of a program, one after the other.
 pub(super) struct Writer<'a> {
-    model: &'a Model,
+    compiled: &'a Compiled,
     program: &'a Program,
     access: &'a Access,
     pairs: &'a Pairs,
@@ -146,14 +147,14 @@ pub(super) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub fn new(
-        model: &'a Model,
+        compiled: &'a Compiled,
         program: &'a Program,
         access: &'a Access,
         pairs: &'a Pairs,
         range: Range<usize>,
     ) -> Self {
         Self {
-            model,
+            compiled,
             program,
             access,
             pairs,
@@ -213,7 +214,7 @@ impl<'a> Writer<'a> {
     pub fn operand(&self, operand: Operand) -> TokenStream {
         match operand {
             Operand::Number(number) => number_tokens(number),
-            Operand::Symbol(symbol) => symbol_tokens(self.model, self.access, symbol),
+            Operand::Symbol(symbol) => symbol_tokens(self.compiled, self.access, symbol),
             Operand::Hoisted(at) => {
                 let (this, at) = (&self.access.this, Literal::usize_unsuffixed(at));
                 quote!(#this.hoisted[#at])
@@ -239,7 +240,7 @@ impl<'a> Writer<'a> {
         let instruction = &self.program.instructions[at];
         let of_call = |function: Function| {
             let argument = match instruction.a {
-                Operand::Symbol(symbol) => self.model.arena.name(symbol).to_owned(),
+                Operand::Symbol(symbol) => self.compiled.symbol_name(symbol).to_owned(),
                 Operand::Value(value) => self.results.get(&value)?.to_string(),
                 _ => return None,
             };
@@ -268,52 +269,52 @@ pub fn internal(what: &str) -> TokenStream {
 }
 
 /// How generated code reads a symbol.
-pub fn symbol_tokens(model: &Model, access: &Access, symbol: Symbol) -> TokenStream {
+pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStream {
     let Access { parameters, time, positions, velocities, .. } = access;
-    let meaning = model.meanings[symbol.index()];
+    let meaning = compiled.input(symbol);
     if access.is_on_arrays()
         && let Some((array, at)) = Array::of(meaning).filter(|(array, _)| array.is_given())
     {
         let (array, at) = (array.ident(), Literal::usize_unsuffixed(at));
         return quote!(#array[#at]);
     }
-    let coordinate = |at: usize| field(&model.coordinates[at].quantity.name);
-    let row = |at: usize| field(&model.constraints[at].name);
+    let coordinate = |at: usize| field(&compiled.coordinates[at].name);
+    let row = |at: usize| field(&compiled.constraints[at].name);
     match meaning {
-        Meaning::Time => time.clone(),
-        Meaning::Parameter(at) => {
-            let name = field(&model.parameters[at].quantity.name);
+        Input::Time => time.clone(),
+        Input::Parameter(at) => {
+            let name = field(&compiled.parameters[at].quantity.name);
             quote!(#parameters.#name)
         }
-        Meaning::Input(at) => {
-            let name = field(&model.inputs[at].name);
+        Input::Input(at) => {
+            let name = field(&compiled.inputs[at].name);
             quote!(inputs.#name)
         }
-        Meaning::Coordinate(at) => {
+        Input::Position(at) => {
             let name = coordinate(at);
             quote!(#positions.#name)
         }
-        Meaning::Velocity(at) => {
+        Input::Velocity(at) => {
             let name = coordinate(at);
             quote!(#velocities.#name)
         }
-        Meaning::Acceleration(at) => {
+        Input::Acceleration(at) => {
             let name = coordinate(at);
             quote!(reactions.acceleration.#name)
         }
-        Meaning::Multiplier(at) => {
+        Input::Multiplier(at) => {
             let name = row(at);
             quote!(reactions.multipliers.#name)
         }
-        Meaning::Feedback(at) => {
+        Input::Feedback(at) => {
             let name = row(at);
             quote!(feedback.#name)
         }
-        Meaning::MinusTwoAlpha => quote!(gains.minus_two_alpha),
-        Meaning::MinusBetaSquared => quote!(gains.minus_beta_squared),
-        Meaning::Step => quote!(h),
-        Meaning::HalfStep => quote!(half_h),
-        Meaning::NextTime => quote!(t_next),
+        Input::MinusTwoAlpha => quote!(gains.minus_two_alpha),
+        Input::MinusBetaSquared => quote!(gains.minus_beta_squared),
+        Input::Step => quote!(h),
+        Input::HalfStep => quote!(half_h),
+        Input::NextTime => quote!(t_next),
     }
 }
 

@@ -9,8 +9,8 @@ use quote::{ToTokens, format_ident, quote};
 use super::Context;
 use super::arrays::Array;
 use super::slots::{Kind, Slots};
-use crate::emit::program::{Writer, internal};
-use crate::model::Model;
+use crate::compiled::Compiled;
+use crate::target::rust::program::{Writer, internal};
 
 /// What differs from copy to copy: how it is read.
 pub struct Columns<'a> {
@@ -69,7 +69,7 @@ impl<'a> Columns<'a> {
 
     /// The operand of a copy, which is another one each time.
     pub fn each(&mut self, operands: &[Operand]) -> TokenStream {
-        let Context { model, names, access, slots, .. } = *self.context;
+        let Context { compiled, names, access, slots, .. } = *self.context;
         let (runtime, this) = (&names.runtime, &access.this);
         let numbers: Vec<_> = operands.iter().filter_map(|operand| number(*operand)).collect();
         if numbers.len() == operands.len() {
@@ -80,7 +80,7 @@ impl<'a> Columns<'a> {
             )));
         }
         let homes: Option<Vec<(Home, usize)>> =
-            operands.iter().map(|&operand| Home::of(model, slots, operand)).collect();
+            operands.iter().map(|&operand| Home::of(compiled, slots, operand)).collect();
         // operands of one column are of one kind, and results have slots
         let home = match homes.as_deref() {
             Some([(first, _), others @ ..]) if others.iter().all(|(other, _)| other == first) => *first,
@@ -200,12 +200,12 @@ pub enum Home {
 
 impl Home {
     /// The array and the place of an operand in it; `None` of what is in none.
-    pub fn of(model: &Model, slots: &Slots, operand: Operand) -> Option<(Self, usize)> {
+    pub fn of(compiled: &Compiled, slots: &Slots, operand: Operand) -> Option<(Self, usize)> {
         match operand {
             Operand::Value(value) => slots.of(value).map(|place| (Self::Result(place.array), place.at)),
             Operand::Hoisted(at) => Some((Self::Hoisted, at)),
             Operand::Symbol(symbol) => {
-                Array::of(model.meanings[symbol.index()]).map(|(array, at)| (Self::Vector(array), at))
+                Array::of(compiled.input(symbol)).map(|(array, at)| (Self::Vector(array), at))
             }
             Operand::Number(_) => None,
         }

@@ -10,34 +10,33 @@ use super::access::Access;
 use super::docs;
 use super::names::Names;
 use super::program::{Body, body};
-use crate::model::Model;
-use crate::plan::Plan;
+use crate::compiled::{Compiled, FunctionId};
 
 /// Larger matrices are not offered: returned by value, 2¹⁷ entries are 1 MiB of
 /// stack.
 const MOST_ENTRIES: usize = 1 << 17;
 
-pub fn emit(model: &Model, plan: &Plan, names: &Names, docs: &docs::Functions<'_>) -> TokenStream {
+pub fn emit(compiled: &Compiled, names: &Names, docs: &docs::Functions<'_>) -> TokenStream {
     let nalgebra = &names.nalgebra;
-    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
     if n * n.max(m) > MOST_ENTRIES {
         return TokenStream::new();
     }
     let q = &names.coordinates.of_t;
     let position = Access::of_position();
     let phi_q = {
-        let Body { statements, outputs, .. } = body(model, names, &plan.phi_q, &position);
-        let entries = plan.phi_q_places.iter().copied().zip(outputs).collect();
+        let Body { statements, outputs, .. } = body(compiled, names, FunctionId::PhiQ, &position);
+        let entries = compiled.jacobian.iter().copied().zip(outputs).collect();
         let matrix = matrix(nalgebra, (m, n), &entries);
         quote!(#statements #matrix)
     };
     let mass = {
-        let Body { statements, outputs, .. } = body(model, names, &plan.mass, &position);
+        let Body { statements, outputs, .. } = body(compiled, names, FunctionId::Mass, &position);
         let diagonal = outputs.into_iter().enumerate().map(|(at, mass)| ((at, at), mass)).collect();
         let matrix = matrix(nalgebra, (n, n), &diagonal);
         quote!(#statements #matrix)
     };
-    let (phi_q_doc, mass_doc) = (docs.phi_q(), docs.mass());
+    let (phi_q_doc, mass_doc) = (docs.of(FunctionId::PhiQ), docs.of(FunctionId::Mass));
     quote! {
         #[doc = #phi_q_doc]
         #[inline]

@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::names::Names;
-use crate::model::{Meaning, Model};
+use crate::compiled::{Compiled, Input};
 
 /// How generated code reads the symbols of a program.
 pub struct Access {
@@ -94,20 +94,18 @@ impl Access {
     }
 
     /// What a function needs that reads these operands.
-    pub fn arguments(&self, model: &Model, names: &Names, operands: &[Operand]) -> Vec<Argument> {
+    pub fn arguments(&self, compiled: &Compiled, names: &Names, operands: &[Operand]) -> Vec<Argument> {
         let Names { mechanism, parameters, runtime, state, reactions, .. } = names;
         let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
         let uses = |wanted: &dyn Fn(Operand) -> bool| operands.iter().any(|&operand| wanted(operand));
-        let means = |wanted: fn(Meaning) -> bool| {
-            uses(
-                &|operand| matches!(operand, Operand::Symbol(symbol) if wanted(model.meanings[symbol.index()])),
-            )
+        let means = |wanted: fn(Input) -> bool| {
+            uses(&|operand| matches!(operand, Operand::Symbol(symbol) if wanted(compiled.input(symbol))))
         };
-        let is_parameter = means(|meaning| matches!(meaning, Meaning::Parameter(_)));
+        let is_parameter = means(|meaning| matches!(meaning, Input::Parameter(_)));
         let is_hoisted = uses(&|operand| matches!(operand, Operand::Hoisted(_)));
-        let is_time = means(|meaning| meaning == Meaning::Time);
-        let is_position = means(|meaning| matches!(meaning, Meaning::Coordinate(_)));
-        let is_velocity = means(|meaning| matches!(meaning, Meaning::Velocity(_)));
+        let is_time = means(|meaning| meaning == Input::Time);
+        let is_position = means(|meaning| matches!(meaning, Input::Position(_)));
+        let is_velocity = means(|meaning| matches!(meaning, Input::Velocity(_)));
         let of = |kind| self.kind == kind;
         let argument = |declaration, value| Argument { declaration, value };
         [
@@ -119,13 +117,13 @@ impl Access {
                 .then(|| argument(quote!(at: &#state), quote!(at))),
             (is_time && (of(Kind::Position) || of(Kind::Arrays))).then(|| argument(quote!(t: T), quote!(t))),
             (is_position && of(Kind::Position)).then(|| argument(quote!(q: &#q), quote!(q))),
-            means(|meaning| matches!(meaning, Meaning::Input(_)))
+            means(|meaning| matches!(meaning, Input::Input(_)))
                 .then(|| argument(quote!(inputs: &#inputs), quote!(inputs))),
-            means(|meaning| matches!(meaning, Meaning::MinusTwoAlpha | Meaning::MinusBetaSquared))
+            means(|meaning| matches!(meaning, Input::MinusTwoAlpha | Input::MinusBetaSquared))
                 .then(|| argument(quote!(gains: &#runtime::Gains<T>), quote!(gains))),
-            (means(|meaning| matches!(meaning, Meaning::Feedback(_))) && !of(Kind::Arrays))
+            (means(|meaning| matches!(meaning, Input::Feedback(_))) && !of(Kind::Arrays))
                 .then(|| argument(quote!(feedback: &#rows), quote!(feedback))),
-            means(|meaning| matches!(meaning, Meaning::Multiplier(_) | Meaning::Acceleration(_)))
+            means(|meaning| matches!(meaning, Input::Multiplier(_) | Input::Acceleration(_)))
                 .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),
         ]
         .into_iter()

@@ -5,12 +5,12 @@ use quote::quote;
 
 use super::names::Names;
 use super::program::Body;
-use crate::model::{Link, Sketch};
+use crate::compiled::{Link, Sketch};
 
 /// The value of `SKETCH`.
 pub fn emit(sketch: &Sketch, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
-    let points = sketch.points.iter().map(|point| &point.name);
+    let points = &sketch.points;
     let bodies = sketch.bodies.iter().map(|(name, points)| {
         let points = positions(points);
         quote!(#runtime::sketch::Body { name: #name, points: #points })

@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::names::Names;
-use crate::model::Model;
+use crate::compiled::Compiled;
 
 /// The associated constant that holds a spline.
 pub fn spline_name(at: usize) -> Ident {
@@ -13,11 +13,11 @@ pub fn spline_name(at: usize) -> Ident {
 }
 
 /// The splines, each an associated constant.
-pub fn splines<'a>(model: &'a Model, names: &'a Names) -> impl Iterator<Item = TokenStream> + 'a {
+pub fn splines<'a>(compiled: &'a Compiled, names: &'a Names) -> impl Iterator<Item = TokenStream> + 'a {
     let runtime = &names.runtime;
-    // the model holds finite numbers only
+    // a compiled mechanism holds finite numbers only
     let number = Literal::f64_unsuffixed;
-    model.arena.splines().iter().enumerate().map(move |(at, spline)| {
+    compiled.splines.iter().enumerate().map(move |(at, spline)| {
         let segment = |Segment { from, coefficients }: &Segment| {
             let (from, coefficients) = (number(*from), coefficients.map(number));
             quote!(#runtime::__private::Segment { from: #from, coefficients: [#(#coefficients),*] })

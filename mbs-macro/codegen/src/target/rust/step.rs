@@ -11,16 +11,15 @@ use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
 use super::program::{named, number_tokens, operation_tokens, symbol_tokens};
-use crate::model::Model;
-use crate::plan::Plan;
+use crate::compiled::Compiled;
 
 /// The functions of both kinds of feedback, without and with the reactions; nothing
 /// if the mechanism is too large.
-pub fn functions(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
-    let Some(step) = &plan.fused_step else { return TokenStream::new() };
+pub fn functions(compiled: &Compiled, names: &Names) -> TokenStream {
+    let Some(step) = &compiled.fused_step else { return TokenStream::new() };
     let Names { mechanism, runtime, state, reactions, .. } = names;
     let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
-    let fields = Fields::new(model);
+    let fields = Fields::new(compiled);
     let function = |doc: &str, name: &str, result: &TokenStream, body: &TokenStream| {
         let name = Ident::new(name, Span::call_site());
         quote! {
@@ -33,14 +32,14 @@ pub fn functions(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
     };
     let stepped = quote!(#runtime::Stepped<#q>);
     let alone = |doc: &str, name: &str, woven: &Woven| {
-        let Body { statements, stepped: value, .. } = Body::new(model, names, &fields, woven);
+        let Body { statements, stepped: value, .. } = Body::new(compiled, names, &fields, woven);
         function(doc, name, &stepped, &quote!(#statements #value))
     };
     let held = alone("A step with feedback held over it.", "step_held", &step.alone.held);
     let per_stage = alone("A step with feedback in both stages.", "step_per_stage", &step.alone.per_stage);
     let both = quote!((#stepped, #reactions));
     let with_reactions = |doc: &str, name: &str, woven: &Woven| {
-        let Body { statements, stepped, reactions } = Body::new(model, names, &fields, woven);
+        let Body { statements, stepped, reactions } = Body::new(compiled, names, &fields, woven);
         function(doc, name, &both, &quote!(#statements (#stepped, #reactions)))
     };
     let with_reactions = step.with_reactions.as_ref().map(|step| {
@@ -67,8 +66,8 @@ pub fn functions(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
 }
 
 /// The trait's functions, which choose between the two.
-pub fn choice(plan: &Plan, names: &Names) -> TokenStream {
-    let Some(step) = &plan.fused_step else { return TokenStream::new() };
+pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
+    let Some(step) = &compiled.fused_step else { return TokenStream::new() };
     let Names { runtime, state, reactions, .. } = names;
     let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
     let choice = |suffix: &str, result: TokenStream| {
@@ -102,10 +101,10 @@ struct Body {
 }
 
 impl Body {
-    fn new(model: &Model, names: &Names, fields: &Fields, woven: &Woven) -> Self {
+    fn new(compiled: &Compiled, names: &Names, fields: &Fields, woven: &Woven) -> Self {
         let runtime = &names.runtime;
         let mut writer =
-            Writer { model, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
+            Writer { compiled, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
         let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
         let value = |&output| {
             let value = writer.scalar(output);
@@ -142,7 +141,7 @@ impl Body {
 }
 
 struct Writer<'a> {
-    model: &'a Model,
+    compiled: &'a Compiled,
     access: Access,
     /// Of the steps so far.
     names: Vec<Ident>,
@@ -212,7 +211,9 @@ impl Writer<'_> {
     fn scalar(&self, scalar: Scalar) -> TokenStream {
         match scalar {
             Scalar::Given(Given::Number(number)) => single(number_tokens(number)),
-            Scalar::Given(Given::Symbol(symbol)) => single(symbol_tokens(self.model, &self.access, symbol)),
+            Scalar::Given(Given::Symbol(symbol)) => {
+                single(symbol_tokens(self.compiled, &self.access, symbol))
+            }
             Scalar::Given(Given::Hoisted(at)) => {
                 let at = Literal::usize_unsuffixed(at);
                 single(quote!(self.hoisted[#at]))

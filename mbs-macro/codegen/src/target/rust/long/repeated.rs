@@ -11,23 +11,23 @@ use super::arrays::Arrays;
 use super::columns::Columns;
 use super::slots::{Kept, Place};
 use super::{Context, Part};
-use crate::emit::program::Writer;
+use crate::target::rust::program::Writer;
 
 /// A loop over the copies.
 pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, name: Ident) -> Part {
-    let Context { model, names, program, access, pairs, slots } = *context;
+    let Context { compiled, names, program, access, pairs, slots } = *context;
     let first_copy = repetition.start..repetition.start + repetition.length;
     let sources: Vec<[Source; 2]> =
         (0..repetition.length).map(|at| repetition.sources(program, at)).collect();
 
     let mut simple = Columns::new(context, repetition);
     if let Some(statements) = angles(context, &mut simple, &first_copy, &sources) {
-        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, model, access)).collect();
+        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, compiled, access)).collect();
         let doc = Some(format!(" {} angles.", repetition.count * repetition.length / 2));
         return Part { name, doc, statements, arguments };
     }
     let mut columns = Columns::new(context, repetition);
-    let mut writer = Writer::new(model, program, access, pairs, first_copy.clone()).with_slots(slots);
+    let mut writer = Writer::new(compiled, program, access, pairs, first_copy.clone()).with_slots(slots);
     for at in first_copy.clone() {
         let partner = pairs.partner(at).filter(|partner| first_copy.contains(partner));
         if partner.is_some_and(|p| sources[p - first_copy.start] != sources[at - first_copy.start]) {
@@ -54,8 +54,8 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
     let statements = quote!(#before #first #head { #body #next } #after);
 
     let operands: Vec<Operand> = sources.iter().flatten().filter_map(first_operand).collect();
-    let mut arguments = access.arguments(model, names, &operands);
-    arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, model, access)));
+    let mut arguments = access.arguments(compiled, names, &operands);
+    arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, compiled, access)));
     let doc = format!(" {} instructions, {} times.", repetition.length, repetition.count);
     Part { name, doc: Some(doc), statements, arguments }
 }

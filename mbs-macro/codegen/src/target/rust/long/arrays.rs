@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::emit::access::{Access, Argument};
-use crate::emit::names::Names;
-use crate::model::{Meaning, Model};
+use crate::compiled::{Compiled, Input};
+use crate::target::rust::access::{Access, Argument};
+use crate::target::rust::names::Names;
 
 /// The arrays that a program's loops read, and their lengths.
 #[derive(Default)]
@@ -29,21 +29,21 @@ pub enum Array {
 
 impl Array {
     /// The vector and the place of a symbol in it; `None` of a single quantity.
-    pub fn of(meaning: Meaning) -> Option<(Self, usize)> {
-        Some(match meaning {
-            Meaning::Parameter(at) => (Self::Parameters, at),
-            Meaning::Input(at) => (Self::Inputs, at),
-            Meaning::Coordinate(at) => (Self::Positions, at),
-            Meaning::Velocity(at) => (Self::Velocities, at),
-            Meaning::Acceleration(at) => (Self::Accelerations, at),
-            Meaning::Multiplier(at) => (Self::Multipliers, at),
-            Meaning::Feedback(at) => (Self::Feedback, at),
-            Meaning::Time
-            | Meaning::MinusTwoAlpha
-            | Meaning::MinusBetaSquared
-            | Meaning::Step
-            | Meaning::HalfStep
-            | Meaning::NextTime => return None,
+    pub fn of(input: Input) -> Option<(Self, usize)> {
+        Some(match input {
+            Input::Parameter(at) => (Self::Parameters, at),
+            Input::Input(at) => (Self::Inputs, at),
+            Input::Position(at) => (Self::Positions, at),
+            Input::Velocity(at) => (Self::Velocities, at),
+            Input::Acceleration(at) => (Self::Accelerations, at),
+            Input::Multiplier(at) => (Self::Multipliers, at),
+            Input::Feedback(at) => (Self::Feedback, at),
+            Input::Time
+            | Input::MinusTwoAlpha
+            | Input::MinusBetaSquared
+            | Input::Step
+            | Input::HalfStep
+            | Input::NextTime => return None,
         })
     }
 
@@ -65,12 +65,12 @@ impl Array {
         format_ident!("{name}_array")
     }
 
-    fn length(self, model: &Model) -> usize {
+    fn length(self, compiled: &Compiled) -> usize {
         match self {
-            Self::Parameters => model.parameters.len(),
-            Self::Inputs => model.inputs.len(),
-            Self::Positions | Self::Velocities | Self::Accelerations => model.coordinates.len(),
-            Self::Multipliers | Self::Feedback => model.constraints.len(),
+            Self::Parameters => compiled.parameters.len(),
+            Self::Inputs => compiled.inputs.len(),
+            Self::Positions | Self::Velocities | Self::Accelerations => compiled.coordinates.len(),
+            Self::Multipliers | Self::Feedback => compiled.constraints.len(),
         }
     }
 
@@ -92,8 +92,8 @@ impl Array {
 
 impl Arrays {
     /// The array as an argument of a function.
-    pub fn argument(&mut self, array: Array, model: &Model, access: &Access) -> Argument {
-        let (ident, length) = (array.ident(), array.length(model));
+    pub fn argument(&mut self, array: Array, compiled: &Compiled, access: &Access) -> Argument {
+        let (ident, length) = (array.ident(), array.length(compiled));
         let is_given = access.is_on_arrays() && array.is_given();
         let value = if is_given {
             quote!(#ident)

@@ -23,7 +23,7 @@ pub use self::slots::{Kind, Place, Slots};
 use super::access::{Access, Argument};
 use super::names::Names;
 use super::program::{Body, Pairs, Writer};
-use crate::model::{Meaning, Model};
+use crate::compiled::{Compiled, Input};
 
 /// A program that is not to have loops is one function up to this length, whatever was
 /// asked for: rustc nests a scope per statement, and its stack ends at about twice as many.
@@ -33,13 +33,13 @@ const LONGEST: usize = 3072;
 const PART: usize = 256;
 
 /// The program in the blocks that are emitted; one block is written in place.
-pub fn blocks(model: &Model, program: &Program) -> Vec<Block> {
+pub fn blocks(compiled: &Compiled, program: &Program) -> Vec<Block> {
     let length = program.instructions.len();
-    if length <= model.solver.unrolled() {
+    if length <= compiled.choices.unrolled {
         let is_one = length <= LONGEST;
         return if is_one { vec![Block::Straight(0..length)] } else { parts(0..length).collect() };
     }
-    let blocks = program.blocks(&|symbol| class(model.meanings[symbol.index()]));
+    let blocks = program.blocks(&|symbol| class(compiled.input(symbol)));
     let split = |block| match block {
         Block::Straight(range) => parts(range).collect(),
         repeated => vec![repeated],
@@ -52,27 +52,27 @@ fn parts(range: Range<usize>) -> impl Iterator<Item = Block> {
 }
 
 /// Symbols with equal numbers are components of one vector.
-fn class(meaning: Meaning) -> usize {
-    match meaning {
-        Meaning::Time => 0,
-        Meaning::MinusTwoAlpha => 1,
-        Meaning::MinusBetaSquared => 2,
-        Meaning::Parameter(_) => 3,
-        Meaning::Input(_) => 4,
-        Meaning::Coordinate(_) => 5,
-        Meaning::Velocity(_) => 6,
-        Meaning::Acceleration(_) => 7,
-        Meaning::Multiplier(_) => 8,
-        Meaning::Feedback(_) => 9,
-        Meaning::Step => 10,
-        Meaning::HalfStep => 11,
-        Meaning::NextTime => 12,
+fn class(input: Input) -> usize {
+    match input {
+        Input::Time => 0,
+        Input::MinusTwoAlpha => 1,
+        Input::MinusBetaSquared => 2,
+        Input::Parameter(_) => 3,
+        Input::Input(_) => 4,
+        Input::Position(_) => 5,
+        Input::Velocity(_) => 6,
+        Input::Acceleration(_) => 7,
+        Input::Multiplier(_) => 8,
+        Input::Feedback(_) => 9,
+        Input::Step => 10,
+        Input::HalfStep => 11,
+        Input::NextTime => 12,
     }
 }
 
 /// What the functions of a program share.
 struct Context<'a> {
-    model: &'a Model,
+    compiled: &'a Compiled,
     names: &'a Names,
     program: &'a Program,
     /// How symbols are read within the functions.
@@ -91,15 +91,21 @@ struct Part {
 
 /// Definitions and calls of the functions, and the outputs. Where access is to arrays, the
 /// slots are given too, and `SLOTS` is how many.
-pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, blocks: &[Block]) -> Body {
-    let results = results(model, program, access);
+pub fn body(
+    compiled: &Compiled,
+    names: &Names,
+    program: &Program,
+    access: &Access,
+    blocks: &[Block],
+) -> Body {
+    let results = results(compiled, program, access);
     let slots = Slots::new(program, blocks, &results);
     if let Err(fault) = check::check(program, blocks, &slots) {
         names.faults.borrow_mut().push(fault);
     }
     let pairs = Pairs::new(program);
     let inside = access.in_part(names);
-    let context = Context { model, names, program, access: &inside, pairs: &pairs, slots: &slots };
+    let context = Context { compiled, names, program, access: &inside, pairs: &pairs, slots: &slots };
     let mut arrays = Arrays::default();
     let given_slots = if access.is_on_arrays() { quote!(slots) } else { quote!(&mut slots) };
     let (mut definitions, mut calls) = (TokenStream::new(), TokenStream::new());
@@ -130,7 +136,7 @@ pub fn body(model: &Model, names: &Names, program: &Program, access: &Access, bl
         calls.extend(quote!(#name(#(#values,)* #given_slots);));
     }
     // outside the functions, symbols are read as the function around them reads them
-    let outside = Writer::new(model, program, access, &pairs, 0..0).with_slots(&slots);
+    let outside = Writer::new(compiled, program, access, &pairs, 0..0).with_slots(&slots);
     let outputs: Vec<_> = program.outputs.iter().map(|&output| outside.operand(output)).collect();
     let Outputs { places, length, statements: rest } = Outputs::new(program, &slots, &outputs);
     let arrays = arrays.declarations(names, access);
@@ -178,11 +184,11 @@ impl Outputs {
 }
 
 /// The arrays of results that stages on arrays are given, and their lengths.
-fn results(model: &Model, program: &Program, access: &Access) -> Vec<(Kind, usize)> {
+fn results(compiled: &Compiled, program: &Program, access: &Access) -> Vec<(Kind, usize)> {
     if !access.is_on_arrays() {
         return Vec::new();
     }
-    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
     let has_feedback = m > 0 && program.outputs.len() > n + m;
     let feedback = has_feedback.then_some((Kind::Feedback, m));
     [(Kind::Acceleration, n)].into_iter().chain(feedback).collect()
@@ -190,8 +196,8 @@ fn results(model: &Model, program: &Program, access: &Access) -> Vec<(Kind, usiz
 
 /// Instructions that are written once.
 fn straight(context: &Context<'_>, range: Range<usize>, arrays: &mut Arrays, name: Ident) -> Part {
-    let Context { model, names, program, access, pairs, slots } = *context;
-    let mut writer = Writer::new(model, program, access, pairs, range.clone()).with_slots(slots);
+    let Context { compiled, names, program, access, pairs, slots } = *context;
+    let mut writer = Writer::new(compiled, program, access, pairs, range.clone()).with_slots(slots);
     range.clone().for_each(|at| writer.instruction(at));
     for at in range.clone() {
         if let (Some(slot), Some(value)) = (slots.token(at), writer.result(at)) {
@@ -200,15 +206,15 @@ fn straight(context: &Context<'_>, range: Range<usize>, arrays: &mut Arrays, nam
     }
     let operands: Vec<Operand> =
         program.instructions[range].iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
-    let mut arguments = access.arguments(model, names, &operands);
+    let mut arguments = access.arguments(compiled, names, &operands);
     if access.is_on_arrays() {
         let vector = |operand: &Operand| match operand {
-            Operand::Symbol(symbol) => Array::of(model.meanings[symbol.index()]),
+            Operand::Symbol(symbol) => Array::of(compiled.input(*symbol)),
             _ => None,
         };
         let given: BTreeSet<_> = operands.iter().filter_map(vector).map(|(array, _)| array).collect();
         let given = given.into_iter().filter(|array| array.is_given());
-        arguments.extend(given.map(|array| arrays.argument(array, model, access)));
+        arguments.extend(given.map(|array| arrays.argument(array, compiled, access)));
     }
     Part { name, doc: None, statements: writer.statements, arguments }
 }

@@ -6,7 +6,7 @@ use mbs_symbolic::Inconsistency;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::model::Model;
+use crate::compiled::Compiled;
 
 /// Names of the generated items.
 pub struct Names {
@@ -38,27 +38,27 @@ pub struct Group {
 }
 
 impl Names {
-    pub fn new(model: &Model) -> Self {
-        let runtime = model.runtime.clone();
+    pub fn new(compiled: &Compiled) -> Self {
+        let runtime = compiled.written.runtime.clone();
         let group = |suffix: &str, is_empty: bool| {
             if is_empty {
                 return Group { of_t: quote!(#runtime::NoComponents<T>), name: None };
             }
-            let name = format_ident!("{}{suffix}", model.name);
+            let name = format_ident!("{}{suffix}", compiled.written.name);
             Group { of_t: quote!(#name<T>), name: Some(name) }
         };
         let coordinates = group("Coordinates", false);
-        let constraints = group("Constraints", model.constraints.is_empty());
+        let constraints = group("Constraints", compiled.constraints.is_empty());
         let (q, rows) = (&coordinates.of_t, &constraints.of_t);
         Self {
             faults: RefCell::default(),
             state: quote!(#runtime::State<#q>),
             reactions: quote!(#runtime::Reactions<#q, #rows>),
             nalgebra: quote!(#runtime::__private::nalgebra),
-            mechanism: model.name.clone(),
-            parameters: format_ident!("{}Parameters", model.name),
-            inputs: group("Inputs", model.inputs.is_empty()),
-            outputs: group("Outputs", model.outputs.is_empty()),
+            mechanism: compiled.written.name.clone(),
+            parameters: format_ident!("{}Parameters", compiled.written.name),
+            inputs: group("Inputs", compiled.inputs.is_empty()),
+            outputs: group("Outputs", compiled.outputs.is_empty()),
             coordinates,
             constraints,
             runtime,

@@ -8,23 +8,24 @@ use super::access::Access;
 use super::long::{self, Kind};
 use super::names::Names;
 use super::program::{Body, body};
-use crate::model::Model;
-use crate::plan::Plan;
+use crate::compiled::{Compiled, FunctionId};
 
 /// Whether the stages are given arrays: where a step is not fused, and both became
 /// more than one block.
-pub fn are_on_arrays(model: &Model, plan: &Plan) -> bool {
-    let is_long = |program: &Program| long::blocks(model, program).len() > 1;
-    plan.fused_step.is_none() && is_long(&plan.stabilized) && is_long(&plan.constrained)
+pub fn are_on_arrays(compiled: &Compiled) -> bool {
+    let is_long = |program: &Program| long::blocks(compiled, program).len() > 1;
+    compiled.fused_step.is_none()
+        && is_long(compiled.program(FunctionId::Stabilized))
+        && is_long(compiled.program(FunctionId::Constrained))
 }
 
 /// The implementation of the runtime's `OnArrays`.
-pub fn implementation(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, .. } = names;
     let inputs = &names.inputs.of_t;
-    let (n, m) = (model.coordinates.len(), model.constraints.len());
-    let stabilized = body(model, names, &plan.stabilized, &Access::of_arrays());
-    let constrained = body(model, names, &plan.constrained, &Access::of_arrays());
+    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
+    let stabilized = body(compiled, names, FunctionId::Stabilized, &Access::of_arrays());
+    let constrained = body(compiled, names, FunctionId::Constrained, &Access::of_arrays());
     let [coordinates, constraints, slots] = [n, m, stabilized.slots.max(constrained.slots)].map(|length| {
         let length = Literal::usize_unsuffixed(length);
         quote!([T; #length])

@@ -1,6 +1,5 @@
 //! The generated functions.
 
-use mbs_symbolic::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -14,9 +13,7 @@ use super::program::{Body, body};
 use super::sketch;
 use super::stages;
 use super::step;
-use crate::derive::Equations;
-use crate::model::Model;
-use crate::plan::Plan;
+use crate::compiled::{Compiled, FunctionId};
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
@@ -28,10 +25,10 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    pub fn new(model: &Model) -> Self {
+    pub fn new(compiled: &Compiled) -> Self {
         Self {
-            coordinates: model.coordinates.iter().map(|c| field(&c.quantity.name)).collect(),
-            rows: model.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
+            coordinates: compiled.coordinates.iter().map(|c| field(&c.name)).collect(),
+            rows: compiled.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
         }
     }
 }
@@ -41,45 +38,47 @@ impl Fields {
 /// There, what the step does not use disappears, and both stages are scheduled
 /// together; and it is compiled for the vector instructions that an ensemble's
 /// step is compiled for. Large systems are left to the compiler.
-fn inlining(model: &Model) -> TokenStream {
-    let unknowns = model.coordinates.len() + model.constraints.len();
+fn inlining(compiled: &Compiled) -> TokenStream {
+    let unknowns = compiled.coordinates.len() + compiled.constraints.len();
     if unknowns <= LARGEST_INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) }
 }
 
 /// The public functions that compute one thing each.
-pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names) -> TokenStream {
+pub fn inherent(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
-    let fields = Fields::new(model);
+    let fields = Fields::new(compiled);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
     let position = Access::of_position();
     let at_state = Access::of_state();
 
-    let rows_of = |program: &Program, access: &Access| {
-        let body = body(model, names, program, access);
+    let rows_of = |function: FunctionId, access: &Access| {
+        let body = body(compiled, names, function, access);
         let (statements, value) = (&body.statements, body.vector(rows, &fields.rows, 0..m));
         quote!(#statements #value)
     };
-    let phi = rows_of(&plan.phi, &position);
-    let phi_t = rows_of(&plan.phi_t, &position);
-    let phi_dot = rows_of(&plan.phi_dot, &at_state);
-    let gamma = rows_of(&plan.gamma, &at_state);
-    let baumgarte_rhs = rows_of(&plan.baumgarte_rhs, &at_state);
+    let phi = rows_of(FunctionId::Phi, &position);
+    let phi_t = rows_of(FunctionId::PhiT, &position);
+    let phi_dot = rows_of(FunctionId::PhiDot, &at_state);
+    let gamma = rows_of(FunctionId::Gamma, &at_state);
+    let baumgarte_rhs = rows_of(FunctionId::BaumgarteRhs, &at_state);
     let forces = {
-        let body = body(model, names, &plan.forces, &at_state);
+        let body = body(compiled, names, FunctionId::Forces, &at_state);
         let (statements, value) = (&body.statements, body.vector(q, &fields.coordinates, 0..n));
         quote!(#statements #value)
     };
-    let scalar = |program: &Program| {
-        let Body { statements, outputs, .. } = body(model, names, program, &at_state);
+    let scalar = |function: FunctionId| {
+        let Body { statements, outputs, .. } = body(compiled, names, function, &at_state);
         quote!(#statements #(#outputs)*)
     };
-    let (kinetic, potential) = (scalar(&plan.kinetic_energy), scalar(&plan.potential_energy));
-    let inline = inlining(model);
-    let d = docs::Functions::new(model, equations, plan);
-    let (phi_doc, phi_t_doc, gamma_doc) = (d.phi(), d.phi_t(), d.gamma());
-    let (rhs_doc, forces_doc, accelerations_doc) = (d.baumgarte_rhs(), d.forces(), d.accelerations());
-    let matrices = matrices::emit(model, plan, names, &d);
+    let (kinetic, potential) = (scalar(FunctionId::KineticEnergy), scalar(FunctionId::PotentialEnergy));
+    let inline = inlining(compiled);
+    let d = docs::Functions::new(compiled);
+    let (phi_doc, phi_t_doc, gamma_doc) =
+        (d.of(FunctionId::Phi), d.of(FunctionId::PhiT), d.of(FunctionId::Gamma));
+    let (rhs_doc, forces_doc, accelerations_doc) =
+        (d.of(FunctionId::BaumgarteRhs), d.of(FunctionId::Forces), d.of(FunctionId::Reactions));
+    let matrices = matrices::emit(compiled, names, &d);
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> {
@@ -132,31 +131,25 @@ pub fn inherent(model: &Model, equations: &Equations, plan: &Plan, names: &Names
 }
 
 /// The implementation of the runtime's trait.
-pub fn mechanism(
-    model: &Model,
-    equations: &Equations,
-    plan: &Plan,
-    names: &Names,
-    are_on_arrays: bool,
-) -> TokenStream {
+pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> TokenStream {
     let Names { mechanism, runtime, parameters, state, reactions, .. } = names;
     let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
-    let fields = Fields::new(model);
-    let inline = inlining(model);
-    let info = info::emit(model, plan, names);
-    let derivation = derivation::emit(model, equations, plan);
-    let sketch = sketch::emit(&model.sketch, names);
-    let points = Literal::usize_unsuffixed(model.sketch.points.len());
-    let places = sketch::places(&body(model, names, &plan.points, &Access::of_position()));
-    let kernels = kernels(model, plan, names, &fields, are_on_arrays);
-    let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(plan, names) };
-    let start = declared_start(model, plan, names, &fields);
-    let worst_start_pivot = worst_pivot(model, names, &plan.start_pivots);
-    let worst_pivot = worst_pivot(model, names, &plan.pivots);
+    let fields = Fields::new(compiled);
+    let inline = inlining(compiled);
+    let info = info::emit(compiled, names);
+    let derivation = derivation::emit(compiled);
+    let sketch = sketch::emit(&compiled.sketch, names);
+    let points = Literal::usize_unsuffixed(compiled.sketch.points.len());
+    let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
+    let kernels = kernels(compiled, names, &fields, are_on_arrays);
+    let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(compiled, names) };
+    let start = declared_start(compiled, names, &fields);
+    let worst_start_pivot = worst_pivot(compiled, names, FunctionId::StartPivots);
+    let worst_pivot = worst_pivot(compiled, names, FunctionId::Pivots);
     let output_values = {
-        let body = body(model, names, &plan.outputs, &Access::of_state());
-        let fields: Vec<_> = model.outputs.iter().map(|output| field(&output.quantity.name)).collect();
+        let body = body(compiled, names, FunctionId::Outputs, &Access::of_state());
+        let fields: Vec<_> = compiled.outputs.iter().map(|output| field(&output.name)).collect();
         let (statements, value) = (&body.statements, body.vector(outputs, &fields, 0..fields.len()));
         quote!(#statements #value)
     };
@@ -218,7 +211,7 @@ pub fn mechanism(
 }
 
 /// The functions that solve the constrained system.
-fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields, are_on_arrays: bool) -> TokenStream {
+fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: bool) -> TokenStream {
     let Names { runtime, state, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
     let (n, m) = (fields.coordinates.len(), fields.rows.len());
@@ -227,30 +220,30 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields, are_on_ar
     let stabilized = if are_on_arrays {
         quote!(#runtime::arrays::stabilized(self, at, inputs, gains))
     } else {
-        let body = body(model, names, &plan.stabilized, &Access::of_state());
+        let body = body(compiled, names, FunctionId::Stabilized, &Access::of_state());
         let (statements, growth) = (&body.statements, body.outputs.last());
         let (acceleration, feedback) = (acceleration(&body), of_rows(&body));
         quote!(#statements #runtime::Stabilized { acceleration: #acceleration, feedback: #feedback, growth: #growth })
     };
-    let accelerations = |program: &Program, access: Access| {
-        let body = body(model, names, program, &access);
+    let accelerations = |function: FunctionId, access: Access| {
+        let body = body(compiled, names, function, &access);
         let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), acceleration(&body));
         quote!(#statements #runtime::Accelerations { acceleration: #acceleration, growth: #growth })
     };
     let constrained = if are_on_arrays {
         quote!(#runtime::arrays::constrained(self, at, inputs, feedback))
     } else {
-        accelerations(&plan.constrained, Access::of_state())
+        accelerations(FunctionId::Constrained, Access::of_state())
     };
-    let position_correction = accelerations(&plan.position_correction, Access::of_position());
-    let velocity_correction = accelerations(&plan.velocity_correction, Access::of_position());
+    let position_correction = accelerations(FunctionId::PositionCorrection, Access::of_position());
+    let velocity_correction = accelerations(FunctionId::VelocityCorrection, Access::of_position());
     let reactions_body = {
-        let body = body(model, names, &plan.reactions, &Access::of_state());
+        let body = body(compiled, names, FunctionId::Reactions, &Access::of_state());
         let (statements, growth) = (&body.statements, body.outputs.last());
         let (acceleration, multipliers) = (acceleration(&body), of_rows(&body));
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
-    let inline = inlining(model);
+    let inline = inlining(compiled);
     // Corrections call what they solve for a residual; programs know it as feedback.
     quote! {
         #inline
@@ -264,23 +257,24 @@ fn kernels(model: &Model, plan: &Plan, names: &Names, fields: &Fields, are_on_ar
     }
 }
 
-fn declared_start(model: &Model, plan: &Plan, names: &Names, fields: &Fields) -> TokenStream {
+fn declared_start(compiled: &Compiled, names: &Names, fields: &Fields) -> TokenStream {
     let runtime = &names.runtime;
     let q = &names.coordinates.of_t;
     let n = fields.coordinates.len();
-    let body = body(model, names, &plan.start, &Access::of_position());
+    let body = body(compiled, names, FunctionId::Start, &Access::of_position());
     let (positions, velocities) =
         (body.vector(q, &fields.coordinates, 0..n), body.vector(q, &fields.coordinates, n..2 * n));
     let (statements, time) = (&body.statements, body.outputs.last());
     quote!(#statements #runtime::State { t: #time, q: #positions, v: #velocities })
 }
 
-fn worst_pivot(model: &Model, names: &Names, pivots: &Program) -> TokenStream {
+fn worst_pivot(compiled: &Compiled, names: &Names, pivots: FunctionId) -> TokenStream {
     let runtime = &names.runtime;
-    if pivots.outputs.is_empty() {
+    let count = compiled.program(pivots).outputs.len();
+    if count == 0 {
         return quote!(::core::option::Option::None);
     }
-    let body = body(model, names, pivots, &Access::of_position());
-    let (statements, growths) = (&body.statements, body.array(0..pivots.outputs.len()));
+    let body = body(compiled, names, pivots, &Access::of_position());
+    let (statements, growths) = (&body.statements, body.array(0..count));
     quote!(#statements #runtime::__private::worst(&#growths))
 }

@@ -6,9 +6,7 @@ use quote::quote;
 use super::docs;
 use super::names::{Names, field};
 use super::program::float_tokens;
-use crate::derive::Equations;
-use crate::model::Model;
-use crate::plan::Plan;
+use crate::compiled::{Compiled, Quantity, Results};
 
 /// Vectors with more components are converted by calls.
 const LARGEST_INLINED: usize = 64;
@@ -21,13 +19,13 @@ struct Field {
     value: f64,
 }
 
-pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) -> TokenStream {
+pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, parameters, runtime, .. } = names;
-    let visibility = &model.visibility;
-    let doc = docs::mechanism(model, plan, equations);
-    let hoisted = plan.hoisted.len();
-    let hoisted_doc = docs::hoisted(model, plan);
-    let parameter_fields: Vec<_> = model
+    let visibility = &compiled.written.visibility;
+    let doc = docs::mechanism(compiled);
+    let hoisted = compiled.length(Results::Hoisted);
+    let hoisted_doc = docs::hoisted(compiled);
+    let parameter_fields: Vec<_> = compiled
         .parameters
         .iter()
         .map(|p| Field {
@@ -41,7 +39,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
         format!("Parameters of [`{mechanism}`], in SI units; the default is the declaration.");
     let parameters = components(visibility, parameters, names, &parameter_doc, &parameter_fields);
     let inputs = quantities(
-        model.inputs.iter(),
+        compiled.inputs.iter(),
         "Inputs",
         "set by the embedding program, in SI units",
         names,
@@ -49,7 +47,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
         names.inputs.name.as_ref(),
     );
     let coordinates = quantities(
-        model.coordinates.iter().map(|c| &c.quantity),
+        compiled.coordinates.iter(),
         "Coordinates",
         "or their rates, in SI units",
         names,
@@ -57,7 +55,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
         names.coordinates.name.as_ref(),
     );
     let outputs = quantities(
-        model.outputs.iter().map(|o| &o.quantity),
+        compiled.outputs.iter(),
         "Outputs",
         "in SI units",
         names,
@@ -65,13 +63,13 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
         names.outputs.name.as_ref(),
     );
     let constraints = names.constraints.name.as_ref().map(|name| {
-        let fields: Vec<_> = model
+        let fields: Vec<_> = compiled
             .constraints
             .iter()
             .map(|constraint| Field {
                 name: field(&constraint.name),
                 text: constraint.name.clone(),
-                doc: format!("{}\n\n`{} = 0`", constraint.doc, docs::formula(model, constraint.phi)),
+                doc: format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula),
                 value: 0.0,
             })
             .collect();
@@ -106,7 +104,7 @@ pub fn emit(model: &Model, plan: &Plan, equations: &Equations, names: &Names) ->
 }
 
 fn quantities<'a>(
-    quantities: impl Iterator<Item = &'a crate::model::Quantity>,
+    quantities: impl Iterator<Item = &'a Quantity>,
     what: &str,
     remark: &str,
     names: &Names,

@@ -5,14 +5,15 @@ use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
 use super::names::Names;
-use crate::model::{Feedback, Model};
-use crate::plan::Plan;
+use crate::compiled::{Compiled, Feedback, FunctionId};
 
-pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
+pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, state, .. } = names;
     let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
-    let operations = plan.operations();
-    let values = 2 * plan.stabilized.instructions.len().max(plan.constrained.instructions.len());
+    let stabilized = compiled.program(FunctionId::Stabilized);
+    let operations = stabilized.operations().total();
+    let values =
+        2 * stabilized.instructions.len().max(compiled.program(FunctionId::Constrained).instructions.len());
     let mut tokens = quote! {
         impl<T: #runtime::Real> #mechanism<T> {
             /// Operations of one evaluation of the right-hand side, the watch over
@@ -28,7 +29,7 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
                 + 1024;
         }
     };
-    if let Some((limit, span)) = model.solver.stack {
+    if let (Some(limit), Some(span)) = (compiled.choices.stack, compiled.written.stack) {
         let limit = limit as usize;
         let message =
             format!("a step of `{mechanism}` may take more stack than the {limit} bytes that are allowed");
@@ -36,14 +37,17 @@ pub fn emit(model: &Model, plan: &Plan, names: &Names) -> TokenStream {
             const _: () = ::core::assert!(#mechanism::<::core::primitive::f64>::STACK_BYTES <= #limit, #message);
         });
     }
-    let Some((step, _)) = model.solver.step else { return tokens };
+    let Some(step) = compiled.choices.step else { return tokens };
     tokens.extend(quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The declared step in s.
             pub const STEP: ::core::primitive::f64 = #step;
         }
     });
-    let Some(Feedback { is_held, alpha, beta, span }) = model.solver.feedback else { return tokens };
+    let (Some(feedback), Some(span)) = (&compiled.choices.feedback, compiled.written.feedback) else {
+        return tokens;
+    };
+    let Feedback { is_held, alpha, beta } = *feedback;
     let (kind, word) = if is_held { (quote!(Held), "held") } else { (quote!(PerStage), "per-stage") };
     let message = format!(
         "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \

@@ -1,0 +1,183 @@
+//! From the stages of the compiler to the value that they give.
+
+use mbs_symbolic::Program;
+
+use super::derivation::readable;
+use super::{
+    Choices, Compiled, Condition, Constraint, Derivation, Feedback, FunctionId, Link, Parameter, Pivot,
+    Sketch, Written,
+};
+use crate::derive::Equations;
+use crate::model::{self, Direction, Model};
+use crate::plan::{Input, Plan};
+use crate::quantity::Comparison;
+
+impl Compiled {
+    /// The results of all stages.
+    pub(crate) fn new(model: Model, equations: &Equations, plan: Plan) -> Self {
+        let symbols = model.meanings.iter().enumerate().map(|(at, &meaning)| {
+            let name = model.arena.symbol_at(at).map_or("", |symbol| model.arena.name(symbol));
+            (name.to_owned(), Input::from(meaning))
+        });
+        let symbols = symbols.collect();
+        let programs = FunctionId::all().map(|function| program(&plan, function).clone()).collect();
+        let start = plan.start.evaluate(&model.values(|_| 0.0), &[]);
+        Self {
+            name: model.name.to_string(),
+            doc: model.doc.clone(),
+            conditions: conditions(&model),
+            constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
+            degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
+            redundant: plan.rows.redundant.to_vec(),
+            start,
+            splines: model.arena.splines().to_vec(),
+            jacobian: plan.phi_q_places.clone(),
+            pivots: pivots(&model, &plan.pivot_names),
+            start_pivots: pivots(&model, &plan.start_pivot_names),
+            derivation: Derivation::new(&model, equations, &plan),
+            sketch: sketch(&model.sketch),
+            choices: choices(&model.solver),
+            written: written(&model),
+            symbols,
+            programs,
+            fused_step: plan.fused_step,
+            parameters: model.parameters.into_iter().map(Parameter::from).collect(),
+            inputs: model.inputs,
+            coordinates: model.coordinates.into_iter().map(|coordinate| coordinate.quantity).collect(),
+            outputs: model.outputs.into_iter().map(|output| output.quantity).collect(),
+        }
+    }
+}
+
+fn program(plan: &Plan, function: FunctionId) -> &Program {
+    match function {
+        FunctionId::Hoisted => &plan.prepare,
+        FunctionId::Phi => &plan.phi,
+        FunctionId::PhiDot => &plan.phi_dot,
+        FunctionId::PhiQ => &plan.phi_q,
+        FunctionId::PhiT => &plan.phi_t,
+        FunctionId::Gamma => &plan.gamma,
+        FunctionId::BaumgarteRhs => &plan.baumgarte_rhs,
+        FunctionId::Mass => &plan.mass,
+        FunctionId::Forces => &plan.forces,
+        FunctionId::KineticEnergy => &plan.kinetic_energy,
+        FunctionId::PotentialEnergy => &plan.potential_energy,
+        FunctionId::Stabilized => &plan.stabilized,
+        FunctionId::Constrained => &plan.constrained,
+        FunctionId::Reactions => &plan.reactions,
+        FunctionId::PositionCorrection => &plan.position_correction,
+        FunctionId::VelocityCorrection => &plan.velocity_correction,
+        FunctionId::Outputs => &plan.outputs,
+        FunctionId::Conditions => &plan.requirements,
+        FunctionId::Start => &plan.start,
+        FunctionId::Pivots => &plan.pivots,
+        FunctionId::StartPivots => &plan.start_pivots,
+        FunctionId::Points => &plan.points,
+    }
+}
+
+impl From<model::Parameter> for Parameter {
+    fn from(model::Parameter { quantity, value }: model::Parameter) -> Self {
+        Self { quantity, value }
+    }
+}
+
+/// What judges the results of [`Plan::requirements`], in their order.
+fn conditions(model: &Model) -> Vec<Condition> {
+    let mut conditions = Vec::new();
+    for (at, requirement) in model.requirements.iter().enumerate() {
+        conditions.push(Condition {
+            name: requirement.name.clone(),
+            difference: 2 * at,
+            value: 2 * at + 1,
+            comparison: requirement.comparison,
+            requirement: requirement.text.clone(),
+        });
+    }
+    let masses = 2 * model.requirements.len();
+    for (at, coordinate) in model.coordinates.iter().enumerate() {
+        let body = &model.bodies[coordinate.body];
+        let what = if coordinate.direction == Direction::Angle { "inertia" } else { "mass" };
+        // the mass along x and y is one
+        if coordinate.direction == Direction::Y && model.coordinate_of(body, Direction::X).is_some() {
+            continue;
+        }
+        conditions.push(Condition {
+            name: format!("{what} of {}", body.name),
+            difference: masses + at,
+            value: masses + at,
+            comparison: Comparison::GreaterOrEqual,
+            requirement: "it must not be negative".to_owned(),
+        });
+    }
+    let checks = masses + model.coordinates.len();
+    for (at, check) in model.known_checks().enumerate() {
+        conditions.push(Condition {
+            name: format!("{} of {}", check.property, check.owner),
+            difference: checks + at,
+            value: checks + at,
+            comparison: if check.is_strict { Comparison::Greater } else { Comparison::GreaterOrEqual },
+            requirement: check.rule().to_owned(),
+        });
+    }
+    conditions
+}
+
+fn constraint(model: &Model, row: &model::Constraint) -> Constraint {
+    Constraint {
+        name: row.name.clone(),
+        doc: row.doc.clone(),
+        formula: readable(&model.arena, row.phi),
+        is_drive: row.is_drive,
+        dimension: row.dimension,
+    }
+}
+
+/// The names of what watched pivots pair.
+fn pivots(model: &Model, pivots: &[(Option<usize>, Option<usize>)]) -> Vec<Pivot> {
+    let pivot = |(row, coordinate): &(Option<usize>, Option<usize>)| Pivot {
+        constraint: row.map_or_else(String::new, |at| model.constraints[at].name.clone()),
+        coordinate: coordinate.map_or_else(String::new, |at| model.coordinates[at].quantity.name.clone()),
+    };
+    pivots.iter().map(pivot).collect()
+}
+
+fn sketch(sketch: &model::Sketch) -> Sketch {
+    let link = |link: &model::Link| Link {
+        name: link.name.clone(),
+        kind: link.kind,
+        first: link.first,
+        second: link.second,
+        ahead: link.ahead,
+    };
+    Sketch {
+        points: sketch.points.iter().map(|point| point.name.clone()).collect(),
+        bodies: sketch.bodies.clone(),
+        ground: sketch.ground.clone(),
+        joints: sketch.joints.iter().map(link).collect(),
+        springs: sketch.springs.iter().map(link).collect(),
+    }
+}
+
+fn choices(solver: &model::Solver) -> Choices {
+    Choices {
+        unrolled: solver.unrolled(),
+        stack: solver.stack.map(|(limit, _)| limit),
+        step: solver.step.map(|(step, _)| step),
+        feedback: solver.feedback.as_ref().map(|feedback| Feedback {
+            is_held: feedback.is_held,
+            alpha: feedback.alpha,
+            beta: feedback.beta,
+        }),
+    }
+}
+
+fn written(model: &Model) -> Written {
+    Written {
+        name: model.name.clone(),
+        visibility: model.visibility.clone(),
+        runtime: model.runtime.clone(),
+        stack: model.solver.stack.map(|(_, span)| span),
+        feedback: model.solver.feedback.as_ref().map(|feedback| feedback.span),
+    }
+}

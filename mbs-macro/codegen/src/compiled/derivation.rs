@@ -1,0 +1,160 @@
+//! The equations and their elimination as texts.
+
+use mbs_symbolic::{Arena, Expr, Strategy, Unknown, latex_name};
+
+use crate::derive::Equations;
+use crate::model::Model;
+use crate::plan::Plan;
+
+/// Formulas with more parts than this are not written out: nobody reads on.
+const LONGEST_FORMULA: usize = 500;
+
+/// The same of a formula in the middle of a line.
+const LONGEST_IN_A_LINE: usize = 60;
+
+/// The equations and their elimination, for people to read.
+pub struct Derivation {
+    /// Φ
+    pub phi: Vec<Formula>,
+    /// The entries of Φ_q that are not 0, row by row.
+    pub phi_q: Vec<Formula>,
+    /// Φ_t
+    pub phi_t: Vec<Formula>,
+    /// Φ̇
+    pub phi_dot: Vec<Formula>,
+    /// γ
+    pub gamma: Vec<Formula>,
+    /// The diagonal of M.
+    pub mass: Vec<Formula>,
+    /// Q
+    pub forces: Vec<Formula>,
+    /// ½ vᵀMv
+    pub kinetic_energy: Formula,
+    /// That of gravity and springs.
+    pub potential_energy: Formula,
+    /// What depends on parameters alone, as text.
+    pub hoisted: Vec<String>,
+    /// In which order pivots are taken, in words.
+    pub strategy: &'static str,
+    /// The steps of the elimination.
+    pub order: Vec<Elimination>,
+}
+
+/// A formula as text and as LaTeX, or `…` where it is too long to read.
+pub struct Formula {
+    /// Whose formula it is: a constraint, a coordinate or a letter.
+    pub of: String,
+    /// The same in LaTeX.
+    pub of_latex: String,
+    /// What it is a derivative by; empty where it is none.
+    pub by: String,
+    /// The same in LaTeX.
+    pub by_latex: String,
+    /// As text.
+    pub text: String,
+    /// As LaTeX.
+    pub latex: String,
+    /// Whether it is 0.
+    pub is_zero: bool,
+}
+
+/// A step of the elimination.
+pub struct Elimination {
+    /// What is eliminated: coordinates, and multipliers as `lambda(row)`.
+    pub unknowns: Vec<String>,
+    /// What is divided by, as text,
+    pub pivot: String,
+    /// as LaTeX,
+    pub latex: String,
+    /// and as text, if it is short.
+    pub short: String,
+    /// Whether this pivot may vanish and is watched.
+    pub is_watched: bool,
+}
+
+/// A formula, unless it is too long for a reader.
+pub fn readable(arena: &Arena, expr: Expr) -> String {
+    arena.display_within(expr, LONGEST_FORMULA)
+}
+
+impl Derivation {
+    /// The texts of these equations.
+    pub(super) fn new(model: &Model, equations: &Equations, plan: &Plan) -> Self {
+        let arena = &model.arena;
+        let row_name = |at: usize| model.constraints[at].name.as_str();
+        let coordinate_name = |at: usize| model.coordinates[at].quantity.name.as_str();
+        let rows = |exprs: &[Expr]| {
+            exprs.iter().enumerate().map(|(at, &expr)| formula(arena, row_name(at), "", expr)).collect()
+        };
+        let coordinates = |exprs: &[Expr]| {
+            exprs
+                .iter()
+                .enumerate()
+                .map(|(at, &expr)| formula(arena, coordinate_name(at), "", expr))
+                .collect()
+        };
+        let entries = equations
+            .phi_q
+            .iter()
+            .enumerate()
+            .flat_map(|(row, entries)| entries.iter().map(move |(&column, &entry)| (row, column, entry)));
+        Self {
+            phi: rows(&equations.phi),
+            phi_q: entries
+                .map(|(row, column, entry)| formula(arena, row_name(row), coordinate_name(column), entry))
+                .collect(),
+            phi_t: rows(&equations.phi_t),
+            phi_dot: rows(&equations.phi_dot),
+            gamma: rows(&equations.gamma),
+            mass: coordinates(&equations.mass),
+            forces: coordinates(&equations.total_forces),
+            kinetic_energy: formula(arena, "T", "", equations.kinetic_energy),
+            potential_energy: formula(arena, "V", "", equations.potential_energy),
+            hoisted: plan.hoisted.iter().map(|&value| readable(arena, value)).collect(),
+            strategy: strategy(plan.strategy),
+            order: plan.order.iter().map(|step| elimination(model, plan, step)).collect(),
+        }
+    }
+}
+
+fn formula(arena: &Arena, of: &str, by: &str, expr: Expr) -> Formula {
+    Formula {
+        of: of.to_owned(),
+        of_latex: latex_name(of),
+        by: by.to_owned(),
+        by_latex: latex_name(by),
+        text: readable(arena, expr),
+        latex: arena.latex_within(expr, LONGEST_FORMULA),
+        is_zero: arena.is_zero(expr),
+    }
+}
+
+fn elimination(model: &Model, plan: &Plan, step: &mbs_symbolic::Elimination) -> Elimination {
+    let arena = &model.arena;
+    // `theta1`, or `lambda(pin_x)` for the multiplier of a row
+    let name = |&unknown: &Unknown| match unknown {
+        Unknown::Coordinate(at) => model.coordinates[at].quantity.name.clone(),
+        Unknown::Row(at) => format!("lambda({})", model.constraints[at].name),
+    };
+    let is_watched = |unknown: &Unknown| {
+        plan.pivot_names.iter().any(|&(row, coordinate)| match *unknown {
+            Unknown::Row(at) => row == Some(at),
+            Unknown::Coordinate(at) => row.is_none() && coordinate == Some(at),
+        })
+    };
+    let is_short = arena.is_shorter(step.pivot, LONGEST_IN_A_LINE);
+    Elimination {
+        unknowns: step.unknowns.iter().map(name).collect(),
+        pivot: readable(arena, step.pivot),
+        latex: arena.latex_within(step.pivot, LONGEST_FORMULA),
+        short: if is_short { arena.display(step.pivot) } else { "…".to_owned() },
+        is_watched: step.unknowns.iter().any(is_watched),
+    }
+}
+
+fn strategy(strategy: Strategy) -> &'static str {
+    match strategy {
+        Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
+        Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
+    }
+}

@@ -1,0 +1,259 @@
+//! A compiled mechanism as a value: what a target prints, or runs at once.
+//!
+//! # What a target needs to know
+//! A [`Compiled`] holds programs: lists of instructions on scalars without branches or
+//! loops, one per [`FunctionId`], in SI units. An instruction reads numbers, results of
+//! earlier instructions, values that depend on parameters alone, and symbols:
+//! [`Compiled::input`] tells what a symbol stands for (a parameter, a coordinate, the
+//! time, …). [`FunctionId::arguments`] lists what a function is given,
+//! [`FunctionId::results`] what its outputs are, one kind after the other;
+//! [`Compiled::length`] counts them.
+//!
+//! - [`FunctionId::Hoisted`] computes what depends on parameters alone, once per set of
+//!   parameters; all other functions read its results as [`Operand::Hoisted`].
+//! - [`FunctionId::Conditions`] gives numbers that [`Compiled::conditions`] judge: a
+//!   target refuses parameters that fail one, with the words that stand there.
+//! - [`FunctionId::Stabilized`] and [`FunctionId::Constrained`] give the accelerations of
+//!   the two stages of a step, [`FunctionId::Reactions`] those without feedback and the
+//!   multipliers. The last output of a function that solves is its pivot growth. Where
+//!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
+//!   position is singular and the result must not be used.
+//!
+//! # Example
+//! A target that lists the instructions of one function:
+//! ```
+//! use mbs_codegen::{FunctionId, analyse};
+//!
+//! let declaration = "Pendulum {
+//!     dof = 1;
+//!     param length = 1 [m];
+//!     gravity = (0, -9.81) [m/s^2];
+//!     body bob (x, y) { mass = 2 [kg]; }
+//!     constraint rod: x^2 + y^2 = length^2;
+//!     start { x = length; guess y = 0; }
+//! }";
+//! let compiled = analyse(declaration.parse()?).map_err(|errors| errors.to_string())?;
+//! assert_eq!(compiled.name, "Pendulum");
+//! let phi = compiled.program(FunctionId::Phi);
+//! assert_eq!(phi.outputs.len(), compiled.constraints.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod build;
+mod derivation;
+mod functions;
+
+use std::rc::Rc;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Operand, Program, Spline, Symbol};
+use proc_macro2::{Ident, Span, TokenStream};
+
+pub use crate::plan::{FusedStep, Input, Kinds};
+pub use crate::quantity::{Comparison, Quantity};
+pub use derivation::{Derivation, Elimination, Formula};
+pub use functions::{Argument, Count, FunctionId, Results};
+
+/// The pivot growth from which on a position is singular to double precision: of 53 bits
+/// ten are left.
+pub const GROWTH_LIMIT: f64 = 1.0 / (1024.0 * f64::EPSILON);
+
+/// A compiled mechanism; see the [module](self).
+pub struct Compiled {
+    /// The name of the mechanism.
+    pub name: String,
+    /// Its documentation in the declaration.
+    pub doc: String,
+    /// Numbers that are set once, with their declared values.
+    pub parameters: Vec<Parameter>,
+    /// What parameters have to satisfy.
+    pub conditions: Vec<Condition>,
+    /// Numbers that the embedding program may change from step to step.
+    pub inputs: Vec<Quantity>,
+    /// The coordinates q; their rates v have the same names.
+    pub coordinates: Vec<Quantity>,
+    /// The constraints Φ(q, t) = 0, one multiplier each.
+    pub constraints: Vec<Constraint>,
+    /// What the declaration measures.
+    pub outputs: Vec<Quantity>,
+    /// Coordinates less independent constraints.
+    pub degrees_of_freedom: i32,
+    /// Constraints that repeat what others say, by position; they share the multipliers
+    /// with these by the minimum norm.
+    pub redundant: Vec<usize>,
+    /// q, v and t of the start with declared parameters, before guesses are corrected.
+    pub start: Vec<f64>,
+    /// Functions given by a table, in the order of their handles.
+    pub splines: Vec<Rc<Spline>>,
+    /// Row and column of every result of [`FunctionId::PhiQ`].
+    pub jacobian: Vec<(usize, usize)>,
+    /// What the results of [`FunctionId::Pivots`] belong to,
+    pub pivots: Vec<Pivot>,
+    /// and those of [`FunctionId::StartPivots`].
+    pub start_pivots: Vec<Pivot>,
+    /// A whole step as one program, where the mechanism is small enough for that to pay.
+    pub fused_step: Option<FusedStep>,
+    /// The equations and their elimination, for people to read.
+    pub derivation: Derivation,
+    /// What a picture needs.
+    pub sketch: Sketch,
+    /// What the declaration says of its integration.
+    pub choices: Choices,
+    /// What the Rust target takes over as it was written.
+    pub written: Written,
+    symbols: Vec<(String, Input)>,
+    programs: Vec<Program>,
+}
+
+/// A parameter.
+pub struct Parameter {
+    /// Its name and unit.
+    pub quantity: Quantity,
+    /// Its declared value in SI units.
+    pub value: f64,
+}
+
+/// What parameters have to satisfy: a result of [`FunctionId::Conditions`] compares so
+/// with 0.
+pub struct Condition {
+    /// What is judged: a parameter, a formula or a property, as people call it.
+    pub name: String,
+    /// Its value, a result of [`FunctionId::Conditions`].
+    pub value: usize,
+    /// What compares with 0, another one or the same.
+    pub difference: usize,
+    /// How it has to.
+    pub comparison: Comparison,
+    /// The same in words.
+    pub requirement: String,
+}
+
+/// A constraint.
+pub struct Constraint {
+    /// Its name.
+    pub name: String,
+    /// Its documentation.
+    pub doc: String,
+    /// Φ, unless it is too long to read.
+    pub formula: String,
+    /// Whether it prescribes a motion over time.
+    pub is_drive: bool,
+    /// The dimension of Φ.
+    pub dimension: Dimension,
+}
+
+/// A watched pivot of the elimination: the names of its row and its column, empty
+/// where it has none.
+pub struct Pivot {
+    /// The name of the constraint.
+    pub constraint: String,
+    /// The name of the coordinate.
+    pub coordinate: String,
+}
+
+/// What a picture needs: [`FunctionId::Points`] gives x and y of every point.
+#[derive(Default)]
+pub struct Sketch {
+    /// Names of the points.
+    pub points: Vec<String>,
+    /// Name and points of every body, its centre first.
+    pub bodies: Vec<(String, Vec<usize>)>,
+    /// The points of the ground, the origin first.
+    pub ground: Vec<usize>,
+    /// What joins them,
+    pub joints: Vec<Link>,
+    /// and pushes them.
+    pub springs: Vec<Link>,
+}
+
+/// A joint or a spring between two points.
+#[derive(Clone)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// The word that declares it.
+    pub kind: &'static str,
+    /// Its points, by position.
+    pub first: usize,
+    /// The other one.
+    pub second: usize,
+    /// A point ahead of the second one in the direction of a joint.
+    pub ahead: Option<usize>,
+}
+
+/// What the declaration says of its integration.
+pub struct Choices {
+    /// Instructions that a program may have before its repeated parts become loops.
+    pub unrolled: usize,
+    /// Bytes of stack that a step in doubles may take.
+    pub stack: Option<u32>,
+    /// The step in s.
+    pub step: Option<f64>,
+    /// The feedback of the constraint violation; it comes with a step.
+    pub feedback: Option<Feedback>,
+}
+
+/// Feedback −2αΦ̇ − β²Φ of the constraint violation.
+pub struct Feedback {
+    /// Whether the second stage of a step is given that of the first.
+    pub is_held: bool,
+    /// α in 1/s
+    pub alpha: f64,
+    /// β in 1/s
+    pub beta: f64,
+}
+
+/// What the Rust target takes over from the declaration as it was written there.
+pub struct Written {
+    /// The name with its place.
+    pub name: Ident,
+    /// `pub`, or what else stands before the name.
+    pub visibility: TokenStream,
+    /// The path of the runtime.
+    pub runtime: TokenStream,
+    /// Where the limit of the stack stands,
+    pub stack: Option<Span>,
+    /// and the feedback.
+    pub feedback: Option<Span>,
+}
+
+impl Compiled {
+    /// The program of a function.
+    pub fn program(&self, function: FunctionId) -> &Program {
+        &self.programs[function as usize]
+    }
+
+    /// What a symbol of the programs stands for.
+    pub fn input(&self, symbol: Symbol) -> Input {
+        self.symbols[symbol.index()].1
+    }
+
+    /// The name of a symbol.
+    pub fn symbol_name(&self, symbol: Symbol) -> &str {
+        &self.symbols[symbol.index()].0
+    }
+
+    /// What an operand stands for that is a symbol.
+    pub fn input_of(&self, operand: Operand) -> Option<Input> {
+        match operand {
+            Operand::Symbol(symbol) => Some(self.input(symbol)),
+            _ => None,
+        }
+    }
+
+    /// How many numbers there are of a kind of results.
+    pub fn length(&self, result: Results) -> usize {
+        match result {
+            Results::Hoisted => self.program(FunctionId::Hoisted).outputs.len(),
+            Results::Conditions => self.program(FunctionId::Conditions).outputs.len(),
+            Results::Coordinates => self.coordinates.len(),
+            Results::Constraints => self.constraints.len(),
+            Results::Jacobian => self.jacobian.len(),
+            Results::Pivots => self.pivots.len(),
+            Results::StartPivots => self.start_pivots.len(),
+            Results::Outputs => self.outputs.len(),
+            Results::Points => 2 * self.sketch.points.len(),
+            Results::Scalar | Results::Growth => 1,
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Quantities with their units, and how numbers compare.
+
+use mbs_symbolic::units::Dimension;
+
+/// A number of the mechanism that has a name and a unit: a parameter, an input, a
+/// coordinate or an output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// The name in the declaration.
+    pub name: String,
+    /// Its documentation there, possibly empty.
+    pub doc: String,
+    /// The unit in which it is declared, as it was written; empty of a bare number.
+    pub unit: String,
+    /// One of these units in SI units.
+    pub scale: f64,
+    /// Powers of kg, m and s.
+    pub dimension: Dimension,
+}
+
+/// How a number compares with another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// <
+    Less,
+    /// ≤
+    LessOrEqual,
+    /// >
+    Greater,
+    /// ≥
+    GreaterOrEqual,
+}
+
+impl Comparison {
+    /// Whether `difference` compares so with 0.
+    pub fn holds(self, difference: f64) -> bool {
+        match self {
+            Self::Less => difference < 0.0,
+            Self::LessOrEqual => difference <= 0.0,
+            Self::Greater => difference > 0.0,
+            Self::GreaterOrEqual => difference >= 0.0,
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Documentation of the generated items: the equations and what they cost.
+
+use std::fmt::Write;
+
+use mbs_symbolic::units::{self, Dimension};
+
+use crate::compiled::{Compiled, Count, Derivation, Elimination, Formula, FunctionId, Quantity};
+use crate::diagnostics::described;
+
+/// Longer listings are cut.
+const LONGEST_LISTING: usize = 48;
+
+/// The documentation of the mechanism itself.
+pub fn mechanism(compiled: &Compiled) -> String {
+    let mut text = compiled.doc.clone();
+    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
+    let redundant = match compiled.redundant.len() {
+        0 => String::new(),
+        count => format!(" ({count} of them redundant)"),
+    };
+    let _ = write!(
+        text,
+        "\n\n# Equations\n\n{n} coordinates, {m} constraints{redundant}, {} degrees of freedom. Φ(q, t) = 0 is\n",
+        compiled.degrees_of_freedom
+    );
+    let lines = compiled.constraints.iter().map(|row| format!("{}: {} = 0", row.name, row.formula));
+    text.push_str(&listing(lines));
+    let _ = write!(text, "\n# Elimination\n\nOrder: {}.\n\n", compiled.derivation.strategy);
+    text.push_str(&listing(compiled.derivation.order.iter().map(elimination)));
+    text.push_str("\n# Cost\n\n");
+    let _ = writeln!(
+        text,
+        "Operations per call:\n\n| function | mul | add | div | sincos | other | pivot watch |\n|---|---|---|---|---|---|---|"
+    );
+    for Count { function, operations, watch } in compiled.counts() {
+        let name = function.name();
+        let mbs_symbolic::Operations { mul, add, div, sin_cos, other } = operations;
+        let _ = writeln!(text, "| `{name}` | {mul} | {add} | {div} | {sin_cos} | {other} | {watch} |");
+    }
+    text
+}
+
+/// `lambda(pin_x), x1: divided by 1`
+fn elimination(step: &Elimination) -> String {
+    format!("{}: divided by {}", step.unknowns.join(", "), step.short)
+}
+
+/// What the hoisted values are.
+pub fn hoisted(compiled: &Compiled) -> String {
+    let lines =
+        compiled.derivation.hoisted.iter().enumerate().map(|(at, formula)| format!("{at}: {formula}"));
+    format!("What depends on parameters alone, computed once:\n\n{}", listing(lines))
+}
+
+/// A quantity with its unit and declared value.
+pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
+    let mut text = quantity.doc.clone();
+    if !text.is_empty() {
+        text.push_str("\n\n");
+    }
+    let what = kind(quantity);
+    match declared {
+        Some(value) if quantity.unit.is_empty() => {
+            let _ = write!(text, "`{}`: {what}, declared as {value}.", quantity.name);
+        }
+        Some(value) => {
+            let _ = write!(
+                text,
+                "`{}`: {what}, declared as {} {} = {value} in SI units.",
+                quantity.name,
+                value / quantity.scale,
+                quantity.unit
+            );
+        }
+        None => {
+            let _ = write!(text, "`{}`: {what}.", quantity.name);
+        }
+    }
+    text
+}
+
+/// What a quantity is, with its article: `a length [m]`, `an angle [rad]`.
+fn kind(quantity: &Quantity) -> String {
+    let is_angle = |unit| units::lookup(unit).is_some_and(|unit| unit.dimension == Dimension::NONE);
+    match quantity.dimension == Dimension::NONE {
+        true if is_angle(&quantity.unit) => "an angle [rad]".to_owned(),
+        true => "a bare number".to_owned(),
+        false => described(quantity.dimension),
+    }
+}
+
+/// Documentation of the functions.
+pub struct Functions<'a> {
+    derivation: &'a Derivation,
+    counts: Vec<Count>,
+}
+
+impl<'a> Functions<'a> {
+    pub fn new(compiled: &'a Compiled) -> Self {
+        Self { derivation: &compiled.derivation, counts: compiled.counts() }
+    }
+
+    /// What a function computes, its formulas and its cost.
+    pub fn of(&self, function: FunctionId) -> String {
+        let Derivation { phi, phi_q, phi_t, gamma, mass, forces, .. } = self.derivation;
+        let (text, formulas): (_, &[Formula]) = match function {
+            FunctionId::Phi => ("Constraints Φ(q, t): 0 where the mechanism is assembled.", phi),
+            FunctionId::PhiQ => (
+                "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:",
+                phi_q,
+            ),
+            FunctionId::PhiT => ("Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.", phi_t),
+            FunctionId::Gamma => {
+                ("γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).", gamma)
+            }
+            FunctionId::BaumgarteRhs => (
+                "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.",
+                &[],
+            ),
+            FunctionId::Mass => ("Mass matrix M. Its diagonal, all that is not 0:", mass),
+            FunctionId::Forces => ("Generalized forces Q: gravity and applied loads.", forces),
+            FunctionId::Reactions => (
+                "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.\n\n\
+                 In a singular position the result is not finite or its `growth` exceeds \
+                 the runtime's `growth_limit`.",
+                &[],
+            ),
+            _ => ("", &[]),
+        };
+        let mut text = text.to_owned();
+        if !formulas.is_empty() {
+            text.push_str("\n\n");
+            text.push_str(&listing(formulas.iter().map(line)));
+        }
+        if let Some(count) = self.counts.iter().find(|count| count.function == function) {
+            let _ = write!(text, "\n\nCost: {}.", count.operations);
+        }
+        text
+    }
+}
+
+/// `rod: x^2 + y^2 - length^2`, or `∂rod/∂x = 2*x`
+fn line(formula: &Formula) -> String {
+    let Formula { of, by, text, .. } = formula;
+    if by.is_empty() { format!("{of}: {text}") } else { format!("∂{of}/∂{by} = {text}") }
+}
+
+/// Lines as a text block, cut where it would be too long to read.
+fn listing(mut lines: impl Iterator<Item = String>) -> String {
+    let mut text = String::from("```text\n");
+    for line in lines.by_ref().take(LONGEST_LISTING) {
+        let _ = writeln!(text, "{line}");
+    }
+    let rest = lines.count();
+    if rest > 0 {
+        let _ = writeln!(text, "… and {rest} more");
+    }
+    text.push_str("```\n");
+    text
+}

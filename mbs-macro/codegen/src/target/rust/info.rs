@@ -1,0 +1,86 @@
+//! The constant that describes a mechanism to tools.
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Block, Operations};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::long;
+use super::names::Names;
+use crate::compiled::{Compiled, Count, Pivot, Quantity};
+
+pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
+    let runtime = &names.runtime;
+    let (name, doc) = (names.mechanism.to_string(), compiled.doc.as_str());
+    let dof = Literal::i32_unsuffixed(compiled.degrees_of_freedom);
+    let redundant = compiled.redundant.iter().map(|&row| Literal::usize_unsuffixed(row));
+    let parameters = compiled.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
+    let inputs = compiled.inputs.iter().map(|input| quantity(input, 0.0, runtime));
+    let coordinates =
+        compiled.coordinates.iter().zip(&compiled.start).map(|(c, start)| quantity(c, *start, runtime));
+    let outputs = compiled.outputs.iter().map(|output| quantity(output, 0.0, runtime));
+    let constraints = compiled.constraints.iter().map(|constraint| {
+        let (name, doc, formula) = (&constraint.name, &constraint.doc, &constraint.formula);
+        let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
+        quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
+    });
+    let start_pivots = pivots(&compiled.start_pivots, runtime);
+    let pivots = pivots(&compiled.pivots, runtime);
+    let functions = compiled.counts().into_iter().map(|function| {
+        let Count { function, operations, watch } = function;
+        let name = function.name();
+        let Operations { mul, add, div, sin_cos, other } = operations;
+        let blocks = long::blocks(compiled, compiled.program(function));
+        let written = blocks.iter().map(|block| block.written() as u32).sum::<u32>();
+        let loops = blocks.iter().filter(|block| matches!(block, Block::Repeated(_))).count() as u32;
+        quote! {
+            #runtime::Function {
+                name: #name,
+                operations: #runtime::Operations {
+                    mul: #mul, add: #add, div: #div, sin_cos: #sin_cos, other: #other, watch: #watch,
+                },
+                written: #written,
+                loops: #loops,
+            }
+        }
+    });
+    quote! {
+        #runtime::Info::from_parts(
+            #name, #doc, #dof,
+            &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
+            &[#(#constraints),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
+        )
+    }
+}
+
+/// A list of pivots by the names of what they pair.
+fn pivots(pivots: &[Pivot], runtime: &TokenStream) -> TokenStream {
+    let pivots = pivots.iter().map(|Pivot { constraint, coordinate }| {
+        quote!(#runtime::Pivot { constraint: #constraint, coordinate: #coordinate })
+    });
+    quote!(&[#(#pivots),*])
+}
+
+fn quantity(quantity: &Quantity, value: f64, runtime: &TokenStream) -> TokenStream {
+    let Quantity { name, doc, unit, scale, dimension: dim } = quantity;
+    let (scale, value) = (float(*scale), float(value));
+    let dimension = dimension(*dim, runtime);
+    quote! {
+        #runtime::Quantity { name: #name, doc: #doc, unit: #unit, scale: #scale, dimension: #dimension, default: #value }
+    }
+}
+
+fn float(value: f64) -> TokenStream {
+    if value.is_finite() {
+        let literal = Literal::f64_suffixed(value);
+        quote!(#literal)
+    } else {
+        quote!(::core::primitive::f64::NAN)
+    }
+}
+
+/// Fractional exponents, which only outputs can have, are given as 0.
+fn dimension(dimension: Dimension, runtime: &TokenStream) -> TokenStream {
+    let [mass, length, time] = dimension.exponents().unwrap_or_default();
+    quote!(#runtime::Dimension { mass: #mass, length: #length, time: #time })
+}
