@@ -8,7 +8,8 @@ use crate::program::Program;
 use crate::repetition::Block;
 
 /// A program that is not to have loops is one function up to this length, whatever was
-/// asked for: rustc nests a scope per statement, and its stack ends at about twice as many.
+/// asked for: a compiler that nests a scope per statement, as rustc does, runs out of stack
+/// at about twice as many.
 const LONGEST: usize = 3072;
 
 /// Longer sequences are written as functions of this many instructions.

@@ -363,4 +363,16 @@ mod tests {
         assert!(tried > 0);
         assert_eq!(check(&program, &layout, COMPONENTS), Err(PROMISE));
     }
+
+    #[test]
+    fn a_partner_of_another_operand_is_caught() {
+        let (program, mut layout) = layout();
+        for repeated in loops(&mut layout) {
+            let length = repeated.repetition.length;
+            for (at, step) in repeated.steps.iter_mut().enumerate() {
+                step.partner = Some((at + 1) % length);
+            }
+        }
+        assert_eq!(check(&program, &layout, COMPONENTS), Err(PROMISE));
+    }
 }

@@ -51,6 +51,7 @@
 
 mod blocks;
 mod check;
+mod loops;
 mod plan;
 mod readers;
 mod rule;
@@ -69,7 +70,7 @@ use crate::repetition::{Block, Repetition};
 use crate::sin_cos::SinCos;
 
 pub use blocks::blocks;
-pub use plan::{Angle, Carried, Column, Home, Kept, Loop, Read, Step};
+pub use loops::{Angle, Carried, Column, Home, Kept, Loop, Read, Step};
 pub use rule::Rule;
 use slots::Slots;
 pub use slots::{Array, Place};
@@ -151,8 +152,8 @@ impl<V: Copy + Eq + Hash> Layout<V> {
         Ok(Self { parts, slots, given, outputs, places })
     }
 
-    /// Where the result of an instruction is kept that another part reads, or the last copy
-    /// of a loop leaves behind.
+    /// Where the result of an instruction is kept; `None` if nobody outside its part, or its
+    /// copy, reads it.
     pub fn place(&self, value: usize) -> Option<Place> {
         self.places.of(value)
     }
