@@ -32,7 +32,7 @@
 //!     constraint rod: x^2 + y^2 = length^2;
 //!     start { x = length; guess y = 0; }
 //! }";
-//! let compiled = analyse(declaration.parse()?).map_err(|errors| errors.to_string())?;
+//! let compiled = analyse(declaration.parse()?).map_err(|errors| errors.to_compile_errors().to_string())?;
 //! assert_eq!(compiled.name, "Pendulum");
 //! let phi = compiled.program(FunctionId::Phi);
 //! assert_eq!(phi.outputs.len(), compiled.constraints.len());
