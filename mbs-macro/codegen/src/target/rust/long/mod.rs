@@ -79,9 +79,9 @@ pub fn body(
     access: &Access,
     blocks: &[Block],
 ) -> Result<Body, Inconsistency> {
-    let results = results(compiled, program, access);
-    let layout = compiled.layout(program, blocks, &results)?;
-    let results: Vec<Argument> = results.iter().enumerate().map(result_argument).collect();
+    let lengths = results(compiled, program, access);
+    let layout = compiled.layout(program, blocks, &lengths)?;
+    let results: Vec<Argument> = lengths.iter().enumerate().map(result_argument).collect();
     let pairs = SinCos::of(program);
     let inside = access.in_part(names);
     let context = Context { compiled, names, program, access: &inside, pairs: &pairs, layout: &layout };
@@ -105,16 +105,19 @@ pub fn body(
         quote!(#place = #value;)
     });
     let arrays = arrays.declarations(names, access);
-    let room = (!access.is_on_arrays()).then(|| {
-        let length = Literal::usize_unsuffixed(layout.slots);
-        quote! {
-            const SLOTS: ::core::primitive::usize = #length;
-            let mut slots = [T::from_f64(0.0); SLOTS];
-        }
-    });
+    let room = (!access.is_on_arrays()).then(|| room(layout.slots));
     let statements = quote!(#room #definitions #arrays #calls #(#given)*);
     let places = Some(layout.outputs.clone());
     Ok(Body { statements, outputs, places, slots: layout.slots, runtime: names.runtime.clone() })
+}
+
+/// The slots, where they are not given.
+fn room(slots: usize) -> TokenStream {
+    let length = Literal::usize_unsuffixed(slots);
+    quote! {
+        const SLOTS: ::core::primitive::usize = #length;
+        let mut slots = [T::from_f64(0.0); SLOTS];
+    }
 }
 
 /// The lengths of the arrays of results that stages on arrays are given: q̈, and the
