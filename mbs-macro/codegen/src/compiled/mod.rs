@@ -43,6 +43,7 @@
 mod build;
 mod derivation;
 mod functions;
+mod vectors;
 
 use std::rc::Rc;
 
@@ -54,6 +55,7 @@ pub use crate::plan::{FusedStep, Input, Kinds};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
+pub use vectors::Vector;
 
 /// The pivot growth from which on a position is singular to double precision: of 53 bits
 /// ten are left.
