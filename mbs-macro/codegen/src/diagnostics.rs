@@ -1,5 +1,7 @@
 //! Errors for the person who wrote the declaration.
 
+use std::fmt;
+
 use mbs_symbolic::units::Dimension;
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
@@ -41,7 +43,7 @@ impl Diagnostic {
     }
 
     /// An inconsistency that is the compiler's own fault.
-    pub fn internal(span: Span, what: impl std::fmt::Display) -> Self {
+    pub fn internal(span: Span, what: impl fmt::Display) -> Self {
         Self::new(span, format!("internal inconsistency of the mechanism compiler: {what}"))
             .help("this is not your mistake; please report it with the declaration")
     }
@@ -92,6 +94,7 @@ impl From<syn::Error> for Diagnostic {
 
 /// Collects the errors of a stage, so that all of them are shown at once.
 #[derive(Debug, Default)]
+#[must_use]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
 }
@@ -140,6 +143,24 @@ impl Diagnostics {
         self.list.iter().map(Diagnostic::to_tokens).collect()
     }
 }
+
+impl fmt::Display for Diagnostics {
+    /// The errors one below the other, each with line and column where they are known.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, diagnostic) in self.list.iter().enumerate() {
+            let separator = if at == 0 { "" } else { "\n\n" };
+            let start = diagnostic.span.start();
+            let place = match start.line {
+                0 => String::new(),
+                line => format!("{line}:{}: ", start.column + 1),
+            };
+            write!(f, "{separator}{place}{}", diagnostic.text())?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostics {}
 
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Self {
@@ -201,12 +222,12 @@ pub fn described(dimension: Dimension) -> String {
 }
 
 /// `` `a`, `b` and `c` ``
-pub fn listing<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
+pub fn listing<T: fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
     joined(items.into_iter().map(|item| format!("`{item}`")))
 }
 
 /// a, b and c
-pub fn joined<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
+pub fn joined<T: fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
     let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
     match items.split_last() {
         Some((last, [])) => last.clone(),

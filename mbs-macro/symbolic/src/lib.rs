@@ -13,6 +13,7 @@
 //! 4. [`lower`] turns expressions into a [`Program`], with what depends on
 //!    parameters alone [`Hoisted`] and pairs that occur repeatedly computed
 //!    once. A program can be counted, evaluated and printed.
+//! 5. A [`layout`] cuts a long program into loops and functions of bounded size.
 //!
 //! # Example
 //!
@@ -44,6 +45,7 @@ mod eliminate;
 mod evaluate;
 mod inconsistency;
 mod latex;
+pub mod layout;
 mod lower;
 mod number;
 mod operators;
@@ -51,6 +53,7 @@ pub mod pairs;
 pub mod probe;
 mod program;
 mod repetition;
+mod sin_cos;
 mod spline;
 mod substitute;
 pub mod units;
@@ -67,4 +70,5 @@ pub use number::Number;
 pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
+pub use sin_cos::SinCos;
 pub use spline::{Segment, Spline, SplineId};

@@ -5,6 +5,7 @@
 //! where the sequence repeats itself with some period, it is cut into copies.
 
 use std::collections::{BTreeMap, BinaryHeap};
+use std::hash::Hash;
 use std::ops::Range;
 
 use rustc_hash::FxHashMap as HashMap;
@@ -120,7 +121,7 @@ impl Repetition {
 impl Program {
     /// The program in blocks, repeated parts found. Symbols of the same class,
     /// by `class`, may take each other's place.
-    pub fn blocks(&self, class: &dyn Fn(Symbol) -> usize) -> Vec<Block> {
+    pub fn blocks<C: Eq + Hash>(&self, class: &dyn Fn(Symbol) -> C) -> Vec<Block> {
         let kinds = self.kinds(class);
         let mut runs: BinaryHeap<Run> =
             periods(&kinds).into_iter().flat_map(|period| runs(&kinds, period)).collect();
@@ -152,11 +153,11 @@ impl Program {
     }
 
     /// Equal numbers for instructions that can be copies of each other.
-    fn kinds(&self, class: &dyn Fn(Symbol) -> usize) -> Vec<usize> {
+    fn kinds<C: Eq + Hash>(&self, class: &dyn Fn(Symbol) -> C) -> Vec<usize> {
         #[derive(PartialEq, Eq, Hash)]
-        enum Kind {
+        enum Kind<C> {
             Number,
-            Symbol(usize),
+            Symbol(C),
             Hoisted,
             Value,
         }
@@ -166,7 +167,7 @@ impl Program {
             Operand::Hoisted(_) => Kind::Hoisted,
             Operand::Value(_) => Kind::Value,
         };
-        let mut numbers: HashMap<(Operation, Kind, Kind), usize> = HashMap::default();
+        let mut numbers: HashMap<(Operation, Kind<C>, Kind<C>), usize> = HashMap::default();
         let number = self.instructions.iter().map(|instruction| {
             let next = numbers.len();
             *numbers.entry((instruction.operation, kind(instruction.a), kind(instruction.b))).or_insert(next)

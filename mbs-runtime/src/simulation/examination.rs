@@ -7,6 +7,7 @@ use crate::equations::{Arrays, At, Equations, Named};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
 use crate::room::{OnStack, Room};
+use crate::start::consistency::{check, check_feedback};
 use crate::watch::Watch;
 use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State, spare, vectors};
 
@@ -29,10 +30,11 @@ pub struct Examination<'a, T> {
 
 impl<T: Real> Examination<'_, T> {
     /// Examines a step to `next` after which the growth has risen: whether its constraints
-    /// can still be met, and which pivot it is, which the watch remembers.
+    /// can still be met, whether it has kept its digits, and which pivot it is, which the
+    /// watch remembers.
     ///
     /// # Errors
-    /// [`Error::OutOfReach`].
+    /// [`Error::OutOfReach`], [`Error::Singular`].
     pub fn examine_step(
         &self,
         next: At<'_, T>,
@@ -46,12 +48,36 @@ impl<T: Real> Examination<'_, T> {
         }
         let [phi, ..] = &mut room.constraints;
         spare::check(equations, next.t, next.q, watch.length, phi)?;
+        self.keeps_digits(next, growth, room)?;
         if watch.is_new(growth) {
             let share = T::from_f64(0.125) * growth;
             let worst = equations.worst_pivot(t, q).filter(|(_, growth)| *growth > share);
             watch.remember(growth, t, worst.map(|(at, _)| at));
         }
         Ok(())
+    }
+
+    /// Refuses a step from which rounding has taken half of its digits, growth > 1/√ε, and
+    /// that has left a violation whose feedback would change the motion as a whole: within
+    /// some steps it would leave every scale.
+    fn keeps_digits(&self, next: At<'_, T>, growth: T, room: &mut Room<'_, T>) -> Result<(), Error> {
+        let Self { equations, at, step, .. } = *self;
+        let has_lost_half = T::EPSILON * growth * growth > T::from_f64(1.0);
+        if !has_lost_half || !self.keeps_constraints || check(equations, at, step, room).is_err() {
+            return Ok(());
+        }
+        let [here, there] = [at, next].map(|at| equations.worst_pivot(at.t, at.q));
+        let after = there.map_or(T::from_f64(1.0), |(_, growth)| growth);
+        if check_feedback(equations, next, after, step, room).is_ok() {
+            return Ok(());
+        }
+        let worst = match [here, there] {
+            [Some(here), Some(there)] if there.1 > here.1 => Some(there),
+            [here, there] => here.or(there),
+        };
+        let pivot = worst.and_then(|(at, _)| equations.info().pivots.get(at));
+        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+        Err(Error::Singular { t: at.t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
     }
 
     /// Why a step to `t_next` failed: an input, or a position that cannot be reached from

@@ -27,7 +27,24 @@ pub fn check<T: Real>(
     check_finite(equations.info(), at)?;
     let share = T::from_f64(SHARE);
     let at_rest = T::from_f64(ROUNDINGS) * T::EPSILON / step;
-    check_sizes(equations, at, room, |row, rate| (share * row, share * rate + at_rest * row))
+    check_sizes(equations, at, room, |size, _, rate| (share * size, share * rate + at_rest * size))
+}
+
+/// `Ok` if a violation is small enough for its feedback to be small beside the motion.
+///
+/// Feedback changes velocities by the order of Φ̇, and positions by that of Φ, times the
+/// pivot growth: that has to stay below a tenth of the velocities, and of the size.
+pub(crate) fn check_feedback<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    growth: T,
+    step: T,
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    check_finite(equations.info(), at)?;
+    let share = T::from_f64(0.1) / growth;
+    let at_rest = T::from_f64(ROUNDINGS) * T::EPSILON / step;
+    check_sizes(equations, at, room, |size, motion, _| (share * size, share * motion + at_rest * size))
 }
 
 /// `Ok` if a state came out consistent, far within what [`check`] allows.
@@ -37,23 +54,23 @@ pub(super) fn check_projected<T: Real>(
     room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
     let share = T::EPSILON.sqrt();
-    check_sizes(equations, at, room, |row, rate| (share * row, share * rate))
+    check_sizes(equations, at, room, |size, _, rate| (share * size, share * rate))
 }
 
 /// Refuses a state with more violation of a constraint or of its rate than `allowed` by
-/// the sizes of both.
+/// the size Sᵢ, by Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, and by the larger of that and Sᵢ maxⱼ |vⱼ|/sⱼ.
 fn check_sizes<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
     room: &mut Room<'_, T>,
-    allowed: impl Fn(T, T) -> (T, T),
+    allowed: impl Fn(T, T, T) -> (T, T),
 ) -> Result<(), Error> {
     let [direction, ..] = &mut room.coordinates;
     let [rows, rates, phi_t, found, ..] = &mut room.constraints;
     let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
-    measure(&mut jacobian, at.v, rows, rates, found);
+    let fastest = measure(&mut jacobian, at.v, rows, rates, found);
     for (row, rate) in rows.iter_mut().zip(rates.iter_mut()) {
-        (*row, *rate) = allowed(*row, *rate);
+        (*row, *rate) = allowed(*row, *rate, rate.max(*row * fastest));
     }
     equations.phi(at.t, at.q, found);
     check_rows(equations.info(), at.t, found, rows, false)?;
@@ -119,8 +136,9 @@ pub(super) fn check_redundant_accelerations<T: Real>(
     vectors::zip_map(difference, entries, |ahead, behind| ahead - behind);
 
     let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
-    measure(&mut jacobian, at.v, rows, rates, entries);
-    vectors::zip_map(rates, rows, |rate, size| {
+    let fastest = measure(&mut jacobian, at.v, rows, rates, entries);
+    vectors::zip_map(rates, rows, |motion, size| {
+        let rate = motion.max(size * fastest);
         let turning = if size > zero { rate * rate / size } else { zero };
         number(SHARE) * turning + number(64.0) * T::EPSILON * rate / apart
     });
@@ -140,14 +158,14 @@ pub(super) fn check_redundant_accelerations<T: Real>(
 }
 
 /// How large constraints and their rates are: `rows` become Sᵢ, and `rates` become
-/// max(Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, Sᵢ maxⱼ |vⱼ|/sⱼ).
+/// Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|. Gives maxⱼ |vⱼ|/sⱼ.
 fn measure<T: Real>(
     jacobian: &mut Jacobian<'_, T>,
     v: &[T],
     rows: &mut [T],
     rates: &mut [T],
     entries: &mut [T],
-) {
+) -> T {
     let zero = T::default();
     let length = length(jacobian, entries);
     vectors::fill(rows, zero);
@@ -163,7 +181,7 @@ fn measure<T: Real>(
             fastest = fastest.max(v.abs() / scale);
         }
     }
-    vectors::zip_map(rates, rows, |rate, size| rate.max(size * fastest));
+    fastest
 }
 
 /// The largest coordinate that is a length, or lever arm of an angle, in m.

@@ -19,8 +19,9 @@
 //!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
 //!   position is singular and the result must not be used.
 //!
+//! The example `python` of this crate is a whole target in fifty lines.
+//!
 //! # Example
-//! A target that lists the instructions of one function:
 //! ```
 //! use mbs_codegen::{FunctionId, analyse};
 //!
@@ -32,7 +33,7 @@
 //!     constraint rod: x^2 + y^2 = length^2;
 //!     start { x = length; guess y = 0; }
 //! }";
-//! let compiled = analyse(declaration.parse()?).map_err(|errors| errors.to_string())?;
+//! let compiled = analyse(declaration.parse()?)?;
 //! assert_eq!(compiled.name, "Pendulum");
 //! let phi = compiled.program(FunctionId::Phi);
 //! assert_eq!(phi.outputs.len(), compiled.constraints.len());
@@ -42,6 +43,7 @@
 mod build;
 mod derivation;
 mod functions;
+mod vectors;
 
 use std::rc::Rc;
 
@@ -53,6 +55,7 @@ pub use crate::plan::{FusedStep, Input, Kinds};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
+pub use vectors::Vector;
 
 /// The pivot growth from which on a position is singular to double precision: of 53 bits
 /// ten are left.

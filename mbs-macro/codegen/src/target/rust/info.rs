@@ -5,7 +5,6 @@ use mbs_symbolic::{Block, Operations};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::long;
 use super::names::Names;
 use crate::compiled::{Compiled, Count, Pivot, Quantity};
 
@@ -30,7 +29,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         let Count { function, operations, watch } = function;
         let name = function.name();
         let Operations { mul, add, div, sin_cos, other } = operations;
-        let blocks = long::blocks(compiled, compiled.program(function));
+        let blocks = compiled.blocks(compiled.program(function));
         let written = blocks.iter().map(|block| block.written() as u32).sum::<u32>();
         let loops = blocks.iter().filter(|block| matches!(block, Block::Repeated(_))).count() as u32;
         quote! {

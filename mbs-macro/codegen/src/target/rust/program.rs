@@ -3,15 +3,16 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;
 
-use mbs_symbolic::{Block, Function, Instruction, Number, Operand, Operation, Program, Symbol};
+use mbs_symbolic::layout::{Array, Component, Layout, Place};
+use mbs_symbolic::{Block, Function, Number, Operand, Operation, Program, SinCos, Symbol};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
-use super::long::{self, Array, Kind, Place, Slots};
+use super::long::{self, places};
 use super::names::{Names, field};
 use super::splines::spline_name;
-use crate::compiled::{Compiled, FunctionId, Input};
+use crate::compiled::{Compiled, FunctionId, Input, Vector};
 use crate::diagnostics::Diagnostic;
 
 /// Statements that run a program, and its outputs.
@@ -27,6 +28,13 @@ pub struct Body {
 }
 
 impl Body {
+    /// What stands for a program that cannot be written; nobody gets to see it.
+    fn none(program: &Program, names: &Names) -> Self {
+        let outputs = vec![internal("a program has no layout"); program.outputs.len()];
+        let runtime = names.runtime.clone();
+        Self { statements: TokenStream::new(), outputs, places: None, slots: 0, runtime }
+    }
+
     /// Some of the outputs as an array.
     pub fn array(&self, range: Range<usize>) -> TokenStream {
         let Some(places) = &self.places else {
@@ -43,19 +51,19 @@ impl Body {
 
     /// Statements that write those of the outputs of a long program into an array that are
     /// not there yet.
-    pub fn write(&self, array: Kind, range: Range<usize>) -> TokenStream {
+    pub fn write(&self, array: Array, range: Range<usize>) -> TokenStream {
         let runtime = &self.runtime;
-        let places = self.places.iter().flat_map(|places| places[range.clone()].iter().enumerate());
+        let outputs = self.places.iter().flat_map(|places| places[range.clone()].iter().enumerate());
         let literal = Literal::usize_unsuffixed;
-        let rows: Vec<_> = places
-            .filter(|(_, place)| place.array == Kind::Slots)
+        let rows: Vec<_> = outputs
+            .filter(|(_, place)| place.array == Array::Slots)
             .map(|(to, place)| (literal(place.at), literal(to)))
             .map(|(from, to)| quote!([#from, #to]))
             .collect();
         if rows.is_empty() {
             return TokenStream::new();
         }
-        let (array, count) = (array.ident(), literal(rows.len()));
+        let (array, count) = (places::array(array), literal(rows.len()));
         quote! {{
             const PLACES: [[::core::primitive::u32; 2]; #count] = [#(#rows),*];
             #runtime::__private::copy(slots, #array, &PLACES);
@@ -86,45 +94,23 @@ pub fn named(of_t: &TokenStream, fields: &[Ident], values: &[TokenStream]) -> To
 /// functions of bounded size.
 pub fn body(compiled: &Compiled, names: &Names, function: FunctionId, access: &Access) -> Body {
     let program = compiled.program(function);
-    let blocks = long::blocks(compiled, program);
+    let blocks = compiled.blocks(program);
     let range = match &blocks[..] {
         [] => 0..0,
         [Block::Straight(range)] => range.clone(),
-        _ => return long::body(compiled, names, program, access, &blocks),
+        _ => {
+            let body = long::body(compiled, names, program, access, &blocks);
+            return body.unwrap_or_else(|fault| {
+                names.faults.borrow_mut().push(fault);
+                Body::none(program, names)
+            });
+        }
     };
-    let pairs = Pairs::new(program);
+    let pairs = SinCos::of(program);
     let mut writer = Writer::new(compiled, program, access, &pairs, range.clone());
     range.for_each(|at| writer.instruction(at));
     let outputs = program.outputs.iter().map(|&output| writer.operand(output)).collect();
     Body { statements: writer.statements, outputs, places: None, slots: 0, runtime: names.runtime.clone() }
-}
-
-/// Sine instruction ↔ cosine instruction of the same angle.
-pub struct Pairs(HashMap<usize, usize>);
-
-impl Pairs {
-    pub fn new(program: &Program) -> Self {
-        let calls = |wanted: Function| {
-            let of_angle = move |(at, instruction): (usize, &Instruction)| {
-                (instruction.operation == Operation::Call(wanted)).then_some((instruction.a, at))
-            };
-            program.instructions.iter().enumerate().filter_map(of_angle)
-        };
-        let cosines: HashMap<Operand, usize> = calls(Function::Cos).collect();
-        let mut pairs = HashMap::new();
-        for (angle, sine) in calls(Function::Sin) {
-            if let Some(&cosine) = cosines.get(&angle) {
-                pairs.insert(sine, cosine);
-                pairs.insert(cosine, sine);
-            }
-        }
-        Self(pairs)
-    }
-
-    /// The cosine that goes with a sine, or the other way round.
-    pub fn partner(&self, at: usize) -> Option<usize> {
-        self.0.get(&at).copied()
-    }
 }
 
 /// Writes some instructions of a program, one after the other.
@@ -132,10 +118,10 @@ pub(super) struct Writer<'a> {
     compiled: &'a Compiled,
     program: &'a Program,
     access: &'a Access,
-    pairs: &'a Pairs,
-    /// What is written; results of other instructions are in slots.
+    pairs: &'a SinCos,
+    /// What is written; results of other instructions are where the layout keeps them.
     range: Range<usize>,
-    slots: Option<&'a Slots>,
+    layout: Option<&'a Layout<Vector>>,
     /// Sines and cosines that are not of one angle in every copy.
     apart: HashSet<usize>,
     /// The variables that hold results; a partner of a sine–cosine pair is
@@ -150,7 +136,7 @@ impl<'a> Writer<'a> {
         compiled: &'a Compiled,
         program: &'a Program,
         access: &'a Access,
-        pairs: &'a Pairs,
+        pairs: &'a SinCos,
         range: Range<usize>,
     ) -> Self {
         Self {
@@ -159,7 +145,7 @@ impl<'a> Writer<'a> {
             access,
             pairs,
             range,
-            slots: None,
+            layout: None,
             apart: HashSet::new(),
             results: HashMap::new(),
             taken: BTreeSet::new(),
@@ -167,9 +153,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Results that are not written here are read from slots.
-    pub fn with_slots(self, slots: &'a Slots) -> Self {
-        Self { slots: Some(slots), ..self }
+    /// Results that are not written here are read from their places.
+    pub fn with_layout(self, layout: &'a Layout<Vector>) -> Self {
+        Self { layout: Some(layout), ..self }
     }
 
     /// Does not take the result of an instruction from that of its partner.
@@ -223,9 +209,9 @@ impl<'a> Writer<'a> {
             Operand::Value(at) => match self.results.get(&at) {
                 Some(name) => quote!(#name),
                 None => self
-                    .slots
-                    .and_then(|slots| slots.token(at))
-                    .unwrap_or_else(|| internal("a result is read that is not kept")),
+                    .layout
+                    .and_then(|layout| layout.place(at))
+                    .map_or_else(|| internal("a result is read that is not kept"), places::element),
             },
         }
     }
@@ -273,9 +259,10 @@ pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> To
     let Access { parameters, time, positions, velocities, .. } = access;
     let meaning = compiled.input(symbol);
     if access.is_on_arrays()
-        && let Some((array, at)) = Array::of(meaning).filter(|(array, _)| array.is_given())
+        && let Some(Component { vector, place }) = meaning.component()
+        && vector.is_given()
     {
-        let (array, at) = (array.ident(), Literal::usize_unsuffixed(at));
+        let (array, at) = (vector.ident(), Literal::usize_unsuffixed(place));
         return quote!(#array[#at]);
     }
     let coordinate = |at: usize| field(&compiled.coordinates[at].name);

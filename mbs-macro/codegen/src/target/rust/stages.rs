@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
-use super::long::{self, Kind};
+use super::long::places::{ACCELERATION, FEEDBACK};
 use super::names::Names;
 use super::program::{Body, body};
 use crate::compiled::{Compiled, FunctionId};
@@ -13,7 +13,7 @@ use crate::compiled::{Compiled, FunctionId};
 /// Whether the stages are given arrays: where a step is not fused, and both became
 /// more than one block.
 pub fn are_on_arrays(compiled: &Compiled) -> bool {
-    let is_long = |program: &Program| long::blocks(compiled, program).len() > 1;
+    let is_long = |program: &Program| compiled.blocks(program).len() > 1;
     compiled.fused_step.is_none()
         && is_long(compiled.program(FunctionId::Stabilized))
         && is_long(compiled.program(FunctionId::Constrained))
@@ -40,8 +40,8 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
             #growth
         }
     };
-    let acceleration = |body: &Body| body.write(Kind::Acceleration, 0..n);
-    let feedback = stabilized.write(Kind::Feedback, n..n + m);
+    let acceleration = |body: &Body| body.write(ACCELERATION, 0..n);
+    let feedback = stabilized.write(FEEDBACK, n..n + m);
     let acceleration_of_stabilized = acceleration(&stabilized);
     let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
     let constrained = stage(&constrained, &acceleration(&constrained));

@@ -1,58 +1,26 @@
 //! Vectors with named components as arrays, for loops over them.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compiled::{Compiled, Input};
+use crate::compiled::{Compiled, Vector};
 use crate::target::rust::access::{Access, Argument};
 use crate::target::rust::names::Names;
 
-/// The arrays that a program's loops read, and their lengths.
+/// The vectors that a program's loops read as arrays.
 #[derive(Default)]
-pub struct Arrays {
-    lengths: BTreeMap<Array, usize>,
-}
+pub struct Arrays(BTreeSet<Vector>);
 
-/// A vector that programs depend on.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Array {
-    Parameters,
-    Inputs,
-    Positions,
-    Velocities,
-    Accelerations,
-    Multipliers,
-    Feedback,
-}
-
-impl Array {
-    /// The vector and the place of a symbol in it; `None` of a single quantity.
-    pub fn of(input: Input) -> Option<(Self, usize)> {
-        Some(match input {
-            Input::Parameter(at) => (Self::Parameters, at),
-            Input::Input(at) => (Self::Inputs, at),
-            Input::Position(at) => (Self::Positions, at),
-            Input::Velocity(at) => (Self::Velocities, at),
-            Input::Acceleration(at) => (Self::Accelerations, at),
-            Input::Multiplier(at) => (Self::Multipliers, at),
-            Input::Feedback(at) => (Self::Feedback, at),
-            Input::Time
-            | Input::MinusTwoAlpha
-            | Input::MinusBetaSquared
-            | Input::Step
-            | Input::HalfStep
-            | Input::NextTime => return None,
-        })
-    }
-
+impl Vector {
     /// Whether stages on arrays are given the vector as one.
-    pub fn is_given(self) -> bool {
+    pub(in crate::target::rust) fn is_given(self) -> bool {
         matches!(self, Self::Positions | Self::Velocities | Self::Feedback)
     }
 
-    pub fn ident(self) -> Ident {
+    /// The name of its array.
+    pub(in crate::target::rust) fn ident(self) -> Ident {
         let name = match self {
             Self::Parameters => "parameter",
             Self::Inputs => "input",
@@ -63,15 +31,6 @@ impl Array {
             Self::Feedback => "feedback",
         };
         format_ident!("{name}_array")
-    }
-
-    fn length(self, compiled: &Compiled) -> usize {
-        match self {
-            Self::Parameters => compiled.parameters.len(),
-            Self::Inputs => compiled.inputs.len(),
-            Self::Positions | Self::Velocities | Self::Accelerations => compiled.coordinates.len(),
-            Self::Multipliers | Self::Feedback => compiled.constraints.len(),
-        }
     }
 
     /// The vector in the function around the loops.
@@ -92,25 +51,25 @@ impl Array {
 
 impl Arrays {
     /// The array as an argument of a function.
-    pub fn argument(&mut self, array: Array, compiled: &Compiled, access: &Access) -> Argument {
-        let (ident, length) = (array.ident(), array.length(compiled));
-        let is_given = access.is_on_arrays() && array.is_given();
+    pub fn argument(&mut self, vector: Vector, compiled: &Compiled, access: &Access) -> Argument {
+        let ident = vector.ident();
+        let is_given = access.is_on_arrays() && vector.is_given();
         let value = if is_given {
             quote!(#ident)
         } else {
-            self.lengths.insert(array, length);
+            self.0.insert(vector);
             quote!(&#ident)
         };
-        let length = Literal::usize_unsuffixed(length);
+        let length = Literal::usize_unsuffixed(compiled.components(vector));
         Argument { declaration: quote!(#ident: &[T; #length]), value }
     }
 
     pub fn declarations(&self, names: &Names, access: &Access) -> TokenStream {
         let runtime = &names.runtime;
-        let declaration = |array: &Array| {
-            let (ident, place) = (array.ident(), array.place(access));
+        let declaration = |vector: &Vector| {
+            let (ident, place) = (vector.ident(), vector.place(access));
             quote!(let #ident = #runtime::Components::into_array(#place);)
         };
-        self.lengths.keys().map(declaration).collect()
+        self.0.iter().map(declaration).collect()
     }
 }

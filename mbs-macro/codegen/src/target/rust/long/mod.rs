@@ -2,73 +2,25 @@
 //! size, so that code and the compiler's time grow with the number of different
 //! parts of a chain.
 //!
-//! Results that a later block needs are kept in an array of slots.
+//! The [layout](mbs_symbolic::layout) says what is written where.
 
 mod arrays;
-mod check;
 mod columns;
+pub mod places;
 mod repeated;
-mod slots;
 
-use std::collections::{BTreeSet, HashMap};
-use std::ops::Range;
+use std::collections::BTreeSet;
 
-use mbs_symbolic::{Block, Operand, Program};
+use mbs_symbolic::layout::{Array, Layout, Part, Straight};
+use mbs_symbolic::{Block, Inconsistency, Operand, Program, SinCos};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-pub use self::arrays::Array;
 use self::arrays::Arrays;
-pub use self::slots::{Kind, Place, Slots};
 use super::access::{Access, Argument};
 use super::names::Names;
-use super::program::{Body, Pairs, Writer};
-use crate::compiled::{Compiled, Input};
-
-/// A program that is not to have loops is one function up to this length, whatever was
-/// asked for: rustc nests a scope per statement, and its stack ends at about twice as many.
-const LONGEST: usize = 3072;
-
-/// Longer sequences are written as functions of this many instructions.
-const PART: usize = 256;
-
-/// The program in the blocks that are emitted; one block is written in place.
-pub fn blocks(compiled: &Compiled, program: &Program) -> Vec<Block> {
-    let length = program.instructions.len();
-    if length <= compiled.choices.unrolled {
-        let is_one = length <= LONGEST;
-        return if is_one { vec![Block::Straight(0..length)] } else { parts(0..length).collect() };
-    }
-    let blocks = program.blocks(&|symbol| class(compiled.input(symbol)));
-    let split = |block| match block {
-        Block::Straight(range) => parts(range).collect(),
-        repeated => vec![repeated],
-    };
-    blocks.into_iter().flat_map(split).collect()
-}
-
-fn parts(range: Range<usize>) -> impl Iterator<Item = Block> {
-    range.clone().step_by(PART).map(move |start| Block::Straight(start..range.end.min(start + PART)))
-}
-
-/// Symbols with equal numbers are components of one vector.
-fn class(input: Input) -> usize {
-    match input {
-        Input::Time => 0,
-        Input::MinusTwoAlpha => 1,
-        Input::MinusBetaSquared => 2,
-        Input::Parameter(_) => 3,
-        Input::Input(_) => 4,
-        Input::Position(_) => 5,
-        Input::Velocity(_) => 6,
-        Input::Acceleration(_) => 7,
-        Input::Multiplier(_) => 8,
-        Input::Feedback(_) => 9,
-        Input::Step => 10,
-        Input::HalfStep => 11,
-        Input::NextTime => 12,
-    }
-}
+use super::program::{Body, Writer};
+use crate::compiled::{Compiled, Vector};
 
 /// What the functions of a program share.
 struct Context<'a> {
@@ -77,144 +29,135 @@ struct Context<'a> {
     program: &'a Program,
     /// How symbols are read within the functions.
     access: &'a Access,
-    pairs: &'a Pairs,
-    slots: &'a Slots,
+    pairs: &'a SinCos,
+    layout: &'a Layout<Vector>,
 }
 
 /// The statements of a function, and what it takes.
-struct Part {
+struct Definition {
     name: Ident,
     doc: Option<String>,
     statements: TokenStream,
     arguments: Vec<Argument>,
 }
 
+/// The functions of a program, and the statements that call them.
+#[derive(Default)]
+struct Functions {
+    definitions: TokenStream,
+    calls: TokenStream,
+}
+
+impl Functions {
+    /// Adds a function, which is also given these arrays.
+    fn add(&mut self, definition: Definition, results: &[Argument], names: &Names, access: &Access) {
+        let Definition { name, doc, statements, arguments } = definition;
+        let doc = doc.map(|doc| quote!(#[doc = #doc]));
+        let arguments = || arguments.iter().chain(results);
+        let declarations = arguments().map(|argument| &argument.declaration);
+        let values = arguments().map(|argument| &argument.value);
+        let slots = if access.is_on_arrays() { quote!(slots) } else { quote!(&mut slots) };
+        let runtime = &names.runtime;
+        self.definitions.extend(quote! {
+            #doc
+            #[inline(never)]
+            fn #name<T: #runtime::Real>(#(#declarations,)* slots: &mut [T; SLOTS]) { #statements }
+        });
+        self.calls.extend(quote!(#name(#(#values,)* #slots);));
+    }
+}
+
 /// Definitions and calls of the functions, and the outputs. Where access is to arrays, the
 /// slots are given too, and `SLOTS` is how many.
+///
+/// # Errors
+/// The layout does not compute what the program does.
 pub fn body(
     compiled: &Compiled,
     names: &Names,
     program: &Program,
     access: &Access,
     blocks: &[Block],
-) -> Body {
-    let results = results(compiled, program, access);
-    let slots = Slots::new(program, blocks, &results);
-    if let Err(fault) = check::check(program, blocks, &slots) {
-        names.faults.borrow_mut().push(fault);
-    }
-    let pairs = Pairs::new(program);
+) -> Result<Body, Inconsistency> {
+    let lengths = results(compiled, program, access);
+    let layout = compiled.layout(program, blocks, &lengths)?;
+    let results: Vec<Argument> = lengths.iter().enumerate().map(result_argument).collect();
+    let pairs = SinCos::of(program);
     let inside = access.in_part(names);
-    let context = Context { compiled, names, program, access: &inside, pairs: &pairs, slots: &slots };
-    let mut arrays = Arrays::default();
-    let given_slots = if access.is_on_arrays() { quote!(slots) } else { quote!(&mut slots) };
-    let (mut definitions, mut calls) = (TokenStream::new(), TokenStream::new());
-    for (at, block) in blocks.iter().enumerate() {
+    let context = Context { compiled, names, program, access: &inside, pairs: &pairs, layout: &layout };
+    let (mut arrays, mut functions) = (Arrays::default(), Functions::default());
+    for (at, part) in layout.parts.iter().enumerate() {
         let number = at + 1;
-        let part = match block {
-            Block::Straight(range) => {
-                straight(&context, range.clone(), &mut arrays, format_ident!("part_{number}"))
-            }
-            Block::Repeated(repetition) => {
-                repeated::part(&context, *repetition, &mut arrays, format_ident!("repeated_{number}"))
+        let definition = match part {
+            Part::Straight(part) => straight(&context, part, &mut arrays, format_ident!("part_{number}")),
+            Part::Loop(part) => {
+                repeated::definition(&context, part, &mut arrays, format_ident!("repeated_{number}"))
             }
         };
-        let Part { name, doc, statements, mut arguments } = part;
-        arguments.extend(results.iter().map(|(array, length)| {
-            let (array, length) = (array.ident(), Literal::usize_unsuffixed(*length));
-            Argument { declaration: quote!(#array: &mut [T; #length]), value: quote!(#array) }
-        }));
-        let doc = doc.map(|doc| quote!(#[doc = #doc]));
-        let declarations = arguments.iter().map(|argument| &argument.declaration);
-        let values = arguments.iter().map(|argument| &argument.value);
-        let runtime = &names.runtime;
-        definitions.extend(quote! {
-            #doc
-            #[inline(never)]
-            fn #name<T: #runtime::Real>(#(#declarations,)* slots: &mut [T; SLOTS]) { #statements }
-        });
-        calls.extend(quote!(#name(#(#values,)* #given_slots);));
+        functions.add(definition, &results, names, access);
     }
+    let Functions { definitions, calls } = functions;
     // outside the functions, symbols are read as the function around them reads them
-    let outside = Writer::new(compiled, program, access, &pairs, 0..0).with_slots(&slots);
-    let outputs: Vec<_> = program.outputs.iter().map(|&output| outside.operand(output)).collect();
-    let Outputs { places, length, statements: rest } = Outputs::new(program, &slots, &outputs);
-    let arrays = arrays.declarations(names, access);
-    let room = (!access.is_on_arrays()).then(|| {
-        let length = Literal::usize_unsuffixed(length);
-        quote! {
-            const SLOTS: ::core::primitive::usize = #length;
-            let mut slots = [T::from_f64(0.0); SLOTS];
-        }
+    let outside = Writer::new(compiled, program, access, &pairs, 0..0).with_layout(&layout);
+    let outputs = program.outputs.iter().map(|&output| outside.operand(output)).collect();
+    let given = layout.given.iter().map(|(operand, place)| {
+        let (value, place) = (outside.operand(*operand), places::element(*place));
+        quote!(#place = #value;)
     });
-    let statements = quote!(#room #definitions #arrays #calls #rest);
-    Body { statements, outputs, places: Some(places), slots: length, runtime: names.runtime.clone() }
+    let arrays = arrays.declarations(names, access);
+    let room = (!access.is_on_arrays()).then(|| room(layout.slots));
+    let statements = quote!(#room #definitions #arrays #calls #(#given)*);
+    let places = Some(layout.outputs.clone());
+    Ok(Body { statements, outputs, places, slots: layout.slots, runtime: names.runtime.clone() })
 }
 
-/// Where outputs are kept.
-struct Outputs {
-    places: Vec<Place>,
-    /// How many slots there are with those of outputs that no instruction computes,
-    length: usize,
-    /// and what fills these.
-    statements: TokenStream,
-}
-
-impl Outputs {
-    fn new(program: &Program, slots: &Slots, values: &[TokenStream]) -> Self {
-        let (mut length, mut statements) = (slots.len(), TokenStream::new());
-        let mut others: HashMap<Operand, Place> = HashMap::new();
-        let place = |(&output, value): (&Operand, &TokenStream)| {
-            let known = match output {
-                Operand::Value(at) => slots.of(at),
-                other => others.get(&other).copied(),
-            };
-            known.unwrap_or_else(|| {
-                let (at, place) =
-                    (Literal::usize_unsuffixed(length), Place { array: Kind::Slots, at: length });
-                statements.extend(quote!(slots[#at] = #value;));
-                others.insert(output, place);
-                length += 1;
-                place
-            })
-        };
-        let places = program.outputs.iter().zip(values).map(place).collect();
-        Self { places, length, statements }
+/// The slots, where they are not given.
+fn room(slots: usize) -> TokenStream {
+    let length = Literal::usize_unsuffixed(slots);
+    quote! {
+        const SLOTS: ::core::primitive::usize = #length;
+        let mut slots = [T::from_f64(0.0); SLOTS];
     }
 }
 
-/// The arrays of results that stages on arrays are given, and their lengths.
-fn results(compiled: &Compiled, program: &Program, access: &Access) -> Vec<(Kind, usize)> {
+/// The lengths of the arrays of results that stages on arrays are given: q̈, and the
+/// feedback where the first stage gives it.
+fn results(compiled: &Compiled, program: &Program, access: &Access) -> Vec<usize> {
     if !access.is_on_arrays() {
         return Vec::new();
     }
     let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
     let has_feedback = m > 0 && program.outputs.len() > n + m;
-    let feedback = has_feedback.then_some((Kind::Feedback, m));
-    [(Kind::Acceleration, n)].into_iter().chain(feedback).collect()
+    [n].into_iter().chain(has_feedback.then_some(m)).collect()
+}
+
+/// An array of results as an argument of a function.
+fn result_argument((at, length): (usize, &usize)) -> Argument {
+    let (array, length) = (places::array(Array::Result(at)), Literal::usize_unsuffixed(*length));
+    Argument { declaration: quote!(#array: &mut [T; #length]), value: quote!(#array) }
 }
 
 /// Instructions that are written once.
-fn straight(context: &Context<'_>, range: Range<usize>, arrays: &mut Arrays, name: Ident) -> Part {
-    let Context { compiled, names, program, access, pairs, slots } = *context;
-    let mut writer = Writer::new(compiled, program, access, pairs, range.clone()).with_slots(slots);
+fn straight(context: &Context<'_>, part: &Straight, arrays: &mut Arrays, name: Ident) -> Definition {
+    let Context { compiled, names, program, access, pairs, layout } = *context;
+    let Straight { range, kept } = part;
+    let mut writer = Writer::new(compiled, program, access, pairs, range.clone()).with_layout(layout);
     range.clone().for_each(|at| writer.instruction(at));
-    for at in range.clone() {
-        if let (Some(slot), Some(value)) = (slots.token(at), writer.result(at)) {
-            writer.statements.extend(quote!(#slot = #value;));
+    for &(at, place) in kept {
+        if let Some(value) = writer.result(at) {
+            let place = places::element(place);
+            writer.statements.extend(quote!(#place = #value;));
         }
     }
+    let instructions = &program.instructions[range.clone()];
     let operands: Vec<Operand> =
-        program.instructions[range].iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
+        instructions.iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
     let mut arguments = access.arguments(compiled, names, &operands);
     if access.is_on_arrays() {
-        let vector = |operand: &Operand| match operand {
-            Operand::Symbol(symbol) => Array::of(compiled.input(*symbol)),
-            _ => None,
-        };
-        let given: BTreeSet<_> = operands.iter().filter_map(vector).map(|(array, _)| array).collect();
-        let given = given.into_iter().filter(|array| array.is_given());
-        arguments.extend(given.map(|array| arrays.argument(array, compiled, access)));
+        let vector = |operand: &Operand| Some(compiled.input_of(*operand)?.component()?.vector);
+        let given: BTreeSet<_> = operands.iter().filter_map(vector).collect();
+        let given = given.into_iter().filter(|vector| vector.is_given());
+        arguments.extend(given.map(|vector| arrays.argument(vector, compiled, access)));
     }
-    Part { name, doc: None, statements: writer.statements, arguments }
+    Definition { name, doc: None, statements: writer.statements, arguments }
 }

@@ -1,63 +1,70 @@
 //! Copies of the same instructions as a loop.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
-use mbs_symbolic::{Function, Operand, Operation, Repetition, Source};
+use mbs_symbolic::layout::{Angle, Carried, Column, Home, Kept, Loop, Read};
+use mbs_symbolic::{Function, Operand, Operation, Repetition};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::arrays::Arrays;
-use super::columns::Columns;
-use super::slots::{Kept, Place};
-use super::{Context, Part};
+use super::columns::{Columns, carried_values, element, head, store, vectors};
+use super::{Context, Definition, places};
+use crate::compiled::Vector;
 use crate::target::rust::program::Writer;
 
 /// A loop over the copies.
-pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, name: Ident) -> Part {
-    let Context { compiled, names, program, access, pairs, slots } = *context;
-    let first_copy = repetition.start..repetition.start + repetition.length;
-    let sources: Vec<[Source; 2]> =
-        (0..repetition.length).map(|at| repetition.sources(program, at)).collect();
+pub fn definition(
+    context: &Context<'_>,
+    repeated: &Loop<Vector>,
+    arrays: &mut Arrays,
+    name: Ident,
+) -> Definition {
+    let Context { compiled, names, access, .. } = *context;
+    let Repetition { length, count, .. } = repeated.repetition;
+    let (doc, statements, mut arguments) = match repeated.angles() {
+        Some(steps) => {
+            (format!(" {} angles.", count * length / 2), angles(context, repeated, &steps), vec![])
+        }
+        None => {
+            let arguments = access.arguments(compiled, names, &operands(repeated));
+            (format!(" {length} instructions, {count} times."), copies(context, repeated), arguments)
+        }
+    };
+    let vectors = vectors(repeated).into_iter();
+    arguments.extend(vectors.map(|vector| arrays.argument(vector, compiled, access)));
+    Definition { name, doc: Some(doc), statements, arguments }
+}
 
-    let mut simple = Columns::new(context, repetition);
-    if let Some(statements) = angles(context, &mut simple, &first_copy, &sources) {
-        let arguments = simple.arrays.iter().map(|&array| arrays.argument(array, compiled, access)).collect();
-        let doc = Some(format!(" {} angles.", repetition.count * repetition.length / 2));
-        return Part { name, doc, statements, arguments };
-    }
-    let mut columns = Columns::new(context, repetition);
-    let mut writer = Writer::new(compiled, program, access, pairs, first_copy.clone()).with_slots(slots);
-    for at in first_copy.clone() {
-        let partner = pairs.partner(at).filter(|partner| first_copy.contains(partner));
-        if partner.is_some_and(|p| sources[p - first_copy.start] != sources[at - first_copy.start]) {
-            writer.set_apart(at);
+/// The copies, one after the other.
+fn copies(context: &Context<'_>, repeated: &Loop<Vector>) -> TokenStream {
+    let Context { compiled, program, access, pairs, layout, .. } = *context;
+    let Repetition { start, length, .. } = repeated.repetition;
+    let mut writer = Writer::new(compiled, program, access, pairs, start..start + length).with_layout(layout);
+    for (at, step) in repeated.steps.iter().enumerate() {
+        if step.partner.is_none() {
+            writer.set_apart(start + at);
         }
     }
+    let mut columns = Columns::new(context, repeated);
     let mut around = Around::default();
-    for (at, sources) in first_copy.clone().zip(&sources) {
-        let [a, b] = sources.each_ref().map(|source| columns.read(source));
+    for (at, step) in repeated.steps.iter().enumerate() {
+        let operands = step.operands.map(|read| columns.read(read));
         writer.statements.extend(std::mem::take(&mut columns.reads));
-        writer.instruction_of(at, [a, b]);
+        writer.instruction_of(start + at, operands);
         // a sine comes with its cosine
-        for at in [Some(at), pairs.partner(at)].into_iter().flatten() {
-            if let Some(value) = writer.result(at).filter(|_| around.kept.insert(at)) {
-                let statement = keep(&mut columns, &mut around, at, value);
+        for at in [Some(at), step.partner].into_iter().flatten() {
+            if let Some(value) = writer.result(start + at).filter(|_| around.kept.insert(at)) {
+                let statement = around.keep(context, repeated.steps[at].kept, value);
                 writer.statements.extend(statement);
             }
         }
     }
-    let (first, next) = columns.carried_values(&writer);
-    let head = columns.head();
+    let (first, next) = carried_values(repeated, &writer);
+    let head = head(repeated);
     let body = writer.statements;
     let Around { before, after, .. } = around;
-    let statements = quote!(#before #first #head { #body #next } #after);
-
-    let operands: Vec<Operand> = sources.iter().flatten().filter_map(first_operand).collect();
-    let mut arguments = access.arguments(compiled, names, &operands);
-    arguments.extend(columns.arrays.iter().map(|&array| arrays.argument(array, compiled, access)));
-    let doc = format!(" {} instructions, {} times.", repetition.length, repetition.count);
-    Part { name, doc: Some(doc), statements, arguments }
+    quote!(#before #first #head { #body #next } #after)
 }
 
 /// Statements around a loop.
@@ -65,81 +72,54 @@ pub fn part(context: &Context<'_>, repetition: Repetition, arrays: &mut Arrays, 
 struct Around {
     before: TokenStream,
     after: TokenStream,
-    /// The instructions whose results are kept so far.
+    /// The steps whose results are kept so far.
     kept: BTreeSet<usize>,
 }
 
-/// Keeps the result of an instruction: that of every copy at once, that of the last one
-/// after the loop.
-fn keep(columns: &mut Columns<'_>, around: &mut Around, at: usize, value: &Ident) -> TokenStream {
-    let Context { names, slots, .. } = *columns.context;
-    match slots.of_copies(&columns.repetition, at) {
-        Kept::No => TokenStream::new(),
-        Kept::Each(array, places) => {
-            let (runtime, array, place) = (&names.runtime, array.ident(), columns.place(places));
-            quote!(#runtime::__private::write(#array, #place, #value);)
-        }
-        Kept::Last(Place { array, at }) => {
-            let last = format_ident!("last_{}", around.kept.len());
-            let (array, place) = (array.ident(), Literal::usize_unsuffixed(at));
-            around.before.extend(quote!(let mut #last = T::from_f64(0.0);));
-            around.after.extend(quote!(#array[#place] = #last;));
-            quote!(#last = #value;)
-        }
+impl Around {
+    /// Keeps the result of a step: that of every copy at once, that of the last one after
+    /// the loop.
+    fn keep(&mut self, context: &Context<'_>, kept: Kept, value: &Ident) -> TokenStream {
+        let Kept::Last(place) = kept else { return store(context, kept, value) };
+        let last = format_ident!("last_{}", self.kept.len());
+        let place = places::element(place);
+        self.before.extend(quote!(let mut #last = T::from_f64(0.0);));
+        self.after.extend(quote!(#place = #last;));
+        quote!(#last = #value;)
     }
 }
 
-/// Loops over the sines and cosines of components, which are taken two at once, if
-/// the copies have nothing else.
-fn angles(
-    context: &Context<'_>,
-    columns: &mut Columns<'_>,
-    first_copy: &Range<usize>,
-    sources: &[[Source; 2]],
-) -> Option<TokenStream> {
-    let Context { names, program, pairs, slots, .. } = *context;
+/// Loops over the sines and cosines of components, which are taken two at once.
+fn angles(context: &Context<'_>, repeated: &Loop<Vector>, angles: &[Angle]) -> TokenStream {
+    let Context { names, program, .. } = *context;
     let runtime = &names.runtime;
-    let count = Literal::usize_unsuffixed(columns.repetition.count);
-    let mut statements = TokenStream::new();
-    for (at, [source, _]) in first_copy.clone().zip(sources) {
-        let partner = pairs.partner(at).filter(|partner| first_copy.contains(partner))?;
-        let Source::Each(operands) = source else { return None };
-        let is_of_components = operands.iter().all(|operand| matches!(operand, Operand::Symbol(_)));
-        if !is_of_components || sources[partner - first_copy.start][0] != *source {
-            return None;
-        }
-        if partner < at {
-            continue;
-        }
-        let angle = columns.each(operands);
-        let is_sine = program.instructions[at].operation == Operation::Call(Function::Sin);
+    let Repetition { start, count, .. } = repeated.repetition;
+    let count = Literal::usize_unsuffixed(count);
+    let statements = angles.iter().map(|Angle { column, steps }| {
+        let angle = element(context, &repeated.columns[*column]);
+        let is_sine = program.instructions[start + steps[0]].operation == Operation::Call(Function::Sin);
         let results = if is_sine { ["sine", "cosine"] } else { ["cosine", "sine"] };
-        let mut kept = TokenStream::new();
-        for (at, result) in [at, partner].into_iter().zip(results) {
-            match slots.of_copies(&columns.repetition, at) {
-                Kept::No => {}
-                // the others would have to be left out
-                Kept::Last(_) => return None,
-                Kept::Each(array, places) => {
-                    let (array, place) = (array.ident(), columns.place(places));
-                    let result = format_ident!("{result}");
-                    kept.extend(quote!(#runtime::__private::write(#array, #place, #result);));
-                }
-            }
+        let stores = steps
+            .iter()
+            .zip(results)
+            .map(|(&at, result)| store(context, repeated.steps[at].kept, &format_ident!("{result}")));
+        quote! {
+            #runtime::__private::sin_cos_each(#count, |copy| #angle, |copy, sine, cosine| { #(#stores)* });
         }
-        statements.extend(quote! {
-            #runtime::__private::sin_cos_each(#count, |copy| #angle, |copy, sine, cosine| { #kept });
-        });
-    }
-    // places from a table would need the loop
-    columns.tables.is_empty().then_some(statements)
+    });
+    statements.collect()
 }
 
 /// What the function of a loop has to reach besides slots and arrays.
-fn first_operand(source: &Source) -> Option<Operand> {
-    match source {
-        Source::Own(_) => None,
-        Source::Same(operand) | Source::Carried(_, operand) => Some(*operand),
-        Source::Each(operands) => operands.first().copied().filter(|o| matches!(o, Operand::Hoisted(_))),
-    }
+fn operands(repeated: &Loop<Vector>) -> Vec<Operand> {
+    let same = repeated.steps.iter().flat_map(|step| step.operands).filter_map(|read| match read {
+        Read::Same(operand) => Some(operand),
+        Read::Own(_) | Read::Carried(_) | Read::Each(_) => None,
+    });
+    let carried = repeated.carried.iter().map(|Carried { first, .. }| *first);
+    let hoisted = repeated.columns.iter().filter_map(|column| match column {
+        Column::Elements(Home::Hoisted, rule) => Some(Operand::Hoisted(rule.at(0, &repeated.tables))),
+        _ => None,
+    });
+    same.chain(carried).chain(hoisted).collect()
 }
