@@ -58,12 +58,16 @@ impl<T: Real> Examination<'_, T> {
     }
 
     /// Refuses a step from which rounding has taken half of its digits, growth > 1/√ε, and
-    /// that has left a violation whose feedback would change the motion as a whole: within
-    /// some steps it would leave every scale.
+    /// that has left many times the violation of before, whose feedback would change the
+    /// motion as a whole: within some steps it would leave every scale.
     fn keeps_digits(&self, next: At<'_, T>, growth: T, room: &mut Room<'_, T>) -> Result<(), Error> {
         let Self { equations, at, step, .. } = *self;
         let has_lost_half = T::EPSILON * growth * growth > T::from_f64(1.0);
         if !has_lost_half || !self.keeps_constraints || check(equations, at, step, room).is_err() {
+            return Ok(());
+        }
+        let [before, after] = [at, next].map(|at| violations(equations, at, room));
+        if before.iter().zip(after).all(|(&before, after)| after <= T::from_f64(32.0) * before) {
             return Ok(());
         }
         let [here, there] = [at, next].map(|at| equations.worst_pivot(at.t, at.q));
@@ -122,6 +126,15 @@ impl<T: Real> Examination<'_, T> {
             // an input that is not finite is the cause of whatever failed after it
             .map_err(|error| check_inputs(info, inputs).err().unwrap_or(error))
     }
+}
+
+/// ‖Φ‖ and ‖Φ̇‖
+fn violations<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, room: &mut Room<'_, T>) -> [T; 2] {
+    let [rows, ..] = &mut room.constraints;
+    equations.phi(at.t, at.q, rows);
+    let violation = vectors::norm(rows);
+    equations.phi_dot(at, rows);
+    [violation, vectors::norm(rows)]
 }
 
 /// What is done with a run to be examined.

@@ -171,7 +171,12 @@ fn extents<M: Mechanism<Real = f64>, F: Feedback>(
         if let Some(player) = player {
             player.set(&mut simulation);
         }
-        let (q, outputs) = (simulation.state().q.into_array(), seen(&simulation)?.1.into_array());
+        let outputs = seen(&simulation)?.1;
+        if !outputs.is_finite() {
+            // names the first that is no number
+            simulation.outputs()?;
+        }
+        let (q, outputs) = (simulation.state().q.into_array(), outputs.into_array());
         let now = q.as_ref().iter().chain(outputs.as_ref());
         if taken == 0 {
             extents.extend(now.map(|&x| Extent { low: x, high: x, last: x }));
