@@ -37,12 +37,13 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     fn keeps_digits(&self, next: &State<M::Coordinates>, growth: M::Real) -> Result<(), Error> {
         let Self { mechanism, state, step, .. } = self;
         let has_lost_half = M::Real::EPSILON * growth * growth > M::Real::from_f64(1.0);
-        let is_watched = self.keeps_constraints() && start::check(mechanism, state, *step).is_ok();
         let many = |before: M::Real, after: M::Real| after > M::Real::from_f64(32.0) * before;
         let violation = |at: &State<M::Coordinates>| mechanism.phi(at.t, &at.q).norm();
         let rate = |at: &State<M::Coordinates>| mechanism.phi_dot(at).norm();
-        let has_jumped = many(violation(state), violation(next)) || many(rate(state), rate(next));
-        if !has_lost_half || !is_watched || !has_jumped {
+        let has_jumped = || many(violation(state), violation(next)) || many(rate(state), rate(next));
+        // The check looks at every entry of the Jacobian matrix, so it comes last.
+        let was_consistent = || self.keeps_constraints() && start::check(mechanism, state, *step).is_ok();
+        if !has_lost_half || !has_jumped() || !was_consistent() {
             return Ok(());
         }
         let [here, there] = [state, next].map(|at| mechanism.worst_pivot(at.t, &at.q));
