@@ -61,11 +61,13 @@ impl<T: Real> Watch<T> {
     }
 
     /// A step was taken that was examined: as long as the growth does not fall back, those
-    /// after it are examined too, up to some ten of them.
+    /// after it are examined too, up to some ten of them. A first step is no rise: long
+    /// chains have many pivots and so a large growth wherever they are.
     pub fn note_examined(&mut self, growth: T) {
+        let is_first = self.worst <= T::default();
         let before = T::from_f64(1.125) * self.alarm;
         self.note(growth);
-        self.alarm = if before < self.alarm { before } else { self.alarm };
+        self.alarm = if is_first || self.alarm < before { self.alarm } else { before };
     }
 
     /// Whether a growth is worth a name.

@@ -3,16 +3,16 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Dimension, Feedback, Held, Info, Mechanism, PerStage, Reactions,
+    Baumgarte, Components, Derivation, Feedback, Held, Info, Mechanism, PerStage, Reactions,
     Simulation, State,
 };
 
 use crate::doubt::{Watch, few_digits, size};
 use crate::members::{self, Members};
-use crate::recording::{Column, Recording, Summary};
+use crate::recording::{Column, Recording, Summary, columns};
 use crate::settings::{FeedbackKind, Settings, StartKind};
 use crate::signals::Player;
-use crate::{Error, Motion, Unit, picture, quantity};
+use crate::{Error, Motion, Unit, picture};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;
@@ -327,29 +327,6 @@ fn power<M: Mechanism<Real = f64>, F: Feedback>(simulation: &Simulation<M, F>) -
         simulation.mechanism().kinetic_energy(&state) + simulation.mechanism().potential_energy(&state)
     };
     Some((energy(part) - energy(-part)) / (2.0 * part))
-}
-
-/// The columns of a recording, empty.
-pub(crate) fn columns(info: &Info) -> Vec<Column> {
-    let mut columns = vec![Column::new("t", "s")];
-    let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
-    columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));
-    columns.extend(
-        positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
-    );
-    columns.extend(info.constraints.iter().map(|c| {
-        // λ does work on Φ: its unit is that of energy over Φ.
-        let Dimension { mass, length, time } = c.dimension;
-        let dimension = Dimension {
-            mass: 1_i8.saturating_sub(mass),
-            length: 2_i8.saturating_sub(length),
-            time: (-2_i8).saturating_sub(time),
-        };
-        Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
-    }));
-    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
-    columns.push(Column::new("violation", "SI"));
-    columns
 }
 
 /// A step. Runs and sweeps share the code of it, which is long for each mechanism. Feedback

@@ -3,11 +3,11 @@
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 
-use mbs_runtime::Info;
+use mbs_runtime::{Dimension, Info};
 
 use crate::doubt::Doubt;
 use crate::files::Output;
-use crate::{Error, model, names, unit};
+use crate::{Error, Unit, names, quantity, unit};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl Recording {
     /// A recording with no rows: which columns there will be.
     pub(crate) fn empty(info: &Info) -> Self {
         Self {
-            columns: model::columns(info),
+            columns: columns(info),
             coordinates: info.coordinates.len(),
             summary: Summary::default(),
             ended: None,
@@ -110,6 +110,29 @@ impl Recording {
     pub fn write_csv(&self, path: &Path) -> Result<(), Error> {
         write_csv(path, &self.columns)
     }
+}
+
+/// The columns of a recording, empty.
+pub(crate) fn columns(info: &Info) -> Vec<Column> {
+    let mut columns = vec![Column::new("t", "s")];
+    let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
+    columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));
+    columns.extend(
+        positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
+    );
+    columns.extend(info.constraints.iter().map(|c| {
+        // λ does work on Φ: its unit is that of energy over Φ.
+        let Dimension { mass, length, time } = c.dimension;
+        let dimension = Dimension {
+            mass: 1_i8.saturating_sub(mass),
+            length: 2_i8.saturating_sub(length),
+            time: (-2_i8).saturating_sub(time),
+        };
+        Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
+    }));
+    columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
+    columns.push(Column::new("violation", "SI"));
+    columns
 }
 
 /// Writes columns to a CSV file: a heading `name [unit]` each, numbers in the

@@ -87,8 +87,11 @@ impl Kernel {
     }
 }
 
+/// A run after its first step, which is examined and takes as long as some steps.
 fn started<M: Mechanism<Real = f64>>() -> Result<Simulation<M>, mbs_runtime::Error> {
-    Simulation::new(M::new(M::Parameters::default())?, H)
+    let mut simulation = Simulation::new(M::new(M::Parameters::default())?, H)?;
+    simulation.step()?;
+    Ok(simulation)
 }
 
 fn generated<M: Mechanism<Real = f64>>(

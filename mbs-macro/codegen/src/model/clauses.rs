@@ -5,7 +5,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
 use super::Check;
-use super::formula::in_radians;
+use super::hints::in_radians;
 use super::joints::{self, Connection};
 use super::names::Place;
 use super::places::GROUND;

@@ -7,7 +7,7 @@ use mbs_symbolic::{Function, Number, Symbol};
 use proc_macro2::Ident;
 
 use super::Meaning;
-use super::formula::in_radians;
+use super::hints::in_radians;
 use super::joints::{self, row_suffixes};
 use super::laws::LAWS;
 use super::measures::MEASURES;

@@ -12,6 +12,7 @@ mod elements;
 pub mod energies;
 mod formula;
 mod functions;
+mod hints;
 mod joints;
 mod laws;
 mod loads;

@@ -2,7 +2,7 @@
 
 use mbs_symbolic::units::Dimension;
 
-use super::formula::in_radians;
+use super::hints::in_radians;
 use super::names::{Place, Value};
 use super::resolver::Resolver;
 use super::{Meaning, Start};

@@ -5,7 +5,7 @@ use mbs_symbolic::{Expr, Number};
 use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
-use super::formula::unit_help_for_products;
+use super::hints::unit_help_for_products;
 use super::names::{Place, Typed, Value, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Source};

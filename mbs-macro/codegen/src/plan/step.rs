@@ -186,8 +186,7 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
     // Without feedback; what agrees with the first stage is there already.
     let zero = Operand::Number(Number::ZERO);
     let none = model.symbols.feedback.iter().map(|&symbol| (symbol, zero)).collect();
-    let clean = reactions.map(|reactions| steps.append(reactions, &none)).unwrap_or_default();
-    let (clean_growth, reactions) = clean.split_last().unzip();
+    let clean = reactions.map(|reactions| steps.append(reactions, &none));
 
     let mut outputs = Vec::new();
     for at in 0..n {
@@ -198,11 +197,11 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
         let sum = steps.push(Operation::Add, here_acceleration[at], there[at], None);
         outputs.push(steps.axpy(half_h, sum, v[at]));
     }
-    outputs.extend(reactions.unwrap_or_default());
+    outputs.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
     if let (Some(&here), Some(&there)) = (here.last(), there.last()) {
         outputs.push(steps.push(Operation::Add, here, there, None));
     }
-    outputs.extend(clean_growth);
+    outputs.extend(clean.iter().filter_map(|clean| clean.last()));
     Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
 }
 

@@ -135,14 +135,15 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
         return Err(input.error("one of `<`, `<=`, `>`, `>=` is expected here, as in `where l1 > 0`"));
     };
     let right = input.parse()?;
-    let (mut text, mut left_text) = (TokenStream::new(), None);
-    while !ahead.is_empty() && !ahead.peek(Token![;]) {
-        if left_text.is_none() && (ahead.peek(Token![<]) || ahead.peek(Token![>])) {
-            left_text = Some(text.to_string());
-        }
+    let mut text = TokenStream::new();
+    while !ahead.is_empty() && !ahead.peek(Token![<]) && !ahead.peek(Token![>]) {
         text.extend([ahead.parse::<TokenTree>()?]);
     }
-    let (text, left_text) = (text.to_string(), left_text.unwrap_or_default());
+    let left_text = text.to_string();
+    while !ahead.is_empty() && !ahead.peek(Token![;]) {
+        text.extend([ahead.parse::<TokenTree>()?]);
+    }
+    let text = text.to_string();
     Ok(Condition { left, comparison, comparison_span, right, text, left_text })
 }
 

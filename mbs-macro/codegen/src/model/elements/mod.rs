@@ -16,7 +16,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
 
 use super::Check;
-use super::formula::in_radians;
+use super::hints::in_radians;
 use super::joints::Placed;
 use super::names::Place;
 use super::resolver::Resolver;
