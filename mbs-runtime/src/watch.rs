@@ -121,3 +121,20 @@ pub(crate) fn digits_left<T: Real>(growth: T) -> f64 {
     let digits = -Real::ln((T::EPSILON * growth).to_f64()) / LN_10;
     if digits > 0.0 { digits } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_step_of_a_long_chain_is_no_rise() {
+        let mut watch = Watch::new(f64::INFINITY);
+        assert!(800.0 > watch.alarm, "a first step with a large growth is examined");
+        watch.remember(800.0, 0.0, None);
+        watch.note_examined(800.0);
+        assert_eq!(watch.alarm, rise_after(800.0), "those after it are not");
+        // after a rise, those that follow are
+        watch.note_examined(1500.0);
+        assert!(watch.alarm < 1500.0);
+    }
+}
