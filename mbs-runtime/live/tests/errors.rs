@@ -42,6 +42,10 @@ fn messages_and_places_are_those_of_the_macro() {
                 continue;
             }
             let expected = fs::read_to_string(path.with_extension("stderr")).unwrap();
+            // what rustc evaluates in the code that it is given: stack, gains of a step
+            if expected.starts_with("error[E0080]") {
+                continue;
+            }
             let error = Text::rust("case.rs", text).compile().expect_err("refused");
             let mut found = Vec::new();
             for problem in error.problems() {

@@ -1,0 +1,186 @@
+//! What it takes to run a declaration at once: from text to the first step, and a step by
+//! interpretation against the compiled one, alone and in lanes, in turns in one run.
+#![allow(clippy::expect_used, clippy::panic, dead_code, reason = "a benchmark of declarations that tests share")]
+
+#[path = "../tests/agreement/declarations.rs"]
+mod declarations;
+
+use std::hint::black_box;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use declarations::*;
+use mbs_ensemble::Ensemble;
+use mbs_live::{Block, LANES, Live, Member, Stepper, Text};
+use mbs_runtime::equations::{At, Equations, Room, consistent};
+use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Simulation, growth_limit};
+
+const STEPS: u32 = 600;
+const MEMBERS: usize = 1024;
+
+/// The least and the median of times in s.
+fn summary(mut times: Vec<f64>) -> [f64; 2] {
+    times.sort_by(f64::total_cmp);
+    [times[0], times[times.len() / 2]]
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let result = black_box(work());
+    (start.elapsed().as_secs_f64(), result)
+}
+
+fn compiled(text: &str) -> Live {
+    Text::declaration("mechanism.mbs", text).compile().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn numbers<C: Components<Real = f64>>(components: C) -> Vec<f64> {
+    components.into_array().as_ref().to_vec()
+}
+
+fn inputs<C: Components<Real = f64>>(value: f64) -> C {
+    C::splat(value)
+}
+
+fn gains(h: f64) -> Gains<f64> {
+    let best = Baumgarte::<Held>::deadbeat(h);
+    Gains { minus_two_alpha: -2.0 * best.alpha(), minus_beta_squared: -best.beta() * best.beta() }
+}
+
+/// Positions and velocities of the start, made consistent.
+fn start(live: &Live) -> (Vec<f64>, Vec<f64>) {
+    let info = live.info();
+    let mut q: Vec<f64> = info.coordinates.iter().map(|coordinate| coordinate.default).collect();
+    let mut v = vec![0.0; q.len()];
+    let (n, m) = (q.len(), info.constraints.len());
+    let mut vectors = vec![0.0; Room::<f64>::len(n, m)];
+    let mut room = Room::within(&mut vectors, n, m).expect("enough room");
+    consistent(live, 0.0, &mut q, &mut v, &mut room).expect("a start");
+    (q, v)
+}
+
+/// From a text to the state after the first step.
+fn first_step(text: &str, h: f64) -> f64 {
+    let live = compiled(text);
+    let (q, v) = start(&live);
+    let inputs = vec![0.0; live.info().inputs.len()];
+    let mut steps = Stepper::new(&live, true);
+    steps.step(At { t: 0.0, q: &q, v: &v }, &inputs, &gains(h), h, h);
+    steps.q()[0]
+}
+
+fn text_to_first_step(name: &str, text: &str, repetitions: usize) {
+    let times = (0..repetitions).map(|_| timed(|| first_step(text, 1e-4)).0).collect();
+    let [least, median] = summary(times);
+    println!("{name:24} from text to first step: {:8.2} / {:8.2} ms", least * 1e3, median * 1e3);
+}
+
+/// One state: the compiled step against the interpreted one; `false` if they differ.
+fn alone<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64, steps: u32, rounds: usize) -> bool {
+    let mechanism = M::new(M::Parameters::default()).expect("declared parameters");
+    let run = Simulation::builder(mechanism, h).inputs(inputs(input)).build().expect("a start");
+    let live = compiled(text);
+    let inputs = vec![input; live.info().inputs.len()];
+    let mut times = [Vec::new(), Vec::new()];
+    let mut ends = [Vec::new(), Vec::new()];
+    for _ in 0..rounds {
+        let (time, end) = timed(|| {
+            let mut run = black_box(run);
+            for _ in 0..steps {
+                run.step().expect("a step");
+            }
+            numbers(run.state().q)
+        });
+        times[0].push(time * 1e9 / f64::from(steps));
+        ends[0] = end;
+        let mut stepper = Stepper::new(&live, true);
+        let (mut q, mut v) = (numbers(run.state().q), numbers(run.state().v));
+        let gains = gains(h);
+        let (time, end) = timed(|| {
+            for k in 0..steps {
+                let (t, t_next) = (f64::from(k) * h, f64::from(k + 1) * h);
+                let growth = stepper.step(At { t, q: &q, v: &v }, &inputs, &gains, h, t_next);
+                assert!(growth < growth_limit());
+                q.copy_from_slice(stepper.q());
+                v.copy_from_slice(stepper.v());
+            }
+            q
+        });
+        times[1].push(time * 1e9 / f64::from(steps));
+        ends[1] = end;
+    }
+    let [compiled, interpreted] = times.map(summary);
+    println!(
+        "{name:24} one state: compiled {:7.1} / {:7.1} ns, live {:7.1} / {:7.1} ns, ratio {:.2}",
+        compiled[0], compiled[1], interpreted[0], interpreted[1], interpreted[0] / compiled[0]
+    );
+    ends[0] == ends[1]
+}
+
+/// Members in lanes: those of the ensemble on one thread against blocks.
+fn in_lanes<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64, rounds: usize) -> bool {
+    let mechanism = M::new(M::Parameters::default()).expect("declared parameters");
+    let run = Simulation::builder(mechanism, h).inputs(inputs(input)).build().expect("a start");
+    let live = compiled(text);
+    let inputs = vec![input; live.info().inputs.len()];
+    let (q, v) = (numbers(run.state().q), numbers(run.state().v));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let per_step = |time: f64| time * 1e9 / f64::from(STEPS) / MEMBERS as f64;
+    let mut times = [Vec::new(), Vec::new()];
+    let mut ends = [0.0; 2];
+    for _ in 0..rounds {
+        let end = h * f64::from(STEPS);
+        let (time, sum) = pool.install(|| {
+            timed(|| {
+                let outcomes = Ensemble::new(end).run(MEMBERS, |_| Ok(black_box(run)), &());
+                outcomes.into_iter().flatten().flatten().map(|run| numbers(run.state.q)[0]).sum::<f64>()
+            })
+        });
+        times[0].push(per_step(time));
+        ends[0] = sum;
+        let (time, sum) = timed(|| {
+            let mut sum = 0.0;
+            for _ in 0..MEMBERS / LANES {
+                let at = At { t: 0.0, q: &q, v: &v };
+                let member = Member { mechanism: &live, at, inputs: &inputs, gains: gains(h), step: h };
+                let mut block = Block::new(true, &[member; LANES]).expect("members");
+                for _ in 0..STEPS {
+                    assert_eq!(block.step(&[growth_limit(); LANES]), [true; LANES]);
+                }
+                sum += (0..LANES).map(|lane| block.position(0, lane)).sum::<f64>();
+            }
+            sum
+        });
+        times[1].push(per_step(time));
+        ends[1] = sum;
+    }
+    let [compiled, interpreted] = times.map(summary);
+    println!(
+        "{name:24} a member:  compiled {:7.1} / {:7.1} ns, live {:7.1} / {:7.1} ns, ratio {:.2}",
+        compiled[0], compiled[1], interpreted[0], interpreted[1], interpreted[0] / compiled[0]
+    );
+    (ends[0] - ends[1]).abs() <= 1e-12 * MEMBERS as f64
+}
+
+fn main() -> ExitCode {
+    // `cargo test --benches` runs this without the flag: the comparison is the test
+    let is_bench = std::env::args().any(|argument| argument == "--bench");
+    let rounds = if is_bench { 51 } else { 1 };
+    println!("minimum / median of {rounds} rounds");
+    text_to_first_step("driven slider-crank", DRIVEN, rounds);
+    text_to_first_step("free slider-crank", FREE, rounds);
+    text_to_first_step("40 four-bars in a row", &CHAIN.replace("N = 8", "N = 40"), rounds.div_ceil(10));
+    let good = [
+        alone::<Driven>("driven slider-crank", DRIVEN, 0.0, 0.5e-3, STEPS, rounds),
+        alone::<Free>("free slider-crank", FREE, 0.5, 0.5e-3, STEPS, rounds),
+        alone::<Chain>("8 four-bars in a row", CHAIN, 0.0, 1e-4, STEPS / 10, rounds),
+        in_lanes::<Driven>("driven slider-crank", DRIVEN, 0.0, 0.5e-3, rounds.div_ceil(3)),
+        in_lanes::<Free>("free slider-crank", FREE, 0.5, 0.5e-3, rounds.div_ceil(3)),
+    ];
+    if good.iter().all(|&good| good) {
+        ExitCode::SUCCESS
+    } else {
+        println!("the programs do not agree: {good:?}");
+        ExitCode::FAILURE
+    }
+}
