@@ -176,6 +176,7 @@ fn main() -> ExitCode {
         alone::<Chain>("8 four-bars in a row", CHAIN, 0.0, 1e-4, STEPS / 10, rounds),
         in_lanes::<Driven>("driven slider-crank", DRIVEN, 0.0, 0.5e-3, rounds.div_ceil(3)),
         in_lanes::<Free>("free slider-crank", FREE, 0.5, 0.5e-3, rounds.div_ceil(3)),
+        in_lanes::<Chain>("8 four-bars in a row", CHAIN, 0.0, 1e-4, rounds.div_ceil(20)),
     ];
     if good.iter().all(|&good| good) {
         ExitCode::SUCCESS
