@@ -1,14 +1,12 @@
 //! A mechanism in motion.
 
 mod builder;
-mod examination;
+mod on_slices;
 
 pub use self::builder::Builder;
-pub use self::examination::Examination;
 
 use crate::components::sum_of;
 use crate::diagnosis::check_defined;
-use crate::heun::heun_step;
 use crate::mechanism::growth_limit;
 use crate::watch::{Watch, WorstPlace, digits_left};
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
@@ -154,25 +152,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     #[inline(always)]
     fn next_time(&self) -> M::Real {
         self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step
-    }
-
-    /// The step of mechanisms that have no other, and of those whose step was not calm:
-    /// it finds out what went wrong, if anything did.
-    #[doc(hidden)]
-    pub fn step_in_stages(&mut self) -> Result<(), Error> {
-        let t_next = self.next_time();
-        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
-        let (next, growth) = heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next)
-            .map_err(|error| self.cause(error, t_next))?;
-        if growth <= self.watch.alarm && self.keeps_redundant(&next) {
-            self.watch.note(growth);
-        } else {
-            self.examine_step(&next, growth)?;
-            self.watch.note_examined(growth);
-        }
-        self.state = next;
-        self.steps += 1;
-        Ok(())
     }
 
     /// Advances by whole steps until less than half a step is left to `end` seconds.
@@ -364,11 +343,17 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     pub fn outputs(&self) -> Result<M::Outputs, Error> {
         let reactions = self.reactions()?;
         let outputs = self.mechanism.outputs(&self.state, &self.inputs, &reactions);
+        self.check_outputs(outputs).map(|()| outputs)
+    }
+
+    /// Refuses outputs that are not finite.
+    #[inline]
+    pub(crate) fn check_outputs(&self, outputs: M::Outputs) -> Result<(), Error> {
         if sum_of(outputs).is_finite() {
-            return Ok(outputs);
+            return Ok(());
         }
         let name = |at: usize| M::Outputs::NAMES.get(at).copied().unwrap_or("");
-        check_defined(self.state.t, "the output", outputs.into_array().as_ref(), name).map(|()| outputs)
+        check_defined(self.state.t, "the output", outputs.into_array().as_ref(), name)
     }
 }
 

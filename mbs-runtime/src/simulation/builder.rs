@@ -2,7 +2,7 @@
 
 use super::{Simulation, check_time};
 use crate::diagnosis::check_inputs;
-use crate::equations::{Arrays, Named};
+use crate::equations::Arrays;
 use crate::room::OnStack;
 use crate::start::{self, preparation::Start};
 use crate::watch::Watch;
@@ -149,7 +149,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             step: h,
             keeps_constraints: self.baumgarte.is_stable(step),
         };
-        let equations = &Named(&self.mechanism);
+        let equations = &self.mechanism;
         let mut room = OnStack::<M>::new();
         let length = preparation.prepare(equations, t, q.as_mut(), v.as_mut(), &mut room.room())?;
         let state = Arrays { t, q, v }.state();
