@@ -9,7 +9,8 @@
 
 pub use crate::reach::reach;
 pub use crate::room::Room;
-pub use crate::run::Run;
+pub use crate::run::{Run, check_outputs};
+pub use crate::simulation::clock::steps_to;
 pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
 pub use crate::start::preparation::{Preparation, Start};

@@ -9,7 +9,7 @@ use crate::reach::reach;
 use crate::room::Room;
 use crate::start::consistency::{check, check_feedback};
 use crate::watch::Watch;
-use crate::{Error, Gains, Real, spare, vectors};
+use crate::{Error, Gains, Info, Real, spare, vectors};
 
 /// A run in its last good state.
 #[derive(Clone, Copy)]
@@ -195,6 +195,14 @@ impl<T: Real> Run<'_, T> {
             // an input that is not finite is the cause of whatever failed after it
             .map_err(|error| check_inputs(info, inputs).err().unwrap_or(error))
     }
+}
+
+/// `Ok` if outputs are finite, at the time `t`.
+///
+/// # Errors
+/// [`Error::Undefined`] that names the first one that is not.
+pub fn check_outputs<T: Real>(info: &Info, t: T, outputs: &[T]) -> Result<(), Error> {
+    check_defined(t, "the output", outputs, |at| info.outputs.get(at).map_or("", |output| output.name))
 }
 
 /// ‖Φ‖ and ‖Φ̇‖

@@ -1,14 +1,15 @@
 //! A mechanism in motion.
 
 mod builder;
+pub(crate) mod clock;
 mod on_slices;
 
 pub use self::builder::Builder;
 
 use crate::components::sum_of;
-use crate::diagnosis::check_defined;
 use crate::mechanism::growth_limit;
-use crate::watch::{Watch, WorstPlace, digits_left};
+use crate::run::check_outputs;
+use crate::watch::{Watch, WorstPlace};
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
 
 /// A mechanism being integrated in time.
@@ -172,14 +173,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// [`Error::EndTime`], or [`Error::Time`] if it is so far away that time would stand
     /// still before.
     pub fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        let now = self.state.t.to_f64();
-        let span = (end - self.start_time.to_f64()) / self.step.to_f64();
-        // Half a step back is still "now".
-        if !span.is_finite() || span + 0.5 < self.steps as f64 {
-            return Err(Error::EndTime { end, now });
-        }
-        check_time::<M::Real>(end, self.step.to_f64())?;
-        Ok(((span + 0.5) as u64).saturating_sub(self.steps))
+        clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps, end)
     }
 
     /// Time, positions and velocities.
@@ -280,7 +274,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// # Ok::<(), mbs_runtime::Error>(())
     /// ```
     pub fn digits_left(&self) -> f64 {
-        digits_left(self.watch.worst)
+        self.watch.digits_left()
     }
 
     /// When and where the run came closest to a singular position; nothing as long as
@@ -289,10 +283,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// The place is remembered when the growth has doubled since the last one, so that
     /// it is that of a step with at least half of [`worst_growth`](Self::worst_growth).
     pub fn worst_place(&self) -> Option<WorstPlace> {
-        let (t, pivot) = self.watch.remembered()?;
-        let pivot = pivot.and_then(|at| M::INFO.pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
-        Some(WorstPlace { t: t.to_f64(), constraint, coordinate })
+        self.watch.worst_place(M::INFO)
     }
 
     /// Kinetic plus potential energy in J.
@@ -352,14 +343,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         if sum_of(outputs).is_finite() {
             return Ok(());
         }
-        let name = |at: usize| M::Outputs::NAMES.get(at).copied().unwrap_or("");
-        check_defined(self.state.t, "the output", outputs.into_array().as_ref(), name)
+        check_outputs(M::INFO, self.state.t, outputs.into_array().as_ref())
     }
-}
-
-/// Time is a number of steps: at its size in the scalar a step has to be four roundings
-/// at least.
-fn check_time<T: Real>(t: f64, step: f64) -> Result<(), Error> {
-    let is_counted = 4.0 * T::EPSILON.to_f64() * t.abs() <= step;
-    if is_counted { Ok(()) } else { Err(Error::Time { t, step }) }
 }

@@ -1,7 +1,6 @@
 //! What can be chosen before a simulation starts.
 
-use super::{Simulation, check_time};
-use crate::diagnosis::check_inputs;
+use super::Simulation;
 use crate::equations::Arrays;
 use crate::room::OnStack;
 use crate::start::{self, preparation::Start};
@@ -140,8 +139,6 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
         }
         let inputs = self.inputs.into_array();
-        check_inputs(M::INFO, inputs.as_ref())?;
-        check_time::<M::Real>(self.state.t.to_f64(), h.to_f64())?;
         let Arrays { t, mut q, mut v } = Arrays::of(&self.state);
         let preparation = start::preparation::Preparation {
             start: self.start,
