@@ -1,0 +1,86 @@
+//! What a function of a mechanism is given.
+
+use mbs_runtime::Real;
+
+/// Arguments of a function, `C` numbers each. What a function does not read may be left
+/// empty; what it reads and does not find is no number.
+#[derive(Clone, Copy, Debug)]
+pub struct Arguments<'a, T = f64, const C: usize = 1> {
+    /// t in s
+    pub t: [T; C],
+    /// q
+    pub q: &'a [[T; C]],
+    /// v
+    pub v: &'a [[T; C]],
+    /// The inputs.
+    pub inputs: &'a [[T; C]],
+    /// −2α and −β²
+    pub gains: [[T; C]; 2],
+    /// Amounts added to γ; of corrections, the residual.
+    pub feedback: &'a [[T; C]],
+    /// q̈
+    pub acceleration: &'a [[T; C]],
+    /// λ
+    pub multipliers: &'a [[T; C]],
+    /// h of a step, in s.
+    pub step: [T; C],
+    /// t + h in s
+    pub t_next: [T; C],
+}
+
+impl<T: Real, const C: usize> Default for Arguments<'_, T, C> {
+    fn default() -> Self {
+        let none = [T::from_f64(f64::NAN); C];
+        Self {
+            t: none,
+            q: &[],
+            v: &[],
+            inputs: &[],
+            gains: [none; 2],
+            feedback: &[],
+            acceleration: &[],
+            multipliers: &[],
+            step: none,
+            t_next: none,
+        }
+    }
+}
+
+/// Where an argument of a program is found in [`Arguments`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Given {
+    Time,
+    Step,
+    HalfStep,
+    NextTime,
+    MinusTwoAlpha,
+    MinusBetaSquared,
+    Position(usize),
+    Velocity(usize),
+    Input(usize),
+    Acceleration(usize),
+    Multiplier(usize),
+    Feedback(usize),
+}
+
+impl<T: Real, const C: usize> Arguments<'_, T, C> {
+    /// An argument.
+    #[inline(always)]
+    pub(crate) fn read(&self, given: Given) -> [T; C] {
+        let (vector, at) = match given {
+            Given::Time => return self.t,
+            Given::Step => return self.step,
+            Given::HalfStep => return self.step.map(|step| T::from_f64(0.5) * step),
+            Given::NextTime => return self.t_next,
+            Given::MinusTwoAlpha => return self.gains[0],
+            Given::MinusBetaSquared => return self.gains[1],
+            Given::Position(at) => (self.q, at),
+            Given::Velocity(at) => (self.v, at),
+            Given::Input(at) => (self.inputs, at),
+            Given::Acceleration(at) => (self.acceleration, at),
+            Given::Multiplier(at) => (self.multipliers, at),
+            Given::Feedback(at) => (self.feedback, at),
+        };
+        vector.get(at).copied().unwrap_or([T::from_f64(f64::NAN); C])
+    }
+}

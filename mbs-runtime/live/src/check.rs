@@ -1,0 +1,104 @@
+//! Whether code does what its program does.
+
+use mbs_codegen::compiled::Compiled;
+use mbs_symbolic::{Function, Instruction as Step, Operand, Operation, Program, SinCos};
+
+use crate::arguments::Given;
+use crate::code::{Fixed, Role, role};
+use crate::instruction::Instruction;
+
+/// Follows what slots hold through a run: operands of the program instead of numbers.
+pub struct Follower<'a> {
+    compiled: &'a Compiled,
+    program: &'a Program,
+    pairs: SinCos,
+    slots: Vec<Option<Role>>,
+}
+
+impl<'a> Follower<'a> {
+    /// The slots before the first instruction.
+    pub fn new(
+        compiled: &'a Compiled,
+        program: &'a Program,
+        slots: usize,
+        fixed: &[Fixed],
+        given: &[(Given, u32)],
+    ) -> Self {
+        let mut held = vec![None; slots];
+        for (slot, &number) in held.iter_mut().zip(fixed) {
+            *slot = Some(Role::Fixed(number));
+        }
+        for &(input, at) in given {
+            if let Some(slot) = held.get_mut(at as usize) {
+                *slot = Some(Role::Given(input));
+            }
+        }
+        Self { compiled, program, pairs: SinCos::of(program), slots: held }
+    }
+
+    /// Something, if the instructions are those of the program, each on its operands, the
+    /// fixed slots stay what they are, and the outputs end in these slots.
+    pub fn follow(mut self, instructions: &[Instruction], outputs: &[u32]) -> Option<()> {
+        let fixed = self.slots.iter().take_while(|slot| matches!(slot, Some(Role::Fixed(_)))).count();
+        let mut instructions = instructions.iter();
+        for (at, step) in self.program.instructions.iter().enumerate() {
+            if self.pairs.partner(at).is_none_or(|partner| partner > at) {
+                self.step(at, step, instructions.next()?, fixed)?;
+            }
+        }
+        let are_outputs = outputs.len() == self.program.outputs.len();
+        let mut places = self.program.outputs.iter().zip(outputs);
+        let is_there = places.all(|(&output, &slot)| self.holds(slot, output).is_some());
+        (are_outputs && is_there && instructions.next().is_none()).then_some(())
+    }
+
+    fn step(&mut self, at: usize, step: &Step, instruction: &Instruction, fixed: usize) -> Option<()> {
+        let (is_same, results) = match (step.operation, *instruction) {
+            (Operation::Add, Instruction::Add([to, a, b]))
+            | (Operation::Sub, Instruction::Sub([to, a, b]))
+            | (Operation::Mul, Instruction::Mul([to, a, b]))
+            | (Operation::Div, Instruction::Div([to, a, b])) => {
+                self.holds(b, step.b)?;
+                (self.holds(a, step.a).is_some(), [(to, at), (to, at)])
+            }
+            (Operation::Neg, Instruction::Neg([to, a])) => {
+                (self.holds(a, step.a).is_some(), [(to, at), (to, at)])
+            }
+            (Operation::Call(Function::Sin), Instruction::SinCos([sine, cosine, a])) => {
+                let partner = self.pairs.partner(at)?;
+                (self.holds(a, step.a).is_some(), [(sine, at), (cosine, partner)])
+            }
+            (Operation::Call(Function::Cos), Instruction::SinCos([sine, cosine, a])) => {
+                let partner = self.pairs.partner(at)?;
+                (self.holds(a, step.a).is_some(), [(cosine, at), (sine, partner)])
+            }
+            (Operation::Call(f) | Operation::Call2(f), Instruction::Call(called, [to, a, b])) => {
+                self.holds(b, step.b)?;
+                (f == called && self.holds(a, step.a).is_some(), [(to, at), (to, at)])
+            }
+            (Operation::Spline(id, order), Instruction::Spline { order: called, spline, slots: [to, a] }) => {
+                let is_spline = id.index() == spline as usize && id.index() < self.compiled.splines.len();
+                (is_spline && order == called && self.holds(a, step.a).is_some(), [(to, at), (to, at)])
+            }
+            _ => return None,
+        };
+        for (slot, value) in results {
+            if (slot as usize) < fixed {
+                return None;
+            }
+            *self.slots.get_mut(slot as usize)? = Some(Role::Value(value));
+        }
+        is_same.then_some(())
+    }
+
+    /// Something, if a slot holds an operand.
+    fn holds(&self, slot: u32, operand: Operand) -> Option<()> {
+        let wanted = role(self.compiled, operand);
+        let held = (*self.slots.get(slot as usize)?)?;
+        let is_same = match (held, wanted) {
+            (Role::Fixed(Fixed::Number(a)), Role::Fixed(Fixed::Number(b))) => a.to_bits() == b.to_bits(),
+            _ => held == wanted,
+        };
+        is_same.then_some(())
+    }
+}

@@ -1,0 +1,138 @@
+//! A program as flat code: operations on numbered slots.
+
+use mbs_codegen::compiled::{Compiled, Input};
+use mbs_runtime::Real;
+use mbs_symbolic::{Inconsistency, Operand, Program};
+
+use crate::arguments::{Arguments, Given};
+use crate::instruction::Instruction;
+use crate::slots::Allocation;
+
+/// The code of a program.
+#[derive(Debug)]
+pub struct Code {
+    /// What is done in every run.
+    pub instructions: Vec<Instruction>,
+    /// What the first slots hold, before the first run and for ever.
+    fixed: Vec<Fixed>,
+    /// Arguments, and the slots that they are put into before every run.
+    given: Vec<(Given, u32)>,
+    /// The slots of the results after a run.
+    outputs: Vec<u32>,
+    /// How many slots there are.
+    slots: usize,
+}
+
+/// A number that does not change from run to run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fixed {
+    /// A constant.
+    Number(f64),
+    /// A value that depends on parameters alone, by position.
+    Hoisted(usize),
+    /// A parameter, by position.
+    Parameter(usize),
+}
+
+impl Fixed {
+    /// The number for these parameters and what depends on them; no number where there is
+    /// none.
+    pub fn value(self, parameters: &[f64], hoisted: &[f64]) -> f64 {
+        match self {
+            Self::Number(number) => number,
+            Self::Hoisted(at) => hoisted.get(at).copied().unwrap_or(f64::NAN),
+            Self::Parameter(at) => parameters.get(at).copied().unwrap_or(f64::NAN),
+        }
+    }
+}
+
+impl Code {
+    /// The code of a program of a compiled mechanism.
+    ///
+    /// # Errors
+    /// The code does not do what the program does, which is a mistake of this crate.
+    pub fn new(compiled: &Compiled, program: &Program) -> Result<Self, Inconsistency> {
+        let Allocation { instructions, fixed, given, outputs, slots } =
+            Allocation::new(program, &|operand| role(compiled, operand))?;
+        let code = Self { instructions, fixed, given, outputs, slots };
+        code.check(compiled, program)?;
+        Ok(code)
+    }
+
+    /// Slots to run in, the first of them filled; `number` gives what a fixed one holds.
+    pub fn memory<T: Real, const C: usize>(&self, number: impl Fn(Fixed) -> [T; C]) -> Vec<[T; C]> {
+        let mut values = vec![[T::default(); C]; self.slots];
+        for (value, &fixed) in values.iter_mut().zip(&self.fixed) {
+            *value = number(fixed);
+        }
+        values
+    }
+
+    /// Puts arguments into their slots.
+    #[inline]
+    pub fn load<T: Real, const C: usize>(&self, values: &mut [[T; C]], arguments: &Arguments<'_, T, C>) {
+        for &(given, slot) in &self.given {
+            values[slot as usize] = arguments.read(given);
+        }
+    }
+
+    /// Copies results out of their slots, one vector after the other.
+    #[inline]
+    pub fn store<T: Real, const C: usize>(&self, values: &[[T; C]], results: &mut [&mut [[T; C]]]) {
+        let mut outputs = self.outputs.iter();
+        for vector in results {
+            for (place, &slot) in vector.iter_mut().zip(outputs.by_ref()) {
+                *place = values[slot as usize];
+            }
+        }
+    }
+
+    /// How many results there are.
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// Follows the slots through a run, and compares what they hold with what the program
+    /// reads: so every result is that of the program, on the same operands.
+    fn check(&self, compiled: &Compiled, program: &Program) -> Result<(), Inconsistency> {
+        crate::check::Follower::new(compiled, program, self.slots, &self.fixed, &self.given)
+            .follow(&self.instructions, &self.outputs)
+            .ok_or(Inconsistency { pass: "live code", rule: "slots hold what the program reads" })
+    }
+}
+
+/// What an operand is to the code that reads it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// There before the first run.
+    Fixed(Fixed),
+    /// An argument of every run.
+    Given(Given),
+    /// The result of an instruction.
+    Value(usize),
+}
+
+/// The role of an operand.
+pub fn role(compiled: &Compiled, operand: Operand) -> Role {
+    let given = match operand {
+        Operand::Number(number) => return Role::Fixed(Fixed::Number(number.to_f64())),
+        Operand::Hoisted(at) => return Role::Fixed(Fixed::Hoisted(at)),
+        Operand::Value(at) => return Role::Value(at),
+        Operand::Symbol(symbol) => match compiled.input(symbol) {
+            Input::Parameter(at) => return Role::Fixed(Fixed::Parameter(at)),
+            Input::Time => Given::Time,
+            Input::Step => Given::Step,
+            Input::HalfStep => Given::HalfStep,
+            Input::NextTime => Given::NextTime,
+            Input::MinusTwoAlpha => Given::MinusTwoAlpha,
+            Input::MinusBetaSquared => Given::MinusBetaSquared,
+            Input::Position(at) => Given::Position(at),
+            Input::Velocity(at) => Given::Velocity(at),
+            Input::Input(at) => Given::Input(at),
+            Input::Acceleration(at) => Given::Acceleration(at),
+            Input::Multiplier(at) => Given::Multiplier(at),
+            Input::Feedback(at) => Given::Feedback(at),
+        },
+    };
+    Role::Given(given)
+}

@@ -1,0 +1,169 @@
+//! Errors, with their places in the text.
+
+use std::fmt;
+use std::ops::Range;
+
+use ariadne::{CharSet, Config, IndexType, Label, Report, ReportKind, Source};
+use mbs_codegen::Diagnostic;
+use proc_macro2::Span;
+
+/// Why a text was not compiled. Shown, it has every problem with file, line, column and the
+/// underlined source, without colours; [`colored`](Self::colored) has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Error {
+    file: String,
+    text: String,
+    problems: Vec<Problem>,
+}
+
+/// One problem of a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// What is wrong, in the words of the declaration.
+    pub message: String,
+    /// The token at fault; nothing if it is no single place.
+    pub location: Option<Location>,
+    /// How to mend it.
+    pub help: Option<String>,
+    /// Other places that matter.
+    pub notes: Vec<Note>,
+}
+
+/// Another place that matters, such as an earlier definition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// What there is to say about it.
+    pub message: String,
+    /// The place, if it is one.
+    pub location: Option<Location>,
+}
+
+/// A place in a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Location {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column of its first character in this line, from 1.
+    pub column: usize,
+    /// How many characters it has; 0 at the end of a text.
+    pub length: usize,
+    /// The bytes of the text that it is.
+    pub bytes: Range<usize>,
+}
+
+impl Error {
+    pub(crate) fn new(file: String, text: String, problems: Vec<Problem>) -> Self {
+        Self { file, text, problems }
+    }
+
+    /// What errors call the file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The problems, in the order in which they were found.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+
+    /// The error with colours, for a terminal.
+    pub fn colored(&self) -> impl fmt::Display + '_ {
+        Shown { error: self, is_colored: true }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Shown { error: self, is_colored: false }.fmt(f)
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl Problem {
+    /// A problem of the text as a whole.
+    pub(crate) fn everywhere(message: impl Into<String>) -> Self {
+        Self { message: message.into(), location: None, help: None, notes: Vec::new() }
+    }
+
+    /// What the compiler says of a text.
+    pub(crate) fn of(diagnostic: &Diagnostic, text: &str) -> Self {
+        let note = |(span, note): &(Span, String)| Note {
+            message: note.clone(),
+            location: Location::of(*span, text),
+        };
+        Self {
+            message: diagnostic.message.clone(),
+            location: Location::of(diagnostic.span, text),
+            help: diagnostic.help.clone(),
+            notes: diagnostic.notes.iter().map(note).collect(),
+        }
+    }
+}
+
+impl Location {
+    /// The place of a token, if it comes from the text.
+    fn of(span: Span, text: &str) -> Option<Self> {
+        span.source_text()?;
+        let bytes = span.byte_range();
+        text.get(bytes.clone()).map(|_| Self::new(text, bytes))
+    }
+
+    /// The place of some bytes of a text.
+    pub(crate) fn new(text: &str, bytes: Range<usize>) -> Self {
+        let before = text.get(..bytes.start).unwrap_or(text);
+        let start_of_line = before.rfind('\n').map_or(0, |at| at + 1);
+        Self {
+            line: before.matches('\n').count() + 1,
+            column: before[start_of_line..].chars().count() + 1,
+            length: text.get(bytes.clone()).map_or(0, |part| part.chars().count()),
+            bytes,
+        }
+    }
+}
+
+/// An error as text.
+struct Shown<'a> {
+    error: &'a Error,
+    is_colored: bool,
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Error { file, text, problems } = self.error;
+        for problem in problems {
+            let mut shown = Vec::new();
+            let source = (file.as_str(), Source::from(text.as_str()));
+            self.report(problem).write(source, &mut shown).map_err(|_| fmt::Error)?;
+            f.write_str(&String::from_utf8_lossy(&shown))?;
+        }
+        Ok(())
+    }
+}
+
+impl<'a> Shown<'a> {
+    fn report(&self, problem: &'a Problem) -> Report<'a, (&'a str, Range<usize>)> {
+        let file = self.error.file.as_str();
+        let config = Config::default()
+            .with_index_type(IndexType::Byte)
+            .with_char_set(CharSet::Unicode)
+            .with_color(self.is_colored);
+        let place = |location: &Location| (file, location.bytes.clone());
+        let start = problem.location.as_ref().map_or((file, 0..0), place);
+        let mut report = Report::build(ReportKind::Error, start).with_config(config);
+        report.set_message(&problem.message);
+        if let Some(location) = &problem.location {
+            report.add_label(Label::new(place(location)).with_message("here"));
+        }
+        for note in &problem.notes {
+            match &note.location {
+                Some(location) => report.add_label(Label::new(place(location)).with_message(&note.message)),
+                None => report.add_note(&note.message),
+            }
+        }
+        if let Some(help) = &problem.help {
+            report.add_help(help);
+        }
+        report.finish()
+    }
+}

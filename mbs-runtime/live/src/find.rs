@@ -1,0 +1,91 @@
+//! The block `mechanism! { … }` in a Rust file.
+
+use mbs_codegen::Diagnostic;
+use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+
+/// What stands in the only block of a file, or in the one that declares `name`. Blocks are
+/// found by their tokens, so that comments and strings have none.
+///
+/// # Errors
+/// No block, or several.
+pub fn block(tokens: TokenStream, name: Option<&str>) -> Result<TokenStream, Diagnostic> {
+    let mut blocks = blocks(tokens);
+    let names: Vec<String> = blocks.iter().map(Block::shown).collect();
+    if let Some(name) = name {
+        blocks.retain(|block| block.name.as_ref().is_some_and(|declared| declared == name));
+    }
+    let nowhere = |message: String| Diagnostic::new(Span::call_site(), message);
+    match (&mut blocks[..], name) {
+        ([block], _) => Ok(std::mem::take(&mut block.tokens)),
+        ([], Some(name)) if !names.is_empty() => {
+            let message = format!("this file declares no mechanism `{name}`");
+            Err(nowhere(message).help(format!("it declares {}", names.join(", "))))
+        }
+        ([], _) => {
+            let help = "the inside of such a block alone belongs in a file whose name does not end in `.rs`";
+            Err(nowhere("this file has no `mechanism! { … }`".to_owned()).help(help))
+        }
+        (several, _) => {
+            let (count, place) = (several.len(), several[1].place);
+            let message = format!("this is one of {count} `mechanism! {{ … }}` of the file, and none was named");
+            Err(Diagnostic::new(place, message).help(format!("ask for one of {}", names.join(", "))))
+        }
+    }
+}
+
+/// A block, and the name that it declares, if it comes so far.
+struct Block {
+    name: Option<Ident>,
+    place: Span,
+    tokens: TokenStream,
+}
+
+impl Block {
+    fn shown(&self) -> String {
+        self.name.as_ref().map_or_else(|| "one without a name".to_owned(), |name| format!("`{name}`"))
+    }
+}
+
+/// All blocks, in their order. Groups wait in a list: a file may nest them deeply.
+fn blocks(tokens: TokenStream) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut waiting = vec![tokens.into_iter()];
+    let mut before = [None, None];
+    while let Some(tokens) = waiting.last_mut() {
+        let Some(token) = tokens.next() else {
+            waiting.pop();
+            continue;
+        };
+        if let TokenTree::Group(group) = &token {
+            if is_mechanism(&before) {
+                let name = name(group.stream());
+                let place = name.as_ref().map_or(group.span(), Ident::span);
+                blocks.push(Block { name, place, tokens: group.stream() });
+            } else {
+                waiting.push(group.stream().into_iter());
+            }
+        }
+        let [_, last] = before;
+        before = [last, Some(token)];
+    }
+    blocks
+}
+
+/// Whether `mechanism!` stands there.
+fn is_mechanism(before: &[Option<TokenTree>; 2]) -> bool {
+    matches!(before, [Some(TokenTree::Ident(word)), Some(TokenTree::Punct(mark))]
+        if word == "mechanism" && mark.as_char() == '!')
+}
+
+/// The last word before the braces.
+fn name(tokens: TokenStream) -> Option<Ident> {
+    let mut name = None;
+    for token in tokens {
+        match token {
+            TokenTree::Ident(word) => name = Some(word),
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => return name,
+            _ => {}
+        }
+    }
+    None
+}

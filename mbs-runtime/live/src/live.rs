@@ -1,0 +1,210 @@
+//! A mechanism that runs as soon as it is compiled.
+
+use std::fmt;
+use std::sync::Arc;
+
+use mbs_codegen::compiled::{Condition, FusedStep, Kinds};
+use mbs_codegen::{Compiled, FunctionId};
+use mbs_runtime::{Error, Info};
+use mbs_symbolic::Inconsistency;
+
+use crate::arguments::Arguments;
+use crate::code::{Code, Fixed};
+use crate::instruction::execute;
+use crate::statics::{self, Tables};
+use crate::unwoven::unwoven;
+
+/// A mechanism that was compiled from a text, with its parameters.
+///
+/// It is [`Equations`](mbs_runtime::equations::Equations): what is written for these runs
+/// with it as with a mechanism of `mechanism!`, and gives the same to the last bit. A copy
+/// shares the compiled programs.
+///
+/// # Example
+/// ```
+/// use mbs_live::Text;
+/// use mbs_runtime::equations::{At, Equations};
+///
+/// let text = "Pendulum {
+///     dof = 1;
+///     param length = 1 [m] where length > 0;
+///     gravity = (0, -9.81) [m/s^2];
+///     body bob (x, y) { mass = 2 [kg]; }
+///     constraint rod: x^2 + y^2 = length^2;
+///     start { x = length; guess y = 0; }
+/// }";
+/// let pendulum = Text::declaration("pendulum.mbs", text).compile()?;
+/// assert_eq!(pendulum.info().coordinates[1].name, "y");
+/// assert_eq!(pendulum.kinetic_energy(At { t: 0.0, q: &[1.0, 0.0], v: &[0.0, 3.0] }), 9.0);
+///
+/// let longer = pendulum.with_parameters(|values| values[0] = 2.0)?;
+/// let mut phi = [0.0];
+/// longer.phi(0.0, &[2.0, 0.0], &mut phi);
+/// assert_eq!(phi, [0.0]);
+/// assert!(pendulum.with_parameters(|values| values[0] = -1.0).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Live {
+    programs: Arc<Programs>,
+    parameters: Vec<f64>,
+    hoisted: Vec<f64>,
+}
+
+/// What a declaration is compiled to, whatever its parameters are.
+pub(crate) struct Programs {
+    pub tables: &'static Tables,
+    /// In the order of [`FunctionId`].
+    functions: Vec<Code>,
+    /// A whole step, with feedback held over it and in each of its stages, of a mechanism
+    /// that is small enough.
+    steps: Option<[Arc<Code>; 2]>,
+    conditions: Vec<Condition>,
+}
+
+impl Programs {
+    /// The programs of a compiled mechanism; `declaration` is its text as tokens.
+    ///
+    /// # Errors
+    /// A mistake of this crate.
+    pub fn new(declaration: String, compiled: &Compiled) -> Result<Self, Inconsistency> {
+        let functions = FunctionId::all().map(|function| Code::new(compiled, compiled.program(function)));
+        let steps = compiled.fused_step.as_ref().map(|step| steps(compiled, step)).transpose()?;
+        let conditions = compiled.conditions.iter().map(|condition| Condition {
+            name: condition.name.clone(),
+            requirement: condition.requirement.clone(),
+            ..*condition
+        });
+        Ok(Self {
+            functions: functions.collect::<Result<_, _>>()?,
+            steps,
+            conditions: conditions.collect(),
+            tables: statics::tables(declaration, compiled),
+        })
+    }
+
+    /// The code of a function.
+    pub fn function(&self, function: FunctionId) -> &Code {
+        &self.functions[function as usize]
+    }
+
+    /// The code of a whole step, if there is one.
+    pub fn step(&self, is_held: bool) -> Option<&Arc<Code>> {
+        let [held, per_stage] = self.steps.as_ref()?;
+        Some(if is_held { held } else { per_stage })
+    }
+}
+
+/// The steps with both kinds of feedback: the state after it, and the growth. What the
+/// compiled step sums up beside these is tested here by itself.
+fn steps(compiled: &Compiled, step: &FusedStep) -> Result<[Arc<Code>; 2], Inconsistency> {
+    let Kinds { held, per_stage } = &step.alone;
+    let stage = compiled.program(FunctionId::Stabilized);
+    let outputs = 2 * compiled.coordinates.len() + 1;
+    let code = |woven| Code::new(compiled, &unwoven(woven, stage, outputs)?).map(Arc::new);
+    Ok([code(held)?, code(per_stage)?])
+}
+
+impl Live {
+    /// The mechanism with its declared parameters.
+    pub(crate) fn new(programs: Programs) -> Self {
+        let parameters = programs.tables.info.parameters.iter().map(|parameter| parameter.default).collect();
+        Self::prepared(Arc::new(programs), parameters)
+    }
+
+    /// Computes what depends on parameters alone.
+    fn prepared(programs: Arc<Programs>, parameters: Vec<f64>) -> Self {
+        let hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs()];
+        let mut live = Self { programs, parameters, hoisted: Vec::new() };
+        let mut values = hoisted;
+        live.call(FunctionId::Hoisted, &Arguments::default(), [&mut values]);
+        live.hoisted = values;
+        live
+    }
+
+    /// The same mechanism with other parameters: `change` is given those that it has, in SI
+    /// units and in the order of [`Info::parameters`].
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] if one is not finite, if a mass or an inertia comes out
+    /// negative, or if a declared condition does not hold; as the `new` of a mechanism of
+    /// `mechanism!`.
+    pub fn with_parameters(&self, change: impl FnOnce(&mut [f64])) -> Result<Self, Error> {
+        let mut parameters = self.parameters.clone();
+        change(&mut parameters);
+        for (&value, parameter) in parameters.iter().zip(self.declared_info().parameters) {
+            if !value.is_finite() {
+                let requirement = "it has to be finite";
+                return Err(Error::Parameter { name: parameter.name, value, requirement });
+            }
+        }
+        let live = Self { parameters, ..self.clone() };
+        live.check_conditions()?;
+        Ok(Self::prepared(live.programs, live.parameters))
+    }
+
+    fn check_conditions(&self) -> Result<(), Error> {
+        let code = self.programs.function(FunctionId::Conditions);
+        let mut found = vec![f64::NAN; code.outputs()];
+        self.call(FunctionId::Conditions, &Arguments::default(), [&mut found]);
+        let number = |at: usize| found.get(at).copied().unwrap_or(f64::NAN);
+        for condition in &self.programs.conditions {
+            if !condition.comparison.holds(number(condition.difference)) {
+                return Err(Error::Parameter {
+                    name: statics::text(&condition.name),
+                    value: number(condition.value),
+                    requirement: statics::text(&condition.requirement),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The parameters, in SI units and in the order of [`Info::parameters`].
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// Whether both were compiled by the same call of
+    /// [`Text::compile`](crate::Text::compile), so that they differ in parameters only.
+    pub fn shares_programs_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.programs, &other.programs)
+    }
+
+    /// Names, units, equations and counts, which do not depend on parameters.
+    pub(crate) fn declared_info(&self) -> &'static Info {
+        &self.programs.tables.info
+    }
+
+    pub(crate) fn programs(&self) -> &Arc<Programs> {
+        &self.programs
+    }
+
+    /// What a slot holds that does not change from run to run.
+    pub(crate) fn fixed(&self, fixed: Fixed) -> f64 {
+        fixed.value(&self.parameters, &self.hoisted)
+    }
+
+    /// Runs a function; `results` are its results, one vector after the other.
+    pub(crate) fn call<const VECTORS: usize>(
+        &self,
+        function: FunctionId,
+        arguments: &Arguments<'_>,
+        results: [&mut [f64]; VECTORS],
+    ) {
+        let code = self.programs.function(function);
+        let mut values = code.memory(|fixed| [self.fixed(fixed)]);
+        code.load(&mut values, arguments);
+        execute(&code.instructions, self.programs.tables.splines, &mut values);
+        code.store(&values, &mut results.map(|vector| vector.as_chunks_mut().0));
+    }
+}
+
+impl fmt::Debug for Live {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let info = self.declared_info();
+        let parameters = info.parameters.iter().zip(&self.parameters);
+        let parameters = parameters.map(|(parameter, value)| (parameter.name, value));
+        f.debug_struct(info.name).field("parameters", &parameters.collect::<Vec<_>>()).finish_non_exhaustive()
+    }
+}

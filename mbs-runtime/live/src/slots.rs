@@ -1,0 +1,158 @@
+//! Which slot holds what, and for how long.
+
+use std::collections::HashMap;
+
+use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operation, Program, SinCos};
+
+use crate::arguments::Given;
+use crate::code::{Fixed, Role};
+use crate::instruction::Instruction;
+
+/// A position behind all instructions: results are read there.
+const END: usize = usize::MAX;
+
+/// A program with a slot for every operand. A slot is taken again when its number has been
+/// read for the last time, so that those in use stay few and near.
+pub struct Allocation {
+    pub instructions: Vec<Instruction>,
+    pub fixed: Vec<Fixed>,
+    pub given: Vec<(Given, u32)>,
+    pub outputs: Vec<u32>,
+    pub slots: usize,
+}
+
+impl Allocation {
+    /// Gives every operand of a program its slot.
+    ///
+    /// # Errors
+    /// The program reads what it does not have.
+    pub fn new(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Self, Inconsistency> {
+        let pairs = SinCos::of(program);
+        let last_reads = last_reads(program, &pairs);
+        let mut allocator = Allocator { places: HashMap::new(), free: Vec::new(), slots: 0, last_reads };
+        let (mut fixed, mut given) = (Vec::new(), Vec::new());
+        let operands = program.instructions.iter().flat_map(|step| [step.a, step.b]);
+        let operands: Vec<Operand> = operands.chain(program.outputs.iter().copied()).collect();
+        // fixed numbers first, which keep their slots
+        for &operand in &operands {
+            if let Role::Fixed(number) = role(operand)
+                && allocator.take_once(operand)?.is_some()
+            {
+                fixed.push(number);
+            }
+        }
+        for &operand in &operands {
+            if let Role::Given(input) = role(operand)
+                && let Some(slot) = allocator.take_once(operand)?
+            {
+                given.push((input, slot));
+            }
+        }
+        let mut instructions = Vec::with_capacity(program.instructions.len());
+        for (at, step) in program.instructions.iter().enumerate() {
+            let partner = pairs.partner(at);
+            if partner.is_none_or(|partner| partner > at) {
+                instructions.push(allocator.instruction(at, step, partner, role)?);
+            }
+        }
+        let outputs = program.outputs.iter().map(|&output| allocator.place(output));
+        let outputs = outputs.collect::<Result<_, _>>()?;
+        Ok(Self { instructions, fixed, given, outputs, slots: allocator.slots as usize })
+    }
+}
+
+/// Where every operand is read for the last time. The later one of a sine and a cosine of
+/// the same angle reads it where the earlier one does.
+fn last_reads(program: &Program, pairs: &SinCos) -> HashMap<Operand, usize> {
+    let mut last_reads = HashMap::new();
+    for (at, step) in program.instructions.iter().enumerate() {
+        let reader = pairs.partner(at).map_or(at, |partner| partner.min(at));
+        for operand in [step.a, step.b] {
+            let last = last_reads.entry(operand).or_insert(reader);
+            *last = reader.max(*last);
+        }
+    }
+    last_reads.extend(program.outputs.iter().map(|&output| (output, END)));
+    last_reads
+}
+
+/// Slots while a program is gone through.
+struct Allocator {
+    places: HashMap<Operand, u32>,
+    free: Vec<u32>,
+    slots: u32,
+    last_reads: HashMap<Operand, usize>,
+}
+
+impl Allocator {
+    fn take(&mut self, operand: Operand) -> Result<u32, Inconsistency> {
+        let slot = match self.free.pop() {
+            Some(slot) => slot,
+            None => {
+                let too_many = Inconsistency { pass: "live code", rule: "a program has less than 2^32 slots" };
+                self.slots = self.slots.checked_add(1).ok_or(too_many)?;
+                self.slots - 1
+            }
+        };
+        self.places.insert(operand, slot);
+        Ok(slot)
+    }
+
+    /// A slot for an operand that has none yet.
+    fn take_once(&mut self, operand: Operand) -> Result<Option<u32>, Inconsistency> {
+        if self.places.contains_key(&operand) { Ok(None) } else { self.take(operand).map(Some) }
+    }
+
+    fn place(&self, operand: Operand) -> Result<u32, Inconsistency> {
+        let unknown = Inconsistency { pass: "live code", rule: "instructions read earlier results" };
+        self.places.get(&operand).copied().ok_or(unknown)
+    }
+
+    /// Gives slots back that nothing reads behind an instruction.
+    fn release(&mut self, at: usize, operand: Operand) {
+        let is_read_later = self.last_reads.get(&operand).is_some_and(|&last| last > at);
+        if !is_read_later && let Some(slot) = self.places.remove(&operand) {
+            self.free.push(slot);
+        }
+    }
+
+    /// An instruction, and the slots of its results.
+    fn instruction(
+        &mut self,
+        at: usize,
+        step: &Step,
+        partner: Option<usize>,
+        role: &dyn Fn(Operand) -> Role,
+    ) -> Result<Instruction, Inconsistency> {
+        let (a, b) = (self.place(step.a)?, self.place(step.b)?);
+        for operand in [step.a, step.b] {
+            if !matches!(role(operand), Role::Fixed(_)) {
+                self.release(at, operand);
+            }
+        }
+        let result = Operand::Value(at);
+        let to = self.take(result)?;
+        let slots = [to, a, b];
+        let instruction = match (step.operation, partner.map(Operand::Value)) {
+            (Operation::Call(function), Some(partner)) => {
+                let other = self.take(partner)?;
+                let is_sine = function == Function::Sin;
+                let (sine, cosine) = if is_sine { (to, other) } else { (other, to) };
+                self.release(at, partner);
+                Instruction::SinCos([sine, cosine, a])
+            }
+            (Operation::Add, _) => Instruction::Add(slots),
+            (Operation::Sub, _) => Instruction::Sub(slots),
+            (Operation::Mul, _) => Instruction::Mul(slots),
+            (Operation::Div, _) => Instruction::Div(slots),
+            (Operation::Neg, _) => Instruction::Neg([to, a]),
+            (Operation::Call(function) | Operation::Call2(function), _) => Instruction::Call(function, slots),
+            (Operation::Spline(spline, order), _) => {
+                Instruction::Spline { order, spline: spline.index() as u32, slots: [to, a] }
+            }
+        };
+        // what nothing reads has its slot for the moment
+        self.release(at, result);
+        Ok(instruction)
+    }
+}

@@ -1,0 +1,117 @@
+//! What lives as long as the process: names in errors and in [`Info`] are `'static`.
+//!
+//! A mechanism that `mechanism!` makes has them in its binary. One that comes as a text has
+//! them here: each name once, and the tables of each declaration once, however often it is
+//! compiled. They are never freed, so that a process that compiles ever new declarations
+//! grows by some kilobytes with each.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use mbs_codegen::Compiled;
+use mbs_codegen::compiled::{self, Count};
+use mbs_runtime::__private::{Segment, Spline};
+use mbs_runtime::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
+use mbs_symbolic::{Block, units};
+
+/// The tables of a declaration.
+pub struct Tables {
+    /// Names, units, equations and counts.
+    pub info: Info,
+    /// The functions given by tables.
+    pub splines: &'static [Spline],
+}
+
+static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+static TABLES: Mutex<BTreeMap<String, &'static Tables>> = Mutex::new(BTreeMap::new());
+
+/// What a lock guards is whole at any time: a panic elsewhere does not spoil it.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The text, for the life of the process.
+pub fn text(text: &str) -> &'static str {
+    let mut texts = locked(&TEXTS);
+    if let Some(known) = texts.get(text) {
+        return known;
+    }
+    let new: &'static str = text.to_owned().leak();
+    texts.insert(new);
+    new
+}
+
+/// The tables of a declaration, given as tokens, and of what it was compiled to.
+pub fn tables(declaration: String, compiled: &Compiled) -> &'static Tables {
+    let mut tables = locked(&TABLES);
+    tables.entry(declaration).or_insert_with(|| Box::leak(Box::new(Tables::new(compiled))))
+}
+
+impl Tables {
+    fn new(compiled: &Compiled) -> Self {
+        Self { info: info(compiled), splines: leak(compiled.splines.iter().map(|it| spline(it))) }
+    }
+}
+
+fn leak<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
+    items.into_iter().collect::<Vec<_>>().leak()
+}
+
+fn info(compiled: &Compiled) -> Info {
+    Info::from_parts(
+        text(&compiled.name),
+        text(&compiled.doc),
+        compiled.degrees_of_freedom,
+        leak(compiled.parameters.iter().map(|parameter| quantity(&parameter.quantity, parameter.value))),
+        leak(compiled.inputs.iter().map(|input| quantity(input, 0.0))),
+        leak(compiled.coordinates.iter().zip(&compiled.start).map(|(it, &start)| quantity(it, start))),
+        leak(compiled.outputs.iter().map(|output| quantity(output, 0.0))),
+        leak(compiled.constraints.iter().map(constraint)),
+        leak(compiled.redundant.iter().copied()),
+        leak(compiled.pivots.iter().map(pivot)),
+        leak(compiled.start_pivots.iter().map(pivot)),
+        leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
+    )
+}
+
+fn quantity(quantity: &compiled::Quantity, default: f64) -> Quantity {
+    let compiled::Quantity { name, doc, unit, scale, dimension: of } = quantity;
+    let dimension = dimension(*of);
+    Quantity { name: text(name), doc: text(doc), unit: text(unit), scale: *scale, dimension, default }
+}
+
+/// Fractional exponents, which only outputs can have, are given as 0, as `mechanism!` does.
+fn dimension(dimension: units::Dimension) -> Dimension {
+    let [mass, length, time] = dimension.exponents().unwrap_or_default();
+    Dimension { mass, length, time }
+}
+
+fn constraint(constraint: &compiled::Constraint) -> Constraint {
+    let compiled::Constraint { name, doc, formula, is_drive, dimension: of } = constraint;
+    let dimension = dimension(*of);
+    Constraint { name: text(name), doc: text(doc), formula: text(formula), is_drive: *is_drive, dimension }
+}
+
+fn pivot(pivot: &compiled::Pivot) -> Pivot {
+    Pivot { constraint: text(&pivot.constraint), coordinate: text(&pivot.coordinate) }
+}
+
+fn function(compiled: &Compiled, count: &Count) -> Function {
+    let mbs_symbolic::Operations { mul, add, div, sin_cos, other } = count.operations;
+    let blocks = compiled.blocks(compiled.program(count.function));
+    Function {
+        name: count.function.name(),
+        operations: Operations { mul, add, div, sin_cos, other, watch: count.watch },
+        written: blocks.iter().map(|block| block.written() as u32).sum(),
+        loops: blocks.iter().filter(|block| matches!(block, Block::Repeated(_))).count() as u32,
+    }
+}
+
+fn spline(spline: &mbs_symbolic::Spline) -> Spline {
+    let segment = |segment: &mbs_symbolic::Segment| Segment {
+        from: segment.from,
+        coefficients: segment.coefficients,
+    };
+    let segments = leak(spline.segments.iter().map(segment));
+    Spline { origin: spline.origin, period: spline.period, segments }
+}

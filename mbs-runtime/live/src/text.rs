@@ -1,0 +1,169 @@
+//! A declaration as text.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use mbs_codegen::Diagnostic;
+use proc_macro2::{Span, TokenStream};
+
+use crate::error::{Error, Problem};
+use crate::live::{Live, Programs};
+use crate::{find, lexing};
+
+/// The longest text that is compiled, in bytes.
+pub const LONGEST: usize = 1 << 20;
+
+/// What the compiler needs where it is not optimised; it descends into formulas and groups
+/// by recursion, at most as deep as it allows them to nest.
+const STACK: usize = 64 << 20;
+
+/// A declaration of a mechanism as text: a file of its own, or a Rust file with a block
+/// `mechanism! { … }`.
+///
+/// # Bounds
+/// A declaration is data: nothing in it runs a program or reads a file. Its text is
+/// at most [`LONGEST`] bytes. The compiler bounds how deep groups (256), formulas (128),
+/// blocks (64) and assemblies (16) nest, how many statements loops make (100,000), and how
+/// many instances there are (10,000): what is over a bound is an error. Time and memory grow
+/// with the number of statements that are left then. A program that opens files of
+/// strangers sets a limit of time by [`within`](Self::within).
+///
+/// # Example
+/// ```
+/// use mbs_live::Text;
+///
+/// let wrong = Text::declaration("crank.mbs", "Crank {\n    dof = 1;\n    body wheel (phi { }\n}");
+/// let error = wrong.compile().unwrap_err();
+/// let problem = &error.problems()[0];
+/// assert_eq!(problem.message, "this bracket does not close the one that is open");
+/// let place = problem.location.as_ref().unwrap();
+/// assert_eq!((place.line, place.column, place.length), (4, 1, 1));
+/// assert_eq!(problem.notes[0].location.as_ref().unwrap().line, 3);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Text {
+    file: String,
+    text: String,
+    form: Form,
+    limit: Option<Duration>,
+}
+
+/// What stands in a text.
+#[derive(Clone, Debug)]
+enum Form {
+    /// The inside of `mechanism! { … }`.
+    Declaration,
+    /// Rust with such a block, called by name where one was asked for.
+    Rust(Option<String>),
+}
+
+impl Text {
+    /// A declaration by itself, the inside of `mechanism! { … }`. `file` is what errors call
+    /// it.
+    pub fn declaration(file: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { file: file.into(), text: text.into(), form: Form::Declaration, limit: None }
+    }
+
+    /// A Rust file with a block `mechanism! { … }`, the only one unless one is
+    /// [`named`](Self::named).
+    pub fn rust(file: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { form: Form::Rust(None), ..Self::declaration(file, text) }
+    }
+
+    /// Reads a file: as Rust if its name ends in `.rs`, else as a declaration by itself.
+    ///
+    /// # Errors
+    /// Those of reading; of kind [`InvalidData`](io::ErrorKind::InvalidData) if it is no
+    /// UTF-8. Of a file that is too long no more than [`LONGEST`] and a byte are read; to
+    /// compile it is an error.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        let mut bytes = Vec::new();
+        File::open(path)?.take(LONGEST as u64 + 1).read_to_end(&mut bytes)?;
+        let is_whole = bytes.len() <= LONGEST;
+        let text = match String::from_utf8(bytes) {
+            Ok(text) => text,
+            // cut within a letter
+            Err(error) if !is_whole => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+            Err(error) => return Err(io::Error::new(io::ErrorKind::InvalidData, error.utf8_error())),
+        };
+        let file = path.display().to_string();
+        let is_rust = path.extension().is_some_and(|extension| extension == "rs");
+        Ok(if is_rust { Self::rust(file, text) } else { Self::declaration(file, text) })
+    }
+
+    /// Of several blocks in a Rust file, the one that declares a mechanism of this name. A
+    /// declaration by itself stays what it is.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        if let Form::Rust(wanted) = &mut self.form {
+            *wanted = Some(name.into());
+        }
+        self
+    }
+
+    /// Compiling ends in an error after this time. What was begun goes on for itself until
+    /// it is done: a process that is to end it ends itself.
+    #[must_use]
+    pub fn within(mut self, limit: Duration) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
+    /// Compiles the declaration: the mechanism with its declared parameters.
+    ///
+    /// # Errors
+    /// All errors of the first stage that has any, as `mechanism!` shows them; brackets
+    /// and literals that cannot be read; a Rust file that does not have the block.
+    pub fn compile(&self) -> Result<Live, Error> {
+        if self.text.len() > LONGEST {
+            let message = format!("the text has more than {LONGEST} bytes");
+            return Err(self.error(vec![Problem::everywhere(message)]));
+        }
+        let (send, receive) = mpsc::channel();
+        let (text, form) = (self.text.clone(), self.form.clone());
+        // Places of tokens are kept by the thread that made them, and end with it.
+        let compiling = thread::Builder::new().stack_size(STACK).spawn(move || {
+            let result = catch_unwind(AssertUnwindSafe(|| compile(&text, &form)));
+            let failed = "internal inconsistency of the mechanism compiler: it came to an unforeseen end";
+            // nobody waits any longer if the time was over
+            let _ = send.send(result.unwrap_or_else(|_| Err(vec![Problem::everywhere(failed)])));
+        });
+        if let Err(error) = compiling {
+            return Err(self.error(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]));
+        }
+        let result = match self.limit {
+            Some(limit) => receive.recv_timeout(limit).map_err(|_| limit.as_secs_f64()),
+            None => receive.recv().map_err(|_| f64::INFINITY),
+        };
+        match result {
+            Ok(result) => result.map(Live::new).map_err(|problems| self.error(problems)),
+            Err(seconds) => {
+                let message = format!("compiling takes more than the {seconds} s that it may take");
+                Err(self.error(vec![Problem::everywhere(message)]))
+            }
+        }
+    }
+
+    fn error(&self, problems: Vec<Problem>) -> Error {
+        Error::new(self.file.clone(), self.text.clone(), problems)
+    }
+}
+
+/// Tokens, declaration, compiled mechanism, code.
+fn compile(text: &str, form: &Form) -> Result<Programs, Vec<Problem>> {
+    let one = |diagnostic: &Diagnostic| vec![Problem::of(diagnostic, text)];
+    let tokens: TokenStream = text.parse().map_err(|error| vec![lexing::problem(&error, text)])?;
+    let declaration = match form {
+        Form::Declaration => tokens,
+        Form::Rust(name) => find::block(tokens, name.as_deref()).map_err(|error| one(&error))?,
+    };
+    let key = declaration.to_string();
+    let compiled = mbs_codegen::analyse(declaration)
+        .map_err(|errors| errors.iter().map(|error| Problem::of(error, text)).collect::<Vec<_>>())?;
+    Programs::new(key, &compiled).map_err(|mistake| one(&Diagnostic::internal(Span::call_site(), mistake)))
+}
