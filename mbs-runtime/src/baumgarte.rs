@@ -135,8 +135,8 @@ impl<F: Feedback> Baumgarte<F> {
         trace.abs() <= 1.0 + determinant + slack && determinant <= 1.0 + slack
     }
 
-    /// The gains as the generated code takes them.
-    pub(crate) fn gains<T: Real>(&self) -> Gains<T> {
+    /// −2α and −β², as generated code takes them.
+    pub fn gains<T: Real>(&self) -> Gains<T> {
         Gains {
             minus_two_alpha: T::from_f64(-2.0 * self.alpha),
             minus_beta_squared: T::from_f64(-self.beta * self.beta),

@@ -30,7 +30,7 @@ pub(crate) fn check_solution<T: Real>(
 
 /// Names what went wrong in a step that failed its test: a pivot in one of its
 /// two stages, else what first ceased to be finite. `solved` are q̈ and growth of each.
-pub fn diagnose<T: Real>(
+pub(crate) fn diagnose<T: Real>(
     equations: &dyn Equations<T>,
     stages: [At<'_, T>; 2],
     solved: [(&[T], T); 2],

@@ -7,10 +7,10 @@
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
 //! [`Info`]. SI units, angles in rad.
 
-pub use crate::diagnosis::diagnose;
 pub use crate::reach::reach;
 pub use crate::room::Room;
-pub use crate::simulation::Examination;
+pub use crate::run::{Run, check_outputs};
+pub use crate::simulation::clock::steps_to;
 pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
 pub use crate::start::preparation::{Preparation, Start};
@@ -78,20 +78,17 @@ pub trait Equations<T: Real> {
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
 }
 
-/// A mechanism with named components as [`Equations`].
-pub(crate) struct Named<'a, M>(pub &'a M);
-
-impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
+impl<M: Mechanism> Equations<M::Real> for M {
     fn info(&self) -> &Info {
         M::INFO
     }
 
     fn phi(&self, t: M::Real, q: &[M::Real], phi: &mut [M::Real]) {
-        write(self.0.phi(t, &read(q)), phi);
+        write(Mechanism::phi(self, t, &read(q)), phi);
     }
 
     fn phi_dot(&self, at: At<'_, M::Real>, phi_dot: &mut [M::Real]) {
-        write(self.0.phi_dot(&at.state()), phi_dot);
+        write(Mechanism::phi_dot(self, &at.state()), phi_dot);
     }
 
     fn stabilized(
@@ -102,7 +99,7 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
         acceleration: &mut [M::Real],
         feedback: &mut [M::Real],
     ) -> M::Real {
-        let solved = self.0.stabilized(&at.state(), &read(inputs), gains);
+        let solved = Mechanism::stabilized(self, &at.state(), &read(inputs), gains);
         write(solved.acceleration, acceleration);
         write(solved.feedback, feedback);
         solved.growth
@@ -115,7 +112,7 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
         feedback: &[M::Real],
         acceleration: &mut [M::Real],
     ) -> M::Real {
-        let solved = self.0.constrained(&at.state(), &read(inputs), &read(feedback));
+        let solved = Mechanism::constrained(self, &at.state(), &read(inputs), &read(feedback));
         write(solved.acceleration, acceleration);
         solved.growth
     }
@@ -127,7 +124,7 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
         residual: &[M::Real],
         correction: &mut [M::Real],
     ) -> M::Real {
-        let solved = self.0.position_correction(t, &read(q), &read(residual));
+        let solved = Mechanism::position_correction(self, t, &read(q), &read(residual));
         write(solved.acceleration, correction);
         solved.growth
     }
@@ -139,21 +136,21 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
         residual: &[M::Real],
         correction: &mut [M::Real],
     ) -> M::Real {
-        let solved = self.0.velocity_correction(t, &read(q), &read(residual));
+        let solved = Mechanism::velocity_correction(self, t, &read(q), &read(residual));
         write(solved.acceleration, correction);
         solved.growth
     }
 
     fn worst_pivot(&self, t: M::Real, q: &[M::Real]) -> Option<(usize, M::Real)> {
-        self.0.worst_pivot(t, &read(q))
+        Mechanism::worst_pivot(self, t, &read(q))
     }
 
     fn worst_start_pivot(&self, t: M::Real, q: &[M::Real]) -> Option<(usize, M::Real)> {
-        self.0.worst_start_pivot(t, &read(q))
+        Mechanism::worst_start_pivot(self, t, &read(q))
     }
 
     fn kinetic_energy(&self, at: At<'_, M::Real>) -> M::Real {
-        self.0.kinetic_energy(&at.state())
+        Mechanism::kinetic_energy(self, &at.state())
     }
 }
 
@@ -161,7 +158,7 @@ impl<M: Mechanism> Equations<M::Real> for Named<'_, M> {
 /// inlined, because moves between arrays and fields would be most of the code of every
 /// method.
 #[inline(never)]
-fn read<C: Components>(slice: &[C::Real]) -> C {
+pub(crate) fn read<C: Components>(slice: &[C::Real]) -> C {
     let mut array = C::splat(C::Real::default()).into_array();
     // a length that the compiler knows makes moves of the loop
     if slice.len() == array.as_ref().len() {
@@ -172,7 +169,7 @@ fn read<C: Components>(slice: &[C::Real]) -> C {
 
 /// Named components into a slice of as many numbers.
 #[inline(never)]
-fn write<C: Components>(components: C, slice: &mut [C::Real]) {
+pub(crate) fn write<C: Components>(components: C, slice: &mut [C::Real]) {
     let array = components.into_array();
     if slice.len() == array.as_ref().len() {
         vectors::copy(slice, array.as_ref());
@@ -180,7 +177,7 @@ fn write<C: Components>(components: C, slice: &mut [C::Real]) {
 }
 
 impl<T: Real> At<'_, T> {
-    fn state<C: Components<Real = T>>(&self) -> State<C> {
+    pub(crate) fn state<C: Components<Real = T>>(&self) -> State<C> {
         State { t: self.t, q: read(self.q), v: read(self.v) }
     }
 }

@@ -1,44 +1,9 @@
 //! Heun's method on the first-order form (q, v)˙ = (v, q̈).
 
-use crate::equations::{Arrays, Named};
-use crate::mechanism::growth_limit;
-use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State, diagnosis};
+use crate::{Components, Feedback, Gains, Mechanism, Real, State};
 
-/// One step of Heun's method (Jiang 2025, Eq. 9):
-///
-/// ```text
-/// predict   q* = q + h v,            v* = v + h q̈(t, q, v)
-/// correct   q⁺ = q + h/2 (v + v*),   v⁺ = v + h/2 (q̈(t, q, v) + q̈(t + h, q*, v*))
-/// ```
-///
-/// Second order: the local error is O(h³), the global error O(h²).
-///
-/// `t_next` is t + h, passed in so that time is k·h and not a sum of k roundings. With
-/// the state comes the growth of both stages.
-///
-/// # Errors
-/// [`Error::Singular`] and [`Error::NonFinite`]; the given state is untouched.
-#[inline]
-pub(crate) fn heun_step<M: Mechanism, F: Feedback>(
-    mechanism: &M,
-    at: &State<M::Coordinates>,
-    inputs: &M::Inputs,
-    gains: &Gains<M::Real>,
-    h: M::Real,
-    t_next: M::Real,
-) -> Result<(State<M::Coordinates>, M::Real), Error> {
-    let trial = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
-    let Trial { predicted, next, here, there } = trial;
-    let growth = here.1 + there.1;
-    // One test per step; written so that a NaN fails it.
-    let healthy = growth < growth_limit() && next.q.is_finite() && next.v.is_finite();
-    if healthy { Ok((next, growth)) } else { Err(diagnose(mechanism, [at, &predicted], [here, there])) }
-}
-
-/// A step that nobody has looked at yet.
+/// A step whose health has not been tested.
 pub(crate) struct Trial<M: Mechanism> {
-    /// q*, v*
-    pub predicted: State<M::Coordinates>,
     /// q⁺, v⁺
     pub next: State<M::Coordinates>,
     /// q̈ and growth of the first stage,
@@ -75,7 +40,7 @@ pub(crate) fn trial<M: Mechanism, F: Feedback>(
     let b = there.0.into_array();
     correct(h, [q.as_ref(), v.as_ref()], [a.as_ref(), b.as_ref()], q_next.as_mut(), v_next.as_mut());
     let next = State { t: t_next, q: Components::from_array(q_next), v: Components::from_array(v_next) };
-    Trial { predicted, next, here: (here.acceleration, here.growth), there }
+    Trial { next, here: (here.acceleration, here.growth), there }
 }
 
 /// (q, v) becomes (q*, v*).
@@ -103,21 +68,4 @@ pub(crate) fn correct<T: Real>(
         *q_next = q + half_h * (v + *v_next);
         *v_next = v + half_h * (here + there);
     }
-}
-
-/// Names what went wrong in a step that failed its test.
-#[cold]
-#[inline(never)]
-fn diagnose<M: Mechanism>(
-    mechanism: &M,
-    stages: [&State<M::Coordinates>; 2],
-    solved: [(M::Coordinates, M::Real); 2],
-) -> Error {
-    let stages = stages.map(Arrays::of);
-    let solved = solved.map(|(acceleration, growth)| (acceleration.into_array(), growth));
-    diagnosis::diagnose(
-        &Named(mechanism),
-        stages.each_ref().map(Arrays::at),
-        solved.each_ref().map(|(acceleration, growth)| (acceleration.as_ref(), *growth)),
-    )
 }

@@ -1,7 +1,7 @@
 //! Kinematic analysis: the motion from the constraints alone.
 
 use crate::diagnosis::{Solution, check_solution};
-use crate::equations::{Arrays, At, Equations, Named, consistent};
+use crate::equations::{Arrays, At, Equations, consistent};
 use crate::room::{OnStack, Room};
 use crate::{Baumgarte, Components, Error, Held, Mechanism, Real, State};
 
@@ -45,7 +45,7 @@ impl<M: Mechanism> Kinematics<M> {
     pub fn at(&mut self, t: M::Real) -> Result<Motion<M::Coordinates>, Error> {
         let still = M::Coordinates::splat(M::Real::default()).into_array();
         let (mut q, mut v, mut acceleration) = (self.guess.into_array(), still, still);
-        let (equations, inputs) = (&Named(&self.mechanism), M::Inputs::default().into_array());
+        let (equations, inputs) = (&self.mechanism, M::Inputs::default().into_array());
         let mut room = OnStack::<M>::new();
         let [of_q, of_v, of_a] = [&mut q, &mut v, &mut acceleration].map(AsMut::as_mut);
         solve(equations, t, [of_q, of_v, of_a], inputs.as_ref(), &mut room.room())?;

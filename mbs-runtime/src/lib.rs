@@ -40,7 +40,8 @@
 //! * [`Simulation`]: integration in time; [`Builder`] has the choices;
 //! * [`Baumgarte`]: feedback, its gains and when they are stable;
 //! * [`Kinematics`]: the motion of a fully driven mechanism, without integration;
-//! * [`equations`]: starts and examinations on slices, without named components;
+//! * [`System`]: a run as tools see it, on slices, of any mechanism;
+//! * [`equations`]: equations, starts and steps on slices, without named components;
 //! * [`Error`]: what can go wrong.
 //!
 //! # Symbols
@@ -123,6 +124,7 @@ mod pair;
 mod reach;
 mod real;
 mod room;
+mod run;
 mod simulation;
 mod sincos;
 pub mod sketch;
@@ -130,6 +132,7 @@ mod spare;
 mod spline;
 pub mod start;
 mod straight;
+mod system;
 mod vectors;
 mod watch;
 
@@ -147,6 +150,7 @@ pub use pair::{Pair, Single, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;
+pub use system::System;
 pub use watch::WorstPlace;
 
 /// What generated code calls. Not part of the public interface.

@@ -54,7 +54,7 @@ pub struct Reactions<C: Components, R> {
     pub growth: C::Real,
 }
 
-/// A step of Heun's method that nobody has looked at yet.
+/// A step of Heun's method whose health has not been tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stepped<C: Components> {
     /// The state after the step.

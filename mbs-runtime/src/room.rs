@@ -24,19 +24,19 @@ impl<'a, T> Room<'a, T> {
         COORDINATES * coordinates + CONSTRAINTS * constraints
     }
 
-    /// Room in a slice of at least [`len`](Self::len) numbers; `None` if it is shorter.
-    pub fn within(mut numbers: &'a mut [T], coordinates: usize, constraints: usize) -> Option<Self> {
-        if numbers.len() < Self::len(coordinates, constraints) {
-            return None;
-        }
-        let mut cut = |length| {
-            let (vector, rest) = core::mem::take(&mut numbers).split_at_mut_checked(length)?;
+    /// Room in a slice of [`len`](Self::len) numbers. In a shorter one, what is computed
+    /// means nothing.
+    pub fn within(mut numbers: &'a mut [T], coordinates: usize, constraints: usize) -> Self {
+        let mut cut = |length: usize| {
+            let whole = core::mem::take(&mut numbers);
+            let (vector, rest) = whole.split_at_mut(length.min(whole.len()));
             numbers = rest;
-            Some(vector)
+            vector
         };
-        let coordinates = [(); COORDINATES].map(|()| cut(coordinates).unwrap_or_default());
-        let constraints = [(); CONSTRAINTS].map(|()| cut(constraints).unwrap_or_default());
-        Some(Self { coordinates, constraints })
+        Self {
+            coordinates: [(); COORDINATES].map(|()| cut(coordinates)),
+            constraints: [(); CONSTRAINTS].map(|()| cut(constraints)),
+        }
     }
 }
 

@@ -1,16 +1,15 @@
 //! A mechanism in motion.
 
 mod builder;
-mod examination;
+pub(crate) mod clock;
+mod on_slices;
 
 pub use self::builder::Builder;
-pub use self::examination::Examination;
 
 use crate::components::sum_of;
-use crate::diagnosis::check_defined;
-use crate::heun::heun_step;
 use crate::mechanism::growth_limit;
-use crate::watch::{Watch, WorstPlace, digits_left};
+use crate::run::check_outputs;
+use crate::watch::{Watch, WorstPlace};
 use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
 
 /// A mechanism being integrated in time.
@@ -156,25 +155,6 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step
     }
 
-    /// The step of mechanisms that have no other, and of those whose step was not calm:
-    /// it finds out what went wrong, if anything did.
-    #[doc(hidden)]
-    pub fn step_in_stages(&mut self) -> Result<(), Error> {
-        let t_next = self.next_time();
-        let Self { mechanism, state, inputs, gains, step, .. } = &*self;
-        let (next, growth) = heun_step::<M, F>(mechanism, state, inputs, gains, *step, t_next)
-            .map_err(|error| self.cause(error, t_next))?;
-        if growth <= self.watch.alarm && self.keeps_redundant(&next) {
-            self.watch.note(growth);
-        } else {
-            self.examine_step(&next, growth)?;
-            self.watch.note_examined(growth);
-        }
-        self.state = next;
-        self.steps += 1;
-        Ok(())
-    }
-
     /// Advances by whole steps until less than half a step is left to `end` seconds.
     ///
     /// # Errors
@@ -193,14 +173,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// [`Error::EndTime`], or [`Error::Time`] if it is so far away that time would stand
     /// still before.
     pub fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        let now = self.state.t.to_f64();
-        let span = (end - self.start_time.to_f64()) / self.step.to_f64();
-        // Half a step back is still "now".
-        if !span.is_finite() || span + 0.5 < self.steps as f64 {
-            return Err(Error::EndTime { end, now });
-        }
-        check_time::<M::Real>(end, self.step.to_f64())?;
-        Ok(((span + 0.5) as u64).saturating_sub(self.steps))
+        clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps, end)
     }
 
     /// Time, positions and velocities.
@@ -301,7 +274,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// # Ok::<(), mbs_runtime::Error>(())
     /// ```
     pub fn digits_left(&self) -> f64 {
-        digits_left(self.watch.worst)
+        self.watch.digits_left()
     }
 
     /// When and where the run came closest to a singular position; nothing as long as
@@ -310,10 +283,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     /// The place is remembered when the growth has doubled since the last one, so that
     /// it is that of a step with at least half of [`worst_growth`](Self::worst_growth).
     pub fn worst_place(&self) -> Option<WorstPlace> {
-        let (t, pivot) = self.watch.remembered()?;
-        let pivot = pivot.and_then(|at| M::INFO.pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
-        Some(WorstPlace { t: t.to_f64(), constraint, coordinate })
+        self.watch.worst_place(M::INFO)
     }
 
     /// Kinetic plus potential energy in J.
@@ -364,17 +334,15 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     pub fn outputs(&self) -> Result<M::Outputs, Error> {
         let reactions = self.reactions()?;
         let outputs = self.mechanism.outputs(&self.state, &self.inputs, &reactions);
-        if sum_of(outputs).is_finite() {
-            return Ok(outputs);
-        }
-        let name = |at: usize| M::Outputs::NAMES.get(at).copied().unwrap_or("");
-        check_defined(self.state.t, "the output", outputs.into_array().as_ref(), name).map(|()| outputs)
+        self.check_outputs(outputs).map(|()| outputs)
     }
-}
 
-/// Time is a number of steps: at its size in the scalar a step has to be four roundings
-/// at least.
-fn check_time<T: Real>(t: f64, step: f64) -> Result<(), Error> {
-    let is_counted = 4.0 * T::EPSILON.to_f64() * t.abs() <= step;
-    if is_counted { Ok(()) } else { Err(Error::Time { t, step }) }
+    /// Refuses outputs that are not finite.
+    #[inline]
+    pub(crate) fn check_outputs(&self, outputs: M::Outputs) -> Result<(), Error> {
+        if sum_of(outputs).is_finite() {
+            return Ok(());
+        }
+        check_outputs(M::INFO, self.state.t, outputs.into_array().as_ref())
+    }
 }

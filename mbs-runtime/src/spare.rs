@@ -14,14 +14,29 @@ const SHARE: f64 = 1e-3;
 /// constraint is redundant.
 #[inline(always)]
 pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>, length: M::Real) -> M::Real {
-    let mut margin = length;
     if M::INFO.redundant.is_empty() {
-        return margin;
+        return length;
     }
-    let phi = mechanism.phi(at.t, &at.q).into_array();
-    for &row in M::INFO.redundant {
-        if let Some(phi) = phi.as_ref().get(row) {
-            margin = margin.min(allowed(M::INFO, row, length) - phi.abs());
+    least(M::INFO, mechanism.phi(at.t, &at.q).into_array().as_ref(), length)
+}
+
+/// The same on slices.
+pub(crate) fn margin_on<T: Real>(equations: &dyn Equations<T>, t: T, q: &[T], length: T, phi: &mut [T]) -> T {
+    let info = equations.info();
+    if info.redundant.is_empty() {
+        return length;
+    }
+    equations.phi(t, q, phi);
+    least(info, phi, length)
+}
+
+/// The least of what is left to the redundant rows, from Φ.
+#[inline(always)]
+fn least<T: Real>(info: &Info, phi: &[T], length: T) -> T {
+    let mut margin = length;
+    for &row in info.redundant {
+        if let Some(phi) = phi.get(row) {
+            margin = margin.min(allowed(info, row, length) - phi.abs());
         }
     }
     margin

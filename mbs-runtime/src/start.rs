@@ -6,7 +6,7 @@ mod jacobian;
 pub(crate) mod preparation;
 pub(crate) mod projection;
 
-use crate::equations::{Arrays, Named};
+use crate::equations::Arrays;
 use crate::room::OnStack;
 use crate::{Components, Error, Mechanism, State};
 
@@ -26,7 +26,7 @@ pub fn consistent<M: Mechanism>(
 ) -> Result<State<M::Coordinates>, Error> {
     let Arrays { t, mut q, mut v } = Arrays::of(guess);
     let mut room = OnStack::<M>::new();
-    assembly::consistent(&Named(mechanism), t, q.as_mut(), v.as_mut(), &mut room.room())?;
+    assembly::consistent(mechanism, t, q.as_mut(), v.as_mut(), &mut room.room())?;
     Ok(Arrays { t, q, v }.state())
 }
 
@@ -43,7 +43,7 @@ pub fn assemble<M: Mechanism>(
     guess: &M::Coordinates,
 ) -> Result<M::Coordinates, Error> {
     let mut q = guess.into_array();
-    assembly::assemble(&Named(mechanism), t, q.as_mut(), &mut OnStack::<M>::new().room())?;
+    assembly::assemble(mechanism, t, q.as_mut(), &mut OnStack::<M>::new().room())?;
     Ok(Components::from_array(q))
 }
 
@@ -57,7 +57,7 @@ pub fn project_velocities<M: Mechanism>(
 ) -> Result<M::Coordinates, Error> {
     let Arrays { t, q, mut v } = Arrays::of(at);
     let mut room = OnStack::<M>::new();
-    assembly::project_velocities(&Named(mechanism), t, q.as_ref(), v.as_mut(), &mut room.room())?;
+    assembly::project_velocities(mechanism, t, q.as_ref(), v.as_mut(), &mut room.room())?;
     Ok(Components::from_array(v))
 }
 
@@ -80,7 +80,7 @@ pub fn project_velocities<M: Mechanism>(
 /// [`Error::Inconsistent`], [`Error::NonFinite`].
 pub fn check<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>, step: M::Real) -> Result<(), Error> {
     let mut room = OnStack::<M>::new();
-    consistency::check(&Named(mechanism), Arrays::of(state).at(), step, &mut room.room())
+    consistency::check(mechanism, Arrays::of(state).at(), step, &mut room.room())
 }
 
 /// The consistent state nearest to `guess` that keeps the coordinates called `positions`
@@ -129,6 +129,6 @@ pub fn project<M: Mechanism>(
     let Arrays { t, mut q, mut v } = Arrays::of(guess);
     let keep = [positions, velocities];
     let mut room = OnStack::<M>::new();
-    projection::project(&Named(mechanism), t, q.as_mut(), v.as_mut(), keep, &mut room.room())?;
+    projection::project(mechanism, t, q.as_mut(), v.as_mut(), keep, &mut room.room())?;
     Ok(Arrays { t, q, v }.state())
 }

@@ -3,8 +3,8 @@
 
 use core::f64::consts::LN_10;
 
-use crate::Real;
 use crate::mechanism::growth_limit;
+use crate::{Info, Real};
 
 /// Below this growth, two digits, nobody asks for the place.
 const REMEMBERED_FROM: f64 = 64.0;
@@ -85,9 +85,27 @@ impl<T: Real> Watch<T> {
     }
 
     /// When the worst growth was remembered, and its pivot, if it was.
-    pub fn remembered(&self) -> Option<(T, Option<usize>)> {
+    fn remembered(&self) -> Option<(T, Option<usize>)> {
         let is_remembered = self.remembered_from > T::from_f64(REMEMBERED_FROM);
         is_remembered.then_some((self.t, self.pivot.map(|at| at as usize)))
+    }
+
+    /// The place of the worst growth; see
+    /// [`Simulation::worst_place`](crate::Simulation::worst_place).
+    pub fn worst_place(&self, info: &Info) -> Option<WorstPlace> {
+        let (t, pivot) = self.remembered()?;
+        let pivot = pivot.and_then(|at| info.pivots.get(at));
+        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+        Some(WorstPlace { t: t.to_f64(), constraint, coordinate })
+    }
+
+    /// The decimal digits that the worst growth left: −log₁₀(ε · growth), at least 0; see
+    /// [`Simulation::digits_left`](crate::Simulation::digits_left).
+    pub fn digits_left(&self) -> f64 {
+        let one = T::from_f64(1.0);
+        let growth = if self.worst > one { self.worst } else { one };
+        let digits = -Real::ln((T::EPSILON * growth).to_f64()) / LN_10;
+        if digits > 0.0 { digits } else { 0.0 }
     }
 
     /// The same watch with what has changed in steps that were calm.
@@ -112,14 +130,6 @@ impl<T: Real> Watch<T> {
 #[inline(always)]
 pub(crate) fn rise_after<T: Real>(growth: T) -> T {
     T::from_f64(1.25) * growth
-}
-
-/// The decimal digits that a pivot growth leaves: −log₁₀(ε · growth), at least 0.
-pub(crate) fn digits_left<T: Real>(growth: T) -> f64 {
-    let one = T::from_f64(1.0);
-    let growth = if growth > one { growth } else { one };
-    let digits = -Real::ln((T::EPSILON * growth).to_f64()) / LN_10;
-    if digits > 0.0 { digits } else { 0.0 }
 }
 
 #[cfg(test)]

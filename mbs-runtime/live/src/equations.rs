@@ -96,7 +96,8 @@ pub(crate) fn both(gains: &Gains<f64>) -> [[f64; 1]; 2] {
     [[gains.minus_two_alpha], [gains.minus_beta_squared]]
 }
 
-fn position(t: f64, q: &[f64]) -> Arguments<'_> {
+/// Time and positions as functions are given them.
+pub(crate) fn position(t: f64, q: &[f64]) -> Arguments<'_> {
     Arguments { t: [t], q: single(q), ..Arguments::default() }
 }
 

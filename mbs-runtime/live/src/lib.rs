@@ -53,14 +53,17 @@ mod heun;
 mod instruction;
 mod lexing;
 mod live;
+mod run;
 mod slots;
 mod statics;
 mod stepper;
 mod text;
 mod unwoven;
+mod words;
 
 pub use block::{Block, LANES, Member};
 pub use error::{Error, Location, Note, Problem};
 pub use live::Live;
+pub use run::{Builder, Run};
 pub use stepper::Stepper;
 pub use text::{LONGEST, Text};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mbs_codegen::compiled::{Condition, FusedStep, Kinds};
 use mbs_codegen::{Compiled, FunctionId};
-use mbs_runtime::{Error, Info};
+use mbs_runtime::{Derivation, Error, Info, Sketch};
 use mbs_symbolic::Inconsistency;
 
 use crate::arguments::Arguments;
@@ -165,6 +165,14 @@ impl Live {
         &self.parameters
     }
 
+    /// Time, positions and velocities of the declared start, nothing made consistent.
+    pub fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
+        let n = self.declared_info().coordinates.len();
+        let (mut q, mut v, mut t) = (vec![f64::NAN; n], vec![f64::NAN; n], [f64::NAN]);
+        self.call(FunctionId::Start, &Arguments::default(), [&mut q, &mut v, &mut t]);
+        (t[0], q, v)
+    }
+
     /// Whether both were compiled by the same call of
     /// [`Text::compile`](crate::Text::compile), so that they differ in parameters only.
     pub fn shares_programs_with(&self, other: &Self) -> bool {
@@ -172,8 +180,23 @@ impl Live {
     }
 
     /// Names, units, equations and counts, which do not depend on parameters.
-    pub(crate) fn declared_info(&self) -> &'static Info {
+    pub fn declared_info(&self) -> &'static Info {
         &self.programs.tables.info
+    }
+
+    /// The equations and their elimination, for people to read.
+    pub fn derivation(&self) -> &'static Derivation {
+        &self.programs.tables.derivation
+    }
+
+    /// What a picture of it shows.
+    pub fn sketch(&self) -> &'static Sketch {
+        &self.programs.tables.sketch
+    }
+
+    /// The step that the declaration asks for, in s.
+    pub fn declared_step(&self) -> Option<f64> {
+        self.programs.tables.step
     }
 
     pub(crate) fn programs(&self) -> &Arc<Programs> {

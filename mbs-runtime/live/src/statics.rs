@@ -11,8 +11,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count};
 use mbs_runtime::__private::{Segment, Spline};
-use mbs_runtime::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
+use mbs_runtime::{
+    Constraint, Derivation, Dimension, Function, Info, Operations, Pivot, Quantity, Sketch,
+};
 use mbs_symbolic::{Block, units};
+
+use crate::words;
 
 /// The tables of a declaration.
 pub struct Tables {
@@ -20,6 +24,12 @@ pub struct Tables {
     pub info: Info,
     /// The functions given by tables.
     pub splines: &'static [Spline],
+    /// The equations, for people to read.
+    pub derivation: Derivation,
+    /// What a picture shows.
+    pub sketch: Sketch,
+    /// The declared step in s.
+    pub step: Option<f64>,
 }
 
 static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
@@ -49,11 +59,18 @@ pub fn tables(declaration: String, compiled: &Compiled) -> &'static Tables {
 
 impl Tables {
     fn new(compiled: &Compiled) -> Self {
-        Self { info: info(compiled), splines: leak(compiled.splines.iter().map(|it| spline(it))) }
+        Self {
+            info: info(compiled),
+            splines: leak(compiled.splines.iter().map(|it| spline(it))),
+            derivation: words::derivation(&compiled.derivation),
+            sketch: words::sketch(&compiled.sketch),
+            step: compiled.choices.step,
+        }
     }
 }
 
-fn leak<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
+/// The items, for the life of the process.
+pub fn leak<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
     items.into_iter().collect::<Vec<_>>().leak()
 }
 

@@ -287,7 +287,7 @@ fn staged_step<M: Mechanism, F: Feedback>(
     h: M::Real,
     t_next: M::Real,
 ) -> Stepped<M::Coordinates> {
-    let Trial { next, here, there, .. } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
+    let Trial { next, here, there } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
     Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
 }
 

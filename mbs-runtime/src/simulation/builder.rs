@@ -1,8 +1,7 @@
 //! What can be chosen before a simulation starts.
 
-use super::{Simulation, check_time};
-use crate::diagnosis::check_inputs;
-use crate::equations::{Arrays, Named};
+use super::Simulation;
+use crate::equations::Arrays;
 use crate::room::OnStack;
 use crate::start::{self, preparation::Start};
 use crate::watch::Watch;
@@ -140,8 +139,6 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
         }
         let inputs = self.inputs.into_array();
-        check_inputs(M::INFO, inputs.as_ref())?;
-        check_time::<M::Real>(self.state.t.to_f64(), h.to_f64())?;
         let Arrays { t, mut q, mut v } = Arrays::of(&self.state);
         let preparation = start::preparation::Preparation {
             start: self.start,
@@ -149,7 +146,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
             step: h,
             keeps_constraints: self.baumgarte.is_stable(step),
         };
-        let equations = &Named(&self.mechanism);
+        let equations = &self.mechanism;
         let mut room = OnStack::<M>::new();
         let length = preparation.prepare(equations, t, q.as_mut(), v.as_mut(), &mut room.room())?;
         let state = Arrays { t, q, v }.state();

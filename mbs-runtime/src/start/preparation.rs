@@ -3,9 +3,10 @@
 use super::consistency::{check_redundant_accelerations, length};
 use super::jacobian::Jacobian;
 use super::{assembly, consistency};
-use crate::diagnosis::check_finite;
+use crate::diagnosis::{check_finite, check_inputs};
 use crate::equations::{At, Equations};
 use crate::room::Room;
+use crate::simulation::clock::check_time;
 use crate::{Error, Real};
 
 /// What is done with a state before it becomes the start.
@@ -37,7 +38,7 @@ impl<T: Real> Preparation<'_, T> {
     /// by which its redundant constraints are watched; infinite where they are not.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfReach`] for redundant constraints that the
+    /// [`Error::Input`], [`Error::Time`], [`Error::NonFinite`], [`Error::OutOfReach`] for redundant constraints that the
     /// motion will violate, and those of [`consistent`](crate::equations::consistent) or
     /// [`check`](crate::equations::check).
     pub fn prepare(
@@ -48,6 +49,8 @@ impl<T: Real> Preparation<'_, T> {
         v: &mut [T],
         room: &mut Room<'_, T>,
     ) -> Result<T, Error> {
+        check_inputs(equations.info(), self.inputs)?;
+        check_time::<T>(t.to_f64(), self.step.to_f64())?;
         if self.start == Start::Declared {
             assembly::consistent(equations, t, q, v, room)?;
         }

@@ -4,7 +4,7 @@
 //! - [`app`] gives a program of one line the commands `list`, `simulate`, `sweep`
 //!   and `new` for its own mechanisms.
 //! - [`model::of`] takes any [`Mechanism`](mbs_runtime::Mechanism) in `f64` as
-//!   a [`Model`], whose type no longer matters; [`Model::simulate`] runs it with
+//!   a [`Model`], whose type no longer matters; [`simulate`](Model#method.simulate) runs it with
 //!   [`Settings`] and gives a [`Recording`].
 //! - [`quantity`] reads values with units; [`Table`] and [`number`] print them.
 //! - [`sweep`] runs a computation over a grid on all cores.
@@ -53,6 +53,7 @@ pub mod picture;
 pub mod quantity;
 mod recording;
 pub mod report;
+mod run;
 mod settings;
 mod signals;
 pub mod sweep;
@@ -67,7 +68,8 @@ pub use error::Error;
 pub use model::Model;
 pub use picture::{Motion, Picture};
 pub use recording::{Column, Recording, Summary, write_csv};
-pub use settings::{FeedbackKind, Settings, StartKind};
+pub use run::StartValue;
+pub use settings::{FeedbackKind, Settings, Start, StartKind};
 pub use signals::Signals;
 pub use table::Table;
 pub use unit::Unit;

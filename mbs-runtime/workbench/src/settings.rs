@@ -1,6 +1,8 @@
 //! What a run is asked to do.
 
-use crate::Signals;
+use mbs_runtime::{Baumgarte, Feedback, Held, Info, PerStage, Quantity};
+
+use crate::{Error, Signals};
 
 /// When the feedback is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,4 +68,82 @@ impl Default for Settings {
             allow_unstable: false,
         }
     }
+}
+
+/// What a run starts with: settings in which every quantity of a mechanism has its number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// The parameters in SI units, in the order of [`Info::parameters`].
+    pub parameters: Vec<f64>,
+    /// The inputs in SI units, in the order of [`Info::inputs`].
+    pub inputs: Vec<f64>,
+    /// When the feedback is evaluated.
+    pub feedback: FeedbackKind,
+    /// α in 1/s.
+    pub alpha: f64,
+    /// β in 1/s.
+    pub beta: f64,
+    /// Step in s.
+    pub step: f64,
+    /// Where the run starts.
+    pub kind: StartKind,
+    /// Accept gains under which violations grow.
+    pub allow_unstable: bool,
+}
+
+impl Start {
+    /// What these settings mean for a mechanism.
+    ///
+    /// # Errors
+    /// A step that is not positive, a name that the mechanism does not have.
+    pub fn of(info: &Info, settings: &Settings) -> Result<Self, Error> {
+        let step = settings.step;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(mbs_runtime::Error::Step { step }.into());
+        }
+        let [alpha, beta] = match settings.feedback {
+            FeedbackKind::Held => deadbeat::<Held>(step),
+            FeedbackKind::PerStage => deadbeat::<PerStage>(step),
+        };
+        Ok(Self {
+            parameters: assigned("parameter", info.parameters, &settings.parameters)?,
+            inputs: assigned("input", info.inputs, &settings.inputs)?,
+            feedback: settings.feedback,
+            alpha: settings.alpha.unwrap_or(alpha),
+            beta: settings.beta.unwrap_or(beta),
+            step,
+            kind: settings.start,
+            allow_unstable: settings.allow_unstable,
+        })
+    }
+}
+
+fn deadbeat<F: Feedback>(step: f64) -> [f64; 2] {
+    let gains = Baumgarte::<F>::deadbeat(step);
+    [gains.alpha(), gains.beta()]
+}
+
+/// The declared values with those that are set.
+fn assigned(
+    kind: &'static str,
+    quantities: &[Quantity],
+    settings: &[(String, f64)],
+) -> Result<Vec<f64>, Error> {
+    let mut values: Vec<f64> = quantities.iter().map(|quantity| quantity.default).collect();
+    for (name, value) in settings {
+        *place(kind, quantities, name, &mut values)? = *value;
+    }
+    Ok(values)
+}
+
+/// The value of the quantity with a name.
+pub(crate) fn place<'a>(
+    kind: &'static str,
+    quantities: &[Quantity],
+    name: &str,
+    values: &'a mut [f64],
+) -> Result<&'a mut f64, Error> {
+    let at = quantities.iter().position(|quantity| quantity.name == name);
+    let known = || quantities.iter().map(|quantity| quantity.name);
+    at.and_then(|at| values.get_mut(at)).ok_or_else(|| Error::unknown(kind, name, known()))
 }

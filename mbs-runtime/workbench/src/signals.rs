@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mbs_runtime::{Components, Feedback, Info, Mechanism, Simulation};
+use mbs_runtime::{Info, System};
 
 use crate::quantity::TIME;
 use crate::{Error, Settings, quantity};
@@ -100,30 +100,32 @@ pub(crate) struct Player<'a> {
 }
 
 impl<'a> Player<'a> {
-    pub fn of<M: Mechanism>(settings: &'a Settings) -> Result<Option<Self>, Error> {
+    pub fn of(info: &Info, settings: &'a Settings) -> Result<Option<Self>, Error> {
         let Some(signals) = &settings.signals else { return Ok(None) };
-        let known = M::Inputs::NAMES;
+        let known = || info.inputs.iter().map(|input| input.name);
         let place = |name: &str| {
-            let place = known.iter().position(|input| *input == name);
-            place.ok_or_else(|| Error::unknown("input", name, known.iter().copied()))
+            known().position(|input| input == name).ok_or_else(|| Error::unknown("input", name, known()))
         };
         Ok(Some(Self { signals, places: signals.names().map(place).collect::<Result<_, _>>()? }))
     }
 
-    pub fn set<M: Mechanism<Real = f64>, F: Feedback>(&self, simulation: &mut Simulation<M, F>) {
-        let t = simulation.time();
-        let mut inputs = simulation.inputs().into_array();
+    /// Sets the inputs of a run; `inputs` is room for them.
+    pub fn set(&self, run: &mut dyn System, inputs: &mut [f64]) {
+        let t = run.time();
+        run.inputs(inputs);
         for (signal, place) in self.places.iter().enumerate() {
-            if let Some(input) = inputs.as_mut().get_mut(*place) {
+            if let Some(input) = inputs.get_mut(*place) {
                 *input = self.signals.value(signal, t);
             }
         }
-        *simulation.inputs_mut() = M::Inputs::from_array(inputs);
+        run.set_inputs(inputs);
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use mbs_runtime::Mechanism;
+
     use super::*;
     use crate::model;
 

@@ -109,7 +109,7 @@ fn start_agrees<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, h: f64) {
     let (mut q, mut v) = (numbers(declared.q), numbers(declared.v));
     let (n, m) = (q.len(), M::INFO.constraints.len());
     let mut vectors = vec![0.0; Room::<f64>::len(n, m)];
-    let mut room = Room::within(&mut vectors, n, m).expect("enough room");
+    let mut room = Room::within(&mut vectors, n, m);
     consistent(live, declared.t, &mut q, &mut v, &mut room).expect("a start");
     let start = *Simulation::new(*mechanism, h).expect("a start").state();
     same("start", &q, &numbers(start.q));

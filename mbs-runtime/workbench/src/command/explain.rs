@@ -6,8 +6,8 @@ use std::fmt::Write;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use mbs_runtime::{Derivation, Formula, Info};
 
+use crate::StartValue;
 use crate::app::Models;
-use crate::model::StartValue;
 use crate::number::significant;
 use crate::{Error, Table, say};
 
@@ -30,7 +30,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let text = if matches.get_flag("latex") {
         latex(info, derivation)
     } else {
-        plain(info, derivation) + &start(&model.start()?)
+        plain(info, derivation) + &start(&model.start_values()?)
     };
     say(text.trim_end())
 }

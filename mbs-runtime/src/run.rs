@@ -1,19 +1,19 @@
-//! What is done where a step or a result is not healthy: finding out whether anything
-//! went wrong, and what.
+//! A run on slices: a step in two stages, and what is done where a step or a result is not
+//! healthy, finding out whether anything went wrong, and what.
 
-use super::Simulation;
-use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution};
-use crate::equations::{Arrays, At, Equations, Named};
+use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, diagnose};
+use crate::equations::{At, Equations};
+use crate::heun::{correct, predict};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
-use crate::room::{OnStack, Room};
+use crate::room::Room;
 use crate::start::consistency::{check, check_feedback};
 use crate::watch::Watch;
-use crate::{Components, Error, Feedback, Gains, Mechanism, Real, State, spare, vectors};
+use crate::{Error, Gains, Info, Real, spare, vectors};
 
-/// A run to be examined, in its last good state.
+/// A run in its last good state.
 #[derive(Clone, Copy)]
-pub struct Examination<'a, T> {
+pub struct Run<'a, T> {
     /// The mechanism.
     pub equations: &'a dyn Equations<T>,
     /// The last good state.
@@ -24,18 +24,94 @@ pub struct Examination<'a, T> {
     pub gains: Gains<T>,
     /// The step in s.
     pub step: T,
+    /// Whether the second stage of a step is given the feedback of the first.
+    pub is_held: bool,
     /// Whether violations of the constraints are meant to decay.
     pub keeps_constraints: bool,
 }
 
-impl<T: Real> Examination<'_, T> {
+impl<T: Real> Run<'_, T> {
+    /// A step of Heun's method to `t_next` (Jiang 2025, Eq. 9), stage by stage, of which
+    /// the watch is told:
+    ///
+    /// ```text
+    /// predict   q* = q + h v,            v* = v + h q̈(t, q, v)
+    /// correct   q⁺ = q + h/2 (v + v*),   v⁺ = v + h/2 (q̈(t, q, v) + q̈(t + h, q*, v*))
+    /// ```
+    ///
+    /// (q⁺, v⁺) is written to `next`; after an error, what stands there means nothing.
+    /// Time is passed in so that it is k·h and not a sum of k roundings.
+    ///
+    /// # Errors
+    /// [`Error::OutOfReach`] if the constraints cannot be met any more at its end,
+    /// [`Error::Singular`], [`Error::NonFinite`], or [`Error::Input`] if that is where they
+    /// come from.
+    pub fn step(
+        &self,
+        t_next: T,
+        next: [&mut [T]; 2],
+        watch: &mut Watch<T>,
+        room: &mut Room<'_, T>,
+    ) -> Result<(), Error> {
+        let [q_next, v_next] = next;
+        let growth = self
+            .heun(t_next, [&mut *q_next, &mut *v_next], room)
+            .map_err(|error| self.cause(error, t_next, room))?;
+        let next = At { t: t_next, q: q_next, v: v_next };
+        if self.is_calm(next, growth, watch, room) {
+            watch.note(growth);
+        } else {
+            self.examine_step(next, growth, watch, room)?;
+            watch.note_examined(growth);
+        }
+        Ok(())
+    }
+
+    /// Whether a step to `next` needs no examination: its growth has not risen, and
+    /// redundant constraints, of which a step knows nothing, are met all the same. Whether
+    /// the state is finite is another question.
+    pub fn is_calm(&self, next: At<'_, T>, growth: T, watch: &Watch<T>, room: &mut Room<'_, T>) -> bool {
+        let [phi, ..] = &mut room.constraints;
+        let margin = spare::margin_on(self.equations, next.t, next.q, watch.length, phi);
+        growth <= watch.alarm && margin >= T::default()
+    }
+
+    /// The step without examination, and the growth of both stages.
+    fn heun(&self, t_next: T, next: [&mut [T]; 2], room: &mut Room<'_, T>) -> Result<T, Error> {
+        let Self { equations, at, inputs, gains, step: h, .. } = self;
+        let [q_next, v_next] = next;
+        let [here, there, ..] = &mut room.coordinates;
+        let [feedback, ..] = &mut room.constraints;
+        let growth_here = equations.stabilized(*at, inputs, gains, here, feedback);
+        vectors::copy(q_next, at.q);
+        vectors::copy(v_next, at.v);
+        predict(*h, here, q_next, v_next);
+        let predicted = At { t: t_next, q: q_next, v: v_next };
+        let growth_there = if self.is_held {
+            equations.constrained(predicted, inputs, feedback, there)
+        } else {
+            equations.stabilized(predicted, inputs, gains, there, feedback)
+        };
+        correct(*h, [at.q, at.v], [here, there], q_next, v_next);
+        let growth = growth_here + growth_there;
+        // One test per step; written so that a NaN fails it.
+        if growth < growth_limit() && vectors::is_finite(q_next) && vectors::is_finite(v_next) {
+            return Ok(growth);
+        }
+        vectors::copy(q_next, at.q);
+        vectors::copy(v_next, at.v);
+        predict(*h, here, q_next, v_next);
+        let predicted = At { t: t_next, q: q_next, v: v_next };
+        Err(diagnose(*equations, [*at, predicted], [(here, growth_here), (there, growth_there)]))
+    }
+
     /// Examines a step to `next` after which the growth has risen: whether its constraints
     /// can still be met, whether it has kept its digits, and which pivot it is, which the
     /// watch remembers.
     ///
     /// # Errors
     /// [`Error::OutOfReach`], [`Error::Singular`].
-    pub fn examine_step(
+    fn examine_step(
         &self,
         next: At<'_, T>,
         growth: T,
@@ -86,7 +162,7 @@ impl<T: Real> Examination<'_, T> {
 
     /// Why a step to `t_next` failed: an input, or a position that cannot be reached from
     /// one that was good, or what the step says.
-    pub fn cause(&self, error: Error, t_next: T, room: &mut Room<'_, T>) -> Error {
+    fn cause(&self, error: Error, t_next: T, room: &mut Room<'_, T>) -> Error {
         let Self { equations, at, inputs, step, .. } = *self;
         if let Err(input) = check_inputs(equations.info(), inputs) {
             return input;
@@ -128,6 +204,14 @@ impl<T: Real> Examination<'_, T> {
     }
 }
 
+/// `Ok` if outputs are finite, at the time `t`.
+///
+/// # Errors
+/// [`Error::Undefined`] that names the first one that is not.
+pub fn check_outputs<T: Real>(info: &Info, t: T, outputs: &[T]) -> Result<(), Error> {
+    check_defined(t, "the output", outputs, |at| info.outputs.get(at).map_or("", |output| output.name))
+}
+
 /// ‖Φ‖ and ‖Φ̇‖
 fn violations<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, room: &mut Room<'_, T>) -> [T; 2] {
     let [rows, ..] = &mut room.constraints;
@@ -135,65 +219,4 @@ fn violations<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, room: &mut R
     let violation = vectors::norm(rows);
     equations.phi_dot(at, rows);
     [violation, vectors::norm(rows)]
-}
-
-/// What is done with a run to be examined.
-type Examine<'a, T> = dyn FnMut(&Examination<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
-
-impl<M: Mechanism, F: Feedback> Simulation<M, F> {
-    /// What `examine` finds out about this run. By reference, so that this is compiled once
-    /// for all that is to be found out.
-    #[cold]
-    #[inline(never)]
-    fn examined(&self, examine: &mut Examine<'_, M::Real>) -> Result<(), Error> {
-        let (state, inputs) = (Arrays::of(&self.state), self.inputs.into_array());
-        let run = Examination {
-            equations: &Named(&self.mechanism),
-            at: state.at(),
-            inputs: inputs.as_ref(),
-            gains: self.gains,
-            step: self.step,
-            keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
-        };
-        examine(&run, &mut OnStack::<M>::new().room())
-    }
-
-    /// See [`Examination::examine_step`].
-    #[cold]
-    pub(super) fn examine_step(
-        &mut self,
-        next: &State<M::Coordinates>,
-        growth: M::Real,
-    ) -> Result<(), Error> {
-        // `run` borrows what the watch belongs to
-        let mut watch = self.watch;
-        let next = Arrays::of(next);
-        self.examined(&mut |run, room| run.examine_step(next.at(), growth, &mut watch, room))?;
-        self.watch = watch;
-        Ok(())
-    }
-
-    /// See [`Examination::cause`].
-    #[cold]
-    pub(super) fn cause(&self, error: Error, t_next: M::Real) -> Error {
-        self.examined(&mut |run, room| Err(run.cause(error, t_next, room))).err().unwrap_or(error)
-    }
-
-    /// Takes values and not references, so that what is healthy need not be in memory.
-    #[cold]
-    pub(super) fn examine(
-        &self,
-        acceleration: M::Coordinates,
-        multipliers: M::Constraints,
-        growth: M::Real,
-    ) -> Result<(), Error> {
-        let (acceleration, multipliers) = (acceleration.into_array(), multipliers.into_array());
-        self.examined(&mut |run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
-    }
-
-    /// Whether redundant constraints, which steps do not look at, are met all the same.
-    #[inline(always)]
-    pub(super) fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
-        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
-    }
 }

@@ -1,0 +1,317 @@
+//! A live mechanism in motion.
+
+use mbs_codegen::FunctionId;
+use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, check_outputs};
+use mbs_runtime::{
+    Baumgarte, Derivation, Error, Feedback, Gains, Held, Sketch, System, WorstPlace,
+};
+
+use crate::arguments::Arguments;
+use crate::equations::{position, single, state};
+use crate::{Live, Stepper};
+
+/// A live mechanism being integrated in time; what one does with it is [`System`].
+///
+/// # Example
+/// ```
+/// use mbs_live::{Run, Text};
+/// use mbs_runtime::System;
+///
+/// let text = "Pendulum {
+///     dof = 1;
+///     param length = 1 [m];
+///     gravity = (0, -9.81) [m/s^2];
+///     body bob (x, y) { mass = 2 [kg]; }
+///     constraint rod: x^2 + y^2 = length^2;
+///     start { x = length; guess y = 0; }
+/// }";
+/// let pendulum = Text::declaration("pendulum.mbs", text).compile()?;
+/// let mut swing = Run::builder(&pendulum, 1e-3).build()?;
+/// swing.advance(500)?;
+/// let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+/// swing.state(&mut q, &mut v);
+/// assert!(q[1] < -0.8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Run {
+    mechanism: Live,
+    gains: Gains<f64>,
+    is_held: bool,
+    keeps_constraints: bool,
+    inputs: Vec<f64>,
+    step: f64,
+    start_time: f64,
+    steps: u64,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// How many there are.
+    multipliers: usize,
+    watch: Watch<f64>,
+    stepper: Stepper,
+    room: Vec<f64>,
+}
+
+/// The choices before a run starts; see [`Run::builder`].
+pub struct Builder<F: Feedback = Held> {
+    mechanism: Live,
+    step: f64,
+    baumgarte: Baumgarte<F>,
+    inputs: Vec<f64>,
+    state: Option<(f64, Vec<f64>, Vec<f64>)>,
+    start: Start,
+    allow_unstable: bool,
+}
+
+impl Run {
+    /// Choices to make before the start. Without any: the declared start, made consistent,
+    /// steps of `step` seconds, deadbeat feedback held over each step, inputs at 0.
+    pub fn builder(mechanism: &Live, step: f64) -> Builder {
+        Builder {
+            mechanism: mechanism.clone(),
+            step,
+            baumgarte: Baumgarte::deadbeat(step),
+            inputs: vec![0.0; mechanism.declared_info().inputs.len()],
+            state: None,
+            start: Start::Declared,
+            allow_unstable: false,
+        }
+    }
+
+    fn at(&self) -> At<'_, f64> {
+        At { t: self.t, q: &self.q, v: &self.v }
+    }
+
+    /// Accelerations and multipliers without feedback, and the growth.
+    fn solve(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> f64 {
+        let no_feedback = vec![0.0; multipliers.len()];
+        let arguments =
+            Arguments { inputs: single(&self.inputs), feedback: single(&no_feedback), ..state(self.at()) };
+        let mut growth = [f64::NAN];
+        self.mechanism.call(FunctionId::Reactions, &arguments, [acceleration, multipliers, &mut growth]);
+        growth[0]
+    }
+
+    fn energy(&self, of: FunctionId, at: At<'_, f64>) -> f64 {
+        let mut energy = [f64::NAN];
+        self.mechanism.call(of, &state(at), [&mut energy]);
+        energy[0]
+    }
+}
+
+/// The run as the core sees it. No method, because it borrows some of the fields while
+/// others change.
+macro_rules! on_slices {
+    ($run:ident) => {
+        equations::Run {
+            equations: &$run.mechanism,
+            at: At { t: $run.t, q: &$run.q, v: &$run.v },
+            inputs: &$run.inputs,
+            gains: $run.gains,
+            step: $run.step,
+            is_held: $run.is_held,
+            keeps_constraints: $run.keeps_constraints,
+        }
+    };
+}
+
+impl System for Run {
+    fn equations(&self) -> &dyn Equations<f64> {
+        &self.mechanism
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.mechanism.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.mechanism.sketch()
+    }
+
+    fn parameters(&self, parameters: &mut [f64]) {
+        copy(parameters, self.mechanism.parameters());
+    }
+
+    fn time(&self) -> f64 {
+        self.t
+    }
+
+    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+        copy(q, &self.q);
+        copy(v, &self.v);
+    }
+
+    fn inputs(&self, inputs: &mut [f64]) {
+        copy(inputs, &self.inputs);
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) {
+        copy(&mut self.inputs, inputs);
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn steps_to(&self, end: f64) -> Result<u64, Error> {
+        equations::steps_to::<f64>(self.start_time, self.step, self.steps, end)
+    }
+
+    fn step(&mut self) -> Result<(), Error> {
+        let t_next = self.start_time + (self.steps + 1) as f64 * self.step;
+        let run = on_slices!(self);
+        let mut room = Room::within(&mut self.room, self.q.len(), self.multipliers);
+        let growth = self.stepper.step(run.at, run.inputs, &run.gains, run.step, t_next);
+        let next = At { t: t_next, q: self.stepper.q(), v: self.stepper.v() };
+        let is_finite = next.q.iter().chain(next.v).all(|x| x.is_finite());
+        if is_finite && run.is_calm(next, growth, &self.watch, &mut room) {
+            self.watch.note(growth);
+            copy(&mut self.q, self.stepper.q());
+            copy(&mut self.v, self.stepper.v());
+        } else {
+            let (mut q, mut v) = (self.q.clone(), self.v.clone());
+            run.step(t_next, [&mut q, &mut v], &mut self.watch, &mut room)?;
+            (self.q, self.v) = (q, v);
+        }
+        self.t = t_next;
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+        let growth = self.solve(acceleration, multipliers);
+        on_slices!(self).examine(acceleration, multipliers, growth)
+    }
+
+    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
+        let (acceleration, multipliers) = (single(acceleration), single(multipliers));
+        let inputs = single(&self.inputs);
+        let arguments = Arguments { inputs, acceleration, multipliers, ..state(self.at()) };
+        self.mechanism.call(FunctionId::Outputs, &arguments, [outputs]);
+        check_outputs(self.mechanism.declared_info(), self.t, outputs)
+    }
+
+    fn violations(&self) -> [f64; 2] {
+        let mut rows = vec![f64::NAN; self.multipliers];
+        self.mechanism.phi(self.t, &self.q, &mut rows);
+        let violation = norm(&rows);
+        self.mechanism.phi_dot(self.at(), &mut rows);
+        [violation, norm(&rows)]
+    }
+
+    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+        [FunctionId::KineticEnergy, FunctionId::PotentialEnergy].map(|of| self.energy(of, at))
+    }
+
+    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+        self.mechanism.call(FunctionId::Points, &position(t, q), [points]);
+    }
+
+    fn worst_growth(&self) -> f64 {
+        self.watch.worst
+    }
+
+    fn worst_place(&self) -> Option<WorstPlace> {
+        self.watch.worst_place(self.mechanism.declared_info())
+    }
+
+    fn digits_left(&self) -> f64 {
+        self.watch.digits_left()
+    }
+}
+
+/// As many numbers as there are in both.
+fn copy(to: &mut [f64], from: &[f64]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+}
+
+/// Euclidean norm, summed up in the order in which the core does it.
+fn norm(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
+}
+
+impl<F: Feedback> Builder<F> {
+    /// Feedback of the constraint violation.
+    #[must_use]
+    pub fn baumgarte<G: Feedback>(self, baumgarte: Baumgarte<G>) -> Builder<G> {
+        let Self { mechanism, step, inputs, state, start, allow_unstable, .. } = self;
+        Builder { mechanism, step, baumgarte, inputs, state, start, allow_unstable }
+    }
+
+    /// Starts at `t` seconds from positions and velocities that have to be consistent.
+    #[must_use]
+    pub fn from_state(mut self, at: At<'_, f64>) -> Self {
+        self.state = Some((at.t, at.q.to_vec(), at.v.to_vec()));
+        if self.start == Start::Declared {
+            self.start = Start::Given;
+        }
+        self
+    }
+
+    /// Keeps the start as it is, consistent or not.
+    #[must_use]
+    pub fn as_declared(mut self) -> Self {
+        self.start = Start::Unchecked;
+        self
+    }
+
+    /// The inputs of the first step, one number each in SI units.
+    #[must_use]
+    pub fn inputs(mut self, inputs: &[f64]) -> Self {
+        self.inputs.iter_mut().zip(inputs).for_each(|(input, value)| *input = *value);
+        self
+    }
+
+    /// Accepts gains under which violations grow, for the study of them.
+    #[must_use]
+    pub fn allow_unstable(mut self) -> Self {
+        self.allow_unstable = true;
+        self
+    }
+
+    /// Starts.
+    ///
+    /// # Errors
+    /// As the builder of a [`Simulation`](mbs_runtime::Simulation).
+    pub fn build(self) -> Result<Run, Error> {
+        let Self { mechanism, step, baumgarte, inputs, state, start, allow_unstable } = self;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(Error::Step { step });
+        }
+        let keeps_constraints = baumgarte.is_stable(step);
+        if !allow_unstable && !keeps_constraints {
+            let (alpha, beta) = (baumgarte.alpha(), baumgarte.beta());
+            return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
+        }
+        let info = mechanism.declared_info();
+        let (n, m) = (info.coordinates.len(), info.constraints.len());
+        let (t, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
+        q.resize(n, f64::NAN);
+        v.resize(n, f64::NAN);
+        let mut numbers = vec![0.0; Room::<f64>::len(n, m)];
+        let mut room = Room::within(&mut numbers, n, m);
+        let preparation = Preparation { start, inputs: &inputs, step, keeps_constraints };
+        let length = preparation.prepare(&mechanism, t, &mut q, &mut v, &mut room)?;
+        Ok(Run {
+            gains: baumgarte.gains(),
+            is_held: F::IS_HELD,
+            keeps_constraints,
+            inputs,
+            step,
+            start_time: t,
+            steps: 0,
+            t,
+            q,
+            v,
+            multipliers: m,
+            watch: Watch::new(length),
+            stepper: Stepper::new(&mechanism, F::IS_HELD),
+            room: numbers,
+            mechanism,
+        })
+    }
+}

@@ -1,0 +1,61 @@
+//! A simulation as a run on slices: what is rarely done, and therefore compiled once for
+//! all mechanisms.
+
+use super::Simulation;
+use crate::equations::Arrays;
+use crate::room::{OnStack, Room};
+use crate::run::Run;
+use crate::{Components, Error, Feedback, Mechanism, Real, State, spare};
+
+/// What is done with a run.
+type Do<'a, T> = dyn FnMut(&Run<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
+
+impl<M: Mechanism, F: Feedback> Simulation<M, F> {
+    /// By reference, so that this is compiled once for all that is to be done.
+    #[inline(never)]
+    fn on_slices(&self, what: &mut Do<'_, M::Real>) -> Result<(), Error> {
+        let (state, inputs) = (Arrays::of(&self.state), self.inputs.into_array());
+        let run = Run {
+            equations: &self.mechanism,
+            at: state.at(),
+            inputs: inputs.as_ref(),
+            gains: self.gains,
+            step: self.step,
+            is_held: F::IS_HELD,
+            keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
+        };
+        what(&run, &mut OnStack::<M>::new().room())
+    }
+
+    /// The step of mechanisms that have no other, and of those whose step was not calm:
+    /// it finds out what went wrong, if anything did. See [`Run::step`].
+    #[doc(hidden)]
+    pub fn step_in_stages(&mut self) -> Result<(), Error> {
+        // the run borrows what both belong to
+        let (mut next, mut watch) = (Arrays::of(&self.state), self.watch);
+        next.t = self.next_time();
+        let Arrays { t, q, v } = &mut next;
+        self.on_slices(&mut |run, room| run.step(*t, [q.as_mut(), v.as_mut()], &mut watch, room))?;
+        (self.state, self.watch) = (next.state(), watch);
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Takes values and not references, so that what is healthy need not be in memory.
+    #[cold]
+    pub(super) fn examine(
+        &self,
+        acceleration: M::Coordinates,
+        multipliers: M::Constraints,
+        growth: M::Real,
+    ) -> Result<(), Error> {
+        let (acceleration, multipliers) = (acceleration.into_array(), multipliers.into_array());
+        self.on_slices(&mut |run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
+    }
+
+    /// Whether redundant constraints, which steps do not look at, are met all the same.
+    #[inline(always)]
+    pub(super) fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
+        spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
+    }
+}

@@ -1,0 +1,221 @@
+//! A mechanism in motion, whatever it was made from.
+
+use crate::equations::{At, Equations, read, write};
+use crate::watch::WorstPlace;
+use crate::{Derivation, Error, Feedback, Mechanism, Reactions, Simulation, Sketch};
+
+/// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
+/// knew, or a run of a mechanism that was read from a text.
+///
+/// The trait is object-safe, and vectors are slices in the order of
+/// [`Info`](crate::Info): `q`, `v` and `acceleration` have a number per coordinate,
+/// `multipliers` one per constraint, `inputs` and `outputs` one for each of theirs,
+/// `points` two for each point. What comes from slices of other lengths means nothing. SI
+/// units, angles in rad. No method panics.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Simulation, System, mechanism};
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #     }
+/// # }
+/// fn lowest(run: &mut dyn System, steps: u64) -> Result<f64, mbs_runtime::Error> {
+///     let n = run.equations().info().coordinates.len();
+///     let (mut q, mut v, mut lowest) = (vec![0.0; n], vec![0.0; n], f64::INFINITY);
+///     for _ in 0..steps {
+///         run.step()?;
+///         run.state(&mut q, &mut v);
+///         lowest = lowest.min(q[1]);
+///     }
+///     Ok(lowest)
+/// }
+/// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
+/// assert!((lowest(&mut swing, 1000)? + 1.0).abs() < 1e-5);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+pub trait System: Send {
+    /// Names, dimensions and the equations of the mechanism.
+    fn equations(&self) -> &dyn Equations<f64>;
+
+    /// The equations and their elimination, for people to read.
+    fn derivation(&self) -> &Derivation;
+
+    /// What a picture of it shows.
+    fn sketch(&self) -> &Sketch;
+
+    /// Writes the parameters that it was made with.
+    fn parameters(&self, parameters: &mut [f64]);
+
+    /// Time in s.
+    fn time(&self) -> f64;
+
+    /// Writes positions and velocities.
+    fn state(&self, q: &mut [f64], v: &mut [f64]);
+
+    /// Writes the inputs as they are now.
+    fn inputs(&self, inputs: &mut [f64]);
+
+    /// Sets the inputs, which are held over the steps that follow.
+    fn set_inputs(&mut self, inputs: &[f64]);
+
+    /// The step in s.
+    fn step_size(&self) -> f64;
+
+    /// Steps taken since the start.
+    fn steps(&self) -> u64;
+
+    /// How many steps lead to less than half a step before or behind `end` seconds.
+    ///
+    /// # Errors
+    /// [`Error::EndTime`], [`Error::Time`].
+    fn steps_to(&self, end: f64) -> Result<u64, Error>;
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// As [`Simulation::step`]; the state stays that of the last good step.
+    fn step(&mut self) -> Result<(), Error>;
+
+    /// Advances by some steps.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step); the state stays that of the last good step.
+    fn advance(&mut self, steps: u64) -> Result<(), Error> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
+    /// Writes q̈ and λ of the present state, without feedback terms.
+    ///
+    /// # Errors
+    /// As [`Simulation::reactions`].
+    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error>;
+
+    /// Writes what the declaration measures, given q̈ and λ of the present state.
+    ///
+    /// # Errors
+    /// [`Error::Undefined`] if one of them is not finite; all are written.
+    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error>;
+
+    /// ‖Φ‖ and ‖Φ̇‖, the Euclidean norms.
+    fn violations(&self) -> [f64; 2];
+
+    /// Kinetic and potential energy in J, of another state of the mechanism too.
+    fn energies(&self, at: At<'_, f64>) -> [f64; 2];
+
+    /// Writes x and y of every point of the [sketch](Self::sketch) in m, one after the
+    /// other.
+    fn points(&self, t: f64, q: &[f64], points: &mut [f64]);
+
+    /// The largest pivot growth so far; see [`Simulation::worst_growth`].
+    fn worst_growth(&self) -> f64;
+
+    /// Where it was; see [`Simulation::worst_place`].
+    fn worst_place(&self) -> Option<WorstPlace>;
+
+    /// The digits that it left; see [`Simulation::digits_left`].
+    fn digits_left(&self) -> f64;
+}
+
+impl<M: Mechanism<Real = f64>, F: Feedback> System for Simulation<M, F> {
+    fn equations(&self) -> &dyn Equations<f64> {
+        self.mechanism()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        M::DERIVATION
+    }
+
+    fn sketch(&self) -> &Sketch {
+        M::SKETCH
+    }
+
+    fn parameters(&self, parameters: &mut [f64]) {
+        write(*self.mechanism().parameters(), parameters);
+    }
+
+    fn time(&self) -> f64 {
+        self.time()
+    }
+
+    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+        write(self.state().q, q);
+        write(self.state().v, v);
+    }
+
+    fn inputs(&self, inputs: &mut [f64]) {
+        write(*self.inputs(), inputs);
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) {
+        *self.inputs_mut() = read(inputs);
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step_size()
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps()
+    }
+
+    fn steps_to(&self, end: f64) -> Result<u64, Error> {
+        self.steps_to(end)
+    }
+
+    // Feedback in both stages, which few ask for, is spared the code of a fused step: its
+    // stages give the same numbers.
+    fn step(&mut self) -> Result<(), Error> {
+        if F::IS_HELD { self.step() } else { self.step_in_stages() }
+    }
+
+    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+        let solved = self.reactions()?;
+        write(solved.acceleration, acceleration);
+        write(solved.multipliers, multipliers);
+        Ok(())
+    }
+
+    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
+        let growth = f64::default();
+        let reactions =
+            Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
+        let measured = self.mechanism().outputs(self.state(), self.inputs(), &reactions);
+        write(measured, outputs);
+        self.check_outputs(measured)
+    }
+
+    fn violations(&self) -> [f64; 2] {
+        [self.violation(), self.velocity_violation()]
+    }
+
+    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+        let state = at.state();
+        [self.mechanism().kinetic_energy(&state), self.mechanism().potential_energy(&state)]
+    }
+
+    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+        let places = self.mechanism().points(t, &read(q));
+        for (point, place) in points.chunks_exact_mut(2).zip(places.as_ref()) {
+            point.copy_from_slice(place);
+        }
+    }
+
+    fn worst_growth(&self) -> f64 {
+        self.worst_growth()
+    }
+
+    fn worst_place(&self) -> Option<WorstPlace> {
+        self.worst_place()
+    }
+
+    fn digits_left(&self) -> f64 {
+        self.digits_left()
+    }
+}

@@ -1,0 +1,280 @@
+//! Runs of a mechanism, recorded.
+
+use mbs_runtime::equations::At;
+use mbs_runtime::{Info, System};
+
+use crate::doubt::{Watch, few_digits, size};
+use crate::model::Model;
+use crate::recording::{Column, Recording, Summary, columns};
+use crate::settings::{Settings, Start, StartKind};
+use crate::signals::Player;
+use crate::{Error, Motion, Unit, picture};
+
+/// More rows than this are refused, before they fill the memory.
+const MAX_ROWS: u64 = 5_000_000;
+/// Instants at which the power is looked at.
+const POWERS: u64 = 100;
+
+/// A coordinate or its rate at the start of a run, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartValue {
+    /// The coordinate, or `der(…)` of it.
+    pub name: String,
+    /// As it is declared, guesses included.
+    pub declared: f64,
+    /// As it starts.
+    pub kept: f64,
+    /// Its unit.
+    pub unit: String,
+}
+
+impl dyn Model + '_ {
+    /// The declared start, and what the constraints make of it.
+    ///
+    /// # Errors
+    /// A start that cannot be made consistent.
+    pub fn start_values(&self) -> Result<Vec<StartValue>, Error> {
+        let info = self.info();
+        let declared = Start { kind: StartKind::Declared, ..Start::of(info, &self.defaults())? };
+        let kept = Start { kind: StartKind::Consistent, ..declared.clone() };
+        let n = info.coordinates.len();
+        let state = |start: &Start| -> Result<Vec<f64>, Error> {
+            let run = self.start(start)?;
+            let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+            run.state(&mut q, &mut v);
+            q.append(&mut v);
+            Ok(q)
+        };
+        let coordinates = || info.coordinates.iter();
+        let positions = coordinates().map(|q| (q.name.to_owned(), Unit::of_coordinate(q)));
+        let rate = |q| Unit::of_coordinate(q).per_second();
+        let rates = coordinates().map(|q| (format!("der({})", q.name), rate(q)));
+        let values = state(&declared)?.into_iter().zip(state(&kept)?);
+        let value = |((name, unit), (declared, kept)): ((String, Unit), (f64, f64))| StartValue {
+            name,
+            declared,
+            kept,
+            unit: unit.name().to_owned(),
+        };
+        Ok(positions.chain(rates).zip(values).map(value).collect())
+    }
+
+    /// Runs a simulation. `progress` is called now and then with the steps
+    /// taken and the steps in all.
+    ///
+    /// A run that fails on its way is no error here: [`Recording::ended`] says
+    /// why, and the rows up to there are kept.
+    ///
+    /// # Errors
+    /// Settings that the mechanism does not have or refuses.
+    pub fn simulate(
+        &self,
+        settings: &Settings,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<Recording, Error> {
+        let info = self.info();
+        let start = Start::of(info, settings)?;
+        let player = Player::of(info, settings)?;
+        let mut run = self.start(&start)?;
+        let steps = run.steps_to(settings.end)?;
+        let every = settings.every.max(1);
+        if steps / every > MAX_ROWS {
+            return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
+        }
+        let mut recorder = Recorder::new(self, &*run);
+        let ended = recorder.follow(&mut *run, player, [steps, every], progress).err();
+        Ok(recorder.finish(&*run, ended))
+    }
+
+    /// Where the points of the mechanism were during a run with these settings,
+    /// at some of the recorded instants.
+    ///
+    /// # Errors
+    /// Settings that the mechanism does not have or refuses.
+    pub fn motion(&self, settings: &Settings, recording: &Recording) -> Result<Motion, Error> {
+        let start = Start { kind: StartKind::Declared, ..Start::of(self.info(), settings)? };
+        let run = self.start(&start)?;
+        let sketch = self.sketch();
+        let mut columns = recording.columns.iter().map(|column| column.values.as_slice());
+        let time = columns.next().unwrap_or_default();
+        let coordinates: Vec<&[f64]> = columns.take(recording.coordinates).collect();
+        let mut motion = Motion { sketch, times: Vec::new(), places: Vec::new() };
+        for row in picture::kept(time.len(), sketch.points.len()) {
+            let at = |column: &[f64]| column.get(row).copied().unwrap_or(f64::NAN);
+            let q: Vec<f64> = coordinates.iter().map(|column| at(column)).collect();
+            let places = places(&*run, at(time), &q);
+            if places.iter().flatten().all(|x| x.is_finite()) {
+                motion.times.push(at(time));
+                motion.places.push(places);
+            }
+        }
+        Ok(motion)
+    }
+}
+
+/// Where the points of a mechanism are.
+fn places(run: &dyn System, t: f64, q: &[f64]) -> Vec<[f64; 2]> {
+    let mut points = vec![0.0; 2 * run.sketch().points.len()];
+    run.points(t, q, &mut points);
+    points.chunks_exact(2).map(|point| [point[0], point[1]]).collect()
+}
+
+/// What is seen of a run at an instant, in room that is made once.
+pub(crate) struct Instant {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub acceleration: Vec<f64>,
+    pub multipliers: Vec<f64>,
+    pub outputs: Vec<f64>,
+}
+
+impl Instant {
+    pub fn new(info: &Info) -> Self {
+        let coordinates = || vec![0.0; info.coordinates.len()];
+        Self {
+            q: coordinates(),
+            v: coordinates(),
+            acceleration: coordinates(),
+            multipliers: vec![0.0; info.constraints.len()],
+            outputs: vec![0.0; info.outputs.len()],
+        }
+    }
+
+    /// Takes the state.
+    pub fn see(&mut self, run: &dyn System) {
+        run.state(&mut self.q, &mut self.v);
+    }
+
+    /// Takes accelerations and multipliers.
+    pub fn solve(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
+        run.reactions(&mut self.acceleration, &mut self.multipliers)
+    }
+
+    /// Takes what is measured, which may be an error and is written all the same.
+    pub fn measure(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
+        run.outputs(&self.acceleration, &self.multipliers, &mut self.outputs)
+    }
+}
+
+/// What is made of a run.
+struct Recorder {
+    info: &'static Info,
+    columns: Vec<Column>,
+    summary: Summary,
+    watch: Watch,
+    now: Instant,
+    phi: Vec<f64>,
+}
+
+impl Recorder {
+    /// Of a run that begins.
+    fn new(model: &dyn Model, run: &dyn System) -> Self {
+        let info = model.info();
+        let mut now = Instant::new(info);
+        now.see(run);
+        let size = size(model.sketch(), &places(run, run.time(), &now.q));
+        let summary = Summary { energy_start: energy(run, &now), ..Summary::default() };
+        let watch = Watch::new(info, model.derivation(), size);
+        Self { info, columns: columns(info), summary, watch, now, phi: vec![0.0; info.constraints.len()] }
+    }
+
+    /// Advances by so many steps and records every so many.
+    fn follow(
+        &mut self,
+        run: &mut dyn System,
+        player: Option<Player<'_>>,
+        [steps, every]: [u64; 2],
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<(), mbs_runtime::Error> {
+        let powers_every = every.max(steps / POWERS);
+        let mut inputs = vec![0.0; self.info.inputs.len()];
+        for taken in 0..=steps {
+            if let Some(player) = &player {
+                player.set(run, &mut inputs);
+            }
+            self.see(run);
+            if self.watch.wants_energy()
+                && taken % powers_every == 0
+                && let Some(power) = self.power(run)
+            {
+                self.watch.see_power(power);
+            }
+            if taken % every == 0 || taken == steps {
+                self.append_row(run)?;
+            }
+            if taken < steps {
+                run.step()?;
+                self.summary.steps = taken + 1;
+                if (taken + 1) % 1024 == 0 || taken + 1 == steps {
+                    progress(taken + 1, steps);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What is looked at in every step.
+    fn see(&mut self, run: &dyn System) {
+        let Self { summary, watch, now, phi, .. } = self;
+        now.see(run);
+        // A largest value that is NaN once stays it.
+        let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
+        let [violation, rate] = run.violations();
+        summary.max_phi = larger(summary.max_phi, violation);
+        summary.max_phi_dot = larger(summary.max_phi_dot, rate);
+        run.equations().phi(run.time(), &now.q, phi);
+        watch.see_constraints(run.time(), phi);
+        if watch.wants_energy() {
+            let [kinetic, potential] = run.energies(At { t: run.time(), q: &now.q, v: &now.v });
+            watch.see_energy(kinetic, potential);
+        }
+    }
+
+    /// The power with which the energy changes along the motion that the equations ask for,
+    /// by a difference over a small part of a step.
+    fn power(&mut self, run: &dyn System) -> Option<f64> {
+        self.now.solve(run).ok()?;
+        let Instant { q, v, acceleration, .. } = &self.now;
+        let part = 1e-3 * run.step_size();
+        let energy = |dt: f64| {
+            let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
+                x.iter().zip(rate).map(|(x, rate)| x + dt * rate).collect()
+            };
+            let (q, v) = (moved(q, v), moved(v, acceleration));
+            let [kinetic, potential] = run.energies(At { t: run.time() + dt, q: &q, v: &v });
+            kinetic + potential
+        };
+        Some((energy(part) - energy(-part)) / (2.0 * part))
+    }
+
+    fn append_row(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
+        let Self { info, columns, now, .. } = self;
+        now.solve(run)?;
+        // what is not finite is shown as it is, and doubted
+        let _ = now.measure(run);
+        let outputs =
+            now.outputs.iter().zip(info.outputs).map(|(value, output)| Unit::of(output).shown(*value));
+        let numbers = now.q.iter().chain(&now.v).chain(&now.multipliers).copied();
+        let [violation, _] = run.violations();
+        let row = [run.time()].into_iter().chain(numbers).chain(outputs).chain([violation]);
+        for (column, value) in columns.iter_mut().zip(row) {
+            column.values.push(value);
+        }
+        Ok(())
+    }
+
+    /// The recording of a run that has ended, with the reason if it did too early.
+    fn finish(mut self, run: &dyn System, ended: Option<mbs_runtime::Error>) -> Recording {
+        self.now.see(run);
+        let summary = Summary { end: run.time(), energy_end: energy(run, &self.now), ..self.summary };
+        let mut doubts = self.watch.doubts(&self.columns);
+        doubts.extend(few_digits(run.digits_left(), run.worst_place()));
+        let coordinates = self.info.coordinates.len();
+        Recording { columns: self.columns, coordinates, summary, ended, doubts }
+    }
+}
+
+fn energy(run: &dyn System, now: &Instant) -> f64 {
+    let [kinetic, potential] = run.energies(At { t: run.time(), q: &now.q, v: &now.v });
+    kinetic + potential
+}
