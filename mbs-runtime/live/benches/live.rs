@@ -54,7 +54,7 @@ fn start(live: &Live) -> (Vec<f64>, Vec<f64>) {
     let mut v = vec![0.0; q.len()];
     let (n, m) = (q.len(), info.constraints.len());
     let mut vectors = vec![0.0; Room::<f64>::len(n, m)];
-    let mut room = Room::within(&mut vectors, n, m).expect("enough room");
+    let mut room = Room::within(&mut vectors, n, m);
     consistent(live, 0.0, &mut q, &mut v, &mut room).expect("a start");
     (q, v)
 }

@@ -1,4 +1,5 @@
 //! What an interpreter does: operations on numbered slots.
+#![allow(clippy::needless_range_loop, reason = "a column is counted through several slots")]
 
 use mbs_runtime::Real;
 use mbs_runtime::__private::Spline;

@@ -1,4 +1,5 @@
 //! Errors are those of the macro, with their places.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::fs;
 use std::path::Path;

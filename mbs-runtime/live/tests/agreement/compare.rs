@@ -1,5 +1,6 @@
 //! A compiled mechanism and one from the same text, side by side.
 
+use crate::runs::runs_agree;
 use mbs_live::{Block, LANES, Live, Member, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
 use mbs_runtime::{
@@ -22,13 +23,14 @@ where
     steps_agree::<M, Held>(&live, mechanism, inputs, Baumgarte::<Held>::deadbeat(h), h);
     steps_agree::<M, PerStage>(&live, mechanism, inputs, Baumgarte::<PerStage>::deadbeat(h), h);
     lanes_agree(&live, &mechanism, inputs, h);
+    runs_agree(&live, mechanism, inputs, h);
 }
 
-fn numbers<C: Components<Real = f64>>(components: C) -> Vec<f64> {
+pub fn numbers<C: Components<Real = f64>>(components: C) -> Vec<f64> {
     components.into_array().as_ref().to_vec()
 }
 
-fn of<C: Components<Real = f64>>(numbers: &[f64]) -> C {
+pub fn of<C: Components<Real = f64>>(numbers: &[f64]) -> C {
     let mut array = C::splat(0.0).into_array();
     array.as_mut().copy_from_slice(numbers);
     C::from_array(array)
@@ -36,7 +38,7 @@ fn of<C: Components<Real = f64>>(numbers: &[f64]) -> C {
 
 /// Two lists are the same to the bit; one no number is as good as another.
 #[track_caller]
-fn same(what: &str, found: &[f64], expected: &[f64]) {
+pub fn same(what: &str, found: &[f64], expected: &[f64]) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (at, (x, y)) in found.iter().zip(expected).enumerate() {
         assert!(x.to_bits() == y.to_bits() || x.is_nan() && y.is_nan(), "{what}, {at}: {x:e} and {y:e}");

@@ -4,9 +4,11 @@
 
 mod compare;
 mod declarations;
+mod runs;
 
 use compare::agree;
 use declarations::*;
+use mbs_codegen::analyse;
 use mbs_live::Text;
 use mbs_runtime::Error;
 
@@ -42,6 +44,8 @@ fn every_function() {
 
 #[test]
 fn chain_too_long_for_a_fused_step() {
+    let compiled = analyse(CHAIN.parse().expect("tokens")).expect("a mechanism");
+    assert!(compiled.fused_step.is_none());
     agree::<Chain>(CHAIN, &[], 1e-4);
 }
 

@@ -1,0 +1,82 @@
+//! Runs of both, behind the interface that tools see.
+
+use mbs_live::{Live, Run};
+use mbs_runtime::equations::At;
+use mbs_runtime::{Baumgarte, Error, Held, Mechanism, PerStage, Simulation, System};
+
+use crate::compare::{of, same};
+use crate::declarations::{FREE, Free};
+
+/// Everything that a [`System`] tells is the same, at the start and on the way.
+pub fn runs_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: M, inputs: &[f64], h: f64) {
+    let typed = Simulation::builder(mechanism, h).inputs(of(inputs)).build().expect("a start");
+    let run = Run::builder(live, h).inputs(inputs).build().expect("a start");
+    assert!(run.derivation() == M::DERIVATION && run.sketch() == M::SKETCH);
+    let (mut typed, mut run): (Box<dyn System>, Box<dyn System>) = (Box::new(typed), Box::new(run));
+    for steps in [0, 1, 7, 92] {
+        typed.advance(steps).expect("steps");
+        run.advance(steps).expect("steps");
+        assert_eq!(run.time().to_bits(), typed.time().to_bits());
+        assert_eq!(run.steps(), typed.steps());
+        assert_eq!(run.steps_to(1.0), typed.steps_to(1.0));
+        assert_eq!(run.steps_to(-1.0), typed.steps_to(-1.0));
+        same("what a run tells", &told(&*run), &told(&*typed));
+        assert_eq!(run.worst_place(), typed.worst_place());
+        let pushed: Vec<f64> = inputs.iter().map(|input| 1.5 * input).collect();
+        typed.set_inputs(&pushed);
+        run.set_inputs(&pushed);
+    }
+}
+
+/// All numbers that a run tells in its present state.
+fn told(run: &dyn System) -> Vec<f64> {
+    let info = run.equations().info();
+    let zeros = |count: usize| vec![0.0; count];
+    let n = info.coordinates.len();
+    let (mut q, mut v, mut acceleration) = (zeros(n), zeros(n), zeros(n));
+    let (mut multipliers, mut outputs) = (zeros(info.constraints.len()), zeros(info.outputs.len()));
+    let (mut inputs, mut parameters) = (zeros(info.inputs.len()), zeros(info.parameters.len()));
+    let mut points = zeros(2 * run.sketch().points.len());
+    run.state(&mut q, &mut v);
+    run.reactions(&mut acceleration, &mut multipliers).expect("reactions");
+    run.outputs(&acceleration, &multipliers, &mut outputs).expect("outputs");
+    run.inputs(&mut inputs);
+    run.parameters(&mut parameters);
+    run.points(run.time(), &q, &mut points);
+    let energies = run.energies(At { t: run.time(), q: &q, v: &v });
+    let health = [run.worst_growth(), run.digits_left(), run.step_size()];
+    let scalars = [&run.violations()[..], &energies, &health].concat();
+    [q, v, acceleration, multipliers, outputs, inputs, parameters, points, scalars].concat()
+}
+
+/// What both answer to choices that cannot be made, and to steps that cannot be taken.
+#[test]
+fn runs_are_refused_with_the_same_words() {
+    let live = mbs_live::Text::declaration("free.mbs", FREE).compile().expect("a mechanism");
+    let unstable = Baumgarte::<PerStage>::new(2600.0, 2000.0).expect("gains");
+    for (h, input, gains) in [(0.0, 0.5, None), (f64::NAN, 0.5, None), (0.5e-3, 0.5, Some(unstable))] {
+        let typed = Simulation::builder(Free::declared(), h).inputs(of(&[input]));
+        let run = Run::builder(&live, h).inputs(&[input]);
+        let (typed, run) = match gains {
+            Some(gains) => (typed.baumgarte(gains).build().err(), run.baumgarte(gains).build().err()),
+            None => (typed.build().err(), run.build().err()),
+        };
+        assert_eq!(words(run), words(typed));
+    }
+
+    let mut typed = Simulation::new(Free::declared(), 0.5e-3).expect("a start");
+    let mut run = Run::builder(&live, 0.5e-3).baumgarte(Baumgarte::<Held>::deadbeat(0.5e-3)).build().expect("a start");
+    System::set_inputs(&mut typed, &[f64::INFINITY]);
+    run.set_inputs(&[f64::INFINITY]);
+    assert_eq!(words(run.step().err()), words(System::step(&mut typed).err()));
+    assert_eq!(run.steps(), 0);
+    System::set_inputs(&mut typed, &[1e9]);
+    run.set_inputs(&[1e9]);
+    assert_eq!(words(run.advance(1000).err()), words(System::advance(&mut typed, 1000).err()));
+    assert_eq!(run.steps(), System::steps(&typed));
+}
+
+#[track_caller]
+fn words(error: Option<Error>) -> String {
+    error.expect("refused").to_string()
+}
