@@ -1,6 +1,11 @@
 //! What it takes to run a declaration at once: from text to the first step, and a step by
 //! interpretation against the compiled one, alone and in lanes, in turns in one run.
-#![allow(clippy::expect_used, clippy::panic, dead_code, reason = "a benchmark of declarations that tests share")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    dead_code,
+    reason = "a benchmark of declarations that tests share"
+)]
 
 #[path = "../tests/agreement/declarations.rs"]
 mod declarations;
@@ -76,7 +81,14 @@ fn text_to_first_step(name: &str, text: &str, repetitions: usize) {
 }
 
 /// One state: the compiled step against the interpreted one; `false` if they differ.
-fn alone<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64, steps: u32, rounds: usize) -> bool {
+fn alone<M: Mechanism<Real = f64>>(
+    name: &str,
+    text: &str,
+    input: f64,
+    h: f64,
+    steps: u32,
+    rounds: usize,
+) -> bool {
     let mechanism = M::new(M::Parameters::default()).expect("declared parameters");
     let run = Simulation::builder(mechanism, h).inputs(inputs(input)).build().expect("a start");
     let live = compiled(text);
@@ -112,7 +124,11 @@ fn alone<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64, s
     let [compiled, interpreted] = times.map(summary);
     println!(
         "{name:24} one state: compiled {:7.1} / {:7.1} ns, live {:7.1} / {:7.1} ns, ratio {:.2}",
-        compiled[0], compiled[1], interpreted[0], interpreted[1], interpreted[0] / compiled[0]
+        compiled[0],
+        compiled[1],
+        interpreted[0],
+        interpreted[1],
+        interpreted[0] / compiled[0]
     );
     ends[0] == ends[1]
 }
@@ -157,7 +173,11 @@ fn in_lanes<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64
     let [compiled, interpreted] = times.map(summary);
     println!(
         "{name:24} a member:  compiled {:7.1} / {:7.1} ns, live {:7.1} / {:7.1} ns, ratio {:.2}",
-        compiled[0], compiled[1], interpreted[0], interpreted[1], interpreted[0] / compiled[0]
+        compiled[0],
+        compiled[1],
+        interpreted[0],
+        interpreted[1],
+        interpreted[0] / compiled[0]
     );
     (ends[0] - ends[1]).abs() <= 1e-12 * MEMBERS as f64
 }

@@ -143,11 +143,8 @@ impl Block {
         is_taken
     }
 
-    /// The pivot growth of the last step of a member, taken or not.
-    ///
-    /// # Panics
-    /// If there is no such lane; so do the functions below, and those that ask for a
-    /// coordinate if there is none.
+    /// The pivot growth of the last step of a member, taken or not. What this and the
+    /// functions below say of a lane or a coordinate that does not exist is no number.
     pub fn growth(&self, lane: usize) -> f64 {
         read(&self.heun.growth, lane)
     }
@@ -159,12 +156,12 @@ impl Block {
 
     /// A coordinate of a member.
     pub fn position(&self, coordinate: usize, lane: usize) -> f64 {
-        read(&self.q[coordinate], lane)
+        self.q.get(coordinate).map_or(f64::NAN, |column| read(column, lane))
     }
 
     /// Its velocity.
     pub fn velocity(&self, coordinate: usize, lane: usize) -> f64 {
-        read(&self.v[coordinate], lane)
+        self.v.get(coordinate).map_or(f64::NAN, |column| read(column, lane))
     }
 
     /// Takes a member a step ahead to positions and velocities that were computed elsewhere.
@@ -178,7 +175,9 @@ impl Block {
 
     /// Sets an input of a member for the steps to come.
     pub fn set_input(&mut self, input: usize, lane: usize, value: f64) {
-        write(&mut self.inputs[input], lane, value);
+        if let Some(column) = self.inputs.get_mut(input) {
+            write(column, lane, value);
+        }
     }
 }
 
@@ -191,11 +190,13 @@ fn zip(a: Column, b: Column, f: impl Fn(Vector, Vector) -> Vector) -> Column {
 }
 
 fn read(column: &Column, lane: usize) -> f64 {
-    column[lane / WIDTH].0[lane % WIDTH]
+    column.get(lane / WIDTH).map_or(f64::NAN, |vector| vector.0[lane % WIDTH])
 }
 
 fn write(column: &mut Column, lane: usize, number: f64) {
-    column[lane / WIDTH].0[lane % WIDTH] = number;
+    if let Some(vector) = column.get_mut(lane / WIDTH) {
+        vector.0[lane % WIDTH] = number;
+    }
 }
 
 /// The instructions in the widest vectors that the processor has; AVX-512 without fused

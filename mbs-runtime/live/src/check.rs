@@ -102,3 +102,80 @@ impl<'a> Follower<'a> {
         is_same.then_some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use mbs_codegen::{FunctionId, analyse};
+
+    use crate::code::Code;
+    use crate::instruction::Instruction;
+
+    const DECLARATION: &str = "Crank {
+        dof = 1;
+        param r = 60 [mm];
+        param l = 180 [mm];
+        gravity = (0, -9.81) [m/s^2];
+        body crank (theta) { inertia = 1e-3 [kg*m^2]; }
+        body rod (phi) { inertia = 2e-3 [kg*m^2]; }
+        body slider (x) { mass = 2 [kg]; }
+        profile wave = spline((0 [deg], 1), (90 [deg], 2), (200 [deg], 0)) period 360 [deg];
+        torque load on crank = -0.1 [N*m]*wave(theta) - 1 [N*m]*tanh(der(theta)/(1 [rad/s]));
+        constraint guide: r*sin(theta) + l*sin(phi) = 0;
+        constraint pin: x = r*cos(theta) + l*cos(phi);
+        start { theta = 0.3; der(theta) = 10 [rad/s]; guess x = r + l; }
+    }";
+
+    /// The slots of an instruction.
+    fn slots(instruction: &mut Instruction) -> &mut [u32] {
+        match instruction {
+            Instruction::Add(slots)
+            | Instruction::Sub(slots)
+            | Instruction::Mul(slots)
+            | Instruction::Div(slots)
+            | Instruction::SinCos(slots)
+            | Instruction::Call(_, slots) => slots,
+            Instruction::Neg(slots) | Instruction::Spline { slots, .. } => slots,
+        }
+    }
+
+    /// Another operation on the same slots.
+    fn confused(instruction: Instruction) -> Instruction {
+        match instruction {
+            Instruction::Add(slots) => Instruction::Sub(slots),
+            Instruction::Sub(slots) => Instruction::Add(slots),
+            Instruction::Mul(slots) => Instruction::Div(slots),
+            Instruction::Div(slots) | Instruction::Call(_, slots) => Instruction::Mul(slots),
+            Instruction::SinCos([sine, cosine, angle]) => Instruction::SinCos([cosine, sine, angle]),
+            Instruction::Neg([to, a]) => Instruction::Add([to, a, a]),
+            Instruction::Spline { order, spline, slots } => {
+                Instruction::Spline { order: order + 1, spline, slots }
+            }
+        }
+    }
+
+    #[test]
+    fn every_wrong_slot_and_operation_is_caught() {
+        let compiled = analyse(DECLARATION.parse().unwrap()).unwrap();
+        let program = compiled.program(FunctionId::Stabilized);
+        let code = || Code::new(&compiled, program).unwrap();
+        let is_accepted = |code: &Code| code.check(&compiled, program).is_ok();
+        let right = code();
+        assert!(is_accepted(&right));
+        for at in 0..right.instructions.len() {
+            let mut wrong = code();
+            wrong.instructions[at] = confused(wrong.instructions[at]);
+            assert!(!is_accepted(&wrong), "operation {at}: {:?}", right.instructions[at]);
+            for slot in 0..slots(&mut code().instructions[at]).len() {
+                for other in [0, u32::MAX] {
+                    let mut wrong = code();
+                    let slots = slots(&mut wrong.instructions[at]);
+                    if slots[slot] == other {
+                        continue;
+                    }
+                    slots[slot] = other;
+                    assert!(!is_accepted(&wrong), "slot {slot} of {at}: {:?}", right.instructions[at]);
+                }
+            }
+        }
+    }
+}

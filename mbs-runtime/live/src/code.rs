@@ -94,7 +94,7 @@ impl Code {
 
     /// Follows the slots through a run, and compares what they hold with what the program
     /// reads: so every result is that of the program, on the same operands.
-    fn check(&self, compiled: &Compiled, program: &Program) -> Result<(), Inconsistency> {
+    pub fn check(&self, compiled: &Compiled, program: &Program) -> Result<(), Inconsistency> {
         crate::check::Follower::new(compiled, program, self.slots, &self.fixed, &self.given)
             .follow(&self.instructions, &self.outputs)
             .ok_or(Inconsistency { pass: "live code", rule: "slots hold what the program reads" })

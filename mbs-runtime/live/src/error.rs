@@ -7,8 +7,11 @@ use ariadne::{CharSet, Config, IndexType, Label, Report, ReportKind, Source};
 use mbs_codegen::Diagnostic;
 use proc_macro2::Span;
 
-/// Why a text was not compiled. Shown, it has every problem with file, line, column and the
-/// underlined source, without colours; [`colored`](Self::colored) has them.
+/// So many problems are shown, which is more than anybody reads at once.
+const MOST_SHOWN: usize = 100;
+
+/// Why a text was not compiled. Shown, it has the problems, at most a hundred, with file, line,
+/// column and the underlined source, without colours; [`colored`](Self::colored) has them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     file: String,
@@ -105,8 +108,9 @@ impl Location {
     /// The place of a token, if it comes from the text.
     fn of(span: Span, text: &str) -> Option<Self> {
         span.source_text()?;
-        let bytes = span.byte_range();
-        text.get(bytes.clone()).map(|_| Self::new(text, bytes))
+        let (bytes, start) = (span.byte_range(), span.start());
+        let length = text.get(bytes.clone())?.chars().count();
+        Some(Self { line: start.line, column: start.column + 1, length, bytes })
     }
 
     /// The place of some bytes of a text.
@@ -131,14 +135,28 @@ struct Shown<'a> {
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Error { file, text, problems } = self.error;
-        for problem in problems {
+        let source = Source::from(printable(text));
+        for problem in problems.iter().take(MOST_SHOWN) {
             let mut shown = Vec::new();
-            let source = (file.as_str(), Source::from(text.as_str()));
-            self.report(problem).write(source, &mut shown).map_err(|_| fmt::Error)?;
+            self.report(problem).write((file.as_str(), &source), &mut shown).map_err(|_| fmt::Error)?;
             f.write_str(&String::from_utf8_lossy(&shown))?;
         }
-        Ok(())
+        match problems.len().saturating_sub(MOST_SHOWN) {
+            0 => Ok(()),
+            more => writeln!(f, "… and {more} more"),
+        }
     }
+}
+
+/// A text without characters that would command a terminal, as long in bytes.
+fn printable(text: &str) -> String {
+    let shown = |letter: char| match letter {
+        '\n' | '\r' | '\t' => letter,
+        _ if letter.is_control() && letter.is_ascii() => '?',
+        _ if letter.is_control() => '¿',
+        _ => letter,
+    };
+    text.chars().map(shown).collect()
 }
 
 impl<'a> Shown<'a> {

@@ -27,7 +27,8 @@ pub fn block(tokens: TokenStream, name: Option<&str>) -> Result<TokenStream, Dia
         }
         (several, _) => {
             let (count, place) = (several.len(), several[1].place);
-            let message = format!("this is one of {count} `mechanism! {{ … }}` of the file, and none was named");
+            let message =
+                format!("this is one of {count} `mechanism! {{ … }}` of the file, and none was named");
             Err(Diagnostic::new(place, message).help(format!("ask for one of {}", names.join(", "))))
         }
     }

@@ -1,8 +1,8 @@
 //! What an interpreter does: operations on numbered slots.
 #![allow(clippy::needless_range_loop, reason = "a column is counted through several slots")]
 
-use mbs_runtime::Real;
 use mbs_runtime::__private::Spline;
+use mbs_runtime::Real;
 use mbs_symbolic::Function;
 
 /// An operation. The first slot is written, the others are read; of

@@ -30,7 +30,9 @@ fn words(rest: &str) -> (&'static str, &'static str) {
             "look for a bracket before it that is missing, or is of another kind",
         ),
         (Some('/'), Some('*')) => ("this comment never ends", "end it with `*/`"),
-        (Some('"'), _) => ("this string never ends, or has an unknown escape", "declarations have no strings"),
+        (Some('"'), _) => {
+            ("this string never ends, or has an unknown escape", "declarations have no strings")
+        }
         (Some('\''), _) => ("this is no character and no lifetime", "declarations have neither"),
         (Some('0'..='9'), _) => ("this is not a number", "numbers look like `12`, `0.25` or `1e-3`"),
         (Some(_), _) => ("this character has no meaning here", "names have letters, digits and `_`"),

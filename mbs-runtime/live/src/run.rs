@@ -2,9 +2,7 @@
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, check_outputs};
-use mbs_runtime::{
-    Baumgarte, Derivation, Error, Feedback, Gains, Held, Sketch, System, WorstPlace,
-};
+use mbs_runtime::{Baumgarte, Derivation, Error, Feedback, Gains, Held, Sketch, System, WorstPlace};
 
 use crate::arguments::Arguments;
 use crate::equations::{position, single, state};

@@ -89,7 +89,8 @@ impl Allocator {
         let slot = match self.free.pop() {
             Some(slot) => slot,
             None => {
-                let too_many = Inconsistency { pass: "live code", rule: "a program has less than 2^32 slots" };
+                let too_many =
+                    Inconsistency { pass: "live code", rule: "a program has less than 2^32 slots" };
                 self.slots = self.slots.checked_add(1).ok_or(too_many)?;
                 self.slots - 1
             }

@@ -11,9 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count};
 use mbs_runtime::__private::{Segment, Spline};
-use mbs_runtime::{
-    Constraint, Derivation, Dimension, Function, Info, Operations, Pivot, Quantity, Sketch,
-};
+use mbs_runtime::{Constraint, Derivation, Dimension, Function, Info, Operations, Pivot, Quantity, Sketch};
 use mbs_symbolic::{Block, units};
 
 use crate::words;
@@ -125,10 +123,8 @@ fn function(compiled: &Compiled, count: &Count) -> Function {
 }
 
 fn spline(spline: &mbs_symbolic::Spline) -> Spline {
-    let segment = |segment: &mbs_symbolic::Segment| Segment {
-        from: segment.from,
-        coefficients: segment.coefficients,
-    };
+    let segment =
+        |segment: &mbs_symbolic::Segment| Segment { from: segment.from, coefficients: segment.coefficients };
     let segments = leak(spline.segments.iter().map(segment));
     Spline { origin: spline.origin, period: spline.period, segments }
 }

@@ -22,7 +22,8 @@ pub fn unwoven(woven: &Woven, of: &Program, outputs: usize) -> Result<Program, I
         thread.plain(value)
     });
     let results = results.collect();
-    let program = Program { instructions: thread.instructions, outputs: results, splines: of.splines.clone() };
+    let program =
+        Program { instructions: thread.instructions, outputs: results, splines: of.splines.clone() };
     let program = program.without_dead_code();
     check(woven, &program)?;
     Ok(program)
@@ -139,5 +140,44 @@ impl Thread {
             self.instructions.push(Instruction { operation, a, b, name: None });
             Operand::Value(self.instructions.len() - 1)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mbs_codegen::{FunctionId, analyse};
+
+    use super::*;
+
+    /// In the plane, so that x and y share pairs.
+    const DECLARATION: &str = "Pendulum {
+        dof = 1;
+        param l = 1 [m];
+        gravity = (0, -9.81) [m/s^2];
+        body rod (x, y, theta) { mass = 2 [kg]; inertia = 1 [kg*m^2]; }
+        constraint pin_x: x = l*cos(theta);
+        constraint pin_y: y = l*sin(theta);
+        start { theta = 0.3; guess x = l; guess y = 0; }
+    }";
+
+    #[test]
+    fn every_wrong_operation_is_caught() {
+        let compiled = analyse(DECLARATION.parse().unwrap()).unwrap();
+        let woven = &compiled.fused_step.as_ref().unwrap().alone.held;
+        let outputs = 2 * compiled.coordinates.len() + 1;
+        let right = unwoven(woven, compiled.program(FunctionId::Stabilized), outputs).unwrap();
+        let has_subtractions = right.instructions.iter().any(|step| step.operation == Operation::Sub);
+        assert!(has_subtractions && woven.steps.iter().any(|step| matches!(step, Step::Flip(_))));
+        for at in 0..right.instructions.len() {
+            let mut wrong = right.clone();
+            let operation = &mut wrong.instructions[at].operation;
+            *operation = match *operation {
+                Operation::Add => Operation::Sub,
+                Operation::Sub => Operation::Add,
+                Operation::Mul => Operation::Div,
+                _ => Operation::Mul,
+            };
+            assert!(check(woven, &wrong).is_err(), "instruction {at}: {:?}", right.instructions[at]);
+        }
     }
 }

@@ -50,7 +50,8 @@ fn elimination(step: &compiled::Elimination) -> Elimination {
 
 /// What a picture shows.
 pub fn sketch(sketch: &compiled::Sketch) -> Sketch {
-    let body = |(name, points): &(String, Vec<usize>)| Body { name: text(name), points: leak(points.clone()) };
+    let body =
+        |(name, points): &(String, Vec<usize>)| Body { name: text(name), points: leak(points.clone()) };
     let joint = |link: &compiled::Link| Joint {
         name: text(&link.name),
         kind: link.kind,

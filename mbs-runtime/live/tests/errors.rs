@@ -71,10 +71,23 @@ fn an_error_is_shown_with_its_source() {
     let text = "Crank {\n    dof = 1;\n    param l = 1 [m];\n    param l = 2 [kg];\n}";
     let error = Text::declaration("crank.mbs", text).compile().unwrap_err();
     let shown = error.to_string();
-    for part in ["`l` is declared twice", "crank.mbs:4:11", "param l = 2 [kg];", "is first declared", "param l = 1 [m];"] {
+    for part in [
+        "`l` is declared twice",
+        "crank.mbs:4:11",
+        "param l = 2 [kg];",
+        "is first declared",
+        "param l = 1 [m];",
+    ] {
         assert!(shown.contains(part), "{part}:\n{shown}");
     }
     assert!(!shown.contains('\u{1b}') && error.colored().to_string().contains('\u{1b}'), "{shown}");
+}
+
+#[test]
+fn what_is_shown_commands_no_terminal() {
+    let error = Text::declaration("a.mbs", "A { /* \u{1b}[31m \u{9b} */ x; }").compile().unwrap_err();
+    let shown = error.to_string();
+    assert!(shown.contains("/* ?[31m ¿ */ x;") && shown.contains("a.mbs:1:19"), "{shown}");
 }
 
 /// The first problem of a text that cannot be read, and the line and column of it.
@@ -88,11 +101,17 @@ fn unreadable(text: &str) -> (String, (usize, usize)) {
 #[test]
 fn what_is_no_token_has_a_place() {
     assert_eq!(unreadable("A {\n  (\n"), ("this bracket is never closed".to_owned(), (2, 3)));
-    assert_eq!(unreadable("A {\n  )\n"), ("this bracket does not close the one that is open".to_owned(), (2, 3)));
+    assert_eq!(
+        unreadable("A {\n  )\n"),
+        ("this bracket does not close the one that is open".to_owned(), (2, 3))
+    );
     assert_eq!(unreadable("Ä }"), ("this bracket does not close the one that is open".to_owned(), (1, 3)));
     assert_eq!(unreadable("A { § }"), ("this character has no meaning here".to_owned(), (1, 5)));
     assert_eq!(unreadable("A { /* }"), ("this comment never ends".to_owned(), (1, 5)));
-    assert_eq!(unreadable("A { \" }"), ("this string never ends, or has an unknown escape".to_owned(), (1, 5)));
+    assert_eq!(
+        unreadable("A { \" }"),
+        ("this string never ends, or has an unknown escape".to_owned(), (1, 5))
+    );
 }
 
 #[test]
@@ -109,6 +128,16 @@ fn texts_of_strangers_end_in_an_error() {
     }
     assert!(refused(format!("A {{ constraint c: x = {}1; }}", "-".repeat(200_000))).contains("nest"));
     assert!(refused("A { for i in 0..1000000000 { param p[i] = 1; } }".to_owned()).contains("100000"));
+}
+
+#[test]
+fn of_many_problems_the_first_are_shown() {
+    let error = Text::declaration("a.mbs", format!("A {{ {} }}", "x;\n".repeat(5000))).compile().unwrap_err();
+    assert_eq!(error.problems().len(), 5000);
+    assert!(error.problems()[4999].location.as_ref().is_some_and(|place| place.line == 5000));
+    let shown = error.to_string();
+    assert!(shown.contains("a.mbs:100:") && !shown.contains("a.mbs:101:"));
+    assert!(shown.ends_with("… and 4900 more\n"));
 }
 
 #[test]

@@ -3,9 +3,7 @@
 use crate::runs::runs_agree;
 use mbs_live::{Block, LANES, Live, Member, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
-use mbs_runtime::{
-    Baumgarte, Components, Feedback, Gains, Held, Mechanism, PerStage, Simulation, State,
-};
+use mbs_runtime::{Baumgarte, Components, Feedback, Gains, Held, Mechanism, PerStage, Simulation, State};
 
 const STEPS: usize = 1000;
 
@@ -125,7 +123,8 @@ fn steps_agree<M: Mechanism<Real = f64>, F: Feedback>(
     baumgarte: Baumgarte<F>,
     h: f64,
 ) {
-    let mut run = Simulation::builder(mechanism, h).inputs(of(inputs)).baumgarte(baumgarte).build().expect("a start");
+    let mut run =
+        Simulation::builder(mechanism, h).inputs(of(inputs)).baumgarte(baumgarte).build().expect("a start");
     let mut steps = Stepper::new(live, F::IS_HELD);
     let gains = gains(&baumgarte);
     let start = *run.state();
@@ -166,7 +165,8 @@ fn lanes_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, inputs: &[f
         };
         let members: Vec<Member<'_>> = mechanisms.iter().zip(&inputs).map(member).collect();
         let mut block = Block::new(is_held, &members).expect("members of one mechanism");
-        let mut alone: Vec<_> = mechanisms.iter().map(|it| (Stepper::new(it, is_held), q.clone(), v.clone())).collect();
+        let mut alone: Vec<_> =
+            mechanisms.iter().map(|it| (Stepper::new(it, is_held), q.clone(), v.clone())).collect();
         for k in 0..50 {
             let is_taken = block.step(&[f64::INFINITY; LANES]);
             assert_eq!(is_taken, [true; LANES]);

@@ -2,9 +2,9 @@
 
 use mbs_live::{Live, Run};
 use mbs_runtime::equations::At;
-use mbs_runtime::{Baumgarte, Error, Held, Mechanism, PerStage, Simulation, System};
+use mbs_runtime::{Baumgarte, Error, Held, Mechanism, PerStage, Simulation, State, System};
 
-use crate::compare::{of, same};
+use crate::compare::{numbers, of, same};
 use crate::declarations::{FREE, Free};
 
 /// Everything that a [`System`] tells is the same, at the start and on the way.
@@ -54,7 +54,10 @@ fn told(run: &dyn System) -> Vec<f64> {
 fn runs_are_refused_with_the_same_words() {
     let live = mbs_live::Text::declaration("free.mbs", FREE).compile().expect("a mechanism");
     let unstable = Baumgarte::<PerStage>::new(2600.0, 2000.0).expect("gains");
-    for (h, input, gains) in [(0.0, 0.5, None), (f64::NAN, 0.5, None), (0.5e-3, 0.5, Some(unstable))] {
+    let not_finite = f64::NAN;
+    for (h, input, gains) in
+        [(0.0, 0.5, None), (not_finite, 0.5, None), (1e-3, not_finite, None), (0.5e-3, 0.5, Some(unstable))]
+    {
         let typed = Simulation::builder(Free::declared(), h).inputs(of(&[input]));
         let run = Run::builder(&live, h).inputs(&[input]);
         let (typed, run) = match gains {
@@ -63,9 +66,22 @@ fn runs_are_refused_with_the_same_words() {
         };
         assert_eq!(words(run), words(typed));
     }
+    // the start of a given state
+    let start = *Simulation::new(Free::declared(), 1e-3).expect("a start").state();
+    let (q, v) = (numbers(start.q), numbers(start.v));
+    for (t, bent) in [(1e14, 0.0), (0.0, 0.1), (0.0, not_finite)] {
+        let mut state = State { t, ..start };
+        state.q.theta2 += bent;
+        let q: Vec<f64> = numbers(state.q);
+        let typed = Simulation::builder(Free::declared(), 1e-3).from_state(state).build().err();
+        let run = Run::builder(&live, 1e-3).from_state(At { t, q: &q, v: &v }).build().err();
+        assert_eq!(words(run), words(typed));
+    }
+    assert!(Run::builder(&live, 1e-3).from_state(At { t: 0.0, q: &q, v: &v }).build().is_ok());
 
     let mut typed = Simulation::new(Free::declared(), 0.5e-3).expect("a start");
-    let mut run = Run::builder(&live, 0.5e-3).baumgarte(Baumgarte::<Held>::deadbeat(0.5e-3)).build().expect("a start");
+    let mut run =
+        Run::builder(&live, 0.5e-3).baumgarte(Baumgarte::<Held>::deadbeat(0.5e-3)).build().expect("a start");
     System::set_inputs(&mut typed, &[f64::INFINITY]);
     run.set_inputs(&[f64::INFINITY]);
     assert_eq!(words(run.step().err()), words(System::step(&mut typed).err()));
