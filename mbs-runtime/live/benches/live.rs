@@ -16,7 +16,7 @@ use std::time::Instant;
 
 use declarations::*;
 use mbs_ensemble::Ensemble;
-use mbs_live::{Block, LANES, Live, Member, Stepper, Text};
+use mbs_live::{LANES, Live, Pack, Run, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
 use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Simulation, growth_limit};
 
@@ -139,7 +139,7 @@ fn in_lanes<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64
     let run = Simulation::builder(mechanism, h).inputs(inputs(input)).build().expect("a start");
     let live = compiled(text);
     let inputs = vec![input; live.info().inputs.len()];
-    let (q, v) = (numbers(run.state().q), numbers(run.state().v));
+    let mut rows = vec![[0.0; LANES]; live.info().coordinates.len()];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let per_step = |time: f64| time * 1e9 / f64::from(STEPS) / MEMBERS as f64;
     let mut times = [Vec::new(), Vec::new()];
@@ -154,16 +154,17 @@ fn in_lanes<M: Mechanism<Real = f64>>(name: &str, text: &str, input: f64, h: f64
         });
         times[0].push(per_step(time));
         ends[0] = sum;
+        let run = || Run::builder(&live, h).inputs(&inputs).build().expect("a start");
+        let runs: Vec<Vec<Run>> = (0..MEMBERS / LANES).map(|_| (0..LANES).map(|_| run()).collect()).collect();
         let (time, sum) = timed(|| {
             let mut sum = 0.0;
-            for _ in 0..MEMBERS / LANES {
-                let at = At { t: 0.0, q: &q, v: &v };
-                let member = Member { mechanism: &live, at, inputs: &inputs, gains: gains(h), step: h };
-                let mut block = Block::new(true, &[member; LANES]).expect("members");
+            for runs in runs {
+                let mut pack = Pack::new(runs).map_err(|_| "they are alike").expect("a pack");
                 for _ in 0..STEPS {
-                    assert_eq!(block.step(&[growth_limit(); LANES]), [true; LANES]);
+                    assert!(pack.step().is_empty());
                 }
-                sum += (0..LANES).map(|lane| block.position(0, lane)).sum::<f64>();
+                pack.observe(&mut rows);
+                sum += rows[0].iter().sum::<f64>();
             }
             sum
         });

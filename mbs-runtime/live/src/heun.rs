@@ -73,6 +73,11 @@ impl<T: Real, const C: usize> Heun<T, C> {
         Self { programs, is_held, execute, memory, q, v, growth: [T::default(); C] }
     }
 
+    /// The programs of the mechanism.
+    pub fn programs(&self) -> &Programs {
+        &self.programs
+    }
+
     /// A step from `at`, whose step, gains and inputs are given too.
     pub fn step(&mut self, at: &Arguments<'_, T, C>) {
         let Self { programs, is_held, execute, memory, q, v, growth } = self;

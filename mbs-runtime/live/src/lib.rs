@@ -2,7 +2,7 @@
 //!
 //! A [`Text`] is what stands in `mechanism! { … }`, in a file of its own or in a Rust file.
 //! The compiler of the macro makes programs of it, and this crate interprets them, for one
-//! state or for a [`Block`] of members together. Results are those of the compiled Rust, to
+//! state or for a [`Pack`] of runs together. Results are those of the compiled Rust, to
 //! the last bit; errors are those of the macro, with their places in the text.
 //!
 //! # Example
@@ -51,6 +51,7 @@ mod error;
 mod find;
 mod heun;
 mod instruction;
+mod lanes;
 mod lexing;
 mod live;
 mod run;
@@ -61,9 +62,9 @@ mod text;
 mod unwoven;
 mod words;
 
-pub use block::{Block, LANES, Member};
 pub use error::{Error, Location, Note, Problem};
+pub use lanes::LANES;
 pub use live::Live;
-pub use run::{Builder, Run};
+pub use run::{Builder, Pack, Run};
 pub use stepper::Stepper;
 pub use text::{LONGEST, Text};

@@ -114,12 +114,10 @@ impl Live {
 
     /// Computes what depends on parameters alone.
     fn prepared(programs: Arc<Programs>, parameters: Vec<f64>) -> Self {
-        let hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs()];
-        let mut live = Self { programs, parameters, hoisted: Vec::new() };
-        let mut values = hoisted;
-        live.call(FunctionId::Hoisted, &Arguments::default(), [&mut values]);
-        live.hoisted = values;
-        live
+        let mut hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs()];
+        let bare = Self { programs, parameters, hoisted: Vec::new() };
+        bare.call(FunctionId::Hoisted, &Arguments::default(), [&mut hoisted]);
+        Self { hoisted, ..bare }
     }
 
     /// The same mechanism with other parameters: `change` is given those that it has, in SI

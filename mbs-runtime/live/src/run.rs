@@ -1,5 +1,9 @@
 //! A live mechanism in motion.
 
+mod pack;
+
+pub use pack::Pack;
+
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, check_outputs};
 use mbs_runtime::{Baumgarte, Derivation, Error, Feedback, Gains, Held, Sketch, System, WorstPlace};

@@ -1,10 +1,10 @@
 //! A declaration as text.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Read};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::mpsc;
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
@@ -128,25 +128,26 @@ impl Text {
         let (text, form) = (self.text.clone(), self.form.clone());
         // Places of tokens are kept by the thread that made them, and end with it.
         let compiling = thread::Builder::new().stack_size(STACK).spawn(move || {
-            let result = catch_unwind(AssertUnwindSafe(|| compile(&text, &form)));
-            let failed = "internal inconsistency of the mechanism compiler: it came to an unforeseen end";
             // nobody waits any longer if the time was over
-            let _ = send.send(result.unwrap_or_else(|_| Err(vec![Problem::everywhere(failed)])));
+            let _ = send.send(compile(&text, &form));
         });
         if let Err(error) = compiling {
             return Err(self.error(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]));
         }
-        let result = match self.limit {
-            Some(limit) => receive.recv_timeout(limit).map_err(|_| limit.as_secs_f64()),
-            None => receive.recv().map_err(|_| f64::INFINITY),
+        let compiled = match self.limit {
+            None => receive.recv().ok(),
+            Some(limit) => match receive.recv_timeout(limit) {
+                Err(RecvTimeoutError::Timeout) => {
+                    let message =
+                        format!("compiling takes more than the {} s that it may take", limit.as_secs_f64());
+                    return Err(self.error(vec![Problem::everywhere(message)]));
+                }
+                compiled => compiled.ok(),
+            },
         };
-        match result {
-            Ok(result) => result.map(Live::new).map_err(|problems| self.error(problems)),
-            Err(seconds) => {
-                let message = format!("compiling takes more than the {seconds} s that it may take");
-                Err(self.error(vec![Problem::everywhere(message)]))
-            }
-        }
+        // a thread that sends nothing has panicked
+        let compiled = compiled.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]));
+        compiled.map(Live::new).map_err(|problems| self.error(problems))
     }
 
     fn error(&self, problems: Vec<Problem>) -> Error {
@@ -156,14 +157,20 @@ impl Text {
 
 /// Tokens, declaration, compiled mechanism, code.
 fn compile(text: &str, form: &Form) -> Result<Programs, Vec<Problem>> {
-    let one = |diagnostic: &Diagnostic| vec![Problem::of(diagnostic, text)];
     let tokens: TokenStream = text.parse().map_err(|error| vec![lexing::problem(&error, text)])?;
     let declaration = match form {
         Form::Declaration => tokens,
-        Form::Rust(name) => find::block(tokens, name.as_deref()).map_err(|error| one(&error))?,
+        Form::Rust(name) => {
+            find::block(tokens, name.as_deref()).map_err(|error| vec![Problem::of(&error, text)])?
+        }
     };
     let key = declaration.to_string();
     let compiled = mbs_codegen::analyse(declaration)
         .map_err(|errors| errors.iter().map(|error| Problem::of(error, text)).collect::<Vec<_>>())?;
-    Programs::new(key, &compiled).map_err(|mistake| one(&Diagnostic::internal(Span::call_site(), mistake)))
+    Programs::new(key, &compiled).map_err(|mistake| vec![internal(mistake)])
+}
+
+/// A mistake that is not in the text.
+fn internal(what: impl Display) -> Problem {
+    Problem::of(&Diagnostic::internal(Span::call_site(), what), "")
 }

@@ -1,7 +1,8 @@
 //! A compiled mechanism and one from the same text, side by side.
 
+use crate::packs::packs_agree;
 use crate::runs::runs_agree;
-use mbs_live::{Block, LANES, Live, Member, Stepper, Text};
+use mbs_live::{Live, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
 use mbs_runtime::{Baumgarte, Components, Feedback, Gains, Held, Mechanism, PerStage, Simulation, State};
 
@@ -20,8 +21,8 @@ where
     start_agrees(&live, &mechanism, h);
     steps_agree::<M, Held>(&live, mechanism, inputs, Baumgarte::<Held>::deadbeat(h), h);
     steps_agree::<M, PerStage>(&live, mechanism, inputs, Baumgarte::<PerStage>::deadbeat(h), h);
-    lanes_agree(&live, &mechanism, inputs, h);
     runs_agree(&live, mechanism, inputs, h);
+    packs_agree(&live, inputs, h);
 }
 
 pub fn numbers<C: Components<Real = f64>>(components: C) -> Vec<f64> {
@@ -143,46 +144,4 @@ fn steps_agree<M: Mechanism<Real = f64>, F: Feedback>(
         assert_eq!(run.time(), t_next);
     }
     same("growth", &[worst], &[run.worst_growth()]);
-}
-
-/// Members of a block, each with its own parameters and inputs, and each alone.
-fn lanes_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, inputs: &[f64], h: f64) {
-    let start = *Simulation::new(*mechanism, h).expect("a start").state();
-    let (q, v) = (numbers(start.q), numbers(start.v));
-    let best = Baumgarte::<Held>::deadbeat(h);
-    let count = LANES - 1;
-    let factor = |lane: usize| 1.0 + 1e-4 * lane as f64;
-    let mechanisms: Vec<Live> = (0..count)
-        .map(|lane| live.with_parameters(|values| values.iter_mut().for_each(|value| *value *= factor(lane))))
-        .collect::<Result<_, _>>()
-        .expect("parameters");
-    let inputs: Vec<Vec<f64>> =
-        (0..count).map(|lane| inputs.iter().map(|input| input * factor(lane)).collect()).collect();
-    for is_held in [true, false] {
-        let member = |(mechanism, inputs)| {
-            let inputs: &Vec<f64> = inputs;
-            Member { mechanism, at: At { t: start.t, q: &q, v: &v }, inputs, gains: gains(&best), step: h }
-        };
-        let members: Vec<Member<'_>> = mechanisms.iter().zip(&inputs).map(member).collect();
-        let mut block = Block::new(is_held, &members).expect("members of one mechanism");
-        let mut alone: Vec<_> =
-            mechanisms.iter().map(|it| (Stepper::new(it, is_held), q.clone(), v.clone())).collect();
-        for k in 0..50 {
-            let is_taken = block.step(&[f64::INFINITY; LANES]);
-            assert_eq!(is_taken, [true; LANES]);
-            for (lane, (steps, q, v)) in alone.iter_mut().enumerate() {
-                let t = start.t + f64::from(k) * h;
-                let t_next = start.t + f64::from(k + 1) * h;
-                let growth = steps.step(At { t, q, v }, &inputs[lane], &gains(&best), h, t_next);
-                q.copy_from_slice(steps.q());
-                v.copy_from_slice(steps.v());
-                let found: Vec<f64> = (0..q.len()).map(|at| block.position(at, lane)).collect();
-                same("q of a lane", &found, q);
-                let found: Vec<f64> = (0..v.len()).map(|at| block.velocity(at, lane)).collect();
-                same("v of a lane", &found, v);
-                same("growth of a lane", &[block.growth(lane)], &[growth]);
-                assert_eq!(block.time(lane), t_next);
-            }
-        }
-    }
 }

@@ -1,9 +1,10 @@
 //! A mechanism from its text computes what the compiled Rust of the same declaration does,
-//! to the last bit: every function, a thousand steps, and steps in lanes.
+//! to the last bit: every function, a thousand steps, and runs in lanes.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 mod compare;
 mod declarations;
+mod packs;
 mod runs;
 
 use compare::agree;
