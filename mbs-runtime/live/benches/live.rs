@@ -16,9 +16,9 @@ use std::time::Instant;
 
 use declarations::*;
 use mbs_ensemble::Ensemble;
-use mbs_live::{LANES, Live, Pack, Run, Stepper, Text};
-use mbs_runtime::equations::{At, Equations, Room, consistent};
-use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Simulation, growth_limit};
+use mbs_live::{LANES, Live, Pack, Run, Text};
+use mbs_runtime::equations::Equations;
+use mbs_runtime::{Components, Mechanism, Simulation, System};
 
 const STEPS: u32 = 600;
 const MEMBERS: usize = 1024;
@@ -47,35 +47,15 @@ fn inputs<C: Components<Real = f64>>(value: f64) -> C {
     C::splat(value)
 }
 
-fn gains(h: f64) -> Gains<f64> {
-    let best = Baumgarte::<Held>::deadbeat(h);
-    Gains { minus_two_alpha: -2.0 * best.alpha(), minus_beta_squared: -best.beta() * best.beta() }
-}
-
-/// Positions and velocities of the start, made consistent.
-fn start(live: &Live) -> (Vec<f64>, Vec<f64>) {
-    let info = live.info();
-    let mut q: Vec<f64> = info.coordinates.iter().map(|coordinate| coordinate.default).collect();
-    let mut v = vec![0.0; q.len()];
-    let (n, m) = (q.len(), info.constraints.len());
-    let mut vectors = vec![0.0; Room::<f64>::len(n, m)];
-    let mut room = Room::within(&mut vectors, n, m);
-    consistent(live, 0.0, &mut q, &mut v, &mut room).expect("a start");
-    (q, v)
-}
-
-/// From a text to the state after the first step.
-fn first_step(text: &str, h: f64) -> f64 {
-    let live = compiled(text);
-    let (q, v) = start(&live);
-    let inputs = vec![0.0; live.info().inputs.len()];
-    let mut steps = Stepper::new(&live, true);
-    steps.step(At { t: 0.0, q: &q, v: &v }, &inputs, &gains(h), h, h);
-    steps.q()[0]
+/// From a text to the time after the first step.
+fn first_step(text: &str) -> f64 {
+    let mut run = Run::builder(&compiled(text), 1e-4).build().expect("a start");
+    run.step().expect("a step");
+    run.time()
 }
 
 fn text_to_first_step(name: &str, text: &str, repetitions: usize) {
-    let times = (0..repetitions).map(|_| timed(|| first_step(text, 1e-4)).0).collect();
+    let times = (0..repetitions).map(|_| timed(|| first_step(text)).0).collect();
     let [least, median] = summary(times);
     println!("{name:24} from text to first step: {:8.2} / {:8.2} ms", least * 1e3, median * 1e3);
 }
@@ -104,18 +84,12 @@ fn alone<M: Mechanism<Real = f64>>(
             numbers(run.state().q)
         });
         times[0].push(time * 1e9 / f64::from(steps));
-        ends[0] = end;
-        let mut stepper = Stepper::new(&live, true);
-        let (mut q, mut v) = (numbers(run.state().q), numbers(run.state().v));
-        let gains = gains(h);
+        ends[0] = end.clone();
+        let mut run = Run::builder(&live, h).inputs(&inputs).build().expect("a start");
         let (time, end) = timed(|| {
-            for k in 0..steps {
-                let (t, t_next) = (f64::from(k) * h, f64::from(k + 1) * h);
-                let growth = stepper.step(At { t, q: &q, v: &v }, &inputs, &gains, h, t_next);
-                assert!(growth < growth_limit());
-                q.copy_from_slice(stepper.q());
-                v.copy_from_slice(stepper.v());
-            }
+            run.advance(steps.into()).expect("steps");
+            let (mut q, mut v) = (vec![0.0; end.len()], vec![0.0; end.len()]);
+            run.state(&mut q, &mut v);
             q
         });
         times[1].push(time * 1e9 / f64::from(steps));

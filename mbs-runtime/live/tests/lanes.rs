@@ -8,7 +8,7 @@ use mbs_runtime::{Error, System};
 const H: f64 = 1e-3;
 
 fn compiled(text: &str) -> Live {
-    Text::declaration("mechanism.mbs", text).compile().unwrap_or_else(|error| panic!("{error}"))
+    Text::declaration("mechanism.mbs", text).compile().unwrap()
 }
 
 /// A disc that a torque turns which depends on its angle.

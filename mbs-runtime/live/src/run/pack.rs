@@ -89,8 +89,8 @@ impl Pack {
         }
         let is_taken = self.block.step(&limits);
         let mut ended = Vec::new();
-        for lane in 0..self.runs.len() {
-            if is_taken[lane] && self.goes_on[lane] {
+        for (lane, is_taken) in is_taken.into_iter().enumerate().take(self.runs.len()) {
+            if is_taken && self.goes_on[lane] {
                 self.runs[lane].watch.note(self.block.growth(lane));
             } else if let Err(error) = self.step_alone(lane) {
                 self.goes_on[lane] = false;
