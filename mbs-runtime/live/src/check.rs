@@ -1,44 +1,44 @@
 //! Whether code does what its program does.
 
 use mbs_codegen::compiled::Compiled;
-use mbs_symbolic::{Function, Instruction as Step, Operand, Operation, Program, SinCos};
+use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operation, Program, SinCos};
 
-use crate::arguments::Given;
-use crate::code::{Fixed, Role, role};
+use crate::code::{Code, Fixed, Role, role};
 use crate::instruction::Instruction;
 
-/// Follows what slots hold through a run: operands of the program instead of numbers.
-pub struct Follower<'a> {
+/// Follows the slots through a run, and compares what they hold with what the program
+/// reads: so every result is that of the program, on the same operands, and every slot
+/// exists.
+///
+/// # Errors
+/// The code does something else.
+pub fn check(compiled: &Compiled, program: &Program, code: &Code) -> Result<(), Inconsistency> {
+    let mut slots = vec![None; code.slots];
+    for (slot, &number) in slots.iter_mut().zip(&code.fixed) {
+        *slot = Some(Role::Fixed(number));
+    }
+    for &(argument, at) in &code.given {
+        if let Some(slot) = slots.get_mut(at as usize) {
+            *slot = Some(Role::Given(argument));
+        }
+    }
+    let follower = Follower { compiled, program, pairs: SinCos::of(program), slots };
+    let rule = "slots hold what the program reads";
+    follower.follow(&code.instructions, &code.outputs).ok_or(Inconsistency { pass: "live code", rule })
+}
+
+/// What slots hold on the way: operands of the program instead of numbers.
+struct Follower<'a> {
     compiled: &'a Compiled,
     program: &'a Program,
     pairs: SinCos,
     slots: Vec<Option<Role>>,
 }
 
-impl<'a> Follower<'a> {
-    /// The slots before the first instruction.
-    pub fn new(
-        compiled: &'a Compiled,
-        program: &'a Program,
-        slots: usize,
-        fixed: &[Fixed],
-        given: &[(Given, u32)],
-    ) -> Self {
-        let mut held = vec![None; slots];
-        for (slot, &number) in held.iter_mut().zip(fixed) {
-            *slot = Some(Role::Fixed(number));
-        }
-        for &(input, at) in given {
-            if let Some(slot) = held.get_mut(at as usize) {
-                *slot = Some(Role::Given(input));
-            }
-        }
-        Self { compiled, program, pairs: SinCos::of(program), slots: held }
-    }
-
+impl Follower<'_> {
     /// Something, if the instructions are those of the program, each on its operands, the
     /// fixed slots stay what they are, and the outputs end in these slots.
-    pub fn follow(mut self, instructions: &[Instruction], outputs: &[u32]) -> Option<()> {
+    fn follow(mut self, instructions: &[Instruction], outputs: &[u32]) -> Option<()> {
         let fixed = self.slots.iter().take_while(|slot| matches!(slot, Some(Role::Fixed(_)))).count();
         let mut instructions = instructions.iter();
         for (at, step) in self.program.instructions.iter().enumerate() {
@@ -158,7 +158,7 @@ mod tests {
         let compiled = analyse(DECLARATION.parse().unwrap()).unwrap();
         let program = compiled.program(FunctionId::Stabilized);
         let code = || Code::new(&compiled, program).unwrap();
-        let is_accepted = |code: &Code| code.check(&compiled, program).is_ok();
+        let is_accepted = |code: &Code| super::check(&compiled, program, code).is_ok();
         let right = code();
         assert!(is_accepted(&right));
         for at in 0..right.instructions.len() {

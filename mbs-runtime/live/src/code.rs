@@ -5,8 +5,9 @@ use mbs_runtime::Real;
 use mbs_symbolic::{Inconsistency, Operand, Program};
 
 use crate::arguments::{Arguments, Given};
+use crate::check::check;
 use crate::instruction::Instruction;
-use crate::slots::Allocation;
+use crate::slots::allocate;
 
 /// The code of a program.
 #[derive(Debug)]
@@ -14,13 +15,13 @@ pub struct Code {
     /// What is done in every run.
     pub instructions: Vec<Instruction>,
     /// What the first slots hold, before the first run and for ever.
-    fixed: Vec<Fixed>,
+    pub fixed: Vec<Fixed>,
     /// Arguments, and the slots that they are put into before every run.
-    given: Vec<(Given, u32)>,
+    pub given: Vec<(Given, u32)>,
     /// The slots of the results after a run.
-    outputs: Vec<u32>,
+    pub outputs: Vec<u32>,
     /// How many slots there are.
-    slots: usize,
+    pub slots: usize,
 }
 
 /// A number that does not change from run to run.
@@ -52,10 +53,8 @@ impl Code {
     /// # Errors
     /// The code does not do what the program does, which is a mistake of this crate.
     pub fn new(compiled: &Compiled, program: &Program) -> Result<Self, Inconsistency> {
-        let Allocation { instructions, fixed, given, outputs, slots } =
-            Allocation::new(program, &|operand| role(compiled, operand))?;
-        let code = Self { instructions, fixed, given, outputs, slots };
-        code.check(compiled, program)?;
+        let code = allocate(program, &|operand| role(compiled, operand))?;
+        check(compiled, program, &code)?;
         Ok(code)
     }
 
@@ -85,19 +84,6 @@ impl Code {
                 *place = values[slot as usize];
             }
         }
-    }
-
-    /// How many results there are.
-    pub fn outputs(&self) -> usize {
-        self.outputs.len()
-    }
-
-    /// Follows the slots through a run, and compares what they hold with what the program
-    /// reads: so every result is that of the program, on the same operands.
-    pub fn check(&self, compiled: &Compiled, program: &Program) -> Result<(), Inconsistency> {
-        crate::check::Follower::new(compiled, program, self.slots, &self.fixed, &self.given)
-            .follow(&self.instructions, &self.outputs)
-            .ok_or(Inconsistency { pass: "live code", rule: "slots hold what the program reads" })
     }
 }
 

@@ -80,7 +80,7 @@ impl Live {
     }
 
     fn worst_of(&self, pivots: FunctionId, t: f64, q: &[f64]) -> Option<(usize, f64)> {
-        let mut growths = vec![f64::NAN; self.programs().function(pivots).outputs()];
+        let mut growths = vec![f64::NAN; self.programs().function(pivots).outputs.len()];
         self.call(pivots, &position(t, q), [&mut growths]);
         worst(&growths)
     }

@@ -114,7 +114,7 @@ impl Live {
 
     /// Computes what depends on parameters alone.
     fn prepared(programs: Arc<Programs>, parameters: Vec<f64>) -> Self {
-        let mut hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs()];
+        let mut hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs.len()];
         let bare = Self { programs, parameters, hoisted: Vec::new() };
         bare.call(FunctionId::Hoisted, &Arguments::default(), [&mut hoisted]);
         Self { hoisted, ..bare }
@@ -143,7 +143,7 @@ impl Live {
 
     fn check_conditions(&self) -> Result<(), Error> {
         let code = self.programs.function(FunctionId::Conditions);
-        let mut found = vec![f64::NAN; code.outputs()];
+        let mut found = vec![f64::NAN; code.outputs.len()];
         self.call(FunctionId::Conditions, &Arguments::default(), [&mut found]);
         let number = |at: usize| found.get(at).copied().unwrap_or(f64::NAN);
         for condition in &self.programs.conditions {

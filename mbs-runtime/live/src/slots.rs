@@ -4,61 +4,49 @@ use std::collections::HashMap;
 
 use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operation, Program, SinCos};
 
-use crate::arguments::Given;
-use crate::code::{Fixed, Role};
+use crate::code::{Code, Role};
 use crate::instruction::Instruction;
 
 /// A position behind all instructions: results are read there.
 const END: usize = usize::MAX;
 
-/// A program with a slot for every operand. A slot is taken again when its number has been
-/// read for the last time, so that those in use stay few and near.
-pub struct Allocation {
-    pub instructions: Vec<Instruction>,
-    pub fixed: Vec<Fixed>,
-    pub given: Vec<(Given, u32)>,
-    pub outputs: Vec<u32>,
-    pub slots: usize,
-}
-
-impl Allocation {
-    /// Gives every operand of a program its slot.
-    ///
-    /// # Errors
-    /// The program reads what it does not have.
-    pub fn new(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Self, Inconsistency> {
-        let pairs = SinCos::of(program);
-        let last_reads = last_reads(program, &pairs);
-        let mut allocator = Allocator { places: HashMap::new(), free: Vec::new(), slots: 0, last_reads };
-        let (mut fixed, mut given) = (Vec::new(), Vec::new());
-        let operands = program.instructions.iter().flat_map(|step| [step.a, step.b]);
-        let operands: Vec<Operand> = operands.chain(program.outputs.iter().copied()).collect();
-        // fixed numbers first, which keep their slots
-        for &operand in &operands {
-            if let Role::Fixed(number) = role(operand)
-                && allocator.take_once(operand)?.is_some()
-            {
-                fixed.push(number);
-            }
+/// The code of a program. A slot is taken again when its number has been read for the last
+/// time, so that those in use stay few and near.
+///
+/// # Errors
+/// The program reads what it does not have.
+pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Code, Inconsistency> {
+    let pairs = SinCos::of(program);
+    let last_reads = last_reads(program, &pairs);
+    let mut allocator = Allocator { places: HashMap::new(), free: Vec::new(), slots: 0, last_reads };
+    let (mut fixed, mut given) = (Vec::new(), Vec::new());
+    let operands = program.instructions.iter().flat_map(|step| [step.a, step.b]);
+    let operands: Vec<Operand> = operands.chain(program.outputs.iter().copied()).collect();
+    // fixed numbers first, which keep their slots
+    for &operand in &operands {
+        if let Role::Fixed(number) = role(operand)
+            && allocator.take_once(operand)?.is_some()
+        {
+            fixed.push(number);
         }
-        for &operand in &operands {
-            if let Role::Given(input) = role(operand)
-                && let Some(slot) = allocator.take_once(operand)?
-            {
-                given.push((input, slot));
-            }
-        }
-        let mut instructions = Vec::with_capacity(program.instructions.len());
-        for (at, step) in program.instructions.iter().enumerate() {
-            let partner = pairs.partner(at);
-            if partner.is_none_or(|partner| partner > at) {
-                instructions.push(allocator.instruction(at, step, partner, role)?);
-            }
-        }
-        let outputs = program.outputs.iter().map(|&output| allocator.place(output));
-        let outputs = outputs.collect::<Result<_, _>>()?;
-        Ok(Self { instructions, fixed, given, outputs, slots: allocator.slots as usize })
     }
+    for &operand in &operands {
+        if let Role::Given(argument) = role(operand)
+            && let Some(slot) = allocator.take_once(operand)?
+        {
+            given.push((argument, slot));
+        }
+    }
+    let mut instructions = Vec::with_capacity(program.instructions.len());
+    for (at, step) in program.instructions.iter().enumerate() {
+        let partner = pairs.partner(at);
+        if partner.is_none_or(|partner| partner > at) {
+            instructions.push(allocator.instruction(at, step, partner, role)?);
+        }
+    }
+    let outputs = program.outputs.iter().map(|&output| allocator.place(output));
+    let outputs = outputs.collect::<Result<_, _>>()?;
+    Ok(Code { instructions, fixed, given, outputs, slots: allocator.slots as usize })
 }
 
 /// Where every operand is read for the last time. The later one of a sine and a cosine of

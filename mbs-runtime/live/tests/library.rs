@@ -1,4 +1,5 @@
 //! Every mechanism of the library compiles from its text, which is read and not built.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,4 +54,23 @@ fn one_of_several_is_asked_for_by_its_name() {
     assert_eq!(error.problems()[0].message, "this file declares no mechanism `Pendulums`");
     let error = Text::rust("none.rs", "// mechanism! { }\nfn main() {}").compile().unwrap_err();
     assert_eq!(error.problems()[0].message, "this file has no `mechanism! { … }`");
+}
+
+/// Declarations that use every statement of the language, and what once was too much for
+/// the compiler.
+#[test]
+fn declarations_of_the_corpus() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/corpus");
+    let mut compiled = 0;
+    for entry in fs::read_dir(corpus).unwrap() {
+        let path = entry.unwrap().path();
+        let is_valid = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("valid_"));
+        match Text::declaration("corpus", fs::read_to_string(&path).unwrap()).compile() {
+            Ok(_) => compiled += 1,
+            Err(error) => {
+                assert!(!is_valid && !error.to_string().contains("internal"), "{}:\n{error}", path.display());
+            }
+        }
+    }
+    assert!(compiled > 10, "{compiled}");
 }
