@@ -197,6 +197,7 @@ pub struct Choices {
 }
 
 /// Feedback −2αΦ̇ − β²Φ of the constraint violation.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feedback {
     /// Whether the second stage of a step is given that of the first.
     pub is_held: bool,
@@ -204,6 +205,18 @@ pub struct Feedback {
     pub alpha: f64,
     /// β in 1/s
     pub beta: f64,
+}
+
+impl Feedback {
+    /// What there is to say where it is unstable with steps of `step` seconds.
+    pub fn refusal(&self, step: f64) -> String {
+        let Self { is_held, alpha, beta } = self;
+        let word = if *is_held { "held" } else { "per-stage" };
+        format!(
+            "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \
+             the constraint violation would grow; reduce them or the step"
+        )
+    }
 }
 
 /// What the Rust target takes over from the declaration as it was written there.
