@@ -56,7 +56,6 @@ pub mod hart_inversor;
 pub mod jansen;
 pub mod jansen_walker;
 pub mod klann;
-mod library;
 pub mod metronome;
 pub mod n_four_bar;
 pub mod n_pendulum;
@@ -90,7 +89,6 @@ pub use hart_inversor::{HartInversor, HartInversorParameters};
 pub use jansen::{Jansen, JansenInputs, JansenParameters};
 pub use jansen_walker::{JansenWalker, JansenWalkerParameters};
 pub use klann::{Klann, KlannInputs, KlannParameters};
-pub use library::library;
 pub use metronome::{Metronome, MetronomeParameters};
 pub use n_four_bar::{
     NFourBar1, NFourBar1Parameters, NFourBar2, NFourBar2Parameters, NFourBar10, NFourBar10Parameters,

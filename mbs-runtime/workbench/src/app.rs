@@ -7,8 +7,13 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Command};
 use mbs_runtime::Mechanism;
 
+#[cfg(feature = "live")]
+use crate::Settings;
+#[cfg(feature = "live")]
+use crate::command::{check, watch};
 use crate::command::{completions, explain, list, new, simulate, sweep};
 use crate::console::complain;
+use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
 
 /// What a command has to say about results that it gave nevertheless.
@@ -50,33 +55,6 @@ pub struct App {
     default_command: Option<&'static str>,
 }
 
-/// Mechanisms with the names under which commands know them.
-#[derive(Default)]
-pub struct Models(Vec<(String, Box<dyn Model>)>);
-
-impl Models {
-    /// The mechanism called `name`.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`].
-    pub fn get(&self, name: &str) -> Result<&dyn Model, Error> {
-        match self.0.iter().find(|(known, _)| known == name) {
-            Some((_, model)) => Ok(model.as_ref()),
-            None => Err(Error::unknown("mechanism", name, self.names())),
-        }
-    }
-
-    /// Names and mechanisms, in order.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &dyn Model)> {
-        self.0.iter().map(|(name, model)| (name.as_str(), model.as_ref()))
-    }
-
-    /// The names, in order.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|(name, _)| name.as_str())
-    }
-}
-
 /// An empty command line; add mechanisms to it.
 pub fn app() -> App {
     App::default()
@@ -92,7 +70,16 @@ impl App {
     /// Adds a mechanism whose type no longer matters under a name.
     #[must_use]
     pub fn model(mut self, name: &str, model: Box<dyn Model>) -> Self {
-        self.models.0.push((name.to_owned(), model));
+        self.models.push(name, model);
+        self
+    }
+
+    /// Adds a mechanism whose declaration is a text, which is compiled when it is asked
+    /// for, and whose runs have these defaults. What is wrong with it is told then.
+    #[cfg(feature = "live")]
+    #[must_use]
+    pub fn text(mut self, name: &str, text: mbs_live::Text, defaults: Settings) -> Self {
+        self.models.push_text(name, crate::live::Text::new(text, defaults));
         self
     }
 
@@ -144,7 +131,12 @@ impl App {
             // Who reads no further wants to hear no more.
             Err(Error::Standard(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::from(NO_READER),
             Err(error) => {
-                complain(format_args!("error: {error}"));
+                match &error {
+                    // it is shown with its source, and says itself what it is
+                    #[cfg(feature = "live")]
+                    Error::Declaration(error) => complain(crate::live::shown(error)),
+                    error => complain(format_args!("error: {error}")),
+                }
                 match error {
                     Error::Interrupted { .. } => ExitCode::from(interrupt::EXIT_CODE),
                     _ => ExitCode::FAILURE,
@@ -158,9 +150,10 @@ impl App {
             Some(name) => format!("Compiled mechanisms at a desk. Without a command: {name}."),
             None => "Compiled mechanisms at a desk. Without a command: simulates the first.".into(),
         };
-        Command::new("mbs")
-            .about(about)
-            .version(env!("CARGO_PKG_VERSION"))
+        let parser = Command::new("mbs").about(about).version(env!("CARGO_PKG_VERSION"));
+        #[cfg(feature = "live")]
+        let parser = parser.subcommand(check::command()).subcommand(watch::command());
+        parser
             .subcommand(list::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
@@ -177,6 +170,10 @@ impl App {
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),
+            #[cfg(feature = "live")]
+            Some(("check", matches)) => check::run(matches).map(silent),
+            #[cfg(feature = "live")]
+            Some(("watch", matches)) => watch::run(matches).map(silent),
             Some(("new", matches)) => new::run(matches).map(silent),
             Some(("completions", matches)) => {
                 completions::run(&self.models, self.parser(), matches).map(silent)
@@ -206,8 +203,9 @@ impl App {
             let matches = parser.get_matches_from([name]);
             return self.added(name, &matches).map(|()| Warnings::new());
         }
-        match self.models.iter().next() {
-            Some((name, model)) => simulate::by_default(name, model),
+        let first = self.models.names().next();
+        match first {
+            Some(name) => simulate::by_default(name, self.models.get(name)?),
             None => list::run(&self.models, false).map(|()| Warnings::new()),
         }
     }

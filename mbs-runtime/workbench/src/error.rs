@@ -49,6 +49,28 @@ pub enum Error {
     /// What the mechanism or the integrator said.
     #[error("{0}")]
     Mechanism(#[from] mbs_runtime::Error),
+    /// What is wrong with a declaration.
+    #[cfg(feature = "live")]
+    #[error("{0}")]
+    Declaration(#[from] mbs_live::Error),
+    /// Declarations that were checked and have errors, which were shown.
+    #[cfg(feature = "live")]
+    #[error("{refused} of {of} declarations cannot be compiled")]
+    Refused {
+        /// How many have errors.
+        refused: usize,
+        /// How many were checked.
+        of: usize,
+    },
+    /// A page that cannot be served.
+    #[cfg(feature = "live")]
+    #[error("cannot serve a page on port {port} of this machine: {source}; --port 0 takes a free one")]
+    Serve {
+        /// The port that was asked for.
+        port: u16,
+        /// What the system says.
+        source: std::io::Error,
+    },
     /// A run that ended early; what it had computed was kept.
     #[error("the run ended early: {cause}{kept}")]
     EndedEarly {

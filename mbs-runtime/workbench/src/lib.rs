@@ -45,8 +45,11 @@ mod error;
 pub mod figure;
 mod files;
 mod interrupt;
+#[cfg(feature = "live")]
+mod live;
 pub mod members;
 pub mod model;
+mod models;
 mod names;
 pub mod number;
 pub mod picture;
@@ -60,12 +63,15 @@ pub mod sweep;
 mod table;
 mod template;
 mod unit;
+#[cfg(feature = "live")]
+mod watch;
 
-pub use app::{App, Models, app};
+pub use app::{App, app};
 pub use console::say;
 pub use doubt::Doubt;
 pub use error::Error;
 pub use model::Model;
+pub use models::Models;
 pub use picture::{Motion, Picture};
 pub use recording::{Column, Recording, Summary, write_csv};
 pub use run::StartValue;

@@ -147,8 +147,8 @@ fn interrupted(finished: usize, of: usize) -> Error {
     Error::Interrupted { finished, of, kept: String::new() }
 }
 
-/// `None` if it was cancelled.
-fn extents(
+/// Follows a run to its end; `None` if it was cancelled.
+pub(crate) fn extents(
     mut run: Box<dyn System>,
     info: &Info,
     player: Option<&Player<'_>>,
@@ -168,12 +168,7 @@ fn extents(
         now.see(&*run);
         now.solve(&*run)?;
         now.measure(&*run)?;
-        let seen = now.q.iter().chain(&now.outputs);
-        if taken == 0 {
-            extents.extend(seen.map(|&x| Extent { low: x, high: x, last: x }));
-        } else {
-            extents.iter_mut().zip(seen).for_each(|(extent, &x)| extent.see(x));
-        }
+        Extent::see_all(&mut extents, now.q.iter().chain(&now.outputs).copied());
         if taken < steps {
             run.step()?;
         }
@@ -182,6 +177,15 @@ fn extents(
 }
 
 impl Extent {
+    /// Takes what each quantity is now; the first time there are none yet.
+    pub(crate) fn see_all(extents: &mut Vec<Self>, now: impl Iterator<Item = f64>) {
+        if extents.is_empty() {
+            extents.extend(now.map(|x| Self { low: x, high: x, last: x }));
+        } else {
+            extents.iter_mut().zip(now).for_each(|(extent, x)| extent.see(x));
+        }
+    }
+
     fn see(&mut self, x: f64) {
         // NaN stays.
         if x < self.low || x.is_nan() {

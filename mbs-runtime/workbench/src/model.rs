@@ -59,6 +59,16 @@ pub fn in_lanes<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> 
     Box::new(Typed { defaults, lanes, mechanism: PhantomData::<M> })
 }
 
+/// The mechanism that a text declares as a [`Model`] with these defaults: compiled in
+/// milliseconds, and slower to run than one whose type the compiler knew.
+///
+/// # Errors
+/// [`Declaration`](crate::Error::Declaration).
+#[cfg(feature = "live")]
+pub fn from_text(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
+    crate::live::compiled(text, defaults)
+}
+
 struct Typed<M> {
     defaults: Settings,
     lanes: Option<Box<dyn InLanes>>,

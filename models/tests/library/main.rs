@@ -9,6 +9,7 @@ mod drift;
 mod dual;
 mod model;
 mod random;
+mod texts;
 
 use mbs_runtime::{Components, Mechanism, State};
 use models::{
@@ -50,6 +51,10 @@ macro_rules! library {
         $(model!($Name);)*
 
         const NAMES: &[&str] = &[$(stringify!($Name)),*];
+
+        fn texts() {
+            $(texts::same::<$Name>(stringify!($Name));)*
+        }
 
         fn reactions() {
             $(balance::reactions(&case::<$Name>(stringify!($Name), $step, $end, &$without, $power));)*
@@ -152,13 +157,20 @@ fn drift_falls_with_the_step() {
 /// A mechanism that is added to the library has to be added to the command, and here.
 #[test]
 fn no_mechanism_is_left_out() {
-    let library = models::library();
-    let known: Vec<_> = library.iter().map(|(_, model)| model.info().name).collect();
+    let known: Vec<_> = mbs::library().iter().map(|entry| entry.mechanism).collect();
     assert_eq!(NAMES, known, "rows here, then the library of the command");
     let sources = include_str!("../../src/lib.rs");
     for file in sources.lines().filter_map(|line| line.strip_prefix("pub mod ")) {
         let file = file.trim_end_matches(';').replace('_', "-");
-        let is_known = library.iter().any(|(name, _)| *name == file || *name == format!("{file}-1"));
+        let is_known =
+            mbs::library().iter().any(|entry| entry.name == file || entry.name == format!("{file}-1"));
         assert!(is_known, "the command does not know `{file}`");
     }
+}
+
+/// Compiled by rustc or run from its text, a mechanism does the same to the last bit, and
+/// says the same of itself.
+#[test]
+fn a_text_is_its_type() {
+    texts();
 }

@@ -4,7 +4,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgMatches, Command, value_parser};
 use clap_complete::Shell;
 
-use crate::app::Models;
+use crate::models::Models;
 use crate::{Error, say};
 
 pub(crate) fn command() -> Command {

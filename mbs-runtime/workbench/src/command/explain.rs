@@ -7,7 +7,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use mbs_runtime::{Derivation, Formula, Info};
 
 use crate::StartValue;
-use crate::app::Models;
+use crate::models::Models;
 use crate::number::significant;
 use crate::{Error, Table, say};
 
@@ -25,7 +25,8 @@ pub(crate) fn command() -> Command {
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let name = matches.get_one::<String>("mechanism").map_or("", String::as_str);
-    let model = models.get(name)?;
+    let found = models.find(name)?;
+    let model = found.model();
     let (info, derivation) = (model.info(), model.derivation());
     let text = if matches.get_flag("latex") {
         latex(info, derivation)

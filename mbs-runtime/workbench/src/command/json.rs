@@ -4,8 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::options;
 use super::simulate::Request;
-use crate::app::Models;
-use crate::{Recording, Settings, Unit};
+use crate::{Model, Recording, Settings, Unit};
 
 /// A number; what is not finite, for which JSON has no number, as text.
 pub(super) fn number(x: f64) -> Value {
@@ -44,7 +43,7 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
 }
 
 /// The mechanisms and what can be set on them.
-pub(super) fn list(models: &Models) -> Value {
+pub(super) fn list(models: &[(&str, &dyn Model)]) -> Value {
     let quantity = |q: &mbs_runtime::Quantity| {
         let unit = Unit::of(q);
         json!({ "name": q.name, "doc": q.doc, "unit": unit.name(), "value": number(unit.shown(q.default)) })
@@ -52,7 +51,7 @@ pub(super) fn list(models: &Models) -> Value {
     let output =
         |q: &mbs_runtime::Quantity| json!({ "name": q.name, "doc": q.doc, "unit": Unit::of(q).name() });
     let coordinate = |q: &mbs_runtime::Quantity| json!({ "name": q.name, "doc": q.doc, "unit": Unit::of_coordinate(q).name() });
-    let model = |(name, model): (&str, &dyn crate::Model)| {
+    let model = |(name, model): &(&str, &dyn Model)| {
         let info = model.info();
         json!({
             "name": name, "doc": info.doc, "dof": info.dof,

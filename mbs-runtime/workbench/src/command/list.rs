@@ -1,8 +1,8 @@
 //! `mbs list`: the mechanisms and what can be set on them.
 
 use super::json;
-use crate::app::Models;
-use crate::{Error, Table, Unit, say};
+use crate::models::Models;
+use crate::{Error, Model, Table, Unit, say};
 use clap::{Arg, ArgAction, Command};
 
 pub(crate) fn command() -> Command {
@@ -12,15 +12,16 @@ pub(crate) fn command() -> Command {
 }
 
 pub(crate) fn run(models: &Models, as_json: bool) -> Result<(), Error> {
-    if as_json { say(json::list(models)) } else { say(text(models).trim_end()) }
+    let models = models.all()?;
+    if as_json { say(json::list(&models)) } else { say(text(&models).trim_end()) }
 }
 
-fn text(models: &Models) -> String {
+fn text(models: &[(&str, &dyn Model)]) -> String {
     let mut table = Table::new(["mechanism", "dof", "", "name", "value", "what it is"]);
-    for (name, model) in models.iter() {
+    for (name, model) in models {
         let info = model.info();
         let summary = info.doc.lines().map(str::trim).find(|line| !line.is_empty()).unwrap_or("");
-        table.row([name, &info.dof.to_string(), "", "", "", summary]);
+        table.row([*name, &info.dof.to_string(), "", "", "", summary]);
         let kinds = [("parameter", info.parameters), ("input", info.inputs), ("output", info.outputs)];
         for (kind, quantities) in kinds {
             for quantity in quantities {
@@ -32,7 +33,7 @@ fn text(models: &Models) -> String {
             }
         }
     }
-    if models.iter().next().is_none() {
+    if models.is_empty() {
         return "there are no mechanisms; add one to the App with .mechanism::<M>(\"name\")\n".into();
     }
     table.to_string()

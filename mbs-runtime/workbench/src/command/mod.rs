@@ -1,5 +1,7 @@
 //! The commands that every [`App`](crate::App) has, one a file.
 
+#[cfg(feature = "live")]
+pub(crate) mod check;
 mod compare;
 pub(crate) mod completions;
 mod curves;
@@ -11,3 +13,5 @@ mod options;
 mod page;
 pub(crate) mod simulate;
 pub(crate) mod sweep;
+#[cfg(feature = "live")]
+pub(crate) mod watch;

@@ -1,5 +1,7 @@
 //! `mbs new`: a crate for a mechanism of one's own, ready to run.
 
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
@@ -13,21 +15,38 @@ const FILES: [(&str, &str); 6] = [
     ("README.md", include_str!("../../template/README.md.in")),
     (".gitignore", include_str!("../../template/gitignore.in")),
     ("src/main.rs", include_str!("../../template/main.rs.in")),
-    ("src/lib.rs", include_str!("../../template/lib.rs.in")),
+    ("src/lib.rs", LIBRARY),
     ("tests/motion.rs", include_str!("../../template/motion.rs.in")),
 ];
 
+/// The mechanism of a new crate.
+const LIBRARY: &str = include_str!("../../template/lib.rs.in");
+
 pub(crate) fn command() -> Command {
-    Command::new("new").about("Write a crate for a mechanism of your own, ready to run").arg(
-        Arg::new("path")
-            .value_name("NAME")
-            .required(true)
-            .value_parser(value_parser!(PathBuf))
-            .help("The folder to make; its last part is the crate's name"),
-    )
+    let path = |name: &'static str| Arg::new(name).value_parser(value_parser!(PathBuf));
+    Command::new("new")
+        .about("Write a crate for a mechanism of your own, or a declaration, ready to run")
+        .arg(
+            path("path")
+                .value_name("NAME")
+                .required_unless_present("file")
+                .help("The folder to make; its last part is the crate's name"),
+        )
+        .arg(
+            path("file")
+                .long("file")
+                .value_name("FILE.mbs")
+                .conflicts_with("path")
+                .help("Write a declaration by itself to this file instead, for check, watch and simulate"),
+        )
 }
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    if let Some(path) = matches.get_one::<PathBuf>("file") {
+        write_declaration(path)?;
+        say(format_args!("written: {}", path.display()))?;
+        return say(format_args!("next:    mbs watch {}", path.display()));
+    }
     let path = matches.get_one::<PathBuf>("path").cloned().unwrap_or_default();
     let name = crate_name(&path)?;
     write(&path, &name)?;
@@ -86,20 +105,38 @@ fn crate_name(path: &Path) -> Result<String, Error> {
 fn write(folder: &Path, name: &str) -> Result<(), Error> {
     // Never write into a folder that somebody has already.
     if let Some(parent) = folder.parent().filter(|p| !p.as_os_str().is_empty()) {
-        std::fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
+        fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
     }
-    std::fs::create_dir(folder).map_err(Error::file("create", folder))?;
+    fs::create_dir(folder).map_err(Error::file("create", folder))?;
     for (path, template) in FILES {
         let path = folder.join(path);
         if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
+            fs::create_dir_all(parent).map_err(Error::file("create", parent))?;
         }
         let module = name.replace('-', "_");
         let (runtime, workbench) = (dependency(".."), dependency("."));
         let parts = [("NAME", name), ("MODULE", &module), ("RUNTIME", &runtime), ("WORKBENCH", &workbench)];
-        std::fs::write(&path, filled(template, &parts)).map_err(Error::file("write", &path))?;
+        fs::write(&path, filled(template, &parts)).map_err(Error::file("write", &path))?;
     }
     Ok(())
+}
+
+/// Writes a declaration by itself, never over a file that somebody has already.
+fn write_declaration(path: &Path) -> Result<(), Error> {
+    if path.extension().is_none_or(|ending| ending != "mbs") {
+        let reason = "a file with a declaration ends in .mbs".into();
+        return Err(Error::Name { name: path.display().to_string(), reason });
+    }
+    let file = fs::OpenOptions::new().write(true).create_new(true).open(path);
+    let written = file.and_then(|mut file| file.write_all(declaration().as_bytes()));
+    written.map_err(Error::file("create", path))
+}
+
+/// What stands between the braces of `mechanism!` in the new crate.
+fn declaration() -> String {
+    let lines = LIBRARY.lines().skip_while(|line| *line != "mechanism! {").skip(1);
+    let lines = lines.take_while(|line| *line != "}");
+    lines.map(|line| line.strip_prefix("    ").unwrap_or(line).to_owned() + "\n").collect()
 }
 
 /// Where the new crate finds ours: in the checkout that this program was built
@@ -149,13 +186,27 @@ mod tests {
         let path = folder.path().join("my-rocker");
         write(&path, &crate_name(&path).unwrap()).unwrap();
         for (file, _) in FILES {
-            let text = std::fs::read_to_string(path.join(file)).unwrap();
+            let text = fs::read_to_string(path.join(file)).unwrap();
             assert!(!text.contains("@"), "{file} has an unfilled place");
         }
-        let main = std::fs::read_to_string(path.join("src/main.rs")).unwrap();
+        let main = fs::read_to_string(path.join("src/main.rs")).unwrap();
         assert!(main.contains("my_rocker::"));
         let again = write(&path, "my-rocker").unwrap_err().to_string();
         assert!(again.contains("cannot create") && again.contains("exists"), "{again}");
+    }
+
+    /// It is the text of the crate's mechanism, and not written over another one.
+    #[cfg(feature = "live")]
+    #[test]
+    fn a_declaration_is_written_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("my.mbs");
+        write_declaration(&path).unwrap();
+        let stepper = crate::live::read(&path, None).unwrap();
+        assert_eq!(stepper.info(), model::of::<template::Stepper>().info());
+        let again = write_declaration(&path).unwrap_err().to_string();
+        assert!(again.contains("cannot create") && again.contains("exists"), "{again}");
+        assert!(write_declaration(Path::new("my.txt")).unwrap_err().to_string().contains("ends in .mbs"));
     }
 
     #[test]

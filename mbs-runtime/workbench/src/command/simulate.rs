@@ -9,8 +9,9 @@ use super::compare::{self, Comparison};
 use super::curves::{Choice, curves};
 use super::options::{self, option, settings};
 use super::{json, page};
-use crate::app::{Models, Warnings};
+use crate::app::Warnings;
 use crate::figure::Figure;
+use crate::models::Models;
 use crate::{Error, Model, Picture, Recording, Settings, say, write_csv};
 
 pub(crate) fn command() -> Command {
@@ -56,7 +57,8 @@ A run whose numbers are in doubt is written as any other, with a warning and exi
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
     let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
     let name = text("model").unwrap_or_default();
-    let model = models.get(name)?;
+    let found = models.find(name)?;
+    let (name, model) = (found.name(), found.model());
     let settings = settings(model, matches)?;
     let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
     let request = Request {

@@ -14,9 +14,10 @@ use serde_json::json;
 use self::axis::{Grid, GridAxis};
 use self::rows::Rows;
 use super::options::{self, option, settings};
-use crate::app::{Models, Warnings};
+use crate::app::Warnings;
 use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
 use crate::members::{Extent, Member, Members, quantities};
+use crate::models::Models;
 use crate::number::significant;
 use crate::sweep::Progress;
 use crate::{Error, Model, Settings, Table, Unit, interrupt, say, unit};
@@ -129,7 +130,8 @@ impl fmt::Display for Failure {
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
     let text = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
     let name = text("model");
-    let model = models.get(name)?;
+    let found = models.find(name)?;
+    let (name, model) = (found.name(), found.model());
     let settings = settings(model, matches)?;
     let axes = matches.get_many::<String>("param").unwrap_or_default();
     let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;

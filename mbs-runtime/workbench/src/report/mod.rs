@@ -173,7 +173,7 @@ fn html_table(table: &Table) -> String {
 }
 
 /// Text as it has to be written in HTML, between tags and in attributes.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let letter = |c: char| match c {
         '&' => "&amp;".into(),
         '<' => "&lt;".into(),

@@ -164,4 +164,10 @@
     const plot = plots[Number(element.dataset.plot)];
     (plot.kind === "animation" ? animation : lines)(element, plot);
   }
+
+  // In a page that follows a file, the next report begins where this one was left.
+  if (parent !== window) {
+    addEventListener("message", (event) => Number.isFinite(event.data) && scrollTo(0, event.data));
+    addEventListener("scroll", () => parent.postMessage(scrollY, "*"), { passive: true });
+  }
 })();

@@ -1,13 +1,13 @@
 //! The `mbs` command: mechanisms at a desk, and the paper reproduced.
 
-mod drift;
-mod paper;
-
 use std::process::ExitCode;
 
+use mbs::{drift, library, paper};
+
 fn main() -> ExitCode {
-    let app =
-        models::library().into_iter().fold(mbs_workbench::app(), |app, (name, model)| app.model(name, model));
+    let app = library()
+        .iter()
+        .fold(mbs_workbench::app(), |app, entry| app.text(entry.name, entry.text(), entry.defaults()));
     app.command(paper::command(), paper::run)
         .command(drift::command(), drift::run)
         .default_command("paper")

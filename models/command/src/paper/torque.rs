@@ -27,7 +27,7 @@
 //! differentiation of x2 = l1 cos θ + ½ l2 cos θ2 and x3 = l1 cos θ + l2 cos θ2.
 //! Gravity acts along −y on both rods: V = ½ g l1 (m1 + m2) sin θ.
 
-use models::SliderCrankParameters;
+use crate::SliderCrankParameters;
 
 /// Standard gravity as the paper has it, in m/s².
 const GRAVITY: f64 = 9.81;

@@ -2,9 +2,9 @@
 
 use clap::{ArgMatches, Command};
 use mbs_workbench::number::significant;
-use mbs_workbench::{Settings, Summary, Table, say};
+use mbs_workbench::{Settings, Summary, Table, model, say};
 
-use models::library;
+use crate::library;
 
 /// Steps of a run; twice as many with half the step.
 const STEPS: f64 = 20_000.0;
@@ -23,7 +23,8 @@ pub fn run(_: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync
     let headings =
         ["mechanism", "dof", "h", "end", "max ‖Φ‖", "with h/2", "max ‖dΦ/dt‖", "with h/2", "ΔE", "with h/2"];
     let mut table = Table::new(headings);
-    for (name, model) in library() {
+    for entry in library() {
+        let model = model::from_text(&entry.text(), entry.defaults())?;
         let step = model.defaults().step;
         let end = STEPS * step;
         let summary = |step: f64| -> Result<Summary, mbs_workbench::Error> {
@@ -39,7 +40,7 @@ pub fn run(_: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync
             _ => digits(summary.energy_end - summary.energy_start),
         };
         table.row([
-            name.to_owned(),
+            entry.name.to_owned(),
             model.info().dof.to_string(),
             format!("{} s", digits(step)),
             format!("{} s", digits(end)),

@@ -1,9 +1,9 @@
 //! The runs of the paper: what they are made with, and what is recorded.
 
+use crate::{SliderCrank, SliderCrankParameters};
 use mbs_ensemble::Violation;
 use mbs_runtime::{Baumgarte, Components, Error, Feedback, Simulation};
 use mbs_workbench::sweep;
-use models::{SliderCrank, SliderCrankParameters};
 
 /// The paper's step, 0.5 ms.
 pub const STEP: f64 = 0.5e-3;

@@ -1,0 +1,82 @@
+//! `mbs check`: what is wrong with declarations.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use mbs_live::{Live, Location, Problem, Text};
+use serde_json::{Value, json};
+
+use crate::console::complain;
+use crate::number::significant;
+use crate::{Error, live, say};
+
+pub(crate) fn command() -> Command {
+    let file = Arg::new("file").value_name("FILE").required(true).num_args(1..);
+    Command::new("check")
+        .about("Check the declarations in files, and show all of their errors")
+        .after_help(EXAMPLES)
+        .arg(
+            file.value_parser(value_parser!(PathBuf))
+                .help("A declaration (.mbs), or a Rust file with one `mechanism! { … }`"),
+        )
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print what was found as JSON"))
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  mbs check my.mbs
+  mbs check --json my.mbs    # messages with their places, for editors";
+
+pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    let files: Vec<&PathBuf> = matches.get_many("file").unwrap_or_default().collect();
+    let is_json = matches.get_flag("json");
+    let (mut found, mut refused) = (Vec::new(), 0);
+    for file in &files {
+        let start = Instant::now();
+        let result = Text::read(file).map_err(Error::file("read", *file))?.compile();
+        let name = file.display().to_string();
+        refused += usize::from(result.is_err());
+        match result {
+            result if is_json => found.push(as_json(&name, &result)),
+            Ok(live) => say(summary(&name, &live, start.elapsed().as_secs_f64()))?,
+            Err(error) => complain(live::shown(&error)),
+        }
+    }
+    if is_json {
+        say(Value::Array(found))?;
+    }
+    if refused == 0 { Ok(()) } else { Err(Error::Refused { refused, of: files.len() }) }
+}
+
+/// What a declaration comes to, in a line.
+fn summary(file: &str, live: &Live, seconds: f64) -> String {
+    let info = live.declared_info();
+    let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+    format!(
+        "{file}: {}, {}, {}, {} of freedom; checked in {} ms",
+        info.name,
+        counted(info.coordinates.len(), "coordinate"),
+        counted(info.constraints.len(), "constraint"),
+        counted(usize::try_from(info.dof).unwrap_or(0), "degree"),
+        significant(1e3 * seconds, 2)
+    )
+}
+
+fn as_json(file: &str, result: &Result<Live, mbs_live::Error>) -> Value {
+    let place = |location: &Option<Location>| {
+        location
+            .as_ref()
+            .map(|place| json!({ "line": place.line, "column": place.column, "length": place.length }))
+    };
+    let problem = |problem: &Problem| {
+        let notes = problem.notes.iter();
+        let notes = notes.map(|note| json!({ "message": note.message, "place": place(&note.location) }));
+        json!({
+            "message": problem.message, "place": place(&problem.location), "help": problem.help,
+            "notes": notes.collect::<Vec<_>>(),
+        })
+    };
+    let problems = result.as_ref().err().map_or(&[][..], mbs_live::Error::problems);
+    json!({ "file": file, "problems": problems.iter().map(problem).collect::<Vec<_>>() })
+}

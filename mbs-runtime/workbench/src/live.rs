@@ -1,0 +1,217 @@
+//! Mechanisms from texts as models: compiled in milliseconds, and run at once.
+
+use std::io::IsTerminal;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use mbs_ensemble::Cancelled;
+use mbs_live::{LANES, Live, Pack, Run};
+use mbs_runtime::{Baumgarte, Derivation, Error, Feedback, Held, Info, PerStage, Sketch, System};
+use rayon::prelude::*;
+
+use crate::Model;
+use crate::members::lanes::{Batch, InLanes};
+use crate::members::{Extent, Member, extents};
+use crate::settings::{FeedbackKind, Settings, Start, StartKind};
+
+/// A file may come from a stranger: compiling it ends after this time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A declaration that is compiled when it is asked for.
+pub(crate) struct Text {
+    text: mbs_live::Text,
+    defaults: Settings,
+    compiled: OnceLock<Box<dyn Model>>,
+}
+
+impl Text {
+    /// A declaration whose runs have these defaults.
+    pub fn new(text: mbs_live::Text, defaults: Settings) -> Self {
+        Self { text, defaults, compiled: OnceLock::new() }
+    }
+
+    /// The mechanism.
+    ///
+    /// # Errors
+    /// Those of the declaration.
+    pub fn model(&self) -> Result<&dyn Model, crate::Error> {
+        if let Some(model) = self.compiled.get() {
+            return Ok(model.as_ref());
+        }
+        let model = compiled(&self.text, self.defaults.clone())?;
+        Ok(self.compiled.get_or_init(|| model).as_ref())
+    }
+}
+
+/// The mechanism of a text.
+///
+/// # Errors
+/// Those of the declaration.
+pub(crate) fn compiled(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
+    Ok(Box::new(FromText { live: text.compile()?, defaults }))
+}
+
+/// The mechanism that a file declares; `name` chooses among several in a Rust file.
+///
+/// # Errors
+/// A file that cannot be read, and what is wrong with the declaration.
+pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, crate::Error> {
+    let text = mbs_live::Text::read(path).map_err(crate::Error::file("read", path))?.within(PATIENCE);
+    let text = match name {
+        Some(name) => text.named(name),
+        None => text,
+    };
+    let live = text.compile()?;
+    let defaults = Settings::default();
+    let step = live.declared_step().unwrap_or(defaults.step);
+    Ok(Box::new(FromText { live, defaults: Settings { step, ..defaults } }))
+}
+
+/// An error with its source, in colours on a terminal.
+pub(crate) fn shown(error: &mbs_live::Error) -> String {
+    let has_colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let text = if has_colours { error.colored().to_string() } else { error.to_string() };
+    text.trim_end().to_owned()
+}
+
+struct FromText {
+    live: Live,
+    defaults: Settings,
+}
+
+impl Model for FromText {
+    fn info(&self) -> &'static Info {
+        self.live.declared_info()
+    }
+
+    fn derivation(&self) -> &'static Derivation {
+        self.live.derivation()
+    }
+
+    fn sketch(&self) -> &'static Sketch {
+        self.live.sketch()
+    }
+
+    fn defaults(&self) -> Settings {
+        self.defaults.clone()
+    }
+
+    fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
+        let live = self.with(start)?;
+        Ok(Box::new(match start.feedback {
+            FeedbackKind::Held => run::<Held>(&live, start)?,
+            FeedbackKind::PerStage => run::<PerStage>(&live, start)?,
+        }))
+    }
+
+    fn in_lanes(&self) -> Option<&dyn InLanes> {
+        // redundant constraints are judged run by run
+        self.live.declared_info().redundant.is_empty().then_some(self as &dyn InLanes)
+    }
+}
+
+impl InLanes for FromText {
+    fn width(&self) -> usize {
+        LANES
+    }
+
+    fn run(&self, batch: &Batch<'_>, take: &mut dyn FnMut(usize, Member)) -> Result<(), Cancelled> {
+        let packs: Vec<usize> = batch.members.clone().step_by(LANES).collect();
+        let done = AtomicUsize::new(0);
+        let pack = |first: usize| {
+            let members = first..batch.members.end.min(first + LANES);
+            let outcome = self.together(members.clone(), batch);
+            if outcome.is_some() {
+                (batch.progress)(members.len() + done.fetch_add(members.len(), Ordering::Relaxed));
+            }
+            (first, outcome)
+        };
+        let packs: Vec<_> = packs.into_par_iter().map(pack).collect();
+        let mut finished = 0;
+        for (first, outcome) in packs {
+            for (at, member) in outcome.into_iter().flatten().enumerate() {
+                take(first + at, member);
+                finished += 1;
+            }
+        }
+        if finished == batch.members.len() { Ok(()) } else { Err(Cancelled { finished }) }
+    }
+}
+
+impl FromText {
+    /// Runs some members together; nothing if they were cancelled.
+    fn together(&self, members: Range<usize>, batch: &Batch<'_>) -> Option<Vec<Member>> {
+        let begin = |index: usize| {
+            let start = (batch.start)(index);
+            let run = run::<Held>(&self.with(&start)?, &start)?;
+            let steps = run.steps_to(batch.end)?;
+            Ok((run, steps))
+        };
+        let mut outcomes: Vec<Member> = Vec::new();
+        let (mut places, mut runs, mut ends) = (Vec::new(), Vec::new(), Vec::new());
+        for (place, begun) in members.map(begin).enumerate() {
+            outcomes.push(begun.map(|(run, steps)| {
+                places.push(place);
+                runs.push(run);
+                ends.push(steps);
+                Vec::new()
+            }));
+        }
+        let Some(last) = ends.iter().copied().max() else { return Some(outcomes) };
+        let info = self.live.declared_info();
+        let mut pack = match Pack::new(runs) {
+            Ok(pack) => pack,
+            Err(runs) => {
+                for (place, run) in places.into_iter().zip(runs) {
+                    let alone = extents(Box::new(run), info, None, batch.end, batch.cancel);
+                    outcomes[place] = alone.transpose()?;
+                }
+                return Some(outcomes);
+            }
+        };
+        let mut rows = vec![[f64::NAN; LANES]; info.coordinates.len() + info.outputs.len()];
+        for taken in 0..=last {
+            if taken.is_multiple_of(64) && batch.cancel.load(Ordering::Relaxed) {
+                return None;
+            }
+            for (lane, error) in pack.observe(&mut rows) {
+                outcomes[places[lane]] = Err(error);
+            }
+            for (lane, (&place, &end)) in places.iter().zip(&ends).enumerate() {
+                if let (true, true, Ok(extents)) = (pack.goes_on(lane), taken <= end, &mut outcomes[place]) {
+                    Extent::see_all(extents, rows.iter().map(|row| row[lane]));
+                }
+            }
+            if taken < last {
+                for (lane, error) in pack.step() {
+                    if taken < ends[lane] {
+                        outcomes[places[lane]] = Err(error);
+                    }
+                }
+            }
+        }
+        Some(outcomes)
+    }
+
+    /// The mechanism with the parameters of a start.
+    fn with(&self, start: &Start) -> Result<Live, Error> {
+        self.live.with_parameters(|parameters| {
+            parameters.iter_mut().zip(&start.parameters).for_each(|(parameter, value)| *parameter = *value);
+        })
+    }
+}
+
+fn run<F: Feedback>(live: &Live, start: &Start) -> Result<Run, Error> {
+    let gains = Baumgarte::<F>::new(start.alpha, start.beta)?;
+    let mut builder = Run::builder(live, start.step).baumgarte(gains).inputs(&start.inputs);
+    if start.kind == StartKind::Declared {
+        builder = builder.as_declared();
+    }
+    if start.allow_unstable {
+        builder = builder.allow_unstable();
+    }
+    builder.build()
+}

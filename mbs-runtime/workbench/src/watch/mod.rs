@@ -1,0 +1,143 @@
+//! A page that follows a file: every save shows what became of it.
+
+mod server;
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use std::{fs, thread};
+
+pub(crate) use server::Server;
+
+/// How often the file is looked at.
+const GRAIN: Duration = Duration::from_millis(50);
+
+/// What is made of the file: a page, or what is wrong with it.
+pub(crate) type Outcome = Result<String, String>;
+
+/// What became of the file so far.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Shown {
+    /// Counts the outcomes.
+    pub version: u64,
+    /// The last page that there was, and its version.
+    pub page: Option<(u64, String)>,
+    /// What is wrong with the file now.
+    pub error: Option<String>,
+}
+
+/// What became of the file, for those who wait for news of it.
+#[derive(Debug, Default)]
+pub(crate) struct News {
+    shown: Mutex<Shown>,
+    changed: Condvar,
+}
+
+impl News {
+    /// The next outcome. A page outlives the errors after it.
+    pub fn tell(&self, outcome: Outcome) {
+        let mut shown = self.now();
+        shown.version += 1;
+        match outcome {
+            Ok(page) => (shown.page, shown.error) = (Some((shown.version, page)), None),
+            Err(error) => shown.error = Some(error),
+        }
+        drop(shown);
+        self.changed.notify_all();
+    }
+
+    /// What became of the file.
+    pub fn now(&self) -> MutexGuard<'_, Shown> {
+        // whoever panicked left a whole value
+        self.shown.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The same as soon as it is newer than `version`, or after this time.
+    pub fn after(&self, version: u64, patience: Duration) -> MutexGuard<'_, Shown> {
+        let is_old = |shown: &mut Shown| shown.version <= version;
+        let waited = self.changed.wait_timeout_while(self.now(), patience, is_old);
+        waited.unwrap_or_else(PoisonError::into_inner).0
+    }
+}
+
+/// Tells what `make` makes of a file, now and whenever the file has changed, until `end`.
+///
+/// The file is compared by its contents: an editor may replace it by another one, or write
+/// it without changing it. While it cannot be read, as between the two halves of a
+/// replacement, nothing is told for a moment.
+pub(crate) fn follow(path: &Path, make: &dyn Fn() -> Outcome, news: &News, end: &AtomicBool) {
+    const PATIENCE: u32 = 20;
+    let mut known: Option<Vec<u8>> = None;
+    let mut missing = 0;
+    while !end.load(Ordering::Relaxed) {
+        match fs::read(path) {
+            Ok(contents) => {
+                if known.as_ref() != Some(&contents) {
+                    known = Some(contents);
+                    news.tell(make());
+                }
+                missing = 0;
+            }
+            Err(error) => {
+                missing += 1;
+                if missing == PATIENCE {
+                    known = None;
+                    news.tell(Err(format!("cannot read {}: {error}", path.display())));
+                }
+            }
+        }
+        thread::sleep(GRAIN);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+
+    #[test]
+    fn a_page_outlives_the_errors_after_it() {
+        let news = News::default();
+        news.tell(Ok("good".into()));
+        news.tell(Err("bad".into()));
+        let now = news.now().clone();
+        assert_eq!(now, Shown { version: 2, page: Some((1, "good".into())), error: Some("bad".into()) });
+        news.tell(Ok("better".into()));
+        assert_eq!(*news.now(), Shown { version: 3, page: Some((3, "better".into())), error: None });
+    }
+
+    /// Saves in place, by replacement and without change; the file goes away and comes back.
+    #[test]
+    fn every_save_is_told_within_a_second() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, other) = (folder.path().join("a.mbs"), folder.path().join("b.mbs"));
+        fs::write(&path, "1").unwrap();
+        let (news, end) = (News::default(), AtomicBool::new(false));
+        let make = || fs::read_to_string(&path).map_err(|error| error.to_string());
+        thread::scope(|scope| {
+            scope.spawn(|| follow(&path, &make, &news, &end));
+            let mut version = 0;
+            let mut next = || {
+                let start = Instant::now();
+                let shown = news.after(version, Duration::from_secs(10)).clone();
+                assert!(shown.version == version + 1 && start.elapsed() < Duration::from_secs(5));
+                version = shown.version;
+                shown.error.map_or_else(|| shown.page.unwrap().1, |_| "missing".into())
+            };
+            assert_eq!(next(), "1");
+            fs::write(&path, "2").unwrap();
+            assert_eq!(next(), "2");
+            fs::write(&other, "3").unwrap();
+            fs::rename(&other, &path).unwrap();
+            assert_eq!(next(), "3");
+            fs::write(&path, "3").unwrap();
+            fs::remove_file(&path).unwrap();
+            assert_eq!(next(), "missing");
+            fs::write(&path, "3").unwrap();
+            assert_eq!(next(), "3");
+            end.store(true, Ordering::Relaxed);
+        });
+    }
+}
