@@ -10,6 +10,9 @@ use proc_macro2::Span;
 /// So many problems are shown, which is more than anybody reads at once.
 const MOST_SHOWN: usize = 100;
 
+/// The same in bytes: each problem is shown with its lines, which may be long.
+const LONGEST_SHOWN: usize = 1 << 18;
+
 /// Why a text was not compiled. Shown, it has the problems, at most a hundred, with file, line,
 /// column and the underlined source, without colours; [`colored`](Self::colored) has them.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,12 +139,16 @@ impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Error { file, text, problems } = self.error;
         let source = Source::from(printable(text));
+        let (mut shown, mut count) = (Vec::new(), 0);
         for problem in problems.iter().take(MOST_SHOWN) {
-            let mut shown = Vec::new();
             self.report(problem).write((file.as_str(), &source), &mut shown).map_err(|_| fmt::Error)?;
-            f.write_str(&String::from_utf8_lossy(&shown))?;
+            count += 1;
+            if shown.len() > LONGEST_SHOWN {
+                break;
+            }
         }
-        match problems.len().saturating_sub(MOST_SHOWN) {
+        f.write_str(&String::from_utf8_lossy(&shown))?;
+        match problems.len() - count {
             0 => Ok(()),
             more => writeln!(f, "… and {more} more"),
         }

@@ -127,6 +127,7 @@ fn texts_of_strangers_end_in_an_error() {
         assert!(!refused(nested(100_000)).is_empty());
     }
     assert!(refused(format!("A {{ constraint c: x = {}1; }}", "-".repeat(200_000))).contains("nest"));
+    assert!(refused(format!("A {{ param x = 1{}; }}", "0".repeat(1_000_000))).contains("1000 characters"));
     assert!(refused("A { for i in 0..1000000000 { param p[i] = 1; } }".to_owned()).contains("100000"));
 }
 
@@ -138,6 +139,8 @@ fn of_many_problems_the_first_are_shown() {
     let shown = error.to_string();
     assert!(shown.contains("a.mbs:100:") && !shown.contains("a.mbs:101:"));
     assert!(shown.ends_with("… and 4900 more\n"));
+    let in_one_line = format!("A {{ {} }}", "x; ".repeat(50_000));
+    assert!(Text::declaration("a.mbs", in_one_line).compile().unwrap_err().to_string().len() < 1_000_000);
 }
 
 #[test]

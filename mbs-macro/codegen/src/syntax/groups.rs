@@ -16,10 +16,14 @@ use super::indices::regrouped;
 /// recursion. Braces, parentheses and brackets of a formula take their share.
 const DEEPEST: usize = 256;
 
+/// Numbers have at most so many characters: the time that parsers take for one grows with
+/// the square of them.
+const LONGEST_NUMBER: usize = 1000;
+
 /// The tokens without groups that have no delimiters.
 ///
 /// # Errors
-/// If groups are nested too deeply for a parser.
+/// If groups are nested too deeply for a parser, or a number is too long for one.
 pub fn delimited(tokens: TokenStream) -> Result<TokenStream> {
     Ok(within(&tokens, 0)?.unwrap_or(tokens))
 }
@@ -30,6 +34,7 @@ fn within(tokens: &TokenStream, depth: usize) -> Result<Option<TokenStream>> {
     let mut is_changed = false;
     for token in tokens.clone() {
         let TokenTree::Group(group) = token else {
+            check_length(&token)?;
             delimited.extend([token]);
             continue;
         };
@@ -52,6 +57,17 @@ fn within(tokens: &TokenStream, depth: usize) -> Result<Option<TokenStream>> {
         }
     }
     Ok(is_changed.then_some(delimited))
+}
+
+/// Refuses a number that nobody has written by hand.
+fn check_length(token: &TokenTree) -> Result<()> {
+    let TokenTree::Literal(literal) = token else { return Ok(()) };
+    let text = literal.to_string();
+    if text.len() > LONGEST_NUMBER && text.starts_with(|first: char| first.is_ascii_digit()) {
+        let message = format!("this number has more than {LONGEST_NUMBER} characters");
+        return Err(Error::new(literal.span(), message));
+    }
+    Ok(())
 }
 
 fn parenthesis(group: &Group, content: TokenStream) -> TokenTree {
