@@ -30,7 +30,7 @@ int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)
 {
     const struct NAME_state *const at = &run->state;
-    struct NAME_reactions reactions;
+    struct NAME_reactions reactions = {0};
     const int code = NAME_reactions(run, &reactions);
     if (code != CAPS_OK) {
         return code;

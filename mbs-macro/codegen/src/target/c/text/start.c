@@ -19,7 +19,7 @@ static int NAME_check_correction(
    not fit they stay violated. */
 static int NAME_check_redundant(struct NAME_run *run)
 {
-    struct NAME_constraints phi;
+    struct NAME_constraints phi = {0};
     int place;
     NAME_compute_phi(run->mechanism, run->state.t, &run->state.q, &phi);
     const real size = 1 + NAME_largest(NAME_elements(&run->state.q), CAPS_COORDINATES, &place);

@@ -83,7 +83,7 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
 /* Redundant constraints are watched: a thousandth of the size is allowed. */
 static int NAME_watch_redundant(struct NAME_run *run, const struct NAME_state *at)
 {
-    struct NAME_constraints phi;
+    struct NAME_constraints phi = {0};
     if (CAPS_REDUNDANT == 0) {
         return CAPS_OK;
     }

@@ -58,14 +58,14 @@ static real NAME_worst(const real *growths, int count, int *place)
 
 static real NAME_worst_pivot(const struct NAME *m, real t, const struct NAME_coordinates *q, int *place)
 {
-    real growths[CAPS_PIVOTS + 1];
+    real growths[CAPS_PIVOTS + 1] = {0};
     NAME_compute_pivots(m, t, q, growths);
     return NAME_worst(growths, CAPS_PIVOTS, place);
 }
 
 static real NAME_worst_start_pivot(const struct NAME *m, real t, const struct NAME_coordinates *q, int *place)
 {
-    real growths[CAPS_START_PIVOTS + 1];
+    real growths[CAPS_START_PIVOTS + 1] = {0};
     NAME_compute_start_pivots(m, t, q, growths);
     return NAME_worst(growths, CAPS_START_PIVOTS, place);
 }
