@@ -3,8 +3,8 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Feedback, Held, Info, Mechanism, PerStage, Reactions,
-    Simulation, State,
+    Baumgarte, Components, Derivation, Feedback, Held, Info, Mechanism, PerStage, Reactions, Simulation,
+    State,
 };
 
 use crate::doubt::{Watch, few_digits, size};

@@ -103,13 +103,26 @@ pub struct Choice<'a> {
 /// # Errors
 /// [`Fault::Compiler`] with its errors.
 pub fn build(sources: &CSources, compiler: &str, optimization: &str) -> Result<Built, Fault> {
+    build_around(sources, include_str!("probe.c"), compiler, optimization)
+}
+
+/// The same with a program of one's own around the mechanism, in which `NAME` and `CAPS` stand for
+/// what its names begin with.
+///
+/// # Errors
+/// [`Fault::Compiler`] with its errors.
+pub fn build_around(
+    sources: &CSources,
+    main: &str,
+    compiler: &str,
+    optimization: &str,
+) -> Result<Built, Fault> {
     let folder = TempDir::new()?;
     for file in [&sources.header, &sources.source] {
         std::fs::write(folder.path().join(&file.name), &file.text)?;
     }
-    let probe = include_str!("probe.c").replace("NAME", &sources.prefix);
-    let probe = probe.replace("CAPS", &sources.prefix.to_uppercase());
-    std::fs::write(folder.path().join("probe.c"), probe)?;
+    let main = main.replace("NAME", &sources.prefix).replace("CAPS", &sources.prefix.to_uppercase());
+    std::fs::write(folder.path().join("probe.c"), main)?;
     let mut command = Command::new(compiler);
     command.args(["-std=c99", optimization, "-ffp-contract=off"]);
     command.args([&sources.source.name, "probe.c", "-lm", "-o", "probe"]);
@@ -118,6 +131,18 @@ pub fn build(sources: &CSources, compiler: &str, optimization: &str) -> Result<B
 }
 
 impl Built {
+    /// Runs a program that is given nothing.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] with what it says if it fails.
+    pub fn succeed(&self) -> Result<(), Fault> {
+        let result = Command::new(self.folder.path().join("probe")).output()?;
+        if result.status.success() {
+            return Ok(());
+        }
+        Err(Fault::Program(String::from_utf8_lossy(&result.stderr).into_owned()))
+    }
+
     /// Runs the mechanism: a line each for the start and for every so-manieth state, of t, q, v, q̈,
     /// λ and the outputs.
     ///

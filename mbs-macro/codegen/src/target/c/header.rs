@@ -15,7 +15,10 @@ pub const ERRORS: [(&str, &str); 11] = [
     ("SINGULAR", "the position is singular: constraints depend on each other there, or friction jams"),
     ("SINGULAR_START", "constraints depend on each other at the start"),
     ("NOT_FINITE", "a position or a velocity is no longer finite"),
-    ("NOT_ASSEMBLED", "the mechanism cannot be assembled: check the dimensions, or start from a closer guess"),
+    (
+        "NOT_ASSEMBLED",
+        "the mechanism cannot be assembled: check the dimensions, or start from a closer guess",
+    ),
     ("OUT_OF_REACH", "a constraint cannot be met any more: check the dimensions and how far the drives go"),
     ("UNDEFINED_MULTIPLIER", "a multiplier is not finite, though the motion is"),
     ("UNDEFINED_OUTPUT", "an output is not finite"),
@@ -54,7 +57,8 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     text
 }
 
-const HEAD: &str = "Printed from its declaration; changes here are lost. All numbers are in SI units, angles in rad.";
+const HEAD: &str =
+    "Printed from its declaration; changes here are lost. All numbers are in SI units, angles in rad.";
 const PARAMETERS: &str = "Numbers that are set once.";
 const INPUTS: &str = "Numbers that may change from step to step.";
 const COORDINATES: &str = "The coordinates, or their rates per second.";

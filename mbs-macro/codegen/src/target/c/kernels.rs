@@ -256,7 +256,9 @@ fn doc(id: FunctionId) -> &'static str {
         FunctionId::Hoisted => "What depends on parameters alone.",
         FunctionId::Phi => "The constraints Φ(q, t): 0 where the mechanism is assembled.",
         FunctionId::PhiDot => "The constraint violation in velocities, Φ̇ = Φ_q v + Φ_t.",
-        FunctionId::PhiQ => "The entries of the Jacobian Φ_q that are not 0, in the order of the table of places.",
+        FunctionId::PhiQ => {
+            "The entries of the Jacobian Φ_q that are not 0, in the order of the table of places."
+        }
         FunctionId::PhiT => "The partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.",
         FunctionId::Gamma => "γ, so that accelerations satisfy Φ_q q̈ = γ.",
         FunctionId::BaumgarteRhs => "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation.",
@@ -275,9 +277,7 @@ fn doc(id: FunctionId) -> &'static str {
             "The shortest Δq, measured by masses, with Φ_q Δq = feedback, a residual here; coordinates\n\
              that the start prescribes do not move. Returns the pivot growth."
         }
-        FunctionId::VelocityCorrection => {
-            "The same for velocities.\nReturns the pivot growth."
-        }
+        FunctionId::VelocityCorrection => "The same for velocities.\nReturns the pivot growth.",
         FunctionId::Outputs => "The declared outputs.",
         FunctionId::Conditions => "What the conditions of the parameters judge.",
         FunctionId::Start => "The declared start, before guesses are corrected. Returns its time.",

@@ -95,8 +95,8 @@ struct Target<'a> {
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar };
-    let kernels = kernels::all(&target)
-        .map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let kernels =
+        kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
     let file = |name: String, text| File { name, text };
     Ok(CSources {
         header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),

@@ -117,7 +117,8 @@ fn tables(target: &Target<'_>) -> String {
 /// A table of numbers, with one more at its end, because C has no arrays without elements.
 fn table(declaration: &str, columns: &str, mut elements: Vec<String>, last: &str) -> String {
     elements.push(last.to_owned());
-    let lines: Vec<String> = elements.chunks(12).map(|chunk| format!("    {},\n", chunk.join(", "))).collect();
+    let lines: Vec<String> =
+        elements.chunks(12).map(|chunk| format!("    {},\n", chunk.join(", "))).collect();
     format!("{declaration}[{}]{columns} = {{\n{}}};\n", elements.len(), lines.concat())
 }
 
