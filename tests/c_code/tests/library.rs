@@ -1,5 +1,7 @@
 //! Every mechanism of the library as C: compiled without a warning, and equal to its programs.
 
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+
 use std::path::Path;
 
 use c_code::{Choice, Evaluator, build, compile, compilers, declarations};

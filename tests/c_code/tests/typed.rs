@@ -1,6 +1,8 @@
 //! Mechanisms that are declared twice, for Rust and for C: both run alike, from the start on, to
 //! the bit, and end with the same error where one ends.
 
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+
 use c_code::{Built, Choice, Fault, build, compilers};
 use mbs_codegen::analyse;
 use mbs_codegen::target::{Scalar, c};

@@ -33,11 +33,12 @@ pub fn readme(target: &Target<'_>) -> String {
         Scalar::Float => include_str!("text/float.md"),
     };
     let stabilized = compiled.count(FunctionId::Stabilized).operations;
-    let page = include_str!("text/README.md")
-        .replace("MECHANISM", &compiled.name)
-        .replace("SCALAR", target.scalar.name())
+    // the name of the mechanism last, because it may be any word
+    target
+        .fill(include_str!("text/README.md"))
         .replace("PRECISION", precision.trim())
+        .replace("SCALAR", target.scalar.name())
         .replace("STAGE", &stabilized.to_string())
-        .replace("FUSION", step);
-    target.names.fill(&page)
+        .replace("FUSION", step)
+        .replace("MECHANISM", &compiled.name)
 }

@@ -30,7 +30,7 @@ pub const ERRORS: [(&str, &str); 11] = [
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     let (compiled, names) = (target.compiled, target.names);
     let mut text = comment(&format!("{}\n\n{HEAD}", compiled.doc), "");
-    text += &names.fill(
+    text += &target.fill(
         "#ifndef CAPS_H\n#define CAPS_H\n\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n",
     );
     let _ = writeln!(text, "typedef {} {}_real;\n", target.scalar.name(), names.prefix);
@@ -48,7 +48,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     text += &structure(target, "coordinates", COORDINATES, names.members(Vector::Positions), &coordinates);
     text += &structure(target, "constraints", CONSTRAINTS, names.members(Vector::Multipliers), &constraints);
     text += &structure(target, "outputs", OUTPUTS, &names.outputs, &quantities(&compiled.outputs));
-    text += &names.fill(include_str!("text/header.h"));
+    text += &target.fill(include_str!("text/header.h"));
     text += "/* The equations. Results must not lie where arguments do. */\n\n";
     for Kernel { doc, head, .. } in kernels.iter().filter(|kernel| kernel.is_public) {
         let _ = write!(text, "{}{head};\n\n", comment(doc, ""));

@@ -46,15 +46,15 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
     let outputs = outputs(id);
     let returns = matches!(id.results().last(), Some(Results::Scalar | Results::Growth));
-    let declare = |(declaration, name): (&str, &'static str)| (target.names.fill(declaration), name);
+    let declare = |(declaration, name): (&str, &'static str)| (target.fill(declaration), name);
     let mut arguments = vec![declare(("const struct NAME *m", "m"))];
     arguments.extend(id.arguments().iter().map(|&argument| declare(argument_of(argument))));
     let is_static = if is_public { "" } else { "static " };
     let result = if returns { if is_public { "NAME_real" } else { "real" } } else { "void" };
     let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
     let mut declarations: Vec<String> = arguments.iter().map(|(text, _)| text.clone()).collect();
-    declarations.extend(outputs.iter().map(|output| target.names.fill(&output.declaration)));
-    let head = target.names.fill(&format!("{is_static}{result} NAME_compute_{name}"));
+    declarations.extend(outputs.iter().map(|output| target.fill(&output.declaration)));
+    let head = target.fill(&format!("{is_static}{result} NAME_compute_{name}"));
     let empty = outputs.iter().filter(|output| target.compiled.length(output.kind) == 0);
     let names = arguments.iter().map(|(_, name)| *name).chain(empty.map(|output| output.name));
     let unused = unused(target, program, names);
@@ -82,7 +82,7 @@ fn fused(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Resul
     let blocks = [Block::Straight(0..program.instructions.len())];
     let statements = statements(target, program, &blocks, &outputs, true)?;
     let prefix = &target.names.prefix;
-    let head = target.names.fill(&format!(
+    let head = target.fill(&format!(
         "static inline real NAME_step_{name}(const struct NAME_run *run, real t_next, struct NAME_state *next)"
     ));
     let views = format!(

@@ -188,8 +188,14 @@ impl Columns<'_> {
     /// The place that goes with a copy.
     fn place(&self, rule: Rule) -> String {
         match rule {
-            Rule::Line { first, step, is_down: false } => format!("{first} + {step} * copy"),
-            Rule::Line { first, step, is_down: true } => format!("{first} - {step} * copy"),
+            Rule::Line { first, step, is_down } => {
+                let distance = if step == 1 { "copy".to_owned() } else { format!("{step} * copy") };
+                match (first, is_down) {
+                    (0, false) => distance,
+                    (_, false) => format!("{first} + {distance}"),
+                    (_, true) => format!("{first} - {distance}"),
+                }
+            }
             Rule::Table(table) => format!("places[copy][{table}]"),
         }
     }

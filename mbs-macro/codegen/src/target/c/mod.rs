@@ -69,6 +69,17 @@ struct Target<'a> {
     scalar: Scalar,
 }
 
+impl Target<'_> {
+    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, and
+    /// `SQRT` and `FABS` for functions. No name of a declaration may be in it.
+    fn fill(&self, text: &str) -> String {
+        text.replace("NAME", &self.names.prefix)
+            .replace("CAPS", &self.names.capitals)
+            .replace("SQRT", &self.scalar.of_math("sqrt"))
+            .replace("FABS", &self.scalar.of_math("fabs"))
+    }
+}
+
 /// The C sources of a mechanism.
 ///
 /// # Example

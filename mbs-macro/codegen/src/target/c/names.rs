@@ -41,11 +41,6 @@ impl Names {
             Vector::Multipliers | Vector::Feedback => &self.constraints,
         }
     }
-
-    /// A text in which `NAME` and `CAPS` stand for the two prefixes.
-    pub fn fill(&self, text: &str) -> String {
-        text.replace("NAME", &self.prefix).replace("CAPS", &self.capitals)
-    }
 }
 
 fn members<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
@@ -90,7 +85,7 @@ fn snake_case(name: &str) -> String {
 }
 
 /// Keywords of C and C++, macros of the headers that the code includes, and headers whose
-/// file a mechanism must not replace.
+/// file a mechanism must not replace, nor that of the example.
 const RESERVED: &str = "\
     auto break case char const continue default do double else enum extern float for goto if inline int long \
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
@@ -101,11 +96,11 @@ const RESERVED: &str = "\
     this throw try typeid typename using virtual wchar_t xor xor_eq \
     NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL MATH_ERRNO MATH_ERREXCEPT math_errhandling NULL EOF I complex errno \
     linux unix i386 arm assert ctype fenv inttypes iso646 limits locale math setjmp signal stdarg stdbool stddef \
-    stdint stdio stdlib string tgmath time wchar wctype";
+    stdint stdio stdlib string tgmath time wchar wctype main";
 
 fn is_reserved(name: &str) -> bool {
-    let is_of_math = ["M_", "FP_", "INT", "UINT"].iter().any(|prefix| name.starts_with(prefix));
-    is_of_math || RESERVED.split_whitespace().any(|word| word == name)
+    let is_macro = name.starts_with("M_") || name.starts_with("FP_") || name.ends_with("_MAX");
+    is_macro || name.ends_with("_MIN") || RESERVED.split_whitespace().any(|word| word == name)
 }
 
 #[cfg(test)]

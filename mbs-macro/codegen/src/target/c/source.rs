@@ -11,37 +11,25 @@ use super::{Scalar, Target};
 use crate::compiled::{Comparison, Compiled, GROWTH_LIMIT, Pivot, Vector};
 
 pub fn source(target: &Target<'_>, kernels: &[Kernel]) -> String {
-    let names = target.names;
     let mut code = String::new();
     for Kernel { doc, head, body, is_public } in kernels {
         // that of a public function stands in the header
         let doc = if *is_public { String::new() } else { comment(doc, "") };
         let _ = write!(code, "{doc}{head}\n{{\n{body}}}\n\n");
     }
-    for text in [
-        include_str!("text/vectors.c"),
-        &construction(target),
-        include_str!("text/start.c"),
-        include_str!("text/step.c"),
-        if target.compiled.fused_step.is_some() {
-            include_str!("text/step_fused.c")
-        } else {
-            include_str!("text/step_in_stages.c")
-        },
-        include_str!("text/results.c"),
-    ] {
-        code += text;
+    let step = match target.compiled.fused_step {
+        Some(_) => include_str!("text/step_fused.c"),
+        None => include_str!("text/step_in_stages.c"),
+    };
+    code += &target.fill(include_str!("text/vectors.c"));
+    code += &construction(target);
+    for text in
+        [include_str!("text/start.c"), include_str!("text/step.c"), step, include_str!("text/results.c")]
+    {
         code.push('\n');
+        code += &target.fill(text);
     }
-    let code = names.fill(&code);
-    let text = format!("{}{}{}", head(target), tables(target), helpers(target, &code));
-    // functions of `math.h` in the text that is the same for all mechanisms
-    let code = ["sqrt(", "fabs("].iter().fold(code, |code, call| {
-        let name = call.trim_end_matches('(');
-        code.replace(&format!(" {call}"), &format!(" {}(", target.scalar.of_math(name)))
-            .replace(&format!("({call}"), &format!("({}(", target.scalar.of_math(name)))
-    });
-    text + code.trim_end() + "\n"
+    format!("{}{}{}{code}", head(target), tables(target), helpers(target, &code))
 }
 
 /// What stands before everything else.
@@ -51,8 +39,8 @@ fn head(target: &Target<'_>) -> String {
         Scalar::Float => [1.0 / (1024.0 * f64::from(f32::EPSILON)), f32::EPSILON.into()],
     };
     let compiled = target.compiled;
-    let mut text = target.names.fill(include_str!("text/head.c"));
-    text = text
+    let mut text = target
+        .fill(include_str!("text/head.c"))
         .replace("EPSILON", &target.scalar.literal(epsilon))
         .replace("LIMIT", &target.scalar.literal(limit));
     let sizes = [
@@ -145,7 +133,7 @@ fn splines(target: &Target<'_>) -> String {
     let (splines, prefix) = (&target.compiled.splines, &target.names.prefix);
     let mut text = String::new();
     if !splines.is_empty() {
-        text += &target.names.fill(include_str!("text/spline.c"));
+        text += &target.fill(include_str!("text/spline.c"));
     }
     // where an argument lies is decided in double precision
     let number = |value: f64| Scalar::Double.literal(value);
@@ -174,7 +162,7 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
         Scalar::Float => include_str!("text/sin_cos_float.c"),
     };
     let helpers = format!("{sin_cos}\n{}", include_str!("text/helpers.c"));
-    let helpers = target.names.fill(&helpers);
+    let helpers = target.fill(&helpers);
     let helpers: Vec<&str> = helpers.split_inclusive("\n}\n").map(str::trim).collect();
     let mut needed: Vec<&str> = Vec::new();
     // a function stands behind those that it calls
@@ -191,16 +179,16 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
 
 /// Declared parameters, their conditions, and what codes mean.
 fn construction(target: &Target<'_>) -> String {
-    let compiled = target.compiled;
+    let (compiled, prefix) = (target.compiled, &target.names.prefix);
     let members = target.names.members(Vector::Parameters);
-    let mut text = String::from("void NAME_default_parameters(struct NAME_parameters *parameters)\n{\n");
+    let mut text = target.fill("\nvoid NAME_default_parameters(struct NAME_parameters *parameters)\n{\n");
     for (parameter, member) in compiled.parameters.iter().zip(members) {
         let _ = writeln!(text, "    parameters->{member} = {};", target.scalar.literal(parameter.value));
     }
     if members.is_empty() {
         text += "    parameters->none = 0;\n";
     }
-    text += include_str!("text/init.c");
+    text += &target.fill(include_str!("text/init.c"));
     for (at, condition) in compiled.conditions.iter().enumerate() {
         let comparison = match condition.comparison {
             Comparison::Less => "<",
@@ -208,17 +196,18 @@ fn construction(target: &Target<'_>) -> String {
             Comparison::Greater => ">",
             Comparison::GreaterOrEqual => ">=",
         };
-        let value = condition.difference;
+        let (value, capitals) = (condition.difference, &target.names.capitals);
         let _ = writeln!(
             text,
-            "    if (!(values[{value}] {comparison} 0)) {{\n        return CAPS_BAD_CONDITION + {at};\n    }}"
+            "    if (!(values[{value}] {comparison} 0)) {{\n        return {capitals}_BAD_CONDITION + {at};\n    }}"
         );
     }
-    text += "    NAME_compute_hoisted(m, m->hoisted);\n    return CAPS_OK;\n}\n\n";
+    text += &target.fill("    NAME_compute_hoisted(m, m->hoisted);\n    return CAPS_OK;\n}\n\n");
     let errors: Vec<String> = ERRORS.iter().map(|(_, words)| (*words).to_owned()).collect();
-    text += &strings("static const char *const NAME_error_words", &errors);
-    text += &strings("static const char *const NAME_condition_words", &condition_words(compiled));
-    text + include_str!("text/words.c")
+    text += &strings(&format!("static const char *const {prefix}_error_words"), &errors);
+    text +=
+        &strings(&format!("static const char *const {prefix}_condition_words"), &condition_words(compiled));
+    text + &target.fill(include_str!("text/words.c"))
 }
 
 fn condition_words(compiled: &Compiled) -> Vec<String> {
@@ -239,5 +228,5 @@ pub fn example(target: &Target<'_>) -> String {
     });
     let text = include_str!("text/main.c");
     let text = text.replace("STEP", &Scalar::Double.literal(step)).replace("FEEDBACK\n", &feedback);
-    target.names.fill(&text)
+    target.fill(&text)
 }

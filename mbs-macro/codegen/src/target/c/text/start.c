@@ -25,7 +25,7 @@ static int NAME_check_redundant(struct NAME_run *run)
     const real size = 1 + NAME_largest(NAME_elements(&run->state.q), CAPS_COORDINATES, &place);
     for (int at = 0; at < CAPS_REDUNDANT; at++) {
         run->where = NAME_redundant[at];
-        if (fabs(NAME_elements(&phi)[run->where]) > sqrt(NAME_epsilon) * size) {
+        if (FABS(NAME_elements(&phi)[run->where]) > SQRT(NAME_epsilon) * size) {
             return CAPS_NOT_ASSEMBLED;
         }
     }
@@ -122,7 +122,7 @@ static real NAME_size(const struct NAME *m, const struct NAME_state *at)
     NAME_compute_phi_dot(m, at->t, &at->q, &direction, &still);
     for (int j = 0; j < CAPS_COORDINATES; j++) {
         if (NAME_coordinate_length[j] != 0) {
-            const real length = fabs(NAME_elements(&at->q)[j]);
+            const real length = FABS(NAME_elements(&at->q)[j]);
             size = length > size ? length : size;
             continue;
         }
@@ -131,7 +131,7 @@ static real NAME_size(const struct NAME *m, const struct NAME_state *at)
         NAME_places(&direction)[j] = 0;
         for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
             if (NAME_constraint_length[row] == 1) {
-                const real arm = fabs(NAME_elements(&along)[row] - NAME_elements(&still)[row]);
+                const real arm = FABS(NAME_elements(&along)[row] - NAME_elements(&still)[row]);
                 size = arm > size ? arm : size;
             }
         }
@@ -187,7 +187,7 @@ int NAME_start(struct NAME_run *run, const struct NAME *m, double step)
     run->where = -1;
     run->step = (real)step;
     run->state.t = NAME_compute_declared_start(m, &run->state.q, &run->state.v);
-    if (!(run->step > 0 && isfinite(run->step) && 4 * NAME_epsilon * fabs(run->state.t) <= run->step)) {
+    if (!(run->step > 0 && isfinite(run->step) && 4 * NAME_epsilon * FABS(run->state.t) <= run->step)) {
         return CAPS_BAD_STEP;
     }
     int code = NAME_set_feedback(run, 0.75 / step, 1.0 / step, 1);

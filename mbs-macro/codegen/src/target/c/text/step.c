@@ -94,7 +94,7 @@ static int NAME_watch_redundant(struct NAME_run *run, const struct NAME_state *a
         for (int power = 0; power < NAME_constraint_length[row]; power++) {
             allowed = allowed * run->size;
         }
-        if (!(fabs(NAME_elements(&phi)[row]) <= allowed)) {
+        if (!(FABS(NAME_elements(&phi)[row]) <= allowed)) {
             run->where = row;
             return CAPS_OUT_OF_REACH;
         }

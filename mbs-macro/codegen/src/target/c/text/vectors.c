@@ -16,7 +16,7 @@ static real NAME_norm(const real *x, int count)
     for (int at = 0; at < count; at++) {
         sum = sum + x[at] * x[at];
     }
-    return sqrt(sum);
+    return SQRT(sum);
 }
 
 /* The largest magnitude, and where it stands; what is not a number is largest. */
@@ -25,7 +25,7 @@ static real NAME_largest(const real *x, int count, int *place)
     real largest = 0;
     *place = 0;
     for (int at = 0; at < count; at++) {
-        const real magnitude = fabs(x[at]);
+        const real magnitude = FABS(x[at]);
         if (magnitude > largest || magnitude != magnitude) {
             largest = magnitude;
             *place = at;
