@@ -41,15 +41,17 @@ impl From<io::Error> for Fault {
 
 /// Those of gcc and clang that are on this machine; where there is none, a test says so.
 pub fn compilers() -> Vec<&'static str> {
-    let is_there = |compiler: &&str| {
-        let version = Command::new(compiler).arg("--version").stdout(Stdio::null()).status();
-        version.is_ok_and(|status| status.success())
-    };
-    let compilers: Vec<_> = ["gcc", "clang"].into_iter().filter(is_there).collect();
-    if compilers.is_empty() {
-        eprintln!("skipped: neither gcc nor clang is on this machine");
+    ["gcc", "clang"].into_iter().filter(|compiler| is_there(compiler)).collect()
+}
+
+/// Whether a compiler is on this machine; a test says where it is not.
+pub fn is_there(compiler: &str) -> bool {
+    let version = Command::new(compiler).arg("--version").stdout(Stdio::null()).status();
+    let is_there = version.is_ok_and(|status| status.success());
+    if !is_there {
+        eprintln!("skipped: `{compiler}` is not on this machine");
     }
-    compilers
+    is_there
 }
 
 /// Compiles source and example without a warning.
@@ -131,14 +133,14 @@ pub fn build_around(
 }
 
 impl Built {
-    /// Runs a program that is given nothing.
+    /// What a program prints that is given nothing.
     ///
     /// # Errors
     /// [`Fault::Program`] with what it says if it fails.
-    pub fn succeed(&self) -> Result<(), Fault> {
+    pub fn output(&self) -> Result<String, Fault> {
         let result = Command::new(self.folder.path().join("probe")).output()?;
         if result.status.success() {
-            return Ok(());
+            return Ok(String::from_utf8_lossy(&result.stdout).into_owned());
         }
         Err(Fault::Program(String::from_utf8_lossy(&result.stderr).into_owned()))
     }

@@ -5,6 +5,6 @@ mod build;
 mod declarations;
 mod evaluate;
 
-pub use build::{Built, Choice, Fault, WARNINGS, build, build_around, compile, compilers};
+pub use build::{Built, Choice, Fault, WARNINGS, build, build_around, compile, compilers, is_there};
 pub use declarations::declarations;
 pub use evaluate::Evaluator;

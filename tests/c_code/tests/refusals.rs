@@ -16,5 +16,5 @@ fn c_refuses_what_is_wrong_and_keeps_the_last_good_state() {
     let sources = c(&analyse(tokens).expect("it compiles"), Scalar::Double).expect("it is printed");
     let built = build_around(&sources, include_str!("refusals.c"), compiler, "-O2")
         .unwrap_or_else(|fault| panic!("{fault}"));
-    built.succeed().unwrap_or_else(|fault| panic!("{fault}"));
+    built.output().unwrap_or_else(|fault| panic!("{fault}"));
 }

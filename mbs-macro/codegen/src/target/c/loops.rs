@@ -95,8 +95,8 @@ fn repeated(
         if from >= length {
             return Err(CARRIED);
         }
-        let _ = writeln!(before, "{INSIDE}real carried_{at} = {};", printer.operand(carried.first)?);
-        let _ = writeln!(next, "{IN_LOOP}carried_{at} = {};", printer.name(start + from));
+        let _ = writeln!(before, "{INSIDE}real carried{at} = {};", printer.operand(carried.first)?);
+        let _ = writeln!(next, "{IN_LOOP}carried{at} = {};", printer.name(start + from));
     }
     let mut stored = BTreeSet::new();
     for (at, step) in part.steps.iter().enumerate() {
@@ -118,9 +118,9 @@ fn repeated(
                     printer.line(&format!("{}[{place}] = {value};", kept.array(array)?));
                 }
                 Storage::Last(place) => {
-                    let _ = writeln!(before, "{INSIDE}real last_{at} = 0;");
-                    printer.line(&format!("last_{at} = {value};"));
-                    let _ = writeln!(after, "{INSIDE}{} = last_{at};", kept.element(place)?);
+                    let _ = writeln!(before, "{INSIDE}real last{at} = 0;");
+                    printer.line(&format!("last{at} = {value};"));
+                    let _ = writeln!(after, "{INSIDE}{} = last{at};", kept.element(place)?);
                 }
             }
         }
@@ -150,13 +150,13 @@ impl Columns<'_> {
         Ok(match read {
             Read::Same(operand) => Some(printer.operand(operand)?),
             Read::Own(at) => Some(printer.name(start + at)),
-            Read::Carried(at) => Some(format!("carried_{at}")),
+            Read::Carried(at) => Some(format!("carried{at}")),
             Read::Each(at) => {
                 if self.known.insert(at) {
                     let element = self.element(at)?;
-                    printer.line(&format!("const real operand_{at} = {element};"));
+                    printer.line(&format!("const real operand{at} = {element};"));
                 }
-                Some(format!("operand_{at}"))
+                Some(format!("operand{at}"))
             }
         })
     }
@@ -171,9 +171,9 @@ impl Columns<'_> {
                 let numbers = lines(&numbers, INSIDE);
                 let _ = write!(
                     self.tables,
-                    "{INSIDE}static const real numbers_{at}[{count}] = {{\n{numbers}{INSIDE}}};\n"
+                    "{INSIDE}static const real numbers{at}[{count}] = {{\n{numbers}{INSIDE}}};\n"
                 );
-                return Ok(format!("numbers_{at}[copy]"));
+                return Ok(format!("numbers{at}[copy]"));
             }
             Column::Elements(home, rule) => (*home, *rule),
         };

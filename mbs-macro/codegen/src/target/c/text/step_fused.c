@@ -10,7 +10,7 @@ static real NAME_sum(const real *x, int count)
 
 int NAME_step(struct NAME_run *run)
 {
-    const real t_next = run->start_time + (real)(double)(run->steps + 1) * run->step;
+    const real t_next = run->start_time + (real)(run->steps + 1) * run->step;
     struct NAME_state next;
     const real growth =
         run->is_held ? NAME_step_held(run, t_next, &next) : NAME_step_per_stage(run, t_next, &next);
