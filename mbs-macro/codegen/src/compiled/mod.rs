@@ -19,7 +19,8 @@
 //!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
 //!   position is singular and the result must not be used.
 //!
-//! The example `python` of this crate is a whole target in fifty lines.
+//! The example `python` of this crate is a whole target in fifty lines;
+//! [`target::c`](crate::target::c) is one with loops, a start and a watch.
 //!
 //! # Example
 //! ```

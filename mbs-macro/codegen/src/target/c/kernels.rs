@@ -22,7 +22,6 @@ pub struct Kernel {
 
 /// A struct or an array that a function writes its results into.
 struct Output {
-    declaration: String,
     name: &'static str,
     kind: Results,
 }
@@ -46,15 +45,15 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
     let outputs = outputs(id);
     let returns = matches!(id.results().last(), Some(Results::Scalar | Results::Growth));
-    let declare = |(declaration, name): (&str, &'static str)| (target.fill(declaration), name);
-    let mut arguments = vec![declare(("const struct NAME *m", "m"))];
-    arguments.extend(id.arguments().iter().map(|&argument| declare(argument_of(argument))));
+    let mut arguments = vec![("const struct NAME *", "m")];
+    arguments.extend(id.arguments().iter().map(|&argument| argument_of(argument)));
     let is_static = if is_public { "" } else { "static " };
-    let result = if returns { if is_public { "NAME_real" } else { "real" } } else { "void" };
+    let result = if returns { "NAME_real" } else { "void" };
     let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
-    let mut declarations: Vec<String> = arguments.iter().map(|(text, _)| text.clone()).collect();
-    declarations.extend(outputs.iter().map(|output| target.fill(&output.declaration)));
-    let head = target.fill(&format!("{is_static}{result} NAME_compute_{name}"));
+    let written = outputs.iter().map(|output| (type_of(output.kind), output.name));
+    let declarations: Vec<_> =
+        arguments.iter().copied().chain(written).map(|(of, name)| format!("{of}{name}")).collect();
+    let head = format!("{is_static}{result} NAME_compute_{name}({})", declarations.join(", "));
     let empty = outputs.iter().filter(|output| target.compiled.length(output.kind) == 0);
     let names = arguments.iter().map(|(_, name)| *name).chain(empty.map(|output| output.name));
     let unused = unused(target, program, names);
@@ -62,7 +61,7 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let statements = statements(target, program, &blocks, &outputs, returns)?;
     Ok(Kernel {
         doc: format!("{}\nCost: {}.", doc(id), cost(&operations, watch)),
-        head: format!("{head}({})", declarations.join(", ")),
+        head: target.fill(&head),
         body: format!("{unused}{statements}"),
         is_public,
     })
@@ -70,37 +69,21 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
 
 /// A whole step as one program, which gives the growth of both stages.
 fn fused(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Result<Kernel, Inconsistency> {
-    let output = |name, declaration: &str| Output {
-        name,
-        declaration: declaration.to_owned(),
-        kind: Results::Coordinates,
-    };
-    let outputs = [output("q_next", ""), output("v_next", "")];
-    let arguments = ["m", "t", "q", "v", "inputs", "gains", "h", "half_h", "t_next"];
-    let unused = unused(target, program, arguments.into_iter());
+    let outputs = ["q_next", "v_next"].map(|name| Output { name, kind: Results::Coordinates });
+    let given = ["m", "t", "q", "v", "inputs", "gains", "h", "half_h", "t_next"];
+    let unused = unused(target, program, given.into_iter());
     // as long as it may be, a fused step is one block
     let blocks = [Block::Straight(0..program.instructions.len())];
     let statements = statements(target, program, &blocks, &outputs, true)?;
-    let prefix = &target.names.prefix;
-    let head = target.fill(&format!(
+    let head = format!(
         "static inline real NAME_step_{name}(const struct NAME_run *run, real t_next, struct NAME_state *next)"
-    ));
-    let views = format!(
-        "    const struct {prefix} *const m = run->mechanism;\n    const real t = run->state.t;\n    \
-         const struct {prefix}_coordinates *const q = &run->state.q, *const v = &run->state.v;\n    \
-         struct {prefix}_coordinates *const q_next = &next->q, *const v_next = &next->v;\n    \
-         const struct {prefix}_inputs *const inputs = &run->inputs;\n    \
-         const struct {prefix}_gains *const gains = &run->gains;\n    \
-         const real h = run->step, half_h = {} * h;\n    next->t = t_next;\n",
-        target.scalar.literal(0.5)
     );
+    let given = target.fill(include_str!("text/step_fused_head.c"));
+    let cost = cost(&program.operations(), 0);
     Ok(Kernel {
-        doc: format!(
-            "A step with the feedback {how}, both stages in one.\nCost: {}.",
-            cost(&program.operations(), 0)
-        ),
-        head,
-        body: format!("{views}{unused}{statements}"),
+        doc: format!("A step with the feedback {how}, both stages in one.\nCost: {cost}."),
+        head: target.fill(&head),
+        body: format!("{given}{unused}{statements}"),
         is_public: false,
     })
 }
@@ -166,16 +149,26 @@ fn unused(target: &Target<'_>, program: &Program, arguments: impl Iterator<Item 
     if unused.is_empty() { String::new() } else { format!("    {}\n", unused.join(" ")) }
 }
 
-/// How an argument is declared, and its name.
+/// The type of an argument, and its name.
 fn argument_of(argument: Argument) -> (&'static str, &'static str) {
     match argument {
-        Argument::Time => ("NAME_real t", "t"),
-        Argument::Positions => ("const struct NAME_coordinates *q", "q"),
-        Argument::Velocities => ("const struct NAME_coordinates *v", "v"),
-        Argument::Inputs => ("const struct NAME_inputs *inputs", "inputs"),
-        Argument::Gains => ("const struct NAME_gains *gains", "gains"),
-        Argument::Feedback => ("const struct NAME_constraints *feedback", "feedback"),
-        Argument::Reactions => ("const struct NAME_reactions *reactions", "reactions"),
+        Argument::Time => ("NAME_real ", "t"),
+        Argument::Positions => ("const struct NAME_coordinates *", "q"),
+        Argument::Velocities => ("const struct NAME_coordinates *", "v"),
+        Argument::Inputs => ("const struct NAME_inputs *", "inputs"),
+        Argument::Gains => ("const struct NAME_gains *", "gains"),
+        Argument::Feedback => ("const struct NAME_constraints *", "feedback"),
+        Argument::Reactions => ("const struct NAME_reactions *", "reactions"),
+    }
+}
+
+/// The type that results are written into.
+fn type_of(kind: Results) -> &'static str {
+    match kind {
+        Results::Coordinates => "struct NAME_coordinates *",
+        Results::Constraints => "struct NAME_constraints *",
+        Results::Outputs => "struct NAME_outputs *",
+        _ => "NAME_real *",
     }
 }
 
@@ -202,45 +195,33 @@ fn outputs(id: FunctionId) -> Vec<Output> {
         FunctionId::Pivots | FunctionId::StartPivots => &["growths"],
         FunctionId::Points => &["places"],
     };
-    let output = |(&kind, &name): (&Results, &&'static str)| {
-        let of = match kind {
-            Results::Coordinates => "struct NAME_coordinates",
-            Results::Constraints => "struct NAME_constraints",
-            Results::Outputs => "struct NAME_outputs",
-            _ => "NAME_real",
-        };
-        Output { declaration: format!("{of} *{name}"), name, kind }
-    };
-    id.results().iter().zip(names).map(output).collect()
+    id.results().iter().zip(names).map(|(&kind, &name)| Output { name, kind }).collect()
 }
 
-/// The vector whose struct holds an output, if one does.
-fn vector(kind: Results) -> Option<Vector> {
+/// The members of the struct that results are written into; `None` of an array.
+fn members<'a>(target: &'a Target<'_>, kind: Results) -> Option<&'a [String]> {
     match kind {
-        Results::Coordinates => Some(Vector::Positions),
-        Results::Constraints => Some(Vector::Multipliers),
+        Results::Coordinates => Some(target.names.members(Vector::Positions)),
+        Results::Constraints => Some(target.names.members(Vector::Multipliers)),
+        Results::Outputs => Some(&target.names.outputs),
         _ => None,
     }
 }
 
 /// An output as an array.
 fn array(target: &Target<'_>, output: &Output) -> String {
-    match output.kind {
-        Results::Coordinates | Results::Constraints | Results::Outputs => {
-            format!("{}_places({})", target.names.prefix, output.name)
-        }
-        _ => output.name.to_owned(),
+    match members(target, output.kind) {
+        Some(_) => format!("{}_places({})", target.names.prefix, output.name),
+        None => output.name.to_owned(),
     }
 }
 
 /// A number of an output.
 fn member(target: &Target<'_>, output: &Output, at: usize) -> String {
-    let members = match (vector(output.kind), output.kind) {
-        (Some(vector), _) => target.names.members(vector),
-        (None, Results::Outputs) => &target.names.outputs,
-        (None, _) => return format!("{}[{at}]", output.name),
-    };
-    format!("{}->{}", output.name, members[at])
+    match members(target, output.kind) {
+        Some(members) => format!("{}->{}", output.name, members[at]),
+        None => format!("{}[{at}]", output.name),
+    }
 }
 
 fn cost(operations: &Operations, watch: u32) -> String {
