@@ -19,7 +19,8 @@
 //!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
 //!   position is singular and the result must not be used.
 //!
-//! The example `python` of this crate is a whole target in fifty lines.
+//! The example `python` of this crate is a whole target in fifty lines;
+//! [`target::c`](crate::target::c) is one with loops, a start and a watch.
 //!
 //! # Example
 //! ```
@@ -51,7 +52,7 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
-pub use crate::plan::{FusedStep, Input, Kinds};
+pub use crate::plan::{FusedStep, Input, Kinds, Programs};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
