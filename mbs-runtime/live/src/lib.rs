@@ -59,10 +59,10 @@ mod slots;
 mod statics;
 mod stepper;
 mod text;
-mod unwoven;
 mod words;
 
 pub use mbs_codegen::compiled::Feedback;
+pub use mbs_codegen::target::{CSources, Scalar};
 
 pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;

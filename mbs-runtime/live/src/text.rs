@@ -9,7 +9,8 @@ use std::thread;
 use std::time::Duration;
 
 use mbs_codegen::compiled::Choices;
-use mbs_codegen::{Compiled, Diagnostic};
+use mbs_codegen::target::{self, CSources, Scalar};
+use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
 
@@ -122,6 +123,36 @@ impl Text {
     /// All errors of the first stage that has any, as `mechanism!` shows them; brackets
     /// and literals that cannot be read; a Rust file that does not have the block.
     pub fn compile(&self) -> Result<Live, Error> {
+        self.make(|declaration, compiled| {
+            Programs::new(declaration, compiled)
+                .map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
+        })
+        .map(Live::new)
+    }
+
+    /// Compiles the declaration to C99: a header, a source, an example and a page.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Scalar, Text};
+    ///
+    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
+    /// let sources = Text::declaration("slider.mbs", text).c(Scalar::Float)?;
+    /// assert!(sources.source.text.contains("slider_step"));
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
+    pub fn c(&self, scalar: Scalar) -> Result<CSources, Error> {
+        self.make(move |_, compiled| target::c(compiled, scalar))
+    }
+
+    /// What `target` makes of the compiled mechanism and of its declaration as tokens.
+    fn make<T: Send + 'static>(
+        &self,
+        target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics> + Send + 'static,
+    ) -> Result<T, Error> {
         if self.text.len() > LONGEST {
             let message = format!("the text has more than {LONGEST} bytes");
             return Err(self.error(vec![Problem::everywhere(message)]));
@@ -131,12 +162,12 @@ impl Text {
         // Places of tokens are kept by the thread that made them, and end with it.
         let compiling = thread::Builder::new().stack_size(STACK).spawn(move || {
             // nobody waits any longer if the time was over
-            let _ = send.send(compile(&text, &form));
+            let _ = send.send(make(&text, &form, target));
         });
         if let Err(error) = compiling {
             return Err(self.error(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]));
         }
-        let compiled = match self.limit {
+        let made = match self.limit {
             None => receive.recv().ok(),
             Some(limit) => match receive.recv_timeout(limit) {
                 Err(RecvTimeoutError::Timeout) => {
@@ -144,12 +175,12 @@ impl Text {
                         format!("compiling takes more than the {} s that it may take", limit.as_secs_f64());
                     return Err(self.error(vec![Problem::everywhere(message)]));
                 }
-                compiled => compiled.ok(),
+                made => made.ok(),
             },
         };
         // a thread that sends nothing has panicked
-        let compiled = compiled.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]));
-        compiled.map(Live::new).map_err(|problems| self.error(problems))
+        let made = made.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]));
+        made.map_err(|problems| self.error(problems))
     }
 
     fn error(&self, problems: Vec<Problem>) -> Error {
@@ -157,20 +188,24 @@ impl Text {
     }
 }
 
-/// Tokens, declaration, compiled mechanism, code.
-fn compile(text: &str, form: &Form) -> Result<Programs, Vec<Problem>> {
+/// Tokens, declaration, compiled mechanism, and what `target` makes of it.
+fn make<T>(
+    text: &str,
+    form: &Form,
+    target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics>,
+) -> Result<T, Vec<Problem>> {
+    let problems = |errors: Diagnostics| -> Vec<Problem> {
+        errors.iter().map(|error| Problem::of(error, text)).collect()
+    };
     let tokens: TokenStream = text.parse().map_err(|error| vec![lexing::problem(&error, text)])?;
     let declaration = match form {
         Form::Declaration => tokens,
-        Form::Rust(name) => {
-            find::block(tokens, name.as_deref()).map_err(|error| vec![Problem::of(&error, text)])?
-        }
+        Form::Rust(name) => find::block(tokens, name.as_deref()).map_err(|error| problems(error.into()))?,
     };
     let key = declaration.to_string();
-    let compiled = mbs_codegen::analyse(declaration)
-        .map_err(|errors| errors.iter().map(|error| Problem::of(error, text)).collect::<Vec<_>>())?;
-    check_feedback(&compiled).map_err(|error| vec![Problem::of(&error, text)])?;
-    Programs::new(key, &compiled).map_err(|mistake| vec![internal(mistake)])
+    let compiled = mbs_codegen::analyse(declaration).map_err(problems)?;
+    check_feedback(&compiled).map_err(|error| problems(error.into()))?;
+    target(key, &compiled).map_err(problems)
 }
 
 /// A mistake that is not in the text.

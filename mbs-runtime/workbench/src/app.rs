@@ -10,7 +10,7 @@ use mbs_runtime::Mechanism;
 #[cfg(feature = "live")]
 use crate::Settings;
 #[cfg(feature = "live")]
-use crate::command::{check, watch};
+use crate::command::{check, export, watch};
 use crate::command::{completions, explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::models::Models;
@@ -152,7 +152,8 @@ impl App {
         };
         let parser = Command::new("mbs").about(about).version(env!("CARGO_PKG_VERSION"));
         #[cfg(feature = "live")]
-        let parser = parser.subcommand(check::command()).subcommand(watch::command());
+        let parser =
+            parser.subcommand(check::command()).subcommand(watch::command()).subcommand(export::command());
         parser
             .subcommand(list::command())
             .subcommand(explain::command())
@@ -172,6 +173,8 @@ impl App {
             Some(("sweep", matches)) => sweep::run(&self.models, matches),
             #[cfg(feature = "live")]
             Some(("check", matches)) => check::run(matches).map(silent),
+            #[cfg(feature = "live")]
+            Some(("export", matches)) => export::run(&self.models, matches).map(silent),
             #[cfg(feature = "live")]
             Some(("watch", matches)) => watch::run(matches).map(silent),
             Some(("new", matches)) => new::run(matches).map(silent),

@@ -51,7 +51,7 @@ impl Text {
 /// # Errors
 /// Those of the declaration.
 pub(crate) fn compiled(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
-    Ok(Box::new(FromText { live: text.compile()?, defaults }))
+    Ok(Box::new(FromText { live: text.compile()?, text: text.clone(), defaults }))
 }
 
 /// The mechanism that a file declares; `name` chooses among several in a Rust file.
@@ -66,7 +66,7 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
     };
     let live = text.compile()?;
     let defaults = declared(&live, Settings::default());
-    Ok(Box::new(FromText { live, defaults }))
+    Ok(Box::new(FromText { live, text, defaults }))
 }
 
 /// Step and feedback as they are declared.
@@ -87,6 +87,7 @@ pub(crate) fn shown(error: &mbs_live::Error) -> String {
 
 struct FromText {
     live: Live,
+    text: mbs_live::Text,
     defaults: Settings,
 }
 
@@ -113,6 +114,10 @@ impl Model for FromText {
             FeedbackKind::Held => run::<Held>(&live, start)?,
             FeedbackKind::PerStage => run::<PerStage>(&live, start)?,
         }))
+    }
+
+    fn text(&self) -> Option<&mbs_live::Text> {
+        Some(&self.text)
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {

@@ -35,6 +35,12 @@ pub trait Model: Send + Sync {
     /// Parameters, inputs, gains, a step or a start that the mechanism refuses.
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error>;
 
+    /// Its declaration, where that is a text: other programs than this one can be made of it.
+    #[cfg(feature = "live")]
+    fn text(&self) -> Option<&mbs_live::Text> {
+        None
+    }
+
     /// Its runs in lanes, many to a vector instruction, if it has such.
     fn in_lanes(&self) -> Option<&dyn InLanes> {
         None

@@ -6,6 +6,8 @@ mod compare;
 pub(crate) mod completions;
 mod curves;
 pub(crate) mod explain;
+#[cfg(feature = "live")]
+pub(crate) mod export;
 mod json;
 pub(crate) mod list;
 pub(crate) mod new;

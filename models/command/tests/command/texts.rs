@@ -1,6 +1,7 @@
 //! Mechanisms from files.
 
 use std::fs;
+use std::process::Command;
 
 use super::{mbs, text};
 
@@ -81,4 +82,32 @@ fn a_declaration_to_begin_with() {
     assert!(mbs(folder.path(), "new --file my.mbs").status.success());
     assert!(mbs(folder.path(), "check my.mbs").status.success());
     assert!(!mbs(folder.path(), "new --file my.mbs").status.success(), "it is there already");
+}
+
+/// By the compiler of the machine, if there is one, with the warnings that firmware has.
+#[test]
+fn a_mechanism_as_c_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "export c four-bar --out c");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for file in ["four_bar.h", "four_bar.c", "main.c", "README.md"] {
+        assert!(folder.path().join("c").join(file).is_file(), "{file}");
+    }
+    let flags = "-std=c99 -Wall -Wextra -Wconversion -Werror -pedantic -O2 -ffp-contract=off -o run";
+    let compiled = Command::new("gcc")
+        .args(flags.split(' '))
+        .args(["c/four_bar.c", "c/main.c", "-lm"])
+        .current_dir(folder.path())
+        .output();
+    let Ok(compiled) = compiled else {
+        eprintln!("skipped: there is no gcc");
+        return;
+    };
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    let table = Command::new(folder.path().join("run")).output().unwrap();
+    assert!(table.status.success());
+    let table = text(table.stdout);
+    assert!(table.lines().count() > 100, "{table}");
+    let refused = super::refusal("export c four-bar");
+    assert!(refused.contains("--out"), "{refused}");
 }
