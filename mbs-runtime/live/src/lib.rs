@@ -54,6 +54,7 @@ mod instruction;
 mod lanes;
 mod lexing;
 mod live;
+mod products;
 mod run;
 mod slots;
 mod statics;
