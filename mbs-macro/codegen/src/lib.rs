@@ -13,7 +13,7 @@
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `verify` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
-//! | `target` | tokens | what is written computes what was checked |
+//! | `target` | tokens, or C | what is written computes what was checked |
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
 //! the last.
@@ -28,7 +28,7 @@ mod plan;
 mod quantity;
 mod reactive;
 mod syntax;
-mod target;
+pub mod target;
 mod verify;
 
 use proc_macro2::TokenStream;

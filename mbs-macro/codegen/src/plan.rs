@@ -19,7 +19,7 @@ use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
 use correction::correction;
 pub use input::Input;
-pub use step::{FusedStep, Kinds};
+pub use step::{FusedStep, Kinds, Programs};
 
 /// An order that changes more entries than this per unknown fills the matrix of a
 /// chain, and is given up.

@@ -57,6 +57,8 @@ pub struct Row {
     pub partials: fn(&mut Arena, Expr, Expr, Expr) -> [Expr; 2],
     /// Behaviour under x → −x.
     pub parity: Parity,
+    /// Its name in C's `math.h`, for `double`, if it stands there.
+    pub c: Option<&'static str>,
 }
 
 /// f(−x) = −f(x), f(x), or neither.
@@ -78,23 +80,23 @@ use Parity::{Even, Neither, Odd};
 /// both are equal.
 #[rustfmt::skip]
 pub const TABLE: &[Row] = &[
-    Row { function: F::Sin,  name: "sin",  arity: 1, parity: Odd,     value: |x, _| x.sin(),  partials: |a, x, _, _| { let d = a.call(F::Cos, x); one(a, d) } },
-    Row { function: F::Cos,  name: "cos",  arity: 1, parity: Even,    value: |x, _| x.cos(),  partials: |a, x, _, _| { let s = a.call(F::Sin, x); let d = a.neg(s); one(a, d) } },
-    Row { function: F::Tan,  name: "tan",  arity: 1, parity: Odd,     value: |x, _| x.tan(),  partials: |a, _, _, f| { let d = polynomial(a, f, 1, 1); one(a, d) } },
-    Row { function: F::Asin, name: "asin", arity: 1, parity: Odd,     value: |x, _| x.asin(), partials: |a, x, _, _| { let d = inverse_root(a, x); one(a, d) } },
-    Row { function: F::Acos, name: "acos", arity: 1, parity: Neither, value: |x, _| x.acos(), partials: |a, x, _, _| { let r = inverse_root(a, x); let d = a.neg(r); one(a, d) } },
-    Row { function: F::Atan, name: "atan", arity: 1, parity: Odd,     value: |x, _| x.atan(), partials: |a, x, _, _| { let p = polynomial(a, x, 1, 1); let d = a.powi(p, -1); one(a, d) } },
-    Row { function: F::Sqrt, name: "sqrt", arity: 1, parity: Neither, value: |x, _| x.sqrt(), partials: |a, _, _, f| { let r = a.powi(f, -1); let d = a.scale(r, Number::ratio(1, 2)); one(a, d) } },
-    Row { function: F::Exp,  name: "exp",  arity: 1, parity: Neither, value: |x, _| x.exp(),  partials: |a, _, _, f| one(a, f) },
-    Row { function: F::Ln,   name: "ln",   arity: 1, parity: Neither, value: |x, _| x.ln(),   partials: |a, x, _, _| { let d = a.powi(x, -1); one(a, d) } },
-    Row { function: F::Tanh, name: "tanh", arity: 1, parity: Odd,     value: |x, _| x.tanh(), partials: |a, _, _, f| { let d = polynomial(a, f, 1, -1); one(a, d) } },
-    Row { function: F::Abs,  name: "abs",  arity: 1, parity: Even,    value: |x, _| x.abs(),  partials: |a, x, _, _| { let d = a.call(F::Sign, x); one(a, d) } },
-    Row { function: F::Sign, name: "sign", arity: 1, parity: Odd,     value: |x, _| sign(x),  partials: |a, _, _, _| [a.zero(), a.zero()] },
-    Row { function: F::Atan2, name: "atan2", arity: 2, parity: Neither, value: f64::atan2, partials: atan2_partials },
-    Row { function: F::Min,   name: "min",   arity: 2, parity: Neither, value: |x, y| if x < y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, y, x) },
-    Row { function: F::Max,   name: "max",   arity: 2, parity: Neither, value: |x, y| if x > y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, x, y) },
-    Row { function: F::Pow,   name: "pow",   arity: 2, parity: Neither, value: f64::powf, partials: pow_partials },
-    Row { function: F::Greater, name: "",    arity: 2, parity: Neither, value: |x, y| f64::from(u8::from(x > y)), partials: |a, _, _, _| [a.zero(), a.zero()] },
+    Row { function: F::Sin,  name: "sin",  arity: 1, parity: Odd,     c: Some("sin"),   value: |x, _| x.sin(),  partials: |a, x, _, _| { let d = a.call(F::Cos, x); one(a, d) } },
+    Row { function: F::Cos,  name: "cos",  arity: 1, parity: Even,    c: Some("cos"),   value: |x, _| x.cos(),  partials: |a, x, _, _| { let s = a.call(F::Sin, x); let d = a.neg(s); one(a, d) } },
+    Row { function: F::Tan,  name: "tan",  arity: 1, parity: Odd,     c: Some("tan"),   value: |x, _| x.tan(),  partials: |a, _, _, f| { let d = polynomial(a, f, 1, 1); one(a, d) } },
+    Row { function: F::Asin, name: "asin", arity: 1, parity: Odd,     c: Some("asin"),  value: |x, _| x.asin(), partials: |a, x, _, _| { let d = inverse_root(a, x); one(a, d) } },
+    Row { function: F::Acos, name: "acos", arity: 1, parity: Neither, c: Some("acos"),  value: |x, _| x.acos(), partials: |a, x, _, _| { let r = inverse_root(a, x); let d = a.neg(r); one(a, d) } },
+    Row { function: F::Atan, name: "atan", arity: 1, parity: Odd,     c: Some("atan"),  value: |x, _| x.atan(), partials: |a, x, _, _| { let p = polynomial(a, x, 1, 1); let d = a.powi(p, -1); one(a, d) } },
+    Row { function: F::Sqrt, name: "sqrt", arity: 1, parity: Neither, c: Some("sqrt"),  value: |x, _| x.sqrt(), partials: |a, _, _, f| { let r = a.powi(f, -1); let d = a.scale(r, Number::ratio(1, 2)); one(a, d) } },
+    Row { function: F::Exp,  name: "exp",  arity: 1, parity: Neither, c: Some("exp"),   value: |x, _| x.exp(),  partials: |a, _, _, f| one(a, f) },
+    Row { function: F::Ln,   name: "ln",   arity: 1, parity: Neither, c: Some("log"),   value: |x, _| x.ln(),   partials: |a, x, _, _| { let d = a.powi(x, -1); one(a, d) } },
+    Row { function: F::Tanh, name: "tanh", arity: 1, parity: Odd,     c: Some("tanh"),  value: |x, _| x.tanh(), partials: |a, _, _, f| { let d = polynomial(a, f, 1, -1); one(a, d) } },
+    Row { function: F::Abs,  name: "abs",  arity: 1, parity: Even,    c: Some("fabs"),  value: |x, _| x.abs(),  partials: |a, x, _, _| { let d = a.call(F::Sign, x); one(a, d) } },
+    Row { function: F::Sign, name: "sign", arity: 1, parity: Odd,     c: None,          value: |x, _| sign(x),  partials: |a, _, _, _| [a.zero(), a.zero()] },
+    Row { function: F::Atan2, name: "atan2", arity: 2, parity: Neither, c: Some("atan2"), value: f64::atan2, partials: atan2_partials },
+    Row { function: F::Min,   name: "min",   arity: 2, parity: Neither, c: None,          value: |x, y| if x < y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, y, x) },
+    Row { function: F::Max,   name: "max",   arity: 2, parity: Neither, c: None,          value: |x, y| if x > y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, x, y) },
+    Row { function: F::Pow,   name: "pow",   arity: 2, parity: Neither, c: Some("pow"),   value: f64::powf, partials: pow_partials },
+    Row { function: F::Greater, name: "",    arity: 2, parity: Neither, c: None,          value: |x, y| f64::from(u8::from(x > y)), partials: |a, _, _, _| [a.zero(), a.zero()] },
 ];
 
 impl Function {

@@ -63,6 +63,8 @@ mod text;
 mod unwoven;
 mod words;
 
+pub use mbs_codegen::compiled::Feedback;
+
 pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;
 pub use live::Live;

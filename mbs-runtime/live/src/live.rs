@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use mbs_codegen::compiled::{Condition, FusedStep, Kinds};
+use mbs_codegen::compiled::{Condition, Feedback, FusedStep, Kinds};
 use mbs_codegen::{Compiled, FunctionId};
 use mbs_runtime::{Derivation, Error, Info, Sketch};
 use mbs_symbolic::Inconsistency;
@@ -190,6 +190,11 @@ impl Live {
     /// What a picture of it shows.
     pub fn sketch(&self) -> &'static Sketch {
         &self.programs.tables.sketch
+    }
+
+    /// The feedback that the declaration asks for, stable with its step.
+    pub fn declared_feedback(&self) -> Option<Feedback> {
+        self.programs.tables.feedback
     }
 
     /// The step that the declaration asks for, in s.

@@ -28,6 +28,8 @@ pub struct Tables {
     pub sketch: Sketch,
     /// The declared step in s.
     pub step: Option<f64>,
+    /// The declared feedback.
+    pub feedback: Option<compiled::Feedback>,
 }
 
 static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
@@ -63,6 +65,7 @@ impl Tables {
             derivation: words::derivation(&compiled.derivation),
             sketch: words::sketch(&compiled.sketch),
             step: compiled.choices.step,
+            feedback: compiled.choices.feedback,
         }
     }
 }

@@ -8,7 +8,9 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-use mbs_codegen::Diagnostic;
+use mbs_codegen::compiled::Choices;
+use mbs_codegen::{Compiled, Diagnostic};
+use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
 
 use crate::error::{Error, Problem};
@@ -167,10 +169,27 @@ fn compile(text: &str, form: &Form) -> Result<Programs, Vec<Problem>> {
     let key = declaration.to_string();
     let compiled = mbs_codegen::analyse(declaration)
         .map_err(|errors| errors.iter().map(|error| Problem::of(error, text)).collect::<Vec<_>>())?;
+    check_feedback(&compiled).map_err(|error| vec![Problem::of(&error, text)])?;
     Programs::new(key, &compiled).map_err(|mistake| vec![internal(mistake)])
 }
 
 /// A mistake that is not in the text.
 fn internal(what: impl Display) -> Problem {
     Problem::of(&Diagnostic::internal(Span::call_site(), what), "")
+}
+
+/// Refuses declared gains under which the violation of the constraints would grow, which
+/// rustc does where a mechanism is compiled by it.
+fn check_feedback(compiled: &Compiled) -> Result<(), Diagnostic> {
+    let Choices { step: Some(step), feedback: Some(feedback), .. } = compiled.choices else { return Ok(()) };
+    let is_stable = if feedback.is_held {
+        Baumgarte::<Held>::new(feedback.alpha, feedback.beta).is_ok_and(|gains| gains.is_stable(step))
+    } else {
+        Baumgarte::<PerStage>::new(feedback.alpha, feedback.beta).is_ok_and(|gains| gains.is_stable(step))
+    };
+    if is_stable {
+        return Ok(());
+    }
+    let span = compiled.written.feedback.unwrap_or_else(|| compiled.written.name.span());
+    Err(Diagnostic::new(span, feedback.refusal(step)))
 }

@@ -65,9 +65,17 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
         None => text,
     };
     let live = text.compile()?;
-    let defaults = Settings::default();
-    let step = live.declared_step().unwrap_or(defaults.step);
-    Ok(Box::new(FromText { live, defaults: Settings { step, ..defaults } }))
+    let defaults = declared(&live, Settings::default());
+    Ok(Box::new(FromText { live, defaults }))
+}
+
+/// Step and feedback as they are declared.
+fn declared(live: &Live, settings: Settings) -> Settings {
+    let step = live.declared_step().unwrap_or(settings.step);
+    let Some(feedback) = live.declared_feedback() else { return Settings { step, ..settings } };
+    let kind = if feedback.is_held { FeedbackKind::Held } else { FeedbackKind::PerStage };
+    let (alpha, beta) = (Some(feedback.alpha), Some(feedback.beta));
+    Settings { step, feedback: kind, alpha, beta, ..settings }
 }
 
 /// An error with its source, in colours on a terminal.

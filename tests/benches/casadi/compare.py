@@ -7,7 +7,8 @@ The same mechanisms (absolute coordinates, the same numbers), the same step
 (Heun's method, feedback of the violation in both stages), from the same start.
 CasADi gets its numbers as constants, eliminates with each of its solvers that fits,
 and the fastest counts; its C is compiled in one unit with the loop around it, by
-gcc -O3. Both programs are run in turns; medians of all rounds. `--native` builds both
+gcc -O3. So is our own C, of the mechanisms of the library that stand alone in a file. All programs
+are run in turns; medians of all rounds. `--native` builds both
 for the processor at hand instead of the architecture's common ground.
 """
 
@@ -175,6 +176,23 @@ def build(folder, name, system, solver, flags):
     return program
 
 
+# File, step in s and inputs of the mechanisms that are timed as printed C.
+PRINTED = {"driven": ("slider_crank.rs", 0.5e-3, 0.0), "free": ("slider_crank_free.rs", 0.5e-3, 0.5)}
+
+
+def build_printed(folder, name, export, flags):
+    """The program that times the steps of our C."""
+    file, h, value = PRINTED[name]
+    command = [export, ROOT / "models/src" / file, folder]
+    prefix = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+    text = (HERE / "ours.c").read_text().replace("NAME", prefix).replace("CAPS", prefix.upper())
+    text = text.replace("= H,", f"= {h!r},").replace("INPUT;", f"{value!r};")
+    (folder / f"{prefix}_time.c").write_text(text)
+    program = folder / f"{prefix}_time"
+    subprocess.run(["gcc", "-O3", *flags, f"{prefix}_time.c", "-o", program, "-lm"], cwd=folder, check=True)
+    return program
+
+
 def run(program, *arguments):
     """{name: (ns per step, sum of the last state)}"""
     lines = subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout.splitlines()
@@ -190,9 +208,10 @@ def main():
     flags = ["-march=native"] if options.native else []
     target = ROOT / "target" / ("native" if options.native else "")
     environment = {**os.environ, "RUSTFLAGS": "-C target-cpu=native"} if options.native else os.environ
-    command = ["cargo", "build", "--release", "-p", "tests", "--example", "step_times", "--target-dir", target]
-    subprocess.run(command, cwd=ROOT, env=environment, check=True)
-    ours = target / "release/examples/step_times"
+    for package, example in (("tests", "step_times"), ("c_code", "export")):
+        command = ["cargo", "build", "--release", "-p", package, "--example", example, "--target-dir", target]
+        subprocess.run(command, cwd=ROOT, env=environment, check=True)
+    ours, export = target / "release/examples/step_times", target / "release/examples/export"
 
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
@@ -204,6 +223,8 @@ def main():
                 if program:
                     programs[name, solver] = program
                     print(f"built {name}, {solver}", file=sys.stderr)
+        for name in PRINTED:
+            programs[name, "our C"] = build_printed(folder, name, export, flags)
         times = {}
         sums = {}
         for _ in range(options.rounds):
@@ -215,14 +236,14 @@ def main():
                 times.setdefault((name, solver), []).append(time)
                 # the same motion; other orders of operations round apart
                 if abs(total - sums[name]) > 1e-6 * (1 + abs(total)):
-                    sys.exit(f"{name}: CasADi ({solver}) ends at {total}, the generated solver at {sums[name]}")
+                    sys.exit(f"{name}: {solver} ends at {total}, the generated solver at {sums[name]}")
 
-    print(f"{'ns per Heun step, medians':28}{'ours':>9}{'CasADi':>9}{'ratio':>8}  its fastest solver")
+    print(f"{'ns per Heun step, medians':28}{'ours':>9}{'our C':>9}{'CasADi':>9}{'ratio':>8}  its fastest solver")
     for name in MODELS:
         median = {s: statistics.median(t) for (n, s), t in times.items() if n == name}
-        mine = median.pop("ours")
+        mine, in_c = median.pop("ours"), median.pop("our C", float("nan"))
         solver = min(median, key=median.get)
-        print(f"{name:28}{mine:9.1f}{median[solver]:9.1f}{mine / median[solver]:8.2f}  {solver}")
+        print(f"{name:28}{mine:9.1f}{in_c:9.1f}{median[solver]:9.1f}{mine / median[solver]:8.2f}  {solver}")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@
 //!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
 //!   position is singular and the result must not be used.
 //!
-//! The example `python` of this crate is a whole target in fifty lines.
+//! The example `python` of this crate is a whole target in fifty lines;
+//! [`target::c`](crate::target::c) is one with loops, a start and a watch.
 //!
 //! # Example
 //! ```
@@ -51,7 +52,7 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
-pub use crate::plan::{FusedStep, Input, Kinds};
+pub use crate::plan::{FusedStep, Input, Kinds, Programs};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
@@ -197,6 +198,7 @@ pub struct Choices {
 }
 
 /// Feedback −2αΦ̇ − β²Φ of the constraint violation.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feedback {
     /// Whether the second stage of a step is given that of the first.
     pub is_held: bool,
@@ -204,6 +206,18 @@ pub struct Feedback {
     pub alpha: f64,
     /// β in 1/s
     pub beta: f64,
+}
+
+impl Feedback {
+    /// What there is to say where it is unstable with steps of `step` seconds.
+    pub fn refusal(&self, step: f64) -> String {
+        let Self { is_held, alpha, beta } = self;
+        let word = if *is_held { "held" } else { "per-stage" };
+        format!(
+            "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \
+             the constraint violation would grow; reduce them or the step"
+        )
+    }
 }
 
 /// What the Rust target takes over from the declaration as it was written there.

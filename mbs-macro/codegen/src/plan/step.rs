@@ -25,6 +25,17 @@ pub struct Kinds {
     pub held: Woven,
     /// Each stage has its own.
     pub per_stage: Woven,
+    /// What was woven, for targets without pairs.
+    pub programs: Programs,
+}
+
+/// The programs of a step with each kind of feedback: q⁺, v⁺ and the growth of both stages;
+/// with reactions q⁺, v⁺, q̈, λ, the growth, and that of the reactions.
+pub struct Programs {
+    /// The second stage is given the feedback of the first.
+    pub held: Program,
+    /// Each stage has its own.
+    pub per_stage: Program,
 }
 
 /// The programs of a mechanism that a step is made of.
@@ -101,7 +112,11 @@ fn kinds(
         woven.check(program)?;
         Ok(woven)
     };
-    Ok(Some(Kinds { held: woven(&held)?, per_stage: woven(&per_stage)? }))
+    Ok(Some(Kinds {
+        held: woven(&held)?,
+        per_stage: woven(&per_stage)?,
+        programs: Programs { held, per_stage },
+    }))
 }
 
 /// A step gives what its stages give one after the other, with numbers without any relation

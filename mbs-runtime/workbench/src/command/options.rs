@@ -34,14 +34,21 @@ pub(super) fn of_a_run() -> Vec<Arg> {
         option(
             "step",
             "TIME",
-            "Step in s, or with a unit [default: 0.5ms, or what a fast mechanism asks for]",
+            "Step in s, or with a unit [default: as declared, 0.5ms, or what a fast mechanism asks for]",
         ),
         option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
-        option("alpha", "RATE", "Feedback of the velocity violation in 1/s [default: deadbeat]"),
-        option("beta", "RATE", "Feedback of the position violation in 1/s [default: deadbeat]"),
-        option("feedback", "WHEN", "When the violation is fed back")
-            .value_parser(PossibleValuesParser::new(["held", "per-stage"]))
-            .default_value("held"),
+        option(
+            "alpha",
+            "RATE",
+            "Feedback of the velocity violation in 1/s [default: as declared, or deadbeat]",
+        ),
+        option(
+            "beta",
+            "RATE",
+            "Feedback of the position violation in 1/s [default: as declared, or deadbeat]",
+        ),
+        option("feedback", "WHEN", "When the violation is fed back [default: as declared, or held]")
+            .value_parser(PossibleValuesParser::new(["held", "per-stage"])),
         option("start", "WHERE", "The declared start, made consistent or as it is")
             .value_parser(PossibleValuesParser::new(["consistent", "declared"]))
             .default_value("consistent"),
@@ -69,9 +76,13 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         step: value("step", TIME)?.unwrap_or(defaults.step),
         end: value("end", TIME)?.unwrap_or(defaults.end),
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
-        alpha: value("alpha", RATE)?,
-        beta: value("beta", RATE)?,
-        feedback: if choice("feedback") == "per-stage" { FeedbackKind::PerStage } else { FeedbackKind::Held },
+        alpha: value("alpha", RATE)?.or(defaults.alpha),
+        beta: value("beta", RATE)?.or(defaults.beta),
+        feedback: match choice("feedback") {
+            "per-stage" => FeedbackKind::PerStage,
+            "held" => FeedbackKind::Held,
+            _ => defaults.feedback,
+        },
         start: if choice("start") == "declared" { StartKind::Declared } else { StartKind::Consistent },
         allow_unstable: matches.get_flag("allow-unstable"),
     })

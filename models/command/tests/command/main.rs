@@ -6,6 +6,7 @@ mod answers;
 mod files;
 mod runs;
 mod sweeps;
+mod texts;
 mod words;
 
 use std::path::{Path, PathBuf};

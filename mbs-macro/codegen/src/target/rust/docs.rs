@@ -2,10 +2,7 @@
 
 use std::fmt::Write;
 
-use mbs_symbolic::units::{self, Dimension};
-
-use crate::compiled::{Compiled, Count, Derivation, Elimination, Formula, FunctionId, Quantity};
-use crate::diagnostics::described;
+use crate::compiled::{Compiled, Count, Derivation, Elimination, Formula, FunctionId};
 
 /// Longer listings are cut.
 const LONGEST_LISTING: usize = 48;
@@ -50,43 +47,6 @@ pub fn hoisted(compiled: &Compiled) -> String {
     let lines =
         compiled.derivation.hoisted.iter().enumerate().map(|(at, formula)| format!("{at}: {formula}"));
     format!("What depends on parameters alone, computed once:\n\n{}", listing(lines))
-}
-
-/// A quantity with its unit and declared value.
-pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
-    let mut text = quantity.doc.clone();
-    if !text.is_empty() {
-        text.push_str("\n\n");
-    }
-    let what = kind(quantity);
-    match declared {
-        Some(value) if quantity.unit.is_empty() => {
-            let _ = write!(text, "`{}`: {what}, declared as {value}.", quantity.name);
-        }
-        Some(value) => {
-            let _ = write!(
-                text,
-                "`{}`: {what}, declared as {} {} = {value} in SI units.",
-                quantity.name,
-                value / quantity.scale,
-                quantity.unit
-            );
-        }
-        None => {
-            let _ = write!(text, "`{}`: {what}.", quantity.name);
-        }
-    }
-    text
-}
-
-/// What a quantity is, with its article: `a length [m]`, `an angle [rad]`.
-fn kind(quantity: &Quantity) -> String {
-    let is_angle = |unit| units::lookup(unit).is_some_and(|unit| unit.dimension == Dimension::NONE);
-    match quantity.dimension == Dimension::NONE {
-        true if is_angle(&quantity.unit) => "an angle [rad]".to_owned(),
-        true => "a bare number".to_owned(),
-        false => described(quantity.dimension),
-    }
 }
 
 /// Documentation of the functions.

@@ -48,11 +48,8 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         return tokens;
     };
     let Feedback { is_held, alpha, beta } = *feedback;
-    let (kind, word) = if is_held { (quote!(Held), "held") } else { (quote!(PerStage), "per-stage") };
-    let message = format!(
-        "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {word} feedback and a step of {step} s: \
-         the constraint violation would grow; reduce them or the step"
-    );
+    let kind = if is_held { quote!(Held) } else { quote!(PerStage) };
+    let message = feedback.refusal(step);
     tokens.extend(quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The declared feedback of the constraint violation, stable with

@@ -7,6 +7,7 @@ use super::docs;
 use super::names::{Names, field};
 use super::program::float_tokens;
 use crate::compiled::{Compiled, Quantity, Results};
+use crate::target::words;
 
 /// Vectors with more components are converted by calls.
 const LARGEST_INLINED: usize = 64;
@@ -31,7 +32,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         .map(|p| Field {
             name: field(&p.quantity.name),
             text: p.quantity.name.clone(),
-            doc: docs::quantity(&p.quantity, Some(p.value)),
+            doc: words::quantity(&p.quantity, Some(p.value)),
             value: p.value,
         })
         .collect();
@@ -116,7 +117,7 @@ fn quantities<'a>(
         .map(|quantity| Field {
             name: field(&quantity.name),
             text: quantity.name.clone(),
-            doc: docs::quantity(quantity, None),
+            doc: words::quantity(quantity, None),
             value: 0.0,
         })
         .collect();

@@ -1,0 +1,44 @@
+//! Comments, and the page that explains the files.
+
+use super::{Scalar, Target};
+use crate::compiled::{Constraint, FunctionId};
+
+/// A text as a comment.
+pub fn comment(text: &str, indent: &str) -> String {
+    // what would begin or end a comment within it
+    let text = text.trim().replace("*/", "* /").replace("/*", "/ *");
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let lines: Vec<String> = lines.iter().map(|line| format!("{indent}   {line}")).collect();
+    let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
+    let text = lines.join("\n");
+    let text = text.trim_start();
+    if text.is_empty() { String::new() } else { format!("{indent}/* {text} */\n") }
+}
+
+/// What a constraint says.
+pub fn constraint(constraint: &Constraint) -> String {
+    format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
+}
+
+/// The page that explains the files.
+pub fn readme(target: &Target<'_>) -> String {
+    let compiled = target.compiled;
+    let step = if compiled.fused_step.is_some() {
+        "both stages of a step are one straight line of code"
+    } else {
+        "a step runs its two stages one after the other"
+    };
+    let precision = match target.scalar {
+        Scalar::Double => include_str!("text/double.md"),
+        Scalar::Float => include_str!("text/float.md"),
+    };
+    let stabilized = compiled.count(FunctionId::Stabilized).operations;
+    // the name of the mechanism last, because it may be any word
+    target
+        .fill(include_str!("text/README.md"))
+        .replace("PRECISION", precision.trim())
+        .replace("SCALAR", target.scalar.name())
+        .replace("STAGE", &stabilized.to_string())
+        .replace("FUSION", step)
+        .replace("MECHANISM", &compiled.name)
+}

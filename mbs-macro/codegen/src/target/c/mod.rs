@@ -1,0 +1,152 @@
+//! C99: a header, a source, an example and a page that explains them. The code allocates
+//! nothing, has no variables at file level, and needs `math.h` alone.
+//!
+//! Structs have a member per name of the declaration. Kernels, the functions that one
+//! program each computes, are printed by `kernels`; long ones as `loops`. What a run does
+//! with them is C text in `text`, the same for every mechanism.
+//!
+//! In double precision the results are those of the Rust target to the bit, where a
+//! compiler neither contracts products and sums (`-ffp-contract=off`) nor uses registers that
+//! are wider (x87), as far as the functions of `math.h` agree with Rust's: `sqrt` does
+//! always; sines and cosines are printed with the code.
+
+mod docs;
+mod header;
+mod instructions;
+mod kernels;
+mod loops;
+mod names;
+mod source;
+
+use crate::compiled::Compiled;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use names::Names;
+
+/// The floating-point type that C computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// `double`
+    Double,
+    /// `float`
+    Float,
+}
+
+/// A file with its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Its name, without a folder.
+    pub name: String,
+    /// Its text, in UTF-8.
+    pub text: String,
+}
+
+/// A mechanism in C.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CSources {
+    /// What every name at file level begins with.
+    pub prefix: String,
+    /// The types and functions.
+    pub header: File,
+    /// The code.
+    pub source: File,
+    /// A program that runs the mechanism and prints a table.
+    pub example: File,
+    /// How to compile and use them.
+    pub readme: File,
+}
+
+impl CSources {
+    /// All files.
+    pub fn files(&self) -> [&File; 4] {
+        [&self.header, &self.source, &self.example, &self.readme]
+    }
+}
+
+/// What is printed, and how.
+struct Target<'a> {
+    compiled: &'a Compiled,
+    names: &'a Names,
+    scalar: Scalar,
+}
+
+impl Target<'_> {
+    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, and
+    /// `SQRT` and `FABS` for functions. No name of a declaration may be in it.
+    fn fill(&self, text: &str) -> String {
+        text.replace("NAME", &self.names.prefix)
+            .replace("CAPS", &self.names.capitals)
+            .replace("SQRT", &self.scalar.of_math("sqrt"))
+            .replace("FABS", &self.scalar.of_math("fabs"))
+    }
+}
+
+/// The C sources of a mechanism.
+///
+/// # Example
+/// ```
+/// use mbs_codegen::target::{Scalar, c};
+///
+/// let declaration = "Pendulum {
+///     dof = 1;
+///     param length = 1 [m];
+///     gravity = (0, -9.81) [m/s^2];
+///     body bob (x, y) { mass = 2 [kg]; }
+///     constraint rod: x^2 + y^2 = length^2;
+///     start { x = length; guess y = 0; }
+/// }";
+/// let sources = c(&mbs_codegen::analyse(declaration.parse()?)?, Scalar::Double)?;
+/// assert_eq!(sources.header.name, "pendulum.h");
+/// assert!(sources.header.text.contains("int pendulum_step(struct pendulum_run *run);"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A program that would be written in another way than it was checked in, which is a mistake
+/// of the compiler.
+pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
+    let names = Names::new(compiled);
+    let target = Target { compiled, names: &names, scalar };
+    let kernels =
+        kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let file = |name: String, text| File { name, text };
+    Ok(CSources {
+        header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),
+        source: file(format!("{}.c", names.prefix), source::source(&target, &kernels)),
+        example: file("main.c".to_owned(), source::example(&target)),
+        readme: file("README.md".to_owned(), docs::readme(&target)),
+        prefix: names.prefix,
+    })
+}
+
+impl Scalar {
+    /// The type.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::Float => "float",
+        }
+    }
+
+    /// The nearest number of the type as an expression that needs no parentheses.
+    fn literal(self, value: f64) -> String {
+        let (value, text) = match self {
+            Self::Double => (value, format!("{value:?}")),
+            Self::Float => (f64::from(value as f32), format!("{:?}f", value as f32)),
+        };
+        match value {
+            _ if value.is_nan() => "NAN".to_owned(),
+            f64::INFINITY => "INFINITY".to_owned(),
+            f64::NEG_INFINITY => "(-INFINITY)".to_owned(),
+            _ if value.is_sign_negative() => format!("({text})"),
+            _ => text,
+        }
+    }
+
+    /// A function of `math.h`.
+    fn of_math(self, name: &str) -> String {
+        match self {
+            Self::Double => name.to_owned(),
+            Self::Float => format!("{name}f"),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What targets say of quantities.
+
+use std::fmt::Write;
+
+use mbs_symbolic::units::{self, Dimension};
+
+use crate::compiled::Quantity;
+use crate::diagnostics::described;
+
+/// A quantity with its unit and declared value.
+pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
+    let mut text = quantity.doc.clone();
+    if !text.is_empty() {
+        text.push_str("\n\n");
+    }
+    let what = kind(quantity);
+    match declared {
+        Some(value) if quantity.unit.is_empty() => {
+            let _ = write!(text, "`{}`: {what}, declared as {value}.", quantity.name);
+        }
+        Some(value) => {
+            let _ = write!(
+                text,
+                "`{}`: {what}, declared as {} {} = {value} in SI units.",
+                quantity.name,
+                value / quantity.scale,
+                quantity.unit
+            );
+        }
+        None => {
+            let _ = write!(text, "`{}`: {what}.", quantity.name);
+        }
+    }
+    text
+}
+
+/// What a quantity is, with its article: `a length [m]`, `an angle [rad]`.
+fn kind(quantity: &Quantity) -> String {
+    let is_angle = |unit| units::lookup(unit).is_some_and(|unit| unit.dimension == Dimension::NONE);
+    match quantity.dimension == Dimension::NONE {
+        true if is_angle(&quantity.unit) => "an angle [rad]".to_owned(),
+        true => "a bare number".to_owned(),
+        false => described(quantity.dimension),
+    }
+}
