@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use mbs_codegen::compiled::{Condition, Feedback, FusedStep, Kinds};
+use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
 use mbs_runtime::{Derivation, Error, Info, Sketch};
 use mbs_symbolic::Inconsistency;
@@ -12,7 +12,6 @@ use crate::arguments::Arguments;
 use crate::code::{Code, Fixed};
 use crate::instruction::execute;
 use crate::statics::{self, Tables};
-use crate::unwoven::unwoven;
 
 /// A mechanism that was compiled from a text, with its parameters.
 ///
@@ -95,13 +94,10 @@ impl Programs {
     }
 }
 
-/// The steps with both kinds of feedback: the state after it, and the growth. What the
-/// compiled step sums up beside these is tested here by itself.
+/// The steps with both kinds of feedback: the state after it, and the growth.
 fn steps(compiled: &Compiled, step: &FusedStep) -> Result<[Arc<Code>; 2], Inconsistency> {
-    let Kinds { held, per_stage } = &step.alone;
-    let stage = compiled.program(FunctionId::Stabilized);
-    let outputs = 2 * compiled.coordinates.len() + 1;
-    let code = |woven| Code::new(compiled, &unwoven(woven, stage, outputs)?).map(Arc::new);
+    let compiled::Programs { held, per_stage } = &step.alone.programs;
+    let code = |program| Code::new(compiled, program).map(Arc::new);
     Ok([code(held)?, code(per_stage)?])
 }
 
