@@ -5,6 +5,7 @@ use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operat
 
 use crate::code::{Code, Fixed, Role, role};
 use crate::instruction::Instruction;
+use crate::products::Products;
 
 /// Follows the slots through a run, and compares what they hold with what the program
 /// reads: so every result is that of the program, on the same operands, and every slot
@@ -22,7 +23,8 @@ pub fn check(compiled: &Compiled, program: &Program, code: &Code) -> Result<(), 
             *slot = Some(Role::Given(argument));
         }
     }
-    let follower = Follower { compiled, program, pairs: SinCos::of(program), slots };
+    let (pairs, products) = (SinCos::of(program), Products::of(program));
+    let follower = Follower { compiled, program, pairs, products, slots };
     let rule = "slots hold what the program reads";
     follower.follow(&code.instructions, &code.outputs).ok_or(Inconsistency { pass: "live code", rule })
 }
@@ -32,6 +34,7 @@ struct Follower<'a> {
     compiled: &'a Compiled,
     program: &'a Program,
     pairs: SinCos,
+    products: Products,
     slots: Vec<Option<Role>>,
 }
 
@@ -42,7 +45,11 @@ impl Follower<'_> {
         let fixed = self.slots.iter().take_while(|slot| matches!(slot, Some(Role::Fixed(_)))).count();
         let mut instructions = instructions.iter();
         for (at, step) in self.program.instructions.iter().enumerate() {
-            if self.pairs.partner(at).is_none_or(|partner| partner > at) {
+            if let Some((product, ..)) = self.products.product(self.program, at) {
+                self.sum(at, step, product, instructions.next()?, fixed)?;
+            } else if self.pairs.partner(at).is_none_or(|partner| partner > at)
+                && self.products.reader(at).is_none()
+            {
                 self.step(at, step, instructions.next()?, fixed)?;
             }
         }
@@ -50,6 +57,39 @@ impl Follower<'_> {
         let mut places = self.program.outputs.iter().zip(outputs);
         let is_there = places.all(|(&output, &slot)| self.holds(slot, output).is_some());
         (are_outputs && is_there && instructions.next().is_none()).then_some(())
+    }
+
+    /// A sum with its product, both of them on the operands of the program.
+    fn sum(
+        &mut self,
+        at: usize,
+        step: &Step,
+        product: usize,
+        instruction: &Instruction,
+        fixed: usize,
+    ) -> Option<()> {
+        let (is_first, is_second) = (step.a == Operand::Value(product), step.b == Operand::Value(product));
+        let (other, [to, a, b, c]) = match (step.operation, is_first, is_second, *instruction) {
+            (Operation::Add, true, false, Instruction::MulAdd(slots)) => (step.b, slots),
+            (Operation::Add, false, true, Instruction::MulAdd(slots)) => (step.a, slots),
+            (Operation::Sub, false, true, Instruction::SubMul(slots)) => (step.a, slots),
+            (Operation::Sub, true, false, Instruction::MulSub(slots)) => (step.b, slots),
+            _ => return None,
+        };
+        let factors = self.program.instructions.get(product).filter(|it| it.operation == Operation::Mul)?;
+        self.holds(a, factors.a)?;
+        self.holds(b, factors.b)?;
+        self.holds(c, other)?;
+        self.put(to, at, fixed)
+    }
+
+    /// A slot holds a result from now on.
+    fn put(&mut self, slot: u32, value: usize, fixed: usize) -> Option<()> {
+        if (slot as usize) < fixed {
+            return None;
+        }
+        *self.slots.get_mut(slot as usize)? = Some(Role::Value(value));
+        Some(())
     }
 
     fn step(&mut self, at: usize, step: &Step, instruction: &Instruction, fixed: usize) -> Option<()> {
@@ -83,10 +123,7 @@ impl Follower<'_> {
             _ => return None,
         };
         for (slot, value) in results {
-            if (slot as usize) < fixed {
-                return None;
-            }
-            *self.slots.get_mut(slot as usize)? = Some(Role::Value(value));
+            self.put(slot, value, fixed)?;
         }
         is_same.then_some(())
     }
@@ -134,6 +171,7 @@ mod tests {
             | Instruction::Div(slots)
             | Instruction::SinCos(slots)
             | Instruction::Call(_, slots) => slots,
+            Instruction::MulAdd(slots) | Instruction::SubMul(slots) | Instruction::MulSub(slots) => slots,
             Instruction::Neg(slots) | Instruction::Spline { slots, .. } => slots,
         }
     }
@@ -145,6 +183,9 @@ mod tests {
             Instruction::Sub(slots) => Instruction::Add(slots),
             Instruction::Mul(slots) => Instruction::Div(slots),
             Instruction::Div(slots) | Instruction::Call(_, slots) => Instruction::Mul(slots),
+            Instruction::MulAdd(slots) => Instruction::SubMul(slots),
+            Instruction::SubMul(slots) => Instruction::MulSub(slots),
+            Instruction::MulSub(slots) => Instruction::MulAdd(slots),
             Instruction::SinCos([sine, cosine, angle]) => Instruction::SinCos([cosine, sine, angle]),
             Instruction::Neg([to, a]) => Instruction::Add([to, a, a]),
             Instruction::Spline { order, spline, slots } => {

@@ -17,6 +17,12 @@ pub enum Instruction {
     Mul([u32; 3]),
     /// a/b
     Div([u32; 3]),
+    /// c + a·b, each rounded by itself
+    MulAdd([u32; 4]),
+    /// c − a·b
+    SubMul([u32; 4]),
+    /// a·b − c
+    MulSub([u32; 4]),
     /// −a
     Neg([u32; 2]),
     /// Sine and cosine of one angle.
@@ -42,6 +48,9 @@ pub fn execute<T: Real, const C: usize>(
             Instruction::Sub(slots) => binary(values, slots, |a, b| a - b),
             Instruction::Mul(slots) => binary(values, slots, |a, b| a * b),
             Instruction::Div(slots) => binary(values, slots, |a, b| a / b),
+            Instruction::MulAdd(slots) => ternary(values, slots, |a, b, c| c + a * b),
+            Instruction::SubMul(slots) => ternary(values, slots, |a, b, c| c - a * b),
+            Instruction::MulSub(slots) => ternary(values, slots, |a, b, c| a * b - c),
             Instruction::Neg(slots) => unary(values, slots, |a| -a),
             Instruction::SinCos([sine, cosine, angle]) => {
                 for column in 0..C {
@@ -56,6 +65,18 @@ pub fn execute<T: Real, const C: usize>(
                 unary(values, slots, |a| spline.derivative(order, a));
             }
         }
+    }
+}
+
+#[inline(always)]
+fn ternary<T: Real, const C: usize>(
+    values: &mut [[T; C]],
+    [to, a, b, c]: [u32; 4],
+    f: impl Fn(T, T, T) -> T,
+) {
+    for column in 0..C {
+        let [a, b, c] = [a, b, c].map(|slot| values[slot as usize][column]);
+        values[to as usize][column] = f(a, b, c);
     }
 }
 

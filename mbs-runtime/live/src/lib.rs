@@ -39,7 +39,8 @@
 //! Each program of the compiled mechanism becomes flat code: operations on numbered slots,
 //! which are taken again as soon as their numbers are no longer read. The code is followed
 //! once and compared with its program before anything runs. A step is one program where the
-//! compiler has fused it, else its two stages one after the other.
+//! compiler has fused it, else its two stages one after the other. Compiled Rust weaves that
+//! one program into pairs, which may give a zero the other sign; all other bits agree.
 #![forbid(unsafe_code)]
 
 mod arguments;
@@ -54,6 +55,7 @@ mod instruction;
 mod lanes;
 mod lexing;
 mod live;
+mod products;
 mod run;
 mod slots;
 mod statics;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use mbs_codegen::compiled::{Condition, Feedback, FusedStep};
+use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
 use mbs_runtime::{Derivation, Error, Info, Sketch};
 use mbs_symbolic::Inconsistency;
@@ -96,8 +96,9 @@ impl Programs {
 
 /// The steps with both kinds of feedback: the state after it, and the growth.
 fn steps(compiled: &Compiled, step: &FusedStep) -> Result<[Arc<Code>; 2], Inconsistency> {
+    let compiled::Programs { held, per_stage } = &step.alone.programs;
     let code = |program| Code::new(compiled, program).map(Arc::new);
-    Ok([code(&step.alone.programs.held)?, code(&step.alone.programs.per_stage)?])
+    Ok([code(held)?, code(per_stage)?])
 }
 
 impl Live {

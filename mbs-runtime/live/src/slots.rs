@@ -6,6 +6,7 @@ use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operat
 
 use crate::code::{Code, Role};
 use crate::instruction::Instruction;
+use crate::products::{Products, Sum};
 
 /// A position behind all instructions: results are read there.
 const END: usize = usize::MAX;
@@ -16,8 +17,8 @@ const END: usize = usize::MAX;
 /// # Errors
 /// The program reads what it does not have.
 pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Code, Inconsistency> {
-    let pairs = SinCos::of(program);
-    let last_reads = last_reads(program, &pairs);
+    let (pairs, products) = (SinCos::of(program), Products::of(program));
+    let last_reads = last_reads(program, &pairs, &products);
     let mut allocator = Allocator { places: HashMap::new(), free: Vec::new(), slots: 0, last_reads };
     let (mut fixed, mut given) = (Vec::new(), Vec::new());
     let operands = program.instructions.iter().flat_map(|step| [step.a, step.b]);
@@ -40,7 +41,9 @@ pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Cod
     let mut instructions = Vec::with_capacity(program.instructions.len());
     for (at, step) in program.instructions.iter().enumerate() {
         let partner = pairs.partner(at);
-        if partner.is_none_or(|partner| partner > at) {
+        if let Some((product, sum, other)) = products.product(program, at) {
+            instructions.push(allocator.sum(at, &program.instructions[product], sum, other, role)?);
+        } else if partner.is_none_or(|partner| partner > at) && products.reader(at).is_none() {
             instructions.push(allocator.instruction(at, step, partner, role)?);
         }
     }
@@ -50,11 +53,12 @@ pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Cod
 }
 
 /// Where every operand is read for the last time. The later one of a sine and a cosine of
-/// the same angle reads it where the earlier one does.
-fn last_reads(program: &Program, pairs: &SinCos) -> HashMap<Operand, usize> {
+/// the same angle reads it where the earlier one does, a product where its sum is.
+fn last_reads(program: &Program, pairs: &SinCos, products: &Products) -> HashMap<Operand, usize> {
     let mut last_reads = HashMap::new();
     for (at, step) in program.instructions.iter().enumerate() {
-        let reader = pairs.partner(at).map_or(at, |partner| partner.min(at));
+        let earlier = pairs.partner(at).map_or(at, |partner| partner.min(at));
+        let reader = products.reader(at).unwrap_or(earlier);
         for operand in [step.a, step.b] {
             let last = last_reads.entry(operand).or_insert(reader);
             *last = reader.max(*last);
@@ -103,6 +107,31 @@ impl Allocator {
         if !is_read_later && let Some(slot) = self.places.remove(&operand) {
             self.free.push(slot);
         }
+    }
+
+    /// A sum or a difference with its product.
+    fn sum(
+        &mut self,
+        at: usize,
+        product: &Step,
+        sum: Sum,
+        other: Operand,
+        role: &dyn Fn(Operand) -> Role,
+    ) -> Result<Instruction, Inconsistency> {
+        let [a, b, c] = [self.place(product.a)?, self.place(product.b)?, self.place(other)?];
+        for operand in [product.a, product.b, other] {
+            if !matches!(role(operand), Role::Fixed(_)) {
+                self.release(at, operand);
+            }
+        }
+        let result = Operand::Value(at);
+        let slots = [self.take(result)?, a, b, c];
+        self.release(at, result);
+        Ok(match sum {
+            Sum::MulAdd => Instruction::MulAdd(slots),
+            Sum::SubMul => Instruction::SubMul(slots),
+            Sum::MulSub => Instruction::MulSub(slots),
+        })
     }
 
     /// An instruction, and the slots of its results.
