@@ -53,7 +53,7 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let written = outputs.iter().map(|output| (type_of(output.kind), output.name));
     let declarations: Vec<_> =
         arguments.iter().copied().chain(written).map(|(of, name)| format!("{of}{name}")).collect();
-    let head = format!("{is_static}{result} NAME_compute_{name}({})", declarations.join(", "));
+    let head = format!("{is_static}{result} NAME_compute_{name}(\n    {})", declarations.join(",\n    "));
     let empty = outputs.iter().filter(|output| target.compiled.length(output.kind) == 0);
     let names = arguments.iter().map(|(_, name)| *name).chain(empty.map(|output| output.name));
     let unused = unused(target, program, names);

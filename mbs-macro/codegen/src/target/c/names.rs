@@ -99,8 +99,11 @@ const RESERVED: &str = "\
     stdint stdio stdlib string tgmath time wchar wctype main";
 
 fn is_reserved(name: &str) -> bool {
-    let is_macro = name.starts_with("M_") || name.starts_with("FP_") || name.ends_with("_MAX");
-    is_macro || name.ends_with("_MIN") || RESERVED.split_whitespace().any(|word| word == name)
+    // no macro of the headers ends like a mended name
+    let is_macro = !name.ends_with('_') && (name.starts_with("M_") || name.starts_with("FP_"))
+        || name.ends_with("_MAX")
+        || name.ends_with("_MIN");
+    is_macro || RESERVED.split_whitespace().any(|word| word == name)
 }
 
 #[cfg(test)]
