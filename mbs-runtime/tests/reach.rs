@@ -64,6 +64,19 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A bob on a rod that is pulled sideways: its pivot 2y is one term, which cannot cancel.
+    Bob {
+        dof = 0;
+        param length = 1 [m];
+        gravity = (0, -9.81) [m/s^2];
+        body bob (x, y) { mass = 1 [kg]; }
+        constraint rod: x^2 + y^2 = length^2;
+        drive pull: x = 0.5*length + 1 [m/s]*t;
+        start { guess y = 0.8 [m]; }
+    }
+}
+
 /// sin θ₁ = l₂/l₁ s after the start.
 fn end_of_slider(omega: f64) -> f64 {
     0.5_f64.asin() / omega
@@ -160,4 +173,11 @@ fn four_bar_that_cannot_go_round_ends_where_it_cannot_go_on() {
     let end = end_of_four_bar(omega);
     on_every_path::<_, FourBar<f32>, Held>("held", FourBar::declared(), FourBar::default(), end);
     on_every_path::<_, FourBar<f32>, PerStage>("per-stage", FourBar::declared(), FourBar::default(), end);
+}
+
+/// x = length after half a second.
+#[test]
+fn bob_that_is_pulled_beyond_its_rod_ends_where_it_cannot_go_on() {
+    on_every_path::<_, Bob<f32>, Held>("held", Bob::declared(), Bob::default(), 0.5);
+    on_every_path::<_, Bob<f32>, PerStage>("per-stage", Bob::declared(), Bob::default(), 0.5);
 }

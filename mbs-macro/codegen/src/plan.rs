@@ -14,7 +14,7 @@ use mbs_symbolic::{
 };
 
 use crate::derive::Equations;
-use crate::model::Model;
+use crate::model::{Direction, Model};
 use crate::reactive::{self, Circular, Forces};
 use crate::verify::{Rows, Samples};
 use correction::correction;
@@ -249,6 +249,9 @@ fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usi
         kkt.set(&model.arena, unknown, unknown, mass);
         if !model.arena.is_zero(mass) {
             kkt.mark_massive(at);
+        }
+        if model.coordinates[at].direction == Direction::Angle {
+            kkt.mark_angle(at);
         }
     }
     for &at in &rows.basis {

@@ -45,6 +45,8 @@ struct Reduction {
 pub(super) struct Work<'a> {
     pub arena: &'a mut Arena,
     pub matrix: Kkt,
+    /// The matrix before any elimination.
+    pub(super) whole: &'a Kkt,
     unit: Expr,
     per_unit: Expr,
     /// Σ of the contributions to a diagonal entry that enlarge it.
@@ -63,7 +65,7 @@ pub(super) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    pub fn new(arena: &'a mut Arena, kkt: &Kkt, strategy: Strategy) -> Self {
+    pub fn new(arena: &'a mut Arena, kkt: &'a Kkt, strategy: Strategy) -> Self {
         let mut matrix = kkt.clone();
         let unit = unit::of_masses(arena, &matrix);
         let per_unit = arena.powi(unit, -1);
@@ -78,6 +80,7 @@ impl<'a> Work<'a> {
         Self {
             arena,
             matrix,
+            whole: kkt,
             unit,
             per_unit,
             gross,

@@ -21,6 +21,8 @@ pub struct Kkt {
     couplings: BTreeMap<Unknown, BTreeMap<Unknown, Expr>>,
     /// Coordinates whose mass is positive by declaration.
     massive: BTreeSet<Unknown>,
+    /// Coordinates that are angles: entries of theirs are not compared with those of lengths.
+    angles: BTreeSet<Unknown>,
     /// What masses are measured in, beside the factor that they share.
     mass_unit: Option<Number>,
 }
@@ -39,6 +41,18 @@ impl Kkt {
     /// Declares that the mass of a coordinate is positive.
     pub fn mark_massive(&mut self, coordinate: usize) {
         self.massive.insert(Unknown::Coordinate(coordinate));
+    }
+
+    /// Declares that a coordinate is an angle.
+    pub fn mark_angle(&mut self, coordinate: usize) {
+        self.angles.insert(Unknown::Coordinate(coordinate));
+    }
+
+    /// The entries of a row in the columns of coordinates of one kind, angles or lengths.
+    pub(super) fn alike(&self, row: Unknown, coordinate: Unknown) -> impl Iterator<Item = Expr> + '_ {
+        let is_angle = self.angles.contains(&coordinate);
+        let is_alike = move |other: &Unknown| self.angles.contains(other) == is_angle;
+        self.neighbours(row).filter(move |(other, _)| is_alike(other)).map(|(_, entry)| entry)
     }
 
     /// Measures masses in this unit, so that products of very large or very small

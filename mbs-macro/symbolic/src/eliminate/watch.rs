@@ -48,10 +48,23 @@ impl Work<'_> {
         if self.arena.as_number(pivot).is_some() {
             return;
         }
-        let bound = self.arena.bound(pivot);
-        let size = bound.unwrap_or_else(|| self.arena.share(pivot));
+        let size = self.arena.bound(pivot).or_else(|| self.size_of_row(row, coordinate));
+        let can_cancel = size.is_some();
+        let size = size.unwrap_or_else(|| self.arena.share(pivot));
         let growth = self.ratio(size, inverse);
-        self.watch(Some(row), Some(coordinate), [Some(growth), None], bound.is_some());
+        self.watch(Some(row), Some(coordinate), [Some(growth), None], can_cancel);
+    }
+
+    /// What a pivot without a bound is measured against: Σ |Φ_q| over the coordinates of its
+    /// row that are of its own kind, itself included. Left out where it is the only one.
+    ///
+    /// Of x² + y² = l² with a driven x the pivot is 2y, of one term that cannot cancel; it
+    /// vanishes all the same where the drive leads as far as it can.
+    fn size_of_row(&mut self, row: Unknown, coordinate: Unknown) -> Option<Expr> {
+        let entries: Vec<Expr> = self.whole.alike(row, coordinate).collect();
+        let sizes = entries.iter().map(|&entry| (self.arena.call(Function::Abs, entry), Number::ONE));
+        let sizes: Vec<_> = sizes.collect();
+        (sizes.len() > 1).then(|| self.arena.sum(&sizes))
     }
 
     /// The size that diagonal entries have in a healthy position: of a mass,
