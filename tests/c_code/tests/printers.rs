@@ -1,0 +1,121 @@
+//! Two printers of one compiled mechanism agree: C, built by gcc or clang, and live, which
+//! runs the text at once. `models/tests/library` holds live to the third one, rustc's code.
+//!
+//! `MECHANISMS=200 cargo test --release -p c_code --test printers` tries more of the random
+//! ones.
+
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+
+use c_code::{Choice, Fault, build, compilers};
+use mbs_live::{Live, Run, Scalar, Text};
+use mbs_runtime::{Baumgarte, Error, Feedback, Held, PerStage, System};
+
+#[path = "../../src/linkages.rs"]
+mod linkages;
+#[path = "../../src/random.rs"]
+mod random;
+
+const MECHANISMS: u64 = 24;
+const STEPS: usize = 1000;
+const EVERY: usize = 10;
+
+/// What a run looks like from outside: t, q, v, q̈, λ and outputs, at the start and after
+/// every tenth step; and why it ended before its end, if it did.
+type Rows = (Vec<Vec<f64>>, Option<Error>);
+
+fn alone<F: Feedback>(live: &Live, step: f64, inputs: &[f64]) -> Result<Rows, Error> {
+    let gains = Baumgarte::<F>::deadbeat(step);
+    let mut run = Run::builder(live, step).baumgarte(gains).inputs(inputs).build()?;
+    let info = live.declared_info();
+    let (n, m) = (info.coordinates.len(), info.constraints.len());
+    let mut rows = Vec::new();
+    for taken in 0..=STEPS {
+        if taken.is_multiple_of(EVERY) {
+            let mut row = vec![0.0; 1 + 3 * n + m + info.outputs.len()];
+            row[0] = run.time();
+            let (q, rest) = row[1..].split_at_mut(n);
+            let (v, rest) = rest.split_at_mut(n);
+            let (acceleration, rest) = rest.split_at_mut(n);
+            let (multipliers, outputs) = rest.split_at_mut(m);
+            run.state(q, v);
+            let seen = run
+                .reactions(acceleration, multipliers)
+                .and_then(|()| run.outputs(acceleration, multipliers, outputs));
+            if let Err(error) = seen {
+                return Ok((rows, Some(error)));
+            }
+            rows.push(row);
+        }
+        if taken < STEPS
+            && let Err(error) = run.step()
+        {
+            return Ok((rows, Some(error)));
+        }
+    }
+    Ok((rows, None))
+}
+
+/// Runs a mechanism in both ways; whether it could be started.
+fn compare(name: &str, text: &Text, step: f64, compiler: &str) -> bool {
+    let live = text.compile().unwrap_or_else(|error| panic!("{name}: {error}"));
+    let sources = text.c(Scalar::Double).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let built = build(&sources, compiler, "-O1").unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    let inputs = vec![0.5; live.declared_info().inputs.len()];
+    let mut has_started = true;
+    for is_held in [true, false] {
+        let gains = if is_held {
+            let gains = Baumgarte::<Held>::deadbeat(step);
+            (gains.alpha(), gains.beta(), true)
+        } else {
+            let gains = Baumgarte::<PerStage>::deadbeat(step);
+            (gains.alpha(), gains.beta(), false)
+        };
+        let feedback = Some(gains);
+        let choice = Choice { step, steps: STEPS, every: EVERY, feedback, inputs: &inputs, start: None };
+        let of_c = built.run(&choice);
+        let of_live = if is_held {
+            alone::<Held>(&live, step, &inputs)
+        } else {
+            alone::<PerStage>(&live, step, &inputs)
+        };
+        match (of_c, of_live) {
+            (Ok(of_c), Ok((of_live, None))) => {
+                assert_eq!(of_c.len(), of_live.len(), "{name}");
+                for (at, (c, live)) in of_c.iter().zip(&of_live).enumerate() {
+                    // but for the sign of a zero, which a fused step may change
+                    assert!(c == live, "{name}, held: {is_held}, line {at}:\n{c:?}\n{live:?}");
+                }
+            }
+            (Err(Fault::Program(_)), Err(_)) => has_started = false,
+            (Err(Fault::Program(_)), Ok((_, Some(_)))) => {}
+            (of_c, of_live) => {
+                let ended = of_live.map(|(rows, ended)| (rows.len(), ended));
+                panic!("{name}, held: {is_held}: {:?} in C, {ended:?} live", of_c.map(|rows| rows.len()));
+            }
+        }
+    }
+    has_started
+}
+
+#[test]
+fn mechanisms_of_the_library() {
+    let Some(&compiler) = compilers().first() else { return };
+    for entry in mbs::library() {
+        let step = if entry.name == "andrews-squeezer" { 1e-5 } else { 1e-4 };
+        assert!(compare(entry.name, &entry.text(), step, compiler), "{} starts", entry.name);
+    }
+}
+
+#[test]
+fn random_mechanisms() {
+    let Some(&compiler) = compilers().first() else { return };
+    let count = std::env::var("MECHANISMS").map_or(MECHANISMS, |text| text.parse().expect("a number"));
+    let (mut number, mut compared) = (0, 0);
+    while compared < count {
+        let text = Text::declaration(format!("random {number}"), linkages::declaration(number));
+        if text.compile().is_ok() {
+            compared += u64::from(compare(&format!("random {number}"), &text, 1e-4, compiler));
+        }
+        number += 1;
+    }
+}
