@@ -9,9 +9,9 @@
 //! | `compose` | `Declaration` | sub-assemblies are gone, only plain statements are left |
 //! | `model` | `Model` | names are symbols, dimensions agree |
 //! | `derive` | `Equations` | what follows computes with expressions; bodies, joints and forces are left for words |
-//! | `verify` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
+//! | `independence` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
-//! | `verify` | – | the mechanism closes from its start, is regular there and keeps its values |
+//! | `validate` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
 //! | `target` | tokens, or C | what is written computes what was checked |
 //!
@@ -23,13 +23,14 @@ pub mod compiled;
 mod compose;
 mod derive;
 mod diagnostics;
+mod independence;
 mod model;
 mod plan;
 mod quantity;
 mod reactive;
 mod syntax;
 pub mod target;
-mod verify;
+mod validate;
 
 use proc_macro2::TokenStream;
 
@@ -59,12 +60,12 @@ pub fn analyse(declaration: TokenStream) -> Result<Compiled, Diagnostics> {
     let declaration = compose::compose(declaration)?;
     let mut model = model::resolve(&declaration)?;
     let equations = derive::derive(&mut model);
-    let samples = verify::Samples::new(&model);
-    let rows = verify::check_equations(&model, &equations, &samples)?;
+    let samples = independence::Samples::new(&model);
+    let rows = independence::check_equations(&model, &equations, &samples)?;
     let plan = plan::plan(&mut model, &equations, &rows, &samples)
-        .map_err(|error| verify::unsolvable(&model, &error))?;
-    verify::check_closure(&model, &equations, &plan)?;
-    verify::check_limit(&model, &plan)?;
-    verify::check_programs(&model, &equations, &plan, &samples)?;
+        .map_err(|error| validate::unsolvable(&model, &error))?;
+    validate::check_closure(&model, &equations, &plan)?;
+    validate::check_limit(&model, &plan)?;
+    validate::check_programs(&model, &equations, &plan, &samples)?;
     Ok(Compiled::new(model, &equations, plan))
 }

@@ -14,9 +14,9 @@ use mbs_symbolic::{
 };
 
 use crate::derive::Equations;
+use crate::independence::{Rows, Samples};
 use crate::model::{Direction, Model};
 use crate::reactive::{self, Circular, Forces};
-use crate::verify::{Rows, Samples};
 use correction::correction;
 pub use input::Input;
 pub use step::{FusedStep, Kinds, Programs};

@@ -6,8 +6,8 @@ use mbs_symbolic::{Expr, Strategy, Undetermined, Unknown, WatchedPivot, factor};
 
 use super::system;
 use crate::derive::Equations;
+use crate::independence::{Rows, Samples};
 use crate::model::Model;
-use crate::verify::{Rows, Samples};
 
 /// Δ and growth of a correction that keeps what `start` prescribes, as far as
 /// the constraints leave it free.

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use mbs_symbolic::{Arena, Expr, Factorization, Number, Unknown};
 
 use crate::derive::Equations;
-use crate::verify::Rows;
+use crate::independence::Rows;
 
 /// The multipliers of all rows, given those of the independent ones.
 pub fn multipliers(

@@ -278,7 +278,7 @@ impl Fusion {
 #[cfg(test)]
 mod tests {
     use super::{Program, check, step};
-    use crate::verify::planned::{DECLARATION, Planned, corrupted, needed};
+    use crate::validate::planned::{DECLARATION, Planned, corrupted, needed};
 
     /// With and without reactions, with both kinds of feedback.
     #[test]

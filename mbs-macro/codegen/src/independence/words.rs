@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use mbs_symbolic::units::Dimension;
+
 use crate::diagnostics::{joined, listing};
 use crate::model::{Constraint, Model, Source};
 
@@ -84,4 +86,9 @@ fn by_kind(parts: &[Part<'_>]) -> String {
         format!("{kind}{s} {}", listing(names))
     };
     joined(kinds.into_iter().map(of_kind))
+}
+
+/// The SI unit of a violation, where it is that of a length.
+pub fn unit(dimension: Dimension) -> &'static str {
+    if dimension == Dimension::LENGTH { " m" } else { "" }
 }

@@ -10,12 +10,12 @@ mod solutions;
 use mbs_symbolic::{Expr, Operand, Program, Symbol, Tape};
 
 use self::bodies::{Bodies, evaluate};
-use super::Samples;
-use super::assembly::Assembly;
 use super::jets::{self, Jet};
 use super::rounding::{Rounded, run};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::independence::Samples;
+use crate::independence::assembly::Assembly;
 use crate::model::{Direction, Meaning, Model};
 use crate::plan::Plan;
 

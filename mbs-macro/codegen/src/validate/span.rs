@@ -1,10 +1,9 @@
 //! The span over which a declaration promises to close, followed by continuation.
 
-use super::assembly::{Assembly, Closing, Position};
-use super::closure::unit;
 use super::start::value;
-use super::words::Part;
 use crate::diagnostics::{Diagnostic, joined};
+use crate::independence::assembly::{Assembly, Closing, Position};
+use crate::independence::words::{Part, unit};
 use crate::model::{Closes, Model};
 
 /// Steps over the whole span.

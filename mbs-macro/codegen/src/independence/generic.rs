@@ -243,8 +243,8 @@ mod tests {
 
     use super::judge;
     use crate::derive::{Equations, derive};
+    use crate::independence::Samples;
     use crate::model::Model;
-    use crate::verify::Samples;
 
     fn equations(declaration: &str) -> (Model, Equations) {
         let tokens = declaration.parse().expect("tokens");

@@ -1,17 +1,15 @@
 //! The assembly at the declared dimensions, from the declared start.
 
-use mbs_symbolic::units::Dimension;
-
-use super::assembly::{CLOSED, Position};
-use super::echelon::row_echelon;
 use super::programs::{Closing, Declared, Programs};
-use super::redundancy::does_not_fit;
-use super::samples::Generator;
 use super::span::check_span;
 use super::start;
-use super::words::{Part, repeats};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, joined};
+use crate::independence::assembly::{CLOSED, Position};
+use crate::independence::echelon::row_echelon;
+use crate::independence::redundancy::does_not_fit;
+use crate::independence::samples::Generator;
+use crate::independence::words::{Part, repeats, unit};
 use crate::model::Model;
 use crate::plan::Plan;
 
@@ -192,9 +190,4 @@ fn dependent(
             .to_owned(),
     };
     Diagnostic::new(constraint.span, format!("near the declared start, {what}")).help(help)
-}
-
-/// The SI unit of a violation, where it is that of a length.
-pub fn unit(dimension: Dimension) -> &'static str {
-    if dimension == Dimension::LENGTH { " m" } else { "" }
 }

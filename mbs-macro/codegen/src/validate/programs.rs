@@ -1,9 +1,9 @@
 //! The programs of a start, run on numbers as the generated code will run them.
 
-use super::assembly::{Assembly, Position};
-use super::samples::units;
 use crate::compiled::GROWTH_LIMIT;
 use crate::derive::Equations;
+use crate::independence::assembly::{Assembly, Position};
+use crate::independence::samples::units;
 use crate::model::{Meaning, Model};
 use crate::plan::Plan;
 

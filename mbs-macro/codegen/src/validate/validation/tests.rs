@@ -3,8 +3,8 @@
 use mbs_symbolic::{Operand, Operation, Program};
 
 use super::check_programs;
+use crate::independence::{Samples, check_equations};
 use crate::plan::{Plan, plan};
-use crate::verify::{Samples, check_equations};
 use crate::{derive, model, syntax};
 
 /// A loop with a drive, a spring, an output and most kinds of rows.

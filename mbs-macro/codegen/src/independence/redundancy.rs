@@ -5,11 +5,10 @@ use proc_macro2::Span;
 
 use super::Samples;
 use super::assembly::{Assembly, Closing};
-use super::closure::unit;
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
 use super::rank::Rows;
-use super::words::Part;
+use super::words::{Part, unit};
 use crate::diagnostics::{Diagnostic, joined};
 use crate::model::Model;
 

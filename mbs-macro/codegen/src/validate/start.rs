@@ -2,9 +2,9 @@
 
 use mbs_symbolic::units::Dimension;
 
-use super::assembly::Position;
 use super::programs::{Declared, Programs};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::independence::assembly::Position;
 use crate::model::{Model, Start};
 
 /// What a declared value may be off by, as a share of the size of the mechanism, or

@@ -1,42 +1,29 @@
-//! What must hold before code is emitted: the degrees of freedom of the
-//! contract, independent constraints, an assembly at the declared dimensions.
+//! Which constraints are solved for: they are independent, in general and at the declared
+//! dimensions, where the mechanism can be assembled.
 
-mod assembly;
-mod closure;
+pub mod assembly;
 mod correction;
-mod echelon;
+pub mod echelon;
 mod floating;
 mod gaps;
 mod generic;
-mod jets;
 mod manifold;
 mod prime_field;
-mod programs;
 mod rank;
-mod redundancy;
-mod rounding;
-mod samples;
+pub mod redundancy;
+pub mod samples;
 mod size;
-mod span;
 mod sparse;
-mod start;
-mod validation;
-mod words;
+pub mod words;
 
-use mbs_symbolic::{Stage, Undetermined, Unknown};
+use mbs_symbolic::Stage;
 
-pub use closure::check_closure;
 pub use rank::Rows;
 pub use samples::Samples;
-pub use validation::check_programs;
-#[cfg(test)]
-pub(crate) use validation::tests as planned;
 
 use crate::derive::Equations;
-use crate::diagnostics::{Diagnostic, Diagnostics, listing};
+use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::plan::{Plan, Unsolvable};
-use crate::reactive::Circular;
 
 /// Checks the equations before they are planned, and gives the constraints to
 /// solve for.
@@ -120,66 +107,4 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             }
         }
     }
-}
-
-/// The error for a mechanism that cannot be planned.
-pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
-    match error {
-        Unsolvable::Unknowns(unknowns) => undetermined(model, unknowns),
-        Unsolvable::Inconsistent(mistake) => Diagnostic::internal(model.name.span(), mistake).into(),
-        Unsolvable::Shared => {
-            let span = model.reactive_loads.first().map_or(model.name.span(), |load| load.span);
-            Diagnostic::new(
-                span,
-                "this load depends on reactions, which redundant constraints share in more than one way",
-            )
-            .help("remove the spare constraints, or give the load a force that is known")
-            .into()
-        }
-        Unsolvable::Load(Circular(at)) => {
-            let span = model.reactive_loads.get(*at).map_or(model.name.span(), |load| load.span);
-            Diagnostic::new(span, "this load changes the reaction that it depends on by its own size or more, so nothing determines it")
-                .help("let it follow a smaller part of the reaction, or another one")
-                .into()
-        }
-    }
-}
-
-/// The code is as cheap as its declaration promises.
-///
-/// # Errors
-/// By how much it is not.
-pub fn check_limit(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
-    let operations = plan.operations();
-    match model.solver.operations {
-        Some((limit, span)) if operations > limit => Err(Diagnostic::new(
-            span,
-            format!(
-                "a right-hand side of `{}` takes {operations} operations, {limit} are allowed",
-                model.name
-            ),
-        )
-        .help("use fewer coordinates (a body needs those only that something acts along), or raise the limit")
-        .into()),
-        _ => Ok(()),
-    }
-}
-
-/// The error for unknowns that no pivot determines.
-fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
-    let coordinates: Vec<_> = error
-        .unknowns
-        .iter()
-        .filter_map(|unknown| match unknown {
-            Unknown::Coordinate(at) => model.coordinates.get(*at),
-            Unknown::Row(_) => None,
-        })
-        .collect();
-    let Some(first) = coordinates.first() else {
-        return Diagnostic::internal(model.name.span(), error).into();
-    };
-    let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
-    Diagnostic::new(first.span, format!("nothing determines the acceleration of {}", listing(names)))
-        .help("give its body a mass or inertia, or constrain it")
-        .into()
 }

@@ -1,0 +1,84 @@
+//! What must hold before a target sees a mechanism: it closes from its start and is regular
+//! there, keeps its promises, and its programs compute what was declared.
+
+mod closure;
+mod jets;
+mod programs;
+mod rounding;
+mod span;
+mod start;
+mod validation;
+
+use mbs_symbolic::{Undetermined, Unknown};
+
+pub use closure::check_closure;
+pub use validation::check_programs;
+#[cfg(test)]
+pub(crate) use validation::tests as planned;
+
+use crate::diagnostics::{Diagnostic, Diagnostics, listing};
+use crate::model::Model;
+use crate::plan::{Plan, Unsolvable};
+use crate::reactive::Circular;
+
+/// The error for a mechanism that cannot be planned.
+pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
+    match error {
+        Unsolvable::Unknowns(unknowns) => undetermined(model, unknowns),
+        Unsolvable::Inconsistent(mistake) => Diagnostic::internal(model.name.span(), mistake).into(),
+        Unsolvable::Shared => {
+            let span = model.reactive_loads.first().map_or(model.name.span(), |load| load.span);
+            Diagnostic::new(
+                span,
+                "this load depends on reactions, which redundant constraints share in more than one way",
+            )
+            .help("remove the spare constraints, or give the load a force that is known")
+            .into()
+        }
+        Unsolvable::Load(Circular(at)) => {
+            let span = model.reactive_loads.get(*at).map_or(model.name.span(), |load| load.span);
+            Diagnostic::new(span, "this load changes the reaction that it depends on by its own size or more, so nothing determines it")
+                .help("let it follow a smaller part of the reaction, or another one")
+                .into()
+        }
+    }
+}
+
+/// The code is as cheap as its declaration promises.
+///
+/// # Errors
+/// By how much it is not.
+pub fn check_limit(model: &Model, plan: &Plan) -> Result<(), Diagnostics> {
+    let operations = plan.operations();
+    match model.solver.operations {
+        Some((limit, span)) if operations > limit => Err(Diagnostic::new(
+            span,
+            format!(
+                "a right-hand side of `{}` takes {operations} operations, {limit} are allowed",
+                model.name
+            ),
+        )
+        .help("use fewer coordinates (a body needs those only that something acts along), or raise the limit")
+        .into()),
+        _ => Ok(()),
+    }
+}
+
+/// The error for unknowns that no pivot determines.
+fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
+    let coordinates: Vec<_> = error
+        .unknowns
+        .iter()
+        .filter_map(|unknown| match unknown {
+            Unknown::Coordinate(at) => model.coordinates.get(*at),
+            Unknown::Row(_) => None,
+        })
+        .collect();
+    let Some(first) = coordinates.first() else {
+        return Diagnostic::internal(model.name.span(), error).into();
+    };
+    let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
+    Diagnostic::new(first.span, format!("nothing determines the acceleration of {}", listing(names)))
+        .help("give its body a mass or inertia, or constrain it")
+        .into()
+}
