@@ -1,6 +1,6 @@
 //! `mbs export`: a mechanism as a program in another language.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgMatches, Command, value_parser};
@@ -56,10 +56,26 @@ fn c(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     };
     let sources = text.c(if is_float { Scalar::Float } else { Scalar::Double })?;
     std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
+    // these are called so for every mechanism, and begin with its name
+    for file in [&sources.example, &sources.readme] {
+        check_owner(&folder.join(&file.name), &file.text)?;
+    }
     for file in sources.files() {
         let path = folder.join(&file.name);
         files::write(&path, file.text.as_bytes())?;
         say(format_args!("written: {}", path.display()))?;
     }
     Ok(())
+}
+
+/// Refuses to write over a file that begins otherwise: that of another mechanism, or of
+/// somebody else.
+fn check_owner(path: &Path, text: &str) -> Result<(), Error> {
+    match std::fs::read_to_string(path) {
+        Ok(known) if known.lines().next() != text.lines().next() => {
+            let reason = "it is there already, and not of this mechanism; name another folder".into();
+            Err(Error::Name { name: path.display().to_string(), reason })
+        }
+        _ => Ok(()),
+    }
 }

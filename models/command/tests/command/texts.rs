@@ -108,6 +108,12 @@ fn a_mechanism_as_c_runs() {
     assert!(table.status.success());
     let table = text(table.stdout);
     assert!(table.lines().count() > 100, "{table}");
-    let refused = super::refusal("export c four-bar");
-    assert!(refused.contains("--out"), "{refused}");
+    assert!(mbs(folder.path(), "export c four-bar --out c").status.success(), "its own files are renewed");
+    let output = mbs(folder.path(), "export c pendulum --out c");
+    assert!(
+        text(output.stderr)
+            .contains("main.c` cannot be used: it is there already, and not of this mechanism")
+    );
+    assert!(!folder.path().join("c/pendulum.c").exists());
+    super::refuses("export c four-bar", &["--out"]);
 }
