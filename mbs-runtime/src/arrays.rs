@@ -2,8 +2,8 @@
 //! compute: the stages of these mechanisms are given arrays and return arrays, and a
 //! step converts its state once.
 
-use crate::heun::{correct, predict};
-use crate::{Accelerations, Components, Feedback, Gains, Mechanism, Real, Stabilized, State};
+use crate::explicit::{self, Slopes, Span};
+use crate::{Accelerations, Components, Gains, Mechanism, Method, Real, Scheme, Stabilized, State};
 
 /// The coordinates of a mechanism as an array.
 pub type Coordinates<M> = <<M as Mechanism>::Coordinates as Components>::Array;
@@ -84,10 +84,11 @@ pub fn constrained<M: OnArrays>(
     Accelerations { acceleration: Components::from_array(a), growth }
 }
 
-/// A step of Heun's method in place, in the operations of the stages one by one, and its
-/// growth. If that is over the alarm, or something not finite, the state is left as it was.
+/// A step in place, in the operations of the stages one by one, and the growths of all
+/// stages, added. If that is over the alarm, or something not finite, the state is left as it
+/// was.
 #[inline(never)]
-pub fn step<M: OnArrays, F: Feedback>(
+pub fn step<M: OnArrays, X: Method>(
     mechanism: &M,
     state: &mut State<M::Coordinates>,
     inputs: &M::Inputs,
@@ -96,39 +97,29 @@ pub fn step<M: OnArrays, F: Feedback>(
     t_next: M::Real,
     alarm: M::Real,
 ) -> Option<M::Real> {
-    let Room { coordinates: zeros, mut constraints, mut slots } = M::room();
-    let (mut q, mut v, mut here, mut there) = (zeros, zeros, zeros, zeros);
+    let Room { coordinates: zeros, constraints: mut feedback, mut slots } = M::room();
+    let (mut q, mut there) = (zeros, zeros);
+    let (mut velocities, mut accelerations) = (X::Scheme::stages(zeros), X::Scheme::stages(zeros));
     state.q.copy_to(&mut q);
-    state.v.copy_to(&mut v);
-    let growth_here = mechanism.stabilized_on_arrays(
-        state.t,
-        &q,
-        &v,
-        inputs,
-        gains,
-        &mut here,
-        &mut constraints,
-        &mut slots,
-    );
-    let (mut q_next, mut v_next) = (q, v);
-    predict(h, here.as_ref(), q_next.as_mut(), v_next.as_mut());
-    let (t, q_there, v_there) = (t_next, &q_next, &v_next);
-    let growth_there = if F::IS_HELD {
-        let feedback = &constraints;
-        mechanism.constrained_on_arrays(t, q_there, v_there, inputs, feedback, &mut there, &mut slots)
-    } else {
-        let feedback = &mut constraints;
-        mechanism.stabilized_on_arrays(t, q_there, v_there, inputs, gains, &mut there, feedback, &mut slots)
-    };
-    correct(h, [q.as_ref(), v.as_ref()], [here.as_ref(), there.as_ref()], q_next.as_mut(), v_next.as_mut());
+    state.v.copy_to(velocities.as_mut().first_mut()?);
+    let span = Span { t: state.t, h, t_next };
+    let slopes = Slopes { velocities: velocities.as_mut(), accelerations: accelerations.as_mut() };
+    let growth =
+        explicit::step(X::Scheme::TABLEAU, &span, &mut q, slopes, &mut there, |stage, t, q, v, a| {
+            if X::EXPLICIT.is_held && stage > 0 {
+                mechanism.constrained_on_arrays(t, q, v, inputs, &feedback, a, &mut slots)
+            } else {
+                mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
+            }
+        });
+    let v = velocities.as_ref().first()?;
     let is_finite = |array: &[M::Real]| array.iter().fold(true, |finite, x| finite & x.is_finite());
-    let growth = growth_here + growth_there;
     // written so that a NaN fails the test
-    let is_good = growth <= alarm && is_finite(q_next.as_ref()) & is_finite(v_next.as_ref());
+    let is_good = growth <= alarm && is_finite(q.as_ref()) & is_finite(v.as_ref());
     is_good.then(|| {
         state.t = t_next;
-        state.q.copy_from(&q_next);
-        state.v.copy_from(&v_next);
+        state.q.copy_from(&q);
+        state.v.copy_from(v);
         growth
     })
 }

@@ -2,45 +2,7 @@
 
 use core::marker::PhantomData;
 
-use crate::{Error, Gains, Real};
-
-/// Feedback evaluated in both stages of Heun's method, as Eq. (8) of the paper
-/// has it.
-///
-/// The predictor's O(h²) position error is fed back with β² ~ 1/h², so the
-/// second stage's acceleration is off by O(1): positions stay second order, but
-/// multipliers taken with these terms are wrong however small ‖Φ‖ looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PerStage {}
-
-/// Feedback evaluated once, at the start of the step, and held over it. The
-/// default: it leaves the second stage free of the predictor's error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Held {}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::PerStage {}
-    impl Sealed for super::Held {}
-}
-
-/// When the feedback is evaluated: [`PerStage`] or [`Held`].
-pub trait Feedback: sealed::Sealed + Copy + core::fmt::Debug + Send + Sync + 'static {
-    /// `per-stage` or `held`.
-    const NAME: &'static str;
-    /// Whether it is the same in both stages of a step.
-    const IS_HELD: bool;
-}
-
-impl Feedback for PerStage {
-    const NAME: &'static str = "per-stage";
-    const IS_HELD: bool = false;
-}
-
-impl Feedback for Held {
-    const NAME: &'static str = "held";
-    const IS_HELD: bool = true;
-}
+use crate::{Error, Gains, Held, Method, Real};
 
 /// Baumgarte stabilization: Φ̈ = 0 is replaced by Φ̈ + 2αΦ̇ + β²Φ = 0, so that
 /// a violation decays instead of growing (Baumgarte 1972; Jiang 2025, §4.2).
@@ -60,18 +22,18 @@ impl Feedback for Held {
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Baumgarte<F: Feedback = Held> {
+pub struct Baumgarte<X: Method = Held> {
     alpha: f64,
     beta: f64,
-    feedback: PhantomData<F>,
+    method: PhantomData<X>,
 }
 
-impl<F: Feedback> Baumgarte<F> {
+impl<X: Method> Baumgarte<X> {
     /// No feedback: violations drift.
     pub const NONE: Self = Self::from_gains(0.0, 0.0);
 
     const fn from_gains(alpha: f64, beta: f64) -> Self {
-        Self { alpha, beta, feedback: PhantomData }
+        Self { alpha, beta, method: PhantomData }
     }
 
     /// Feedback with gains α, β in 1/s.
@@ -98,41 +60,25 @@ impl<F: Feedback> Baumgarte<F> {
         self.beta
     }
 
-    /// The gains that bring the violation of the linear model
-    /// ë + 2αė + β²e = 0 to zero within two steps of `h` seconds.
+    /// The gains that bring the violation of the linear model ë + 2αė + β²e = 0 to zero
+    /// within two steps of `h` seconds; see [`Explicit::deadbeat`](crate::Explicit::deadbeat)
+    /// for where they come from.
     ///
-    /// Per stage, 1 + z + z²/2 vanishes at both roots of z² + 2αh z + (βh)²,
-    /// which gives αh = 1, βh = √2; held, the step map is nilpotent for
-    /// αh = 3/4, βh = 1.
+    /// Held, with any scheme, αh = 3/4 and βh = 1. Per stage, αh = 1 and βh = √2 with
+    /// Heun's method.
     pub const fn deadbeat(h: f64) -> Self {
-        if F::IS_HELD {
-            Self::from_gains(0.75 / h, 1.0 / h)
-        } else {
-            Self::from_gains(1.0 / h, core::f64::consts::SQRT_2 / h)
-        }
+        let [alpha, beta] = X::EXPLICIT.deadbeat(h);
+        Self::from_gains(alpha, beta)
     }
 
-    /// Whether violations do not grow with steps of `h` seconds: both
-    /// eigenvalues of the step map of ë + 2αė + β²e = 0 under Heun's method lie
-    /// in the closed unit disc.
+    /// Whether violations do not grow with steps of `h` seconds: both eigenvalues of the
+    /// step map of ë + 2αė + β²e = 0 lie in the closed unit disc; see
+    /// [`Explicit::is_stable`](crate::Explicit::is_stable).
     ///
-    /// With a = 2αh and b = (βh)² the map has trace τ and determinant δ:
-    /// per stage τ = 2 − a + a²/2 − b and δ = 1 − a + a²/2 − ab/2 + b²/4, held
-    /// τ = 2 − a − b/2 and δ = 1 − a + b/2; by Jury's criterion it is stable if
-    /// |τ| ≤ 1 + δ and δ ≤ 1 (to rounding, so that the exact limit counts as
-    /// stable). It is a statement on the linear model: a mechanism whose
-    /// constraints curve strongly within a step may need smaller gains.
+    /// It is a statement on the linear model: a mechanism whose constraints curve strongly
+    /// within a step may need smaller gains.
     pub const fn is_stable(&self, h: f64) -> bool {
-        let a = 2.0 * self.alpha * h;
-        let b = self.beta * h * (self.beta * h);
-        let (trace, determinant) = if F::IS_HELD {
-            (2.0 - a - b / 2.0, 1.0 - a + b / 2.0)
-        } else {
-            (2.0 - a + a * a / 2.0 - b, 1.0 - a + a * a / 2.0 - a * b / 2.0 + b * b / 4.0)
-        };
-        // a handful of roundings of terms of this size
-        let slack = 8.0 * f64::EPSILON * (1.0 + a * a + b * b);
-        trace.abs() <= 1.0 + determinant + slack && determinant <= 1.0 + slack
+        X::EXPLICIT.is_stable([self.alpha, self.beta], h)
     }
 
     /// −2α and −β², as generated code takes them.

@@ -28,29 +28,25 @@ pub(crate) fn check_solution<T: Real>(
     Err(solution.cause(growth_limit(), worst()))
 }
 
-/// Names what went wrong in a step that failed its test: a pivot in one of its
-/// two stages, else what first ceased to be finite. `solved` are q̈ and growth of each.
-pub(crate) fn diagnose<T: Real>(
+/// What went wrong in a stage with this q̈ and growth, if anything did: what is not finite,
+/// or a pivot whose growth is over `limit`.
+pub(crate) fn stage_error<T: Real>(
     equations: &dyn Equations<T>,
-    stages: [At<'_, T>; 2],
-    solved: [(&[T], T); 2],
-) -> Error {
+    at: At<'_, T>,
+    acceleration: &[T],
+    growth: T,
+    limit: T,
+) -> Option<Error> {
     let info = equations.info();
-    // If only the sum of two growths is over the limit, the larger is over half.
-    let half_limit = T::from_f64(0.5) * growth_limit();
-    for (stage, (acceleration, growth)) in stages.into_iter().zip(solved) {
-        if let Err(error) = check_finite(info, stage) {
-            return error;
-        }
-        if is_over(growth, half_limit) || !vectors::is_finite(acceleration) {
-            let At { t, q, .. } = stage;
-            let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
-            return solution.cause(half_limit, equations.worst_pivot(t, q));
-        }
+    if let Err(error) = check_finite(info, at) {
+        return Some(error);
     }
-    // Both stages are healthy, so the sum that leaves them is not.
-    let [_, last] = stages;
-    Error::NonFinite { t: last.t.to_f64(), coordinate: "the state" }
+    if !is_over(growth, limit) && vectors::is_finite(acceleration) {
+        return None;
+    }
+    let At { t, q, .. } = at;
+    let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
+    Some(solution.cause(limit, equations.worst_pivot(t, q)))
 }
 
 /// Whether a growth reaches a limit; one that is no number does.

@@ -50,6 +50,11 @@ pub enum Error {
         /// Its value in 1/s.
         value: f64,
     },
+    /// A scheme that this program cannot run.
+    Scheme {
+        /// Its word.
+        name: &'static str,
+    },
     /// Gains with which the constraint violation grows from step to step.
     UnstableGains {
         /// α in 1/s.
@@ -159,6 +164,9 @@ impl fmt::Display for Error {
             ),
             Self::Gain { name, value } => {
                 write!(f, "the gain {name} is {value} 1/s, but it has to be finite and not negative")
+            }
+            Self::Scheme { name } => {
+                write!(f, "the scheme `{name}` has no type here; run the declaration as a text")
             }
             Self::UnstableGains { alpha, beta, step, feedback } => write!(
                 f,

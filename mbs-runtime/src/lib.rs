@@ -3,8 +3,8 @@
 //! [`mechanism!`] takes bodies, constraints and forces, differentiates the
 //! constraints symbolically at compile time, checks them, eliminates the
 //! constrained system, and emits straight-line Rust. This crate integrates the
-//! result with Heun's method and Baumgarte feedback, on the stack: no heap, no
-//! panic, no `unsafe`, `no_std`.
+//! result with Heun's method or one of higher order and Baumgarte feedback, on the
+//! stack: no heap, no panic, no `unsafe`, `no_std`.
 //!
 //! # Example
 //!
@@ -67,9 +67,10 @@
 //!
 //! # Method and limits
 //!
-//! Heun's method is explicit and of second order: the step has to resolve the
-//! fastest motion, and stiff springs need small ones. The feedback keeps the
-//! constraint violation small and proportional to h³, it does not remove it; the
+//! Schemes are explicit: the step has to resolve the fastest motion, and stiff springs need
+//! small ones. [`Heun`]'s method, the default, is of second order, [`Rk4`] of fourth; see
+//! [`Builder::method`]. The feedback keeps the constraint violation small, proportional to the
+//! error of a step (h³ with Heun's method), it does not remove it; the
 //! [`Builder::baumgarte`] gains must be [stable](Baumgarte::is_stable) for the
 //! step. In singular positions, where constraints depend on each other, the
 //! accelerations are not determined: that is a typed error, found by watching
@@ -112,13 +113,14 @@ mod derivation;
 mod diagnosis;
 pub mod equations;
 mod error;
-mod heun;
+pub mod explicit;
 mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
 mod kinematics;
 pub mod lanes;
 mod mechanism;
+mod method;
 mod pack;
 mod pair;
 mod reach;
@@ -136,7 +138,7 @@ mod system;
 mod vectors;
 mod watch;
 
-pub use baumgarte::{Baumgarte, Feedback, Held, PerStage};
+pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use error::Error;
@@ -144,7 +146,9 @@ pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantit
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
+pub use mbs_schemes::{Explicit, HEUN, RK4, SCHEMES, Tableau};
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
+pub use method::{Held, Heun, Method, MethodVisitor, PerStage, Rk4, Scheme, with_type};
 pub use pack::Pack;
 pub use pair::{Pair, Single, Two};
 pub use real::Real;

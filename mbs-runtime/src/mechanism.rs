@@ -1,6 +1,6 @@
 //! What a generated mechanism offers to integrators and tools.
 
-use crate::{Components, Derivation, Error, Feedback, Info, Real, Sketch};
+use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,12 +54,12 @@ pub struct Reactions<C: Components, R> {
     pub growth: C::Real,
 }
 
-/// A step of Heun's method whose health has not been tested.
+/// A step whose health has not been tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stepped<C: Components> {
     /// The state after the step.
     pub next: State<C>,
-    /// The sum of the pivot growths of both stages; see [`Mechanism`].
+    /// The sum of the pivot growths of all stages; see [`Mechanism`].
     pub growth: C::Real,
     /// The sum of positions and velocities, up to their signs: finite only if all
     /// of them are. Of a step that gives reactions, accelerations and multipliers
@@ -88,6 +88,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Real: Real;
     /// The same mechanism over another scalar.
     type Over<Scalar: Real>: Mechanism<Real = Scalar>;
+    /// The scheme that it declares, and that runs use unless they ask for another:
+    /// [`Heun`](crate::Heun), or that of `method = …;`.
+    type Scheme: Scheme;
     /// The parameters, named fields in SI units.
     type Parameters: Components<Real = Self::Real> + Default;
     /// The inputs that the embedding program sets, named fields in SI units.
@@ -155,13 +158,13 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         feedback: &Self::Constraints,
     ) -> Accelerations<Self::Coordinates>;
 
-    /// A whole step of Heun's method of length `h`, from `at` to `t_next`, as one
-    /// program: sines and cosines of both stages, the solutions and the update, in
-    /// the operations of [`stabilized`](Self::stabilized) and
-    /// [`constrained`](Self::constrained). `None` if the mechanism is too large for
-    /// that to pay.
+    /// A whole step of the declared [`Scheme`](Self::Scheme) of length `h`, from `at` to
+    /// `t_next`, as one program: sines and cosines of all stages, the solutions and the
+    /// update, in the operations of [`stabilized`](Self::stabilized) and
+    /// [`constrained`](Self::constrained). `None` if the mechanism is too large for that to
+    /// pay. Of the method `X` it uses the feedback alone.
     #[inline(always)]
-    fn fused_step<F: Feedback>(
+    fn fused_step<X: Method>(
         &self,
         _at: &State<Self::Coordinates>,
         _inputs: &Self::Inputs,
@@ -177,7 +180,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// too.
     #[inline(always)]
     #[allow(clippy::type_complexity, reason = "the parts have names")]
-    fn fused_step_with_reactions<F: Feedback>(
+    fn fused_step_with_reactions<X: Method>(
         &self,
         _at: &State<Self::Coordinates>,
         _inputs: &Self::Inputs,
@@ -193,7 +196,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// finite.
     #[doc(hidden)]
     #[inline(always)]
-    fn long_step<F: Feedback>(
+    fn long_step<X: Method>(
         &self,
         _state: &mut State<Self::Coordinates>,
         _inputs: &Self::Inputs,
@@ -258,6 +261,12 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Where every point of the [sketch](Self::SKETCH) is, in m in the ground
     /// frame. For pictures: nothing of it takes part in a step.
     fn points(&self, t: Self::Real, q: &Self::Coordinates) -> Self::Points;
+}
+
+/// Whether the fused step of a mechanism is one of this method.
+#[inline(always)]
+pub(crate) fn is_fused_for<M: Mechanism, X: Method>() -> bool {
+    const { M::Scheme::TABLEAU.is(X::Scheme::TABLEAU) }
 }
 
 /// The pivot growth from which on a position counts as singular: 1/(1024 ε),

@@ -1,9 +1,11 @@
-//! A run on slices: a step in two stages, and what is done where a step or a result is not
+//! A run on slices: a step stage by stage, and what is done where a step or a result is not
 //! healthy, finding out whether anything went wrong, and what.
 
-use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, diagnose};
+use mbs_schemes::{Explicit, MOST_STAGES};
+
+use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, stage_error};
 use crate::equations::{At, Equations};
-use crate::heun::{correct, predict};
+use crate::explicit::{self, Slopes, Span};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
 use crate::room::Room;
@@ -24,15 +26,15 @@ pub struct Run<'a, T> {
     pub gains: Gains<T>,
     /// The step in s.
     pub step: T,
-    /// Whether the second stage of a step is given the feedback of the first.
-    pub is_held: bool,
+    /// The scheme, and whether all stages of a step are given the feedback of the first.
+    pub method: Explicit,
     /// Whether violations of the constraints are meant to decay.
     pub keeps_constraints: bool,
 }
 
 impl<T: Real> Run<'_, T> {
-    /// A step of Heun's method to `t_next` (Jiang 2025, Eq. 9), stage by stage, of which
-    /// the watch is told:
+    /// A step to `t_next`, stage by stage, of which the watch is told. With Heun's method
+    /// (Jiang 2025, Eq. 9):
     ///
     /// ```text
     /// predict   q* = q + h v,            v* = v + h q̈(t, q, v)
@@ -55,7 +57,7 @@ impl<T: Real> Run<'_, T> {
     ) -> Result<(), Error> {
         let [q_next, v_next] = next;
         let growth = self
-            .heun(t_next, [&mut *q_next, &mut *v_next], room)
+            .explicit(t_next, [&mut *q_next, &mut *v_next], room)
             .map_err(|error| self.cause(error, t_next, room))?;
         let next = At { t: t_next, q: q_next, v: v_next };
         if self.is_calm(next, growth, watch, room) {
@@ -76,33 +78,56 @@ impl<T: Real> Run<'_, T> {
         growth <= watch.alarm && margin >= T::default()
     }
 
-    /// The step without examination, and the growth of both stages.
-    fn heun(&self, t_next: T, next: [&mut [T]; 2], room: &mut Room<'_, T>) -> Result<T, Error> {
-        let Self { equations, at, inputs, gains, step: h, .. } = self;
+    /// The step without examination, and the growths of its stages, added.
+    fn explicit(&self, t_next: T, next: [&mut [T]; 2], room: &mut Room<'_, T>) -> Result<T, Error> {
         let [q_next, v_next] = next;
-        let [here, there, ..] = &mut room.coordinates;
-        let [feedback, ..] = &mut room.constraints;
-        let growth_here = equations.stabilized(*at, inputs, gains, here, feedback);
-        vectors::copy(q_next, at.q);
-        vectors::copy(v_next, at.v);
-        predict(*h, here, q_next, v_next);
-        let predicted = At { t: t_next, q: q_next, v: v_next };
-        let growth_there = if self.is_held {
-            equations.constrained(predicted, inputs, feedback, there)
-        } else {
-            equations.stabilized(predicted, inputs, gains, there, feedback)
-        };
-        correct(*h, [at.q, at.v], [here, there], q_next, v_next);
-        let growth = growth_here + growth_there;
+        let growth = self.stages(t_next, [&mut *q_next, &mut *v_next], room, |_, _, _| {});
         // One test per step; written so that a NaN fails it.
         if growth < growth_limit() && vectors::is_finite(q_next) && vectors::is_finite(v_next) {
             return Ok(growth);
         }
+        // If only the sum of the growths is over the limit, the largest is over its share.
+        let share = T::from_f64(1.0 / self.method.tableau.stage_count() as f64);
+        let (mut error, mut t_last) = (None, self.at.t);
+        self.stages(t_next, [q_next, v_next], room, |at, acceleration, growth| {
+            t_last = at.t;
+            if error.is_none() {
+                error = stage_error(self.equations, at, acceleration, growth, share * growth_limit());
+            }
+        });
+        // Where all stages are healthy, the sum that leaves them is not.
+        Err(error.unwrap_or(Error::NonFinite { t: t_last.to_f64(), coordinate: "the state" }))
+    }
+
+    /// The stages of a step, one after the other; `look` sees each with its q̈ and growth.
+    fn stages(
+        &self,
+        t_next: T,
+        next: [&mut [T]; 2],
+        room: &mut Room<'_, T>,
+        mut look: impl FnMut(At<'_, T>, &[T], T),
+    ) -> T {
+        let Self { equations, at, inputs, gains, step: h, method, .. } = self;
+        let [mut q_next, v_next] = next;
         vectors::copy(q_next, at.q);
         vectors::copy(v_next, at.v);
-        predict(*h, here, q_next, v_next);
-        let predicted = At { t: t_next, q: q_next, v: v_next };
-        Err(diagnose(*equations, [*at, predicted], [(here, growth_here), (there, growth_there)]))
+        let count = method.tableau.stage_count();
+        let [feedback, unread, ..] = &mut room.constraints;
+        let [a, b, c, d, e, f, g, there] = room.coordinates.each_mut().map(|vector| &mut **vector);
+        let mut vectors = [v_next, a, b, c, d, e, f, g];
+        let (velocities, accelerations) = vectors.split_at_mut(count.min(MOST_STAGES));
+        let (slopes, mut there) = (Slopes { velocities, accelerations }, there);
+        let span = Span { t: at.t, h: *h, t_next };
+        explicit::step(method.tableau, &span, &mut q_next, slopes, &mut there, |stage, t, q, v, a| {
+            let at = At { t, q, v };
+            let growth = match (stage, method.is_held) {
+                (0, _) => equations.stabilized(at, inputs, gains, a, feedback),
+                (_, true) => equations.constrained(at, inputs, feedback, a),
+                (_, false) => equations.stabilized(at, inputs, gains, a, unread),
+            };
+            look(at, a, growth);
+            growth
+        })
     }
 
     /// Examines a step to `next` after which the growth has risen: whether its constraints

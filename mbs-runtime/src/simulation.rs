@@ -7,10 +7,10 @@ mod on_slices;
 pub use self::builder::Builder;
 
 use crate::components::sum_of;
-use crate::mechanism::growth_limit;
+use crate::mechanism::{growth_limit, is_fused_for};
 use crate::run::check_outputs;
 use crate::watch::{Watch, WorstPlace};
-use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reactions, Real, State};
+use crate::{Baumgarte, Components, Error, Gains, Held, Mechanism, Method, Reactions, Real, State};
 
 /// A mechanism being integrated in time.
 ///
@@ -36,11 +36,11 @@ use crate::{Baumgarte, Components, Error, Feedback, Gains, Held, Mechanism, Reac
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Simulation<M: Mechanism, F: Feedback = Held> {
+pub struct Simulation<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> {
     mechanism: M,
     inputs: M::Inputs,
     state: State<M::Coordinates>,
-    baumgarte: Baumgarte<F>,
+    baumgarte: Baumgarte<X>,
     gains: Gains<M::Real>,
     step: M::Real,
     start_time: M::Real,
@@ -49,8 +49,8 @@ pub struct Simulation<M: Mechanism, F: Feedback = Held> {
 }
 
 impl<M: Mechanism> Simulation<M> {
-    /// Starts at the declared start, made consistent, with steps of `step`
-    /// seconds and deadbeat feedback held over each step.
+    /// Starts at the declared start, made consistent, with steps of `step` seconds of the
+    /// declared scheme and deadbeat feedback held over each step.
     ///
     /// # Errors
     /// As [`Builder::build`].
@@ -64,8 +64,8 @@ impl<M: Mechanism> Simulation<M> {
     }
 }
 
-impl<M: Mechanism, F: Feedback> Simulation<M, F> {
-    /// Advances by one step of Heun's method.
+impl<M: Mechanism, X: Method> Simulation<M, X> {
+    /// Advances by one step of the method.
     ///
     /// # Errors
     /// [`Error::OutOfReach`] if the constraints cannot be met any more at its end,
@@ -78,7 +78,8 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         // Written so that a NaN fails the test. The state is stored from registers,
         // pair by pair; through a `Result` it would be copied in other pieces than
         // those in which it was written, for which processors wait.
-        if let Some(fused) = mechanism.fused_step::<F>(state, inputs, gains, *step, t_next)
+        if is_fused_for::<M, X>()
+            && let Some(fused) = mechanism.fused_step::<X>(state, inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
@@ -91,7 +92,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         let Self { mechanism, state, inputs, gains, step, watch, .. } = self;
         // in place, so that nothing could be looked at before it is taken
         if M::INFO.redundant.is_empty()
-            && let Some(growth) = mechanism.long_step::<F>(state, inputs, gains, *step, t_next, watch.alarm)
+            && let Some(growth) = mechanism.long_step::<X>(state, inputs, gains, *step, t_next, watch.alarm)
         {
             self.steps += 1;
             self.watch.note(growth);
@@ -133,8 +134,9 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     pub fn step_with_reactions(&mut self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let t_next = self.next_time();
         let Self { mechanism, state, inputs, gains, step, watch, .. } = &*self;
-        if let Some((fused, reactions)) =
-            mechanism.fused_step_with_reactions::<F>(state, inputs, gains, *step, t_next)
+        if is_fused_for::<M, X>()
+            && let Some((fused, reactions)) =
+                mechanism.fused_step_with_reactions::<X>(state, inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
@@ -218,7 +220,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
     }
 
     /// The feedback.
-    pub fn baumgarte(&self) -> &Baumgarte<F> {
+    pub fn baumgarte(&self) -> &Baumgarte<X> {
         &self.baumgarte
     }
 
@@ -242,7 +244,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
         self.mechanism.phi_dot(&self.state).norm()
     }
 
-    /// The largest pivot growth of a step so far, both stages added; 0 before the first.
+    /// The largest pivot growth of a step so far, all stages added; 0 before the first.
     ///
     /// In a healthy position every pivot adds about 2. Where a mechanism comes close to a
     /// singular position it is the factor by which rounding errors are magnified; see

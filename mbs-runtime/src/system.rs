@@ -2,7 +2,7 @@
 
 use crate::equations::{At, Equations, read, write};
 use crate::watch::WorstPlace;
-use crate::{Derivation, Error, Feedback, Mechanism, Reactions, Simulation, Sketch};
+use crate::{Derivation, Error, Mechanism, Method, Reactions, Simulation, Sketch};
 
 /// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
 /// knew, or a run of a mechanism that was read from a text.
@@ -123,7 +123,7 @@ pub trait System: Send {
     fn digits_left(&self) -> f64;
 }
 
-impl<M: Mechanism<Real = f64>, F: Feedback> System for Simulation<M, F> {
+impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
     fn equations(&self) -> &dyn Equations<f64> {
         self.mechanism()
     }
@@ -169,10 +169,10 @@ impl<M: Mechanism<Real = f64>, F: Feedback> System for Simulation<M, F> {
         self.steps_to(end)
     }
 
-    // Feedback in both stages, which few ask for, is spared the code of a fused step: its
+    // Feedback in every stage, which few ask for, is spared the code of a fused step: its
     // stages give the same numbers.
     fn step(&mut self) -> Result<(), Error> {
-        if F::IS_HELD { self.step() } else { self.step_in_stages() }
+        if X::EXPLICIT.is_held { self.step() } else { self.step_in_stages() }
     }
 
     fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{
-    Baumgarte, Components, Error, Feedback, Held, Mechanism, Pack, PerStage, Real, Simulation, mechanism,
+    Baumgarte, Components, Error, Held, Mechanism, Method, Pack, PerStage, Real, Simulation, mechanism,
 };
 
 mechanism! {
@@ -89,11 +89,11 @@ fn end_of_four_bar(omega: f64) -> f64 {
 }
 
 /// The error, and the state that it leaves, of a run that has to end at `dead_end`.
-fn check<M: Mechanism, F: Feedback>(
+fn check<M: Mechanism, X: Method>(
     name: &str,
-    mut run: Simulation<M, F>,
+    mut run: Simulation<M, X>,
     dead_end: f64,
-    mut step: impl FnMut(&mut Simulation<M, F>) -> Result<(), Error>,
+    mut step: impl FnMut(&mut Simulation<M, X>) -> Result<(), Error>,
 ) {
     let h = run.step_size().to_f64();
     let error = loop {
@@ -121,7 +121,7 @@ fn check<M: Mechanism, F: Feedback>(
     assert!(run.state().q.is_finite() && violation < 0.02, "{name}: {violation}");
 }
 
-fn on_every_path<M: Mechanism<Real = f64>, S: Mechanism<Real = f32>, F: Feedback>(
+fn on_every_path<M: Mechanism<Real = f64>, S: Mechanism<Real = f32>, X: Method>(
     name: &str,
     mechanism: M,
     single: S,
@@ -129,7 +129,7 @@ fn on_every_path<M: Mechanism<Real = f64>, S: Mechanism<Real = f32>, F: Feedback
 ) {
     for share in [9.6, 20.3, 37.0, 53.01, 100.5, 177.99, 301.77, 1000.0, 5000.1, 20000.9] {
         let h = dead_end / share;
-        let gains = Baumgarte::<F>::deadbeat(h);
+        let gains = Baumgarte::<X>::deadbeat(h);
         let run = Simulation::builder(mechanism, h).baumgarte(gains).build().expect("a start");
         check(&format!("{name}, fused"), run, dead_end, Simulation::step);
         check(&format!("{name}, in stages"), run, dead_end, Simulation::step_in_stages);

@@ -1,7 +1,7 @@
 //! A run behind [`System`] is the simulation it is made of, to the bit.
 
 use mbs_runtime::equations::At;
-use mbs_runtime::{Components, Error, Feedback, Held, PerStage, Simulation, System, mechanism};
+use mbs_runtime::{Components, Error, Held, Method, PerStage, Simulation, System, mechanism};
 
 mechanism! {
     /// A cart with a pole, pushed.
@@ -20,13 +20,13 @@ mechanism! {
     }
 }
 
-fn run<F: Feedback>() -> Result<Simulation<Cart, F>, Error> {
-    let gains = mbs_runtime::Baumgarte::<F>::deadbeat(1e-3);
+fn run<X: Method>() -> Result<Simulation<Cart, X>, Error> {
+    let gains = mbs_runtime::Baumgarte::<X>::deadbeat(1e-3);
     Simulation::builder(Cart::declared(), 1e-3).baumgarte(gains).build()
 }
 
-fn same_bits<F: Feedback>() -> Result<(), Error> {
-    let mut run = run::<F>()?;
+fn same_bits<X: Method>() -> Result<(), Error> {
+    let mut run = run::<X>()?;
     let mut system: Box<dyn System> = Box::new(run);
     let (mut q, mut v, mut a, mut lambda) = ([0.0; 3], [0.0; 3], [0.0; 3], [0.0; 1]);
     for step in 0..200 {

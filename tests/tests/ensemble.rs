@@ -5,7 +5,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use mbs_ensemble::{Cancelled, Ensemble, Extremes, Run, Samples, Violation};
-use mbs_runtime::{Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, mechanism};
+use mbs_runtime::{Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Simulation, mechanism};
 use models::{DoublePendulum, FourBar, SliderCrank, SliderCrankFree, SliderCrankParameters};
 use models::{NFourBar2, NFourBar2Parameters, SliderCrankFreeInputs, SliderCrankFreeParameters};
 
@@ -47,7 +47,7 @@ type Observer = (Violation, (Extremes, Samples));
 const OBSERVER: Observer = (Violation, (Extremes { from: 0.1 }, Samples::every(100)));
 
 /// What `OBSERVER` says, found by scalar steps.
-fn alone<M: Mechanism<Real = f64>, F: Feedback>(mut run: Simulation<M, F>) -> Vec<f64> {
+fn alone<M: Mechanism<Real = f64>, X: Method>(mut run: Simulation<M, X>) -> Vec<f64> {
     let mut numbers = vec![0.0_f64; 2];
     let count = M::Outputs::NAMES.len();
     let mut extremes = vec![[f64::NAN; 4]; count];
@@ -100,10 +100,10 @@ fn numbers<M: Mechanism<Real = f64>>(run: &Run<M, Observed<M>>) -> Vec<f64> {
 }
 
 /// 19 members: two blocks and a part of one.
-fn same_bits<M, F>(member: impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync)
+fn same_bits<M, X>(member: impl Fn(usize) -> Result<Simulation<M, X>, Error> + Sync)
 where
     M: Mechanism<Real = f64>,
-    F: Feedback,
+    X: Method,
 {
     let outcomes = Ensemble::new(END).run(19, &member, &OBSERVER).expect("nobody cancels");
     assert_eq!(outcomes.len(), 19);

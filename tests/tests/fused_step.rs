@@ -7,9 +7,7 @@
 //! difference is an error.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-use mbs_runtime::{
-    Baumgarte, Components, Feedback, Gains, Held, Mechanism, PerStage, Real, Simulation, State,
-};
+use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Method, PerStage, Real, Simulation, State};
 use models::*;
 use tests::random::Random;
 
@@ -28,18 +26,18 @@ fn assert_same<C: Components>(fused: C, staged: C, what: &str) {
 }
 
 /// Compares one step; its next state.
-fn compare<M: Mechanism, F: Feedback>(
+fn compare<M: Mechanism, X: Method>(
     mechanism: &M,
     at: &State<M::Coordinates>,
     inputs: &M::Inputs,
     what: &str,
 ) -> State<M::Coordinates> {
-    let what = format!("{what} of {} with {} feedback", M::INFO.name, F::NAME);
+    let what = format!("{what} of {} with {} feedback", M::INFO.name, X::EXPLICIT.feedback_name());
     let number = M::Real::from_f64;
     let (h, half_h) = (number(H), number(0.5) * number(H));
     let t_next = at.t + h;
     let gains = Gains { minus_two_alpha: number(-1.5 / H), minus_beta_squared: number(-1.0 / (H * H)) };
-    let fused = mechanism.fused_step::<F>(at, inputs, &gains, h, t_next).expect("a small mechanism");
+    let fused = mechanism.fused_step::<X>(at, inputs, &gains, h, t_next).expect("a small mechanism");
 
     let here = mechanism.stabilized(at, inputs, &gains);
     let predicted = State {
@@ -47,7 +45,7 @@ fn compare<M: Mechanism, F: Feedback>(
         q: at.q.zip_map(at.v, |q, v| q + h * v),
         v: at.v.zip_map(here.acceleration, |v, a| v + h * a),
     };
-    let (there, growth) = if F::IS_HELD {
+    let (there, growth) = if X::EXPLICIT.is_held {
         let there = mechanism.constrained(&predicted, inputs, &here.feedback);
         (there.acceleration, there.growth)
     } else {
@@ -65,20 +63,20 @@ fn compare<M: Mechanism, F: Feedback>(
     if fused.sum.is_finite() {
         assert!(q.is_finite() && v.is_finite(), "{what}: not finite, but the sum is");
     }
-    compare_with_reactions::<M, F>(mechanism, at, inputs, &what);
+    compare_with_reactions::<M, X>(mechanism, at, inputs, &what);
     fused.next
 }
 
 /// Compares a step that gives reactions with reactions and then a step: results,
 /// failures, and the states after them.
-fn compare_with_reactions<M: Mechanism, F: Feedback>(
+fn compare_with_reactions<M: Mechanism, X: Method>(
     mechanism: &M,
     at: &State<M::Coordinates>,
     inputs: &M::Inputs,
     what: &str,
 ) {
     let simulation = Simulation::builder(*mechanism, H)
-        .baumgarte(Baumgarte::<F>::deadbeat(H))
+        .baumgarte(Baumgarte::<X>::deadbeat(H))
         .inputs(*inputs)
         .from_state(*at)
         .as_declared()

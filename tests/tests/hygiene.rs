@@ -2,10 +2,10 @@
 //! its own, in any visibility and scalar, and silent under strict lints.
 #![deny(warnings, rust_2018_idioms, unused_qualifications)]
 
-use mbs_runtime::{Error, Held, Simulation};
+use mbs_runtime::{Error, Simulation};
 
 /// Runs a mechanism for a few steps.
-fn runs<M: mbs_runtime::Mechanism>(mechanism: M) -> Result<Simulation<M, Held>, Error> {
+fn runs<M: mbs_runtime::Mechanism>(mechanism: M) -> Result<Simulation<M>, Error> {
     let mut simulation = Simulation::new(mechanism, 1e-3)?;
     for _ in 0..10 {
         simulation.step()?;

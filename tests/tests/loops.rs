@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{
-    Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Simulation, State, mechanism,
+    Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Simulation, State, mechanism,
 };
 use models::{NFourBar40, NPendulum40};
 
@@ -131,14 +131,14 @@ mechanism! {
 }
 
 /// Runs steps whole, and in stages, as errors are looked for.
-fn whole_and_in_stages<M: Mechanism<Real = f64>, F: Feedback>(feedback: fn(f64) -> Baumgarte<F>) {
+fn whole_and_in_stages<M: Mechanism<Real = f64>, X: Method>(feedback: fn(f64) -> Baumgarte<X>) {
     let mechanism = M::new(M::Parameters::default()).expect("declared values are valid");
     let mut whole = Simulation::builder(mechanism, 1e-3)
         .baumgarte(feedback(1e-3))
         .build()
         .expect("the start is consistent");
     let mut stages = whole;
-    let bits = |simulation: &Simulation<M, F>| {
+    let bits = |simulation: &Simulation<M, X>| {
         let State { t, q, v } = *simulation.state();
         let (q, v) = (q.into_array(), v.into_array());
         let all = q.as_ref().iter().chain(v.as_ref()).chain([&t]).map(|x| x.to_bits());

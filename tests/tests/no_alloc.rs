@@ -5,7 +5,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use mbs_runtime::{Baumgarte, Feedback, Held, Kinematics, Mechanism, PerStage, Simulation, start};
+use mbs_runtime::{Baumgarte, Held, Kinematics, Mechanism, Method, PerStage, Simulation, start};
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::SliderCrankFree;
 
@@ -48,7 +48,7 @@ fn allocations(work: impl FnOnce()) -> u64 {
 const H: f64 = 0.5e-3;
 const STEPS: u32 = 1_000_000;
 
-fn count_steps<M: Mechanism, F: Feedback>(mechanism: M, baumgarte: Baumgarte<F>) -> u64 {
+fn count_steps<M: Mechanism, X: Method>(mechanism: M, baumgarte: Baumgarte<X>) -> u64 {
     allocations(|| {
         let mut simulation = Simulation::builder(mechanism, H).baumgarte(baumgarte).build().expect("a start");
         for _ in 0..STEPS {

@@ -3,7 +3,7 @@
 //! and it balances energy to second order.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-use mbs_runtime::{Baumgarte, Feedback, Held, PerStage, Simulation};
+use mbs_runtime::{Baumgarte, Held, Method, PerStage, Simulation};
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs};
 
 /// θ1 after 0.3 s with 0.5 N·m on the crank from 200 rpm, by DOP853 with a
@@ -12,7 +12,7 @@ const REFERENCE: f64 = 5.644159549774;
 const END: f64 = 0.3;
 const TORQUE: f64 = 0.5;
 
-fn run<F: Feedback>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<F>) -> Simulation<SliderCrankFree, F> {
+fn run<X: Method>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<X>) -> Simulation<SliderCrankFree, X> {
     let h = END / f64::from(steps);
     let mut simulation = Simulation::builder(SliderCrankFree::declared(), h)
         .baumgarte(baumgarte(h))
@@ -24,7 +24,7 @@ fn run<F: Feedback>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<F>) -> Simu
     simulation
 }
 
-fn error<F: Feedback>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<F>) -> f64 {
+fn error<X: Method>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<X>) -> f64 {
     (run(steps, baumgarte).state().q.theta1 - REFERENCE).abs()
 }
 
@@ -44,7 +44,7 @@ fn none(_: f64) -> Baumgarte<Held> {
 /// log2 of the ratio of the errors at h and h/2. At 1/32 and 1/64 ms the h³
 /// term is below 2 % of the error, and the reference (1e-12) and rounding
 /// (about 2e4 steps of 1e-15) are below 1e-4 of it.
-fn observed_order<F: Feedback>(baumgarte: impl Fn(f64) -> Baumgarte<F>) -> f64 {
+fn observed_order<X: Method>(baumgarte: impl Fn(f64) -> Baumgarte<X>) -> f64 {
     (error(9600, &baumgarte) / error(19200, &baumgarte)).log2()
 }
 
@@ -82,7 +82,7 @@ fn errors_are_those_of_an_independent_computation() {
 /// error that falls with h² (or faster).
 #[test]
 fn energy_gained_is_work_done() {
-    fn imbalance<F: Feedback>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<F>) -> f64 {
+    fn imbalance<X: Method>(steps: u32, baumgarte: impl Fn(f64) -> Baumgarte<X>) -> f64 {
         let start = Simulation::new(SliderCrankFree::declared(), END).expect("a valid start");
         let end = run(steps, baumgarte);
         let work = TORQUE * (end.state().q.theta1 - start.state().q.theta1);

@@ -3,7 +3,7 @@
 //! simulations of a mechanism that is exactly that equation.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-use mbs_runtime::{Baumgarte, Error, Feedback, Held, PerStage, Simulation, mechanism};
+use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, Simulation, mechanism};
 use nalgebra::{Matrix2, Vector2};
 use tests::random::Random;
 
@@ -19,18 +19,18 @@ mechanism! {
 }
 
 /// One step of Heun's method on (e, ė), as the textbook has it.
-fn step<F: Feedback>([e, v]: [f64; 2], alpha: f64, beta: f64, h: f64) -> [f64; 2] {
+fn step<X: Method>([e, v]: [f64; 2], alpha: f64, beta: f64, h: f64) -> [f64; 2] {
     let pull = |e: f64, v: f64| -2.0 * alpha * v - beta * beta * e;
     let here = pull(e, v);
     let predicted = [e + h * v, v + h * here];
-    let there = if F::IS_HELD { here } else { pull(predicted[0], predicted[1]) };
+    let there = if X::EXPLICIT.is_held { here } else { pull(predicted[0], predicted[1]) };
     [e + h / 2.0 * (v + predicted[1]), v + h / 2.0 * (here + there)]
 }
 
-fn map<F: Feedback>(alpha: f64, beta: f64, h: f64) -> Matrix2<f64> {
+fn map<X: Method>(alpha: f64, beta: f64, h: f64) -> Matrix2<f64> {
     // columns in units of (1, 1/h), so that both are of order 1
     let columns = [[1.0, 0.0], [0.0, 1.0 / h]].map(|start| {
-        let [e, v] = step::<F>(start, alpha, beta, h);
+        let [e, v] = step::<X>(start, alpha, beta, h);
         Vector2::new(e, v * h)
     });
     Matrix2::from_columns(&columns)
@@ -40,22 +40,29 @@ fn spectral_radius(map: &Matrix2<f64>) -> f64 {
     map.complex_eigenvalues().iter().map(|z| z.re.hypot(z.im)).fold(0.0, f64::max)
 }
 
-fn check_random_gains<F: Feedback>() {
+fn check_random_gains<X: Method>() {
     let mut random = Random::new(8);
     let (mut stable, mut unstable) = (0, 0);
     for _ in 0..20_000 {
         let h = 10.0_f64.powf(random.between(-6.0, 0.0));
         let (alpha, beta) = (random.between(0.0, 1.5) / h, random.between(0.0, 2.5) / h);
-        let radius = spectral_radius(&map::<F>(alpha, beta, h));
+        let radius = spectral_radius(&map::<X>(alpha, beta, h));
         // eigenvalues near a double one are good to √ε only
         if (radius - 1.0).abs() < 1e-7 {
             continue;
         }
-        let claim = Baumgarte::<F>::new(alpha, beta).expect("valid gains").is_stable(h);
-        assert_eq!(claim, radius < 1.0, "{}: αh = {}, βh = {}: {radius}", F::NAME, alpha * h, beta * h);
+        let claim = Baumgarte::<X>::new(alpha, beta).expect("valid gains").is_stable(h);
+        assert_eq!(
+            claim,
+            radius < 1.0,
+            "{}: αh = {}, βh = {}: {radius}",
+            X::EXPLICIT.feedback_name(),
+            alpha * h,
+            beta * h
+        );
         if claim { stable += 1 } else { unstable += 1 }
     }
-    println!("{}: {stable} stable, {unstable} unstable", F::NAME);
+    println!("{}: {stable} stable, {unstable} unstable", X::EXPLICIT.feedback_name());
     assert!(stable > 1000 && unstable > 1000, "{stable} {unstable}");
 }
 
@@ -80,14 +87,14 @@ fn stability_is_known_at_compile_time() {
 /// then half the characteristic polynomial.) Gains 1 % off leave 1e-4.
 #[test]
 fn deadbeat_gains_end_a_violation_in_two_steps() {
-    fn check<F: Feedback>() {
+    fn check<X: Method>() {
         for h in [1e-6, 0.5e-3, 0.1, 1.0] {
-            let best = Baumgarte::<F>::deadbeat(h);
-            let map = map::<F>(best.alpha(), best.beta(), h);
+            let best = Baumgarte::<X>::deadbeat(h);
+            let map = map::<X>(best.alpha(), best.beta(), h);
             let square = map * map;
-            assert!(square.amax() <= 16.0 * f64::EPSILON, "{} {h}: {square}", F::NAME);
-            let other = self::map::<F>(1.01 * best.alpha(), best.beta(), h);
-            assert!((other * other).amax() > 1e-5, "{} {h}: {other}", F::NAME);
+            assert!(square.amax() <= 16.0 * f64::EPSILON, "{} {h}: {square}", X::EXPLICIT.feedback_name());
+            let other = self::map::<X>(1.01 * best.alpha(), best.beta(), h);
+            assert!((other * other).amax() > 1e-5, "{} {h}: {other}", X::EXPLICIT.feedback_name());
         }
     }
     check::<PerStage>();
@@ -95,8 +102,8 @@ fn deadbeat_gains_end_a_violation_in_two_steps() {
 }
 
 /// The violation after many steps from one of 1 mm.
-fn after<F: Feedback>(alpha: f64, beta: f64, steps: u32) -> f64 {
-    let baumgarte = Baumgarte::<F>::new(alpha, beta).expect("valid gains");
+fn after<X: Method>(alpha: f64, beta: f64, steps: u32) -> f64 {
+    let baumgarte = Baumgarte::<X>::new(alpha, beta).expect("valid gains");
     let mut simulation = Simulation::builder(HeldMass::declared(), 0.5e-3)
         .baumgarte(baumgarte)
         .as_declared()
@@ -126,9 +133,9 @@ fn simulation_decays_within_the_limits_and_grows_beyond() {
 /// Deadbeat: of 1 mm nothing is left after two steps but rounding of h²β²Φ.
 #[test]
 fn simulation_with_deadbeat_gains_is_still_after_two_steps() {
-    fn after_two<F: Feedback>() -> f64 {
-        let best = Baumgarte::<F>::deadbeat(0.5e-3);
-        after::<F>(best.alpha(), best.beta(), 2)
+    fn after_two<X: Method>() -> f64 {
+        let best = Baumgarte::<X>::deadbeat(0.5e-3);
+        after::<X>(best.alpha(), best.beta(), 2)
     }
     assert!(after_two::<PerStage>() <= 1e-3 * 16.0 * f64::EPSILON);
     assert!(after_two::<Held>() <= 1e-3 * 16.0 * f64::EPSILON);

@@ -6,7 +6,7 @@ use std::array::from_fn;
 use std::ops::Range;
 
 use mbs_runtime::lanes::{Lane, Pack};
-use mbs_runtime::{Components, Error, Feedback, Lanes, Mechanism, Real, Simulation};
+use mbs_runtime::{Components, Error, Lanes, Mechanism, Method, Real, Simulation};
 
 use crate::{Observe, Outcome, Run};
 
@@ -15,16 +15,16 @@ const STEPS_AT_ONCE: u64 = 4096;
 
 /// The outcomes of these members, at most `N`, in order, none of them `None`; or nothing if
 /// cancelled.
-pub fn run<M, F, O, const N: usize>(
+pub fn run<M, X, O, const N: usize>(
     indices: Range<usize>,
-    member: &(impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync),
+    member: &(impl Fn(usize) -> Result<Simulation<M, X>, Error> + Sync),
     observer: &O,
     end: f64,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Vec<Option<Outcome<M, O::Result>>>>
 where
     M: Mechanism<Real: Lane>,
-    F: Feedback,
+    X: Method,
     O: Observe<M>,
 {
     let members: Vec<Result<_, Error>> = indices.map(member).collect();
@@ -48,15 +48,15 @@ where
 
 /// A member that left the range of the lanes, by itself from its start on; or why it cannot
 /// come to the end.
-fn alone<M, F, O>(
-    simulation: &Simulation<M, F>,
+fn alone<M, X, O>(
+    simulation: &Simulation<M, X>,
     end: f64,
     observer: &O,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Outcome<M, O::Result>>
 where
     M: Mechanism<Real: Lane>,
-    F: Feedback,
+    X: Method,
     O: Observe<M>,
 {
     let steps = match simulation.steps_to(end) {
@@ -69,8 +69,8 @@ where
     Some(run.unwrap_or_else(|| Err(not_computable(simulation))))
 }
 
-struct Block<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> {
-    pack: Pack<M, F, N, &'a Simulation<M, F>>,
+struct Block<'a, M: Mechanism<Real: Lane>, X: Method, O: Observe<M>, const N: usize> {
+    pack: Pack<M, X, N, &'a Simulation<M, X>>,
     observer: &'a O,
     notes: O::Notes<N>,
     /// The steps to go; `None` where nobody is running any more.
@@ -78,11 +78,11 @@ struct Block<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: 
     runs: &'a mut [Option<Outcome<M, O::Result>>],
 }
 
-impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> Block<'a, M, F, O, N> {
+impl<'a, M: Mechanism<Real: Lane>, X: Method, O: Observe<M>, const N: usize> Block<'a, M, X, O, N> {
     /// Runs lanes with steps to go to their ends; `None` if cancelled. Without an outcome
     /// are then those that had none, and those that have to be run alone.
     fn together(
-        simulations: [&'a Simulation<M, F>; N],
+        simulations: [&'a Simulation<M, X>; N],
         left: [Option<u64>; N],
         observer: &'a O,
         is_cancelled: &dyn Fn() -> bool,
@@ -190,7 +190,7 @@ impl<'a, M: Mechanism<Real: Lane>, F: Feedback, O: Observe<M>, const N: usize> B
 }
 
 /// Why a state could not be looked at: an output, or a violation, that is not finite.
-fn unseen<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> Option<Error> {
+fn unseen<M: Mechanism, X: Method>(simulation: &Simulation<M, X>) -> Option<Error> {
     let (mechanism, at) = (simulation.mechanism(), simulation.state());
     let t = at.t.to_f64();
     let not_finite = |what, rows: M::Constraints| {
@@ -209,7 +209,7 @@ fn unseen<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> Option<Er
 }
 
 /// What an observer found no number for in a healthy state.
-fn not_computable<M: Mechanism, F: Feedback>(simulation: &Simulation<M, F>) -> Error {
+fn not_computable<M: Mechanism, X: Method>(simulation: &Simulation<M, X>) -> Error {
     Error::NonFinite { t: simulation.time().to_f64(), coordinate: "what is observed" }
 }
 
@@ -233,15 +233,15 @@ enum Stop<const N: usize> {
     "x86_64+avx+avx2+fma+avx512f+avx512dq+avx512vl+avx512bw+avx512cd",
     "x86_64+avx+avx2+fma",
 ))]
-fn advance<M, F, O, const N: usize>(
-    pack: &mut Pack<M, F, N, &Simulation<M, F>>,
+fn advance<M, X, O, const N: usize>(
+    pack: &mut Pack<M, X, N, &Simulation<M, X>>,
     observer: &O,
     notes: &mut O::Notes<N>,
     steps: u64,
 ) -> (u64, Stop<N>)
 where
     M: Mechanism<Real: Lane>,
-    F: Feedback,
+    X: Method,
     O: Observe<M>,
 {
     // Makes the compiler align its stack to 64 bytes: numbers that find no register

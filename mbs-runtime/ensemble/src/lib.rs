@@ -94,7 +94,7 @@ use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use mbs_runtime::lanes::Lane;
-use mbs_runtime::{Error, Feedback, Mechanism, Simulation, State, WorstPlace};
+use mbs_runtime::{Error, Mechanism, Method, Simulation, State, WorstPlace};
 use rayon::prelude::*;
 
 /// Blocks that are computed before their members are handed over.
@@ -178,15 +178,15 @@ impl<'a, const N: usize> Ensemble<'a, N> {
     ///
     /// # Errors
     /// [`Cancelled`]. What happens to members is in their [`Outcome`].
-    pub fn run<M, F, O>(
+    pub fn run<M, X, O>(
         &self,
         count: usize,
-        member: impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync,
+        member: impl Fn(usize) -> Result<Simulation<M, X>, Error> + Sync,
         observer: &O,
     ) -> Result<Vec<Outcome<M, O::Result>>, Cancelled>
     where
         M: Mechanism<Real: Lane>,
-        F: Feedback,
+        X: Method,
         O: Observe<M>,
     {
         let mut outcomes = Vec::with_capacity(count);
@@ -199,16 +199,16 @@ impl<'a, const N: usize> Ensemble<'a, N> {
     ///
     /// # Errors
     /// [`Cancelled`].
-    pub fn for_each<M, F, O>(
+    pub fn for_each<M, X, O>(
         &self,
         count: usize,
-        member: impl Fn(usize) -> Result<Simulation<M, F>, Error> + Sync,
+        member: impl Fn(usize) -> Result<Simulation<M, X>, Error> + Sync,
         observer: &O,
         mut take: impl FnMut(usize, Outcome<M, O::Result>),
     ) -> Result<(), Cancelled>
     where
         M: Mechanism<Real: Lane>,
-        F: Feedback,
+        X: Method,
         O: Observe<M>,
     {
         let () = Self::HAS_LANES;
@@ -217,7 +217,7 @@ impl<'a, const N: usize> Ensemble<'a, N> {
         let run_block = |block: usize| {
             let members = block * N..count.min((block + 1) * N);
             let length = members.len();
-            let outcomes = block::run::<M, F, O, N>(members, &member, observer, self.end, &is_cancelled)?;
+            let outcomes = block::run::<M, X, O, N>(members, &member, observer, self.end, &is_cancelled)?;
             if let Some(report) = self.progress {
                 report(done.fetch_add(length, Ordering::Relaxed) + length, count);
             }

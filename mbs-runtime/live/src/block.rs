@@ -1,12 +1,12 @@
 //! Members of one mechanism that take their steps together.
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::{Gains, Lanes, growth_limit};
+use mbs_runtime::{Explicit, Gains, Lanes, growth_limit};
 
 use crate::Live;
 use crate::arguments::Arguments;
-use crate::heun::Heun;
 use crate::lanes::{Column, LANES, VECTORS, Vector, column, read, run, trouble, write, zip};
+use crate::steps::Steps;
 
 /// A member of a [`Block`].
 pub struct Member<'a> {
@@ -27,7 +27,7 @@ pub struct Member<'a> {
 /// [`Stepper`](crate::Stepper) alone does, to the last bit. What lanes cannot compute is a
 /// sine or cosine beyond 10⁵ rad, which is no number there.
 pub struct Block {
-    heun: Heun<Vector, VECTORS>,
+    stepper: Steps<Vector, VECTORS>,
     q: Vec<Column>,
     v: Vec<Column>,
     inputs: Vec<Column>,
@@ -50,7 +50,7 @@ struct Measure {
 
 impl Block {
     /// Members of the mechanism of `first`; `of` gives that of a lane.
-    pub fn new<'a>(is_held: bool, first: &Live, of: impl Fn(usize) -> Member<'a>) -> Self {
+    pub fn new<'a>(method: Explicit, first: &Live, of: impl Fn(usize) -> Member<'a>) -> Self {
         let each = |number: &dyn Fn(&Member<'_>) -> f64| column(|lane| number(&of(lane)));
         let component = |vector: &[f64], at: usize| vector.get(at).copied().unwrap_or(f64::NAN);
         let (info, programs) = (first.declared_info(), first.programs());
@@ -58,7 +58,7 @@ impl Block {
         let (n, m) = (info.coordinates.len(), info.constraints.len());
         let zeros = |count: usize| vec![column(|_| 0.0); count];
         Self {
-            heun: Heun::new(programs, is_held, run, fixed),
+            stepper: Steps::new(programs, method, run, fixed),
             q: (0..n).map(|at| each(&|it| component(it.q, at))).collect(),
             v: (0..n).map(|at| each(&|it| component(it.v, at))).collect(),
             inputs: (0..info.inputs.len()).map(|at| each(&|it| component(it.inputs, at))).collect(),
@@ -82,18 +82,27 @@ impl Block {
     pub fn step(&mut self, limits: &[f64; LANES]) -> [bool; LANES] {
         let next = self.steps.map(|count| count + Lanes([1.0; _]));
         let (t, t_next) = (self.after(self.steps), self.after(next));
-        let Self { heun, q, v, inputs, gains, step, steps, .. } = self;
-        heun.step(&Arguments { t, q, v, inputs, gains: *gains, step: *step, t_next, ..Arguments::default() });
-        let trouble = trouble(heun.q.iter().chain(&heun.v));
+        let Self { stepper, q, v, inputs, gains, step, steps, .. } = self;
+        stepper.step(&Arguments {
+            t,
+            q,
+            v,
+            inputs,
+            gains: *gains,
+            step: *step,
+            t_next,
+            ..Arguments::default()
+        });
+        let trouble = trouble(stepper.q.iter().chain(&stepper.v));
         let is_taken = std::array::from_fn(|lane| {
-            read(&heun.growth, lane) <= limits[lane] && read(&trouble, lane) == 0.0
+            read(&stepper.growth, lane) <= limits[lane] && read(&trouble, lane) == 0.0
         });
         if is_taken == [true; LANES] {
-            std::mem::swap(q, &mut heun.q);
-            std::mem::swap(v, &mut heun.v);
+            std::mem::swap(q, &mut stepper.q);
+            std::mem::swap(v, &mut stepper.v);
             *steps = next;
         } else {
-            let states = q.iter_mut().zip(&heun.q).chain(v.iter_mut().zip(&heun.v));
+            let states = q.iter_mut().zip(&stepper.q).chain(v.iter_mut().zip(&stepper.v));
             for (column, next) in states.chain([(steps, &next)]) {
                 for lane in (0..LANES).filter(|&lane| is_taken[lane]) {
                     write(column, lane, read(next, lane));
@@ -111,9 +120,9 @@ impl Block {
     /// The outputs of every member, and whether they and the reactions are healthy.
     pub fn outputs(&mut self) -> (&[Column], [bool; LANES]) {
         let t = self.after(self.steps);
-        let Self { heun, q, v, inputs, measure, .. } = self;
+        let Self { stepper, q, v, inputs, measure, .. } = self;
         let Measure { reactions, outputs, no_feedback, acceleration, multipliers, measured } = measure;
-        let (programs, splines) = (heun.programs(), heun.programs().tables.splines);
+        let (programs, splines) = (stepper.programs(), stepper.programs().tables.splines);
         let at = Arguments { t, q, v, inputs, feedback: no_feedback, ..Arguments::default() };
         let mut growth = column(|_| f64::NAN);
         let code = programs.function(FunctionId::Reactions);
@@ -133,7 +142,7 @@ impl Block {
 
     /// The pivot growth of the last step of a member, taken or not.
     pub fn growth(&self, lane: usize) -> f64 {
-        read(&self.heun.growth, lane)
+        read(&self.stepper.growth, lane)
     }
 
     /// The coordinates of every member.

@@ -9,7 +9,7 @@
 //! ```
 //! use mbs_live::{Stepper, Text};
 //! use mbs_runtime::equations::At;
-//! use mbs_runtime::{Baumgarte, Gains, Held};
+//! use mbs_runtime::{Explicit, Gains};
 //!
 //! let text = "Pendulum {
 //!     dof = 1;
@@ -22,9 +22,10 @@
 //! let pendulum = Text::declaration("pendulum.mbs", text).compile()?;
 //!
 //! let (h, mut q, mut v) = (1e-3, vec![1.0, 0.0], vec![0.0, 0.0]);
-//! let best = Baumgarte::<Held>::deadbeat(h);
-//! let gains = Gains { minus_two_alpha: -2.0 * best.alpha(), minus_beta_squared: -best.beta().powi(2) };
-//! let mut steps = Stepper::new(&pendulum, true);
+//! let method = Explicit::default();
+//! let [alpha, beta] = method.deadbeat(h);
+//! let gains = Gains { minus_two_alpha: -2.0 * alpha, minus_beta_squared: -beta * beta };
+//! let mut steps = Stepper::new(&pendulum, method);
 //! for k in 0..500 {
 //!     let t = f64::from(k) * h;
 //!     let growth = steps.step(At { t, q: &q, v: &v }, &[], &gains, h, t + h);
@@ -39,7 +40,7 @@
 //! Each program of the compiled mechanism becomes flat code: operations on numbered slots,
 //! which are taken again as soon as their numbers are no longer read. The code is followed
 //! once and compared with its program before anything runs. A step is one program where the
-//! compiler has fused it, else its two stages one after the other. Compiled Rust weaves that
+//! compiler has fused it, else its stages one after the other. Compiled Rust weaves that
 //! one program into pairs, which may give a zero the other sign; all other bits agree.
 #![forbid(unsafe_code)]
 
@@ -50,7 +51,6 @@ mod code;
 mod equations;
 mod error;
 mod find;
-mod heun;
 mod instruction;
 mod lanes;
 mod lexing;
@@ -60,6 +60,7 @@ mod run;
 mod slots;
 mod statics;
 mod stepper;
+mod steps;
 mod text;
 mod words;
 

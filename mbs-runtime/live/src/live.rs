@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
-use mbs_runtime::{Derivation, Error, Info, Sketch};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Tableau};
 use mbs_symbolic::Inconsistency;
 
 use crate::arguments::Arguments;
@@ -55,8 +55,10 @@ pub(crate) struct Programs {
     pub tables: &'static Tables,
     /// In the order of [`FunctionId`].
     functions: Vec<Code>,
-    /// A whole step, with feedback held over it and in each of its stages, of a mechanism
-    /// that is small enough.
+    /// The scheme that the declaration asks for, and
+    scheme: &'static Tableau,
+    /// a whole step of it, with feedback held over it and in each of its stages, of a
+    /// mechanism that is small enough.
     steps: Option<[Arc<Code>; 2]>,
     conditions: Vec<Condition>,
 }
@@ -76,6 +78,7 @@ impl Programs {
         });
         Ok(Self {
             functions: functions.collect::<Result<_, _>>()?,
+            scheme: compiled.choices.scheme,
             steps,
             conditions: conditions.collect(),
             tables: statics::tables(declaration, compiled),
@@ -87,10 +90,10 @@ impl Programs {
         &self.functions[function as usize]
     }
 
-    /// The code of a whole step, if there is one.
-    pub fn step(&self, is_held: bool) -> Option<&Arc<Code>> {
-        let [held, per_stage] = self.steps.as_ref()?;
-        Some(if is_held { held } else { per_stage })
+    /// The code of a whole step of a method, if there is one.
+    pub fn step(&self, method: Explicit) -> Option<&Arc<Code>> {
+        let [held, per_stage] = self.steps.as_ref().filter(|_| self.scheme.is(method.tableau))?;
+        Some(if method.is_held { held } else { per_stage })
     }
 }
 
@@ -191,6 +194,11 @@ impl Live {
     /// The feedback that the declaration asks for, stable with its step.
     pub fn declared_feedback(&self) -> Option<Feedback> {
         self.programs.tables.feedback
+    }
+
+    /// The scheme that the declaration asks for: Heun's method, unless it says another.
+    pub fn declared_scheme(&self) -> &'static Tableau {
+        self.programs.scheme
     }
 
     /// The step that the declaration asks for, in s.

@@ -6,7 +6,7 @@ pub use pack::Pack;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, check_outputs};
-use mbs_runtime::{Baumgarte, Derivation, Error, Feedback, Gains, Held, Sketch, System, WorstPlace};
+use mbs_runtime::{Baumgarte, Derivation, Error, Explicit, Gains, Held, Method, Sketch, System, WorstPlace};
 
 use crate::arguments::Arguments;
 use crate::equations::{position, single, state};
@@ -38,7 +38,7 @@ use crate::{Live, Stepper};
 pub struct Run {
     mechanism: Live,
     gains: Gains<f64>,
-    is_held: bool,
+    method: Explicit,
     keeps_constraints: bool,
     inputs: Vec<f64>,
     step: f64,
@@ -55,50 +55,16 @@ pub struct Run {
 }
 
 /// The choices before a run starts; see [`Run::builder`].
-pub struct Builder<F: Feedback = Held> {
+pub struct Builder {
     mechanism: Live,
     step: f64,
-    baumgarte: Baumgarte<F>,
+    method: Explicit,
+    /// α and β in 1/s
+    gains: [f64; 2],
     inputs: Vec<f64>,
     state: Option<(f64, Vec<f64>, Vec<f64>)>,
     start: Start,
     allow_unstable: bool,
-}
-
-impl Run {
-    /// Choices to make before the start. Without any: the declared start, made consistent,
-    /// steps of `step` seconds, deadbeat feedback held over each step, inputs at 0.
-    pub fn builder(mechanism: &Live, step: f64) -> Builder {
-        Builder {
-            mechanism: mechanism.clone(),
-            step,
-            baumgarte: Baumgarte::deadbeat(step),
-            inputs: vec![0.0; mechanism.declared_info().inputs.len()],
-            state: None,
-            start: Start::Declared,
-            allow_unstable: false,
-        }
-    }
-
-    fn at(&self) -> At<'_, f64> {
-        At { t: self.t, q: &self.q, v: &self.v }
-    }
-
-    /// Accelerations and multipliers without feedback, and the growth.
-    fn solve(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> f64 {
-        let no_feedback = vec![0.0; multipliers.len()];
-        let arguments =
-            Arguments { inputs: single(&self.inputs), feedback: single(&no_feedback), ..state(self.at()) };
-        let mut growth = [f64::NAN];
-        self.mechanism.call(FunctionId::Reactions, &arguments, [acceleration, multipliers, &mut growth]);
-        growth[0]
-    }
-
-    fn energy(&self, of: FunctionId, at: At<'_, f64>) -> f64 {
-        let mut energy = [f64::NAN];
-        self.mechanism.call(of, &state(at), [&mut energy]);
-        energy[0]
-    }
 }
 
 /// The run as the core sees it. No method, because it borrows some of the fields while
@@ -111,10 +77,67 @@ macro_rules! on_slices {
             inputs: &$run.inputs,
             gains: $run.gains,
             step: $run.step,
-            is_held: $run.is_held,
+            method: $run.method,
             keeps_constraints: $run.keeps_constraints,
         }
     };
+}
+
+impl Run {
+    /// Choices to make before the start. Without any: the declared start, made consistent,
+    /// steps of `step` seconds of the declared scheme, deadbeat feedback held over each step,
+    /// inputs at 0.
+    pub fn builder(mechanism: &Live, step: f64) -> Builder {
+        let method = Explicit { tableau: mechanism.declared_scheme(), is_held: true };
+        Builder {
+            mechanism: mechanism.clone(),
+            step,
+            method,
+            gains: method.deadbeat(step),
+            inputs: vec![0.0; mechanism.declared_info().inputs.len()],
+            state: None,
+            start: Start::Declared,
+            allow_unstable: false,
+        }
+    }
+
+    fn at(&self) -> At<'_, f64> {
+        At { t: self.t, q: &self.q, v: &self.v }
+    }
+
+    /// Writes q̈ and λ of the present state with the feedback terms left in, as the first
+    /// stage of a step sees them.
+    ///
+    /// # Errors
+    /// As [`System::reactions`].
+    pub fn raw_reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+        let mut feedback = vec![f64::NAN; self.multipliers];
+        self.mechanism.stabilized(self.at(), &self.inputs, &self.gains, acceleration, &mut feedback);
+        self.reactions_with(&feedback, acceleration, multipliers)
+    }
+
+    fn reactions_with(
+        &self,
+        feedback: &[f64],
+        acceleration: &mut [f64],
+        multipliers: &mut [f64],
+    ) -> Result<(), Error> {
+        let arguments =
+            Arguments { inputs: single(&self.inputs), feedback: single(feedback), ..state(self.at()) };
+        let mut growth = [f64::NAN];
+        self.mechanism.call(
+            FunctionId::Reactions,
+            &arguments,
+            [&mut *acceleration, &mut *multipliers, &mut growth],
+        );
+        on_slices!(self).examine(acceleration, multipliers, growth[0])
+    }
+
+    fn energy(&self, of: FunctionId, at: At<'_, f64>) -> f64 {
+        let mut energy = [f64::NAN];
+        self.mechanism.call(of, &state(at), [&mut energy]);
+        energy[0]
+    }
 }
 
 impl System for Run {
@@ -185,8 +208,7 @@ impl System for Run {
     }
 
     fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
-        let growth = self.solve(acceleration, multipliers);
-        on_slices!(self).examine(acceleration, multipliers, growth)
+        self.reactions_with(&vec![0.0; multipliers.len()], acceleration, multipliers)
     }
 
     fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
@@ -236,12 +258,23 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
-impl<F: Feedback> Builder<F> {
-    /// Feedback of the constraint violation.
+impl Builder {
+    /// The method of integration, with the gains that are deadbeat for it.
     #[must_use]
-    pub fn baumgarte<G: Feedback>(self, baumgarte: Baumgarte<G>) -> Builder<G> {
-        let Self { mechanism, step, inputs, state, start, allow_unstable, .. } = self;
-        Builder { mechanism, step, baumgarte, inputs, state, start, allow_unstable }
+    pub fn method(self, method: Explicit) -> Self {
+        Self { method, gains: method.deadbeat(self.step), ..self }
+    }
+
+    /// Feedback of the constraint violation with these gains α and β in 1/s.
+    #[must_use]
+    pub fn gains(self, gains: [f64; 2]) -> Self {
+        Self { gains, ..self }
+    }
+
+    /// Feedback of the constraint violation, and the method that its gains belong to.
+    #[must_use]
+    pub fn baumgarte<X: Method>(self, baumgarte: Baumgarte<X>) -> Self {
+        self.method(X::EXPLICIT).gains([baumgarte.alpha(), baumgarte.beta()])
     }
 
     /// Starts at `t` seconds from positions and velocities that have to be consistent.
@@ -280,14 +313,16 @@ impl<F: Feedback> Builder<F> {
     /// # Errors
     /// As the builder of a [`Simulation`](mbs_runtime::Simulation).
     pub fn build(self) -> Result<Run, Error> {
-        let Self { mechanism, step, baumgarte, inputs, state, start, allow_unstable } = self;
+        let Self { mechanism, step, method, gains, inputs, state, start, allow_unstable } = self;
         if !(step > 0.0 && step.is_finite()) {
             return Err(Error::Step { step });
         }
-        let keeps_constraints = baumgarte.is_stable(step);
+        let [alpha, beta] = gains;
+        // what a gain may be does not depend on the method
+        let baumgarte = Baumgarte::<Held>::new(alpha, beta)?;
+        let keeps_constraints = method.is_stable(gains, step);
         if !allow_unstable && !keeps_constraints {
-            let (alpha, beta) = (baumgarte.alpha(), baumgarte.beta());
-            return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
+            return Err(Error::UnstableGains { alpha, beta, step, feedback: method.feedback_name() });
         }
         let info = mechanism.declared_info();
         let (n, m) = (info.coordinates.len(), info.constraints.len());
@@ -300,7 +335,7 @@ impl<F: Feedback> Builder<F> {
         let length = preparation.prepare(&mechanism, t, &mut q, &mut v, &mut room)?;
         Ok(Run {
             gains: baumgarte.gains(),
-            is_held: F::IS_HELD,
+            method,
             keeps_constraints,
             inputs,
             step,
@@ -311,7 +346,7 @@ impl<F: Feedback> Builder<F> {
             v,
             multipliers: m,
             watch: Watch::new(length),
-            stepper: Stepper::new(&mechanism, F::IS_HELD),
+            stepper: Stepper::new(&mechanism, method),
             room: numbers,
             mechanism,
         })

@@ -1,15 +1,15 @@
 //! Steps of one live mechanism.
 
-use mbs_runtime::Gains;
 use mbs_runtime::equations::At;
+use mbs_runtime::{Explicit, Gains};
 
 use crate::Live;
 use crate::arguments::Arguments;
 use crate::equations::{both, single, state};
-use crate::heun::Heun;
 use crate::instruction::execute;
+use crate::steps::Steps;
 
-/// Steps of Heun's method with a live mechanism, in room of their own.
+/// Steps of a live mechanism, in room of their own.
 ///
 /// A step does what that of a mechanism of `mechanism!` does, to the last bit, and judges
 /// nothing: where its growth exceeds what is healthy, or the state is not finite, the step
@@ -19,7 +19,7 @@ use crate::instruction::execute;
 /// ```
 /// use mbs_live::{Stepper, Text};
 /// use mbs_runtime::equations::At;
-/// use mbs_runtime::Gains;
+/// use mbs_runtime::{Explicit, Gains};
 ///
 /// let text = "Oscillator {
 ///     dof = 1;
@@ -30,7 +30,7 @@ use crate::instruction::execute;
 /// let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
 /// let (h, mut q, mut v) = (1e-3, vec![1.0], vec![0.0]);
 /// let gains = Gains { minus_two_alpha: 0.0, minus_beta_squared: 0.0 };
-/// let mut steps = Stepper::new(&oscillator, true);
+/// let mut steps = Stepper::new(&oscillator, Explicit::default());
 /// for k in 0..1000 {
 ///     let t = f64::from(k) * h;
 ///     steps.step(At { t, q: &q, v: &v }, &[], &gains, h, t + h);
@@ -39,17 +39,17 @@ use crate::instruction::execute;
 /// assert!((q[0] - 2.0_f64.cos()).abs() < 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Stepper(Heun<f64, 1>);
+pub struct Stepper(Steps<f64, 1>);
 
 impl Stepper {
-    /// Steps with feedback that is held over each, or computed in both of its stages.
-    pub fn new(mechanism: &Live, is_held: bool) -> Self {
+    /// Steps of this method.
+    pub fn new(mechanism: &Live, method: Explicit) -> Self {
         let run = |instructions: &_, splines: &_, values: &mut _| execute(instructions, splines, values);
-        Self(Heun::new(mechanism.programs(), is_held, run, |fixed| [mechanism.fixed(fixed)]))
+        Self(Steps::new(mechanism.programs(), method, run, |fixed| [mechanism.fixed(fixed)]))
     }
 
     /// A step of length `h` seconds from a state to the time `t_next`; its growth, that of
-    /// both stages added. Vectors have a component per coordinate or input.
+    /// all stages added. Vectors have a component per coordinate or input.
     pub fn step(&mut self, at: At<'_, f64>, inputs: &[f64], gains: &Gains<f64>, h: f64, t_next: f64) -> f64 {
         self.0.step(&Arguments {
             inputs: single(inputs),

@@ -7,7 +7,7 @@
 use super::{Each, Many, ManyCoordinates};
 use crate::lanes::{Lane, Lanes};
 use crate::straight::Straight;
-use crate::{Components, Feedback, Gains, Mechanism, Simulation, State};
+use crate::{Components, Gains, Mechanism, Method, Simulation, State};
 
 /// Coordinate by coordinate, the lanes.
 type Array<M, const N: usize> = <ManyCoordinates<M, N> as Components>::Array;
@@ -22,7 +22,7 @@ pub(super) struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
-    pub fn of<F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
+    pub fn of<X: Method>(members: [&Simulation<M, X>; N]) -> Self {
         let parameters: <Many<M, N> as Mechanism>::Parameters =
             pack(|lane| *members[lane].mechanism().parameters());
         let inputs: <Many<M, N> as Mechanism>::Inputs = pack(|lane| *members[lane].inputs());
@@ -55,7 +55,7 @@ pub(super) struct Pace<T, const N: usize> {
 }
 
 impl<T: Lane, const N: usize> Pace<T, N> {
-    pub fn of<M: Mechanism<Real = T>, F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
+    pub fn of<M: Mechanism<Real = T>, X: Method>(members: [&Simulation<M, X>; N]) -> Self {
         let gains = members.map(|member| member.baumgarte().gains());
         Self {
             gains: Gains {
@@ -92,7 +92,7 @@ pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
 }
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
-    pub fn of<F: Feedback>(members: [&Simulation<M, F>; N]) -> Self {
+    pub fn of<X: Method>(members: [&Simulation<M, X>; N]) -> Self {
         let q: ManyCoordinates<M, N> = pack(|lane| members[lane].state().q);
         let v: ManyCoordinates<M, N> = pack(|lane| members[lane].state().v);
         Self {

@@ -15,11 +15,12 @@ pub use instances::unpack;
 pub use snapshot::{Snapshot, and};
 
 use crate::components::sum_of;
-use crate::heun::{Trial, trial};
+use crate::explicit::{Span, Trial, trial};
 use crate::lanes::{Lane, Lanes};
+use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
 use crate::watch::{Watch, rise_after};
-use crate::{Feedback, Gains, Mechanism, Real, Simulation, State, Stepped, spare};
+use crate::{Gains, Mechanism, Method, Real, Simulation, State, Stepped, spare};
 use instances::{Instances, Moment, Pace};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -81,7 +82,7 @@ const LONGEST_STRIDE: u64 = 1024;
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize, S = Simulation<M, F>> {
+pub struct Pack<M: Mechanism<Real: Lane>, X: Method, const N: usize, S = Simulation<M, X>> {
     /// As they were packed.
     members: [S; N],
     instances: Instances<M, N>,
@@ -90,14 +91,14 @@ pub struct Pack<M: Mechanism<Real: Lane>, F: Feedback, const N: usize, S = Simul
     /// What growths they remember, which changes in steps of [`step_each`](Self::step_each)
     /// only.
     watches: [Watch<M::Real>; N],
-    feedback: PhantomData<F>,
+    feedback: PhantomData<X>,
 }
 
-impl<M, F, const N: usize, S> Pack<M, F, N, S>
+impl<M, X, const N: usize, S> Pack<M, X, N, S>
 where
     M: Mechanism<Real: Lane>,
-    F: Feedback,
-    S: Borrow<Simulation<M, F>> + Copy,
+    X: Method,
+    S: Borrow<Simulation<M, X>> + Copy,
 {
     /// The simulations, each from where it is.
     #[inline]
@@ -154,7 +155,7 @@ where
         while taken < steps {
             let mut next = now;
             let mut margin = Lanes::default();
-            step_all::<M, F, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
+            step_all::<M, X, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
             next.count(1.0);
             if !is_calm(&margin, &next, watches) {
                 break;
@@ -180,7 +181,7 @@ where
         let mut taken = 0.0;
         for _ in 0..steps {
             taken += 1.0;
-            step_all::<M, F, N>(instances, pace, watches, taken, &mut now, &mut margin);
+            step_all::<M, X, N>(instances, pace, watches, taken, &mut now, &mut margin);
         }
         now.count(taken);
         let are_calm = is_calm(&margin, &now, watches);
@@ -214,7 +215,7 @@ where
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
-    pub fn simulation(&self, lane: usize) -> Simulation<M, F> {
+    pub fn simulation(&self, lane: usize) -> Simulation<M, X> {
         let lane = lane.min(N - 1);
         let watch = self.watches[lane].after_calm_steps(self.now.alarm.0[lane], self.now.worst.0[lane]);
         self.members[lane].borrow().moved_to(self.state(lane), self.steps(lane), watch)
@@ -246,7 +247,7 @@ where
 /// The scalar's step in a loop over lanes: compilers make better vectors of that than
 /// of a step of which every operation is a loop.
 #[inline(always)]
-fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
+fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     instances: &Instances<M, N>,
     pace: &Pace<M::Real, N>,
     watches: &[Watch<M::Real>; N],
@@ -260,9 +261,12 @@ fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
         let t = start_time + Straight::from_f64(taken) * step;
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
         let at = now.state_of(lane);
-        let stepped = match mechanism.fused_step::<F>(&at, &inputs, &gains, step, t) {
+        let fused = is_fused_for::<M, X>()
+            .then(|| mechanism.fused_step::<X>(&at, &inputs, &gains, step, t))
+            .flatten();
+        let stepped = match fused {
             Some(stepped) => stepped,
-            None => staged_step::<Each<M>, F>(&mechanism, &at, &inputs, &gains, step, t),
+            None => staged_step::<Each<M>, X>(&mechanism, &at, &inputs, &gains, step, t),
         };
         let growth = stepped.growth.0;
         margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
@@ -279,7 +283,7 @@ fn step_all<M: Mechanism<Real: Lane>, F: Feedback, const N: usize>(
 
 /// A step stage by stage, of mechanisms that are too large for another.
 #[inline(always)]
-fn staged_step<M: Mechanism, F: Feedback>(
+fn staged_step<M: Mechanism, X: Method>(
     mechanism: &M,
     at: &State<M::Coordinates>,
     inputs: &M::Inputs,
@@ -287,8 +291,8 @@ fn staged_step<M: Mechanism, F: Feedback>(
     h: M::Real,
     t_next: M::Real,
 ) -> Stepped<M::Coordinates> {
-    let Trial { next, here, there } = trial::<M, F>(mechanism, at, inputs, gains, h, t_next);
-    Stepped { next, growth: here.1 + there.1, sum: sum_of(next.q) + sum_of(next.v) }
+    let Trial { next, growth } = trial::<M, X>(mechanism, at, inputs, gains, &Span { t: at.t, h, t_next });
+    Stepped { next, growth, sum: sum_of(next.q) + sum_of(next.v) }
 }
 
 /// Whether no growth was over its alarm or is to be remembered, and all is finite, in

@@ -5,14 +5,14 @@ use crate::equations::Arrays;
 use crate::room::OnStack;
 use crate::start::{self, preparation::Start};
 use crate::watch::Watch;
-use crate::{Baumgarte, Components, Error, Feedback, Held, Mechanism, Real, State};
+use crate::{Baumgarte, Components, Error, Held, Mechanism, Method, Real, State};
 
 /// The choices before a simulation starts; see [`Simulation::builder`].
 #[derive(Clone, Copy, Debug)]
-pub struct Builder<M: Mechanism, F: Feedback = Held> {
+pub struct Builder<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> {
     mechanism: M,
     step: f64,
-    baumgarte: Baumgarte<F>,
+    baumgarte: Baumgarte<X>,
     inputs: M::Inputs,
     state: State<M::Coordinates>,
     start: Start,
@@ -33,11 +33,40 @@ impl<M: Mechanism> Builder<M> {
     }
 }
 
-impl<M: Mechanism, F: Feedback> Builder<M, F> {
-    /// Feedback of the constraint violation. Default: [`Baumgarte::deadbeat`]
-    /// of the step, held.
+impl<M: Mechanism, X: Method> Builder<M, X> {
+    /// The method of integration, with the gains that are [`deadbeat`](Baumgarte::deadbeat)
+    /// for it. Default: the scheme that the mechanism declares, with feedback held over each
+    /// step.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Held, Rk4, Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let mut swing = Simulation::builder(Pendulum::declared(), 1e-3).method::<Held<Rk4>>().build()?;
+    /// swing.advance_to(1.0)?;
+    /// // it falls from the side without friction: the energy stays 0
+    /// assert!(swing.energy().abs() < 1e-9);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     #[must_use]
-    pub fn baumgarte<G: Feedback>(self, baumgarte: Baumgarte<G>) -> Builder<M, G> {
+    pub fn method<Y: Method>(self) -> Builder<M, Y> {
+        let step = self.step;
+        self.baumgarte(Baumgarte::deadbeat(step))
+    }
+
+    /// Feedback of the constraint violation with these gains, and the method that they belong
+    /// to. Default: [`Baumgarte::deadbeat`] of the step, held.
+    #[must_use]
+    pub fn baumgarte<Y: Method>(self, baumgarte: Baumgarte<Y>) -> Builder<M, Y> {
         Builder {
             mechanism: self.mechanism,
             step: self.step,
@@ -127,7 +156,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
     /// [`Error::Step`], [`Error::UnstableGains`], [`Error::Input`], [`Error::Time`],
     /// [`Error::NonFinite`], and those of [`start::consistent`], or of [`start::check`]
     /// for a given state.
-    pub fn build(self) -> Result<Simulation<M, F>, Error> {
+    pub fn build(self) -> Result<Simulation<M, X>, Error> {
         let step = self.step;
         // as the scalar holds it: 1e-60 s is 0 in `f32`
         let h = M::Real::from_f64(step);
@@ -136,7 +165,7 @@ impl<M: Mechanism, F: Feedback> Builder<M, F> {
         }
         if !self.allow_unstable && !self.baumgarte.is_stable(step) {
             let (alpha, beta) = (self.baumgarte.alpha(), self.baumgarte.beta());
-            return Err(Error::UnstableGains { alpha, beta, step, feedback: F::NAME });
+            return Err(Error::UnstableGains { alpha, beta, step, feedback: X::EXPLICIT.feedback_name() });
         }
         let inputs = self.inputs.into_array();
         let Arrays { t, mut q, mut v } = Arrays::of(&self.state);

@@ -5,12 +5,12 @@ use super::Simulation;
 use crate::equations::Arrays;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
-use crate::{Components, Error, Feedback, Mechanism, Real, State, spare};
+use crate::{Components, Error, Mechanism, Method, Real, State, spare};
 
 /// What is done with a run.
 type Do<'a, T> = dyn FnMut(&Run<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
 
-impl<M: Mechanism, F: Feedback> Simulation<M, F> {
+impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// By reference, so that this is compiled once for all that is to be done.
     #[inline(never)]
     fn on_slices(&self, what: &mut Do<'_, M::Real>) -> Result<(), Error> {
@@ -21,7 +21,7 @@ impl<M: Mechanism, F: Feedback> Simulation<M, F> {
             inputs: inputs.as_ref(),
             gains: self.gains,
             step: self.step,
-            is_held: F::IS_HELD,
+            method: X::EXPLICIT,
             keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
         };
         what(&run, &mut OnStack::<M>::new().room())

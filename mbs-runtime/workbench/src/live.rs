@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use mbs_ensemble::Cancelled;
 use mbs_live::{LANES, Live, Pack, Run};
-use mbs_runtime::{Baumgarte, Derivation, Error, Feedback, Held, Info, PerStage, Sketch, System};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, System, Tableau};
 use rayon::prelude::*;
 
 use crate::Model;
@@ -104,16 +104,16 @@ impl Model for FromText {
         self.live.sketch()
     }
 
+    fn scheme(&self) -> &'static Tableau {
+        self.live.declared_scheme()
+    }
+
     fn defaults(&self) -> Settings {
         self.defaults.clone()
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
-        let live = self.with(start)?;
-        Ok(Box::new(match start.feedback {
-            FeedbackKind::Held => run::<Held>(&live, start)?,
-            FeedbackKind::PerStage => run::<PerStage>(&live, start)?,
-        }))
+        Ok(Box::new(run(&self.with(start)?, start)?))
     }
 
     fn text(&self) -> Option<&mbs_live::Text> {
@@ -127,6 +127,10 @@ impl Model for FromText {
 }
 
 impl InLanes for FromText {
+    fn can_take(&self, _: Explicit) -> bool {
+        true
+    }
+
     fn width(&self) -> usize {
         LANES
     }
@@ -159,7 +163,7 @@ impl FromText {
     fn together(&self, members: Range<usize>, batch: &Batch<'_>) -> Option<Vec<Member>> {
         let begin = |index: usize| {
             let start = (batch.start)(index);
-            let run = run::<Held>(&self.with(&start)?, &start)?;
+            let run = run(&self.with(&start)?, &start)?;
             let steps = run.steps_to(batch.end)?;
             Ok((run, steps))
         };
@@ -217,9 +221,11 @@ impl FromText {
     }
 }
 
-fn run<F: Feedback>(live: &Live, start: &Start) -> Result<Run, Error> {
-    let gains = Baumgarte::<F>::new(start.alpha, start.beta)?;
-    let mut builder = Run::builder(live, start.step).baumgarte(gains).inputs(&start.inputs);
+fn run(live: &Live, start: &Start) -> Result<Run, Error> {
+    let mut builder = Run::builder(live, start.step)
+        .method(start.method)
+        .gains([start.alpha, start.beta])
+        .inputs(&start.inputs);
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();
     }

@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::run::Instant;
 use crate::settings::{Settings, Start, place};
 use crate::signals::Player;
-use crate::{Error, FeedbackKind, Unit};
+use crate::{Error, Unit};
 
 /// What happens to the members of a sweep.
 pub struct Members<'a> {
@@ -57,7 +57,7 @@ pub fn quantities(info: &Info) -> Vec<(&'static str, Unit)> {
 
 impl dyn Model + '_ {
     /// Runs simulations that differ in parameters, on all cores, and in lanes where the
-    /// mechanism has them and feedback is held.
+    /// mechanism has them for the method.
     ///
     /// # Errors
     /// Settings that the mechanism does not have or refuses; what happens to a
@@ -65,7 +65,7 @@ impl dyn Model + '_ {
     pub fn sweep(&self, settings: &Settings, members: Members<'_>) -> Result<(), Error> {
         let info = self.info();
         let Members { names, count, values, take, progress, cancel } = members;
-        let declared = Start::of(info, settings)?;
+        let declared = Start::of(self, settings)?;
         for name in &names {
             place("parameter", info.parameters, name, &mut declared.parameters.clone())?;
         }
@@ -85,8 +85,8 @@ impl dyn Model + '_ {
             take(index, observed.map(shown));
         };
         // In lanes, inputs are held.
-        let may_be_in_lanes = settings.feedback == FeedbackKind::Held && settings.signals.is_none();
-        if let Some(lanes) = self.in_lanes().filter(|_| may_be_in_lanes) {
+        let lanes = self.in_lanes().filter(|lanes| lanes.can_take(declared.method));
+        if let Some(lanes) = lanes.filter(|_| settings.signals.is_none()) {
             return in_batches(count, lanes.width() * rayon::current_num_threads(), |members| {
                 let first = members.start;
                 let progress: &(dyn Fn(usize) + Sync) = &|done| progress(first + done);

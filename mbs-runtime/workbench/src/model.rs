@@ -3,12 +3,12 @@
 use std::marker::PhantomData;
 
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Error, Feedback, Held, Info, Mechanism, PerStage, Simulation, Sketch,
-    System,
+    Baumgarte, Components, Derivation, Error, Info, Mechanism, Method, MethodVisitor, Scheme, Simulation,
+    Sketch, System, Tableau, with_type,
 };
 
 use crate::members::lanes::InLanes;
-use crate::settings::{FeedbackKind, Settings, Start, StartKind};
+use crate::settings::{Settings, Start, StartKind};
 
 /// A mechanism that commands can run: every [`Mechanism`] in `f64` by [`of`].
 ///
@@ -23,6 +23,9 @@ pub trait Model: Send + Sync {
 
     /// What a picture of it shows.
     fn sketch(&self) -> &'static Sketch;
+
+    /// The scheme that it declares: Heun's method, unless it says another.
+    fn scheme(&self) -> &'static Tableau;
 
     /// What a run is asked to do where nothing else is said.
     fn defaults(&self) -> Settings {
@@ -94,15 +97,17 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         M::SKETCH
     }
 
+    fn scheme(&self) -> &'static Tableau {
+        M::Scheme::TABLEAU
+    }
+
     fn defaults(&self) -> Settings {
         self.defaults.clone()
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
-        Ok(match start.feedback {
-            FeedbackKind::Held => Box::new(simulation::<M, Held>(start)?),
-            FeedbackKind::PerStage => Box::new(simulation::<M, PerStage>(start)?),
-        })
+        let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
+        run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {
@@ -110,12 +115,26 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     }
 }
 
+/// Starts a run of a mechanism with a method that is chosen at run time.
+struct Started<'a, M> {
+    start: &'a Start,
+    mechanism: PhantomData<M>,
+}
+
+impl<M: Mechanism<Real = f64>> MethodVisitor for Started<'_, M> {
+    type Result = Result<Box<dyn System>, Error>;
+
+    fn visit<X: Method>(self) -> Self::Result {
+        Ok(Box::new(simulation::<M, X>(self.start)?))
+    }
+}
+
 /// A simulation of a known type.
-pub(crate) fn simulation<M: Mechanism<Real = f64>, F: Feedback>(
+pub(crate) fn simulation<M: Mechanism<Real = f64>, X: Method>(
     start: &Start,
-) -> Result<Simulation<M, F>, Error> {
+) -> Result<Simulation<M, X>, Error> {
     let mut builder = Simulation::builder(M::new(components(&start.parameters))?, start.step)
-        .baumgarte(Baumgarte::<F>::new(start.alpha, start.beta)?)
+        .baumgarte(Baumgarte::<X>::new(start.alpha, start.beta)?)
         .inputs(components(&start.inputs));
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();

@@ -35,7 +35,7 @@ impl dyn Model + '_ {
     /// A start that cannot be made consistent.
     pub fn start_values(&self) -> Result<Vec<StartValue>, Error> {
         let info = self.info();
-        let declared = Start { kind: StartKind::Declared, ..Start::of(info, &self.defaults())? };
+        let declared = Start { kind: StartKind::Declared, ..Start::of(self, &self.defaults())? };
         let kept = Start { kind: StartKind::Consistent, ..declared.clone() };
         let n = info.coordinates.len();
         let state = |start: &Start| -> Result<Vec<f64>, Error> {
@@ -73,7 +73,7 @@ impl dyn Model + '_ {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, Error> {
         let info = self.info();
-        let start = Start::of(info, settings)?;
+        let start = Start::of(self, settings)?;
         let player = Player::of(info, settings)?;
         let mut run = self.start(&start)?;
         let steps = run.steps_to(settings.end)?;
@@ -92,7 +92,7 @@ impl dyn Model + '_ {
     /// # Errors
     /// Settings that the mechanism does not have or refuses.
     pub fn motion(&self, settings: &Settings, recording: &Recording) -> Result<Motion, Error> {
-        let start = Start { kind: StartKind::Declared, ..Start::of(self.info(), settings)? };
+        let start = Start { kind: StartKind::Declared, ..Start::of(self, settings)? };
         let run = self.start(&start)?;
         let sketch = self.sketch();
         let mut columns = recording.columns.iter().map(|column| column.values.as_slice());

@@ -1,8 +1,8 @@
 //! What a run is asked to do.
 
-use mbs_runtime::{Baumgarte, Feedback, Held, Info, PerStage, Quantity};
+use mbs_runtime::{Explicit, Quantity, Tableau};
 
-use crate::{Error, Signals};
+use crate::{Error, Model, Signals};
 
 /// When the feedback is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub enum FeedbackKind {
     /// Once a step ([`mbs_runtime::Held`]).
     #[default]
     Held,
-    /// In both stages of Heun's method ([`mbs_runtime::PerStage`]).
+    /// In every stage of a step ([`mbs_runtime::PerStage`]).
     PerStage,
 }
 
@@ -43,6 +43,8 @@ pub struct Settings {
     pub alpha: Option<f64>,
     /// β in 1/s; `None` for the deadbeat gain of the step.
     pub beta: Option<f64>,
+    /// The scheme of the steps; `None` for the one that the mechanism declares.
+    pub scheme: Option<&'static Tableau>,
     /// When the feedback is evaluated.
     pub feedback: FeedbackKind,
     /// Where the run starts.
@@ -63,6 +65,7 @@ impl Default for Settings {
             every: 1,
             alpha: None,
             beta: None,
+            scheme: None,
             feedback: FeedbackKind::default(),
             start: StartKind::default(),
             allow_unstable: false,
@@ -73,12 +76,12 @@ impl Default for Settings {
 /// What a run starts with: settings in which every quantity of a mechanism has its number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// The parameters in SI units, in the order of [`Info::parameters`].
+    /// The parameters in SI units, in the order of [`Info::parameters`](mbs_runtime::Info::parameters).
     pub parameters: Vec<f64>,
-    /// The inputs in SI units, in the order of [`Info::inputs`].
+    /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs).
     pub inputs: Vec<f64>,
-    /// When the feedback is evaluated.
-    pub feedback: FeedbackKind,
+    /// The scheme, and when the feedback is evaluated.
+    pub method: Explicit,
     /// α in 1/s.
     pub alpha: f64,
     /// β in 1/s.
@@ -96,19 +99,21 @@ impl Start {
     ///
     /// # Errors
     /// A step that is not positive, a name that the mechanism does not have.
-    pub fn of(info: &Info, settings: &Settings) -> Result<Self, Error> {
+    pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
+        let info = model.info();
         let step = settings.step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(mbs_runtime::Error::Step { step }.into());
         }
-        let [alpha, beta] = match settings.feedback {
-            FeedbackKind::Held => deadbeat::<Held>(step),
-            FeedbackKind::PerStage => deadbeat::<PerStage>(step),
+        let method = Explicit {
+            tableau: settings.scheme.unwrap_or(model.scheme()),
+            is_held: settings.feedback == FeedbackKind::Held,
         };
+        let [alpha, beta] = method.deadbeat(step);
         Ok(Self {
             parameters: assigned("parameter", info.parameters, &settings.parameters)?,
             inputs: assigned("input", info.inputs, &settings.inputs)?,
-            feedback: settings.feedback,
+            method,
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
@@ -116,11 +121,6 @@ impl Start {
             allow_unstable: settings.allow_unstable,
         })
     }
-}
-
-fn deadbeat<F: Feedback>(step: f64) -> [f64; 2] {
-    let gains = Baumgarte::<F>::deadbeat(step);
-    [gains.alpha(), gains.beta()]
 }
 
 /// The declared values with those that are set.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mbs_ensemble::lanes::Lane;
 use mbs_ensemble::{Cancelled, Ensemble, Observe, Outcome};
-use mbs_runtime::{Feedback, Mechanism, Simulation};
+use mbs_runtime::{Mechanism, Method, Simulation};
 use rayon::prelude::*;
 
 /// Whoever waits longer than this is told how long it will take.
@@ -46,16 +46,16 @@ pub fn map<T: Sync, R: Send>(title: &str, items: &[T], f: impl Fn(&T) -> R + Syn
 
 /// An ensemble of `count` members to `end` seconds, eight to a vector and on all
 /// cores, with a progress bar under `title`.
-pub fn ensemble<M, F, O>(
+pub fn ensemble<M, X, O>(
     title: &str,
     end: f64,
     count: usize,
-    member: impl Fn(usize) -> Result<Simulation<M, F>, mbs_runtime::Error> + Sync,
+    member: impl Fn(usize) -> Result<Simulation<M, X>, mbs_runtime::Error> + Sync,
     observer: &O,
 ) -> Vec<Outcome<M, O::Result>>
 where
     M: Mechanism<Real: Lane>,
-    F: Feedback,
+    X: Method,
     O: Observe<M>,
 {
     let progress = Progress::new(title, count);

@@ -1,10 +1,10 @@
 //! A mechanism of the library, compiled by rustc and run from its text.
 
-use mbs_runtime::Mechanism;
+use mbs_runtime::{Mechanism, RK4};
 use mbs_workbench::{FeedbackKind, Settings, model};
 
 /// Info, equations, sketch, start and 1,000 steps are the same, with held feedback and with
-/// feedback in each stage.
+/// feedback in each stage, and with another scheme.
 pub fn same<M: Mechanism<Real = f64>>(name: &str) {
     let entry = mbs::library().iter().find(|entry| entry.mechanism == name).unwrap();
     let text = model::from_text(&entry.text(), entry.defaults()).unwrap_or_else(|error| panic!("{error}"));
@@ -13,9 +13,11 @@ pub fn same<M: Mechanism<Real = f64>>(name: &str) {
     assert_eq!(text.derivation(), typed.derivation(), "{name}");
     assert_eq!(text.sketch(), typed.sketch(), "{name}");
     assert_eq!(text.start_values().unwrap(), typed.start_values().unwrap(), "{name}");
-    for feedback in [FeedbackKind::Held, FeedbackKind::PerStage] {
+    for (feedback, scheme) in
+        [(FeedbackKind::Held, None), (FeedbackKind::PerStage, None), (FeedbackKind::Held, Some(&RK4))]
+    {
         let Settings { step, .. } = entry.defaults();
-        let settings = Settings { end: 1000.0 * step, every: 10, feedback, ..entry.defaults() };
+        let settings = Settings { end: 1000.0 * step, every: 10, feedback, scheme, ..entry.defaults() };
         let run = |model: &dyn mbs_workbench::Model| model.simulate(&settings, &mut |_, _| ()).unwrap();
         let (text, typed) = (run(&*text), run(&*typed));
         assert_eq!(text.ended, typed.ended, "{name}");

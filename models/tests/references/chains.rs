@@ -43,7 +43,7 @@ fn n_four_bar_rate_squared(n: f64) -> f64 {
 /// to within 3e-5 at these steps: (N + 1) ε/3e-5 < 1e-9.
 fn turn<M: Mechanism<Real = f64>>(
     case: &mut Case,
-    run: &mut Run<M, Held>,
+    run: &mut Run<M, Held<M::Scheme>>,
     n: f64,
     step: f64,
 ) -> Result<f64, Error> {

@@ -4,7 +4,7 @@
 
 use std::hint::black_box;
 
-use mbs_runtime::{Baumgarte, Components, Feedback, Held, Mechanism, PerStage, Simulation};
+use mbs_runtime::{Baumgarte, Components, Held, Mechanism, Method as Integrator, PerStage, Simulation};
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs};
 use tests::by_hand::{Coordinates, Gains, Rows, SliderCrank as ByHand};
@@ -105,13 +105,13 @@ impl Kernel {
     }
 
     #[inline(never)]
-    fn compiled<F: Feedback>(&self, steps: u32) -> (f64, f64) {
+    fn compiled<X: Integrator>(&self, steps: u32) -> (f64, f64) {
         if self.is_driven {
-            let simulation = simulation::<_, F>(SliderCrank::declared(), Default::default());
+            let simulation = simulation::<_, X>(SliderCrank::declared(), Default::default());
             run_compiled(simulation, steps, self.reactions, |outputs| outputs.drive_torque)
         } else {
             let inputs = SliderCrankFreeInputs { crank_torque: TORQUE };
-            let simulation = simulation::<_, F>(SliderCrankFree::declared(), inputs);
+            let simulation = simulation::<_, X>(SliderCrankFree::declared(), inputs);
             run_compiled(simulation, steps, self.reactions, |_| TORQUE)
         }
     }
@@ -221,24 +221,24 @@ impl Kernel {
     }
 }
 
-fn simulation<M: Mechanism, F: Feedback>(mechanism: M, inputs: M::Inputs) -> Simulation<M, F> {
+fn simulation<M: Mechanism, X: Integrator>(mechanism: M, inputs: M::Inputs) -> Simulation<M, X> {
     Simulation::builder(black_box(mechanism), H)
-        .baumgarte(Baumgarte::<F>::deadbeat(H))
+        .baumgarte(Baumgarte::<X>::deadbeat(H))
         .inputs(inputs)
         .build()
         .unwrap_or_else(|_| std::process::abort())
 }
 
 #[inline(never)]
-fn run_compiled<M, F>(
-    mut simulation: Simulation<M, F>,
+fn run_compiled<M, X>(
+    mut simulation: Simulation<M, X>,
     steps: u32,
     reactions: Reactions,
     torque: impl Fn(M::Outputs) -> f64,
 ) -> (f64, f64)
 where
     M: Mechanism<Real = f64>,
-    F: Feedback,
+    X: Integrator,
 {
     let last = |multipliers: M::Constraints| {
         black_box(multipliers).into_array().as_ref().last().copied().unwrap_or(0.0)

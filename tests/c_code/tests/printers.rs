@@ -8,7 +8,7 @@
 
 use c_code::{Choice, Fault, build, compilers};
 use mbs_live::{Live, Run, Scalar, Text};
-use mbs_runtime::{Baumgarte, Error, Feedback, Held, PerStage, System};
+use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, System};
 
 #[path = "../../src/linkages.rs"]
 mod linkages;
@@ -23,8 +23,8 @@ const EVERY: usize = 10;
 /// every tenth step; and why it ended before its end, if it did.
 type Rows = (Vec<Vec<f64>>, Option<Error>);
 
-fn alone<F: Feedback>(live: &Live, step: f64, inputs: &[f64]) -> Result<Rows, Error> {
-    let gains = Baumgarte::<F>::deadbeat(step);
+fn alone<X: Method>(live: &Live, step: f64, inputs: &[f64]) -> Result<Rows, Error> {
+    let gains = Baumgarte::<X>::deadbeat(step);
     let mut run = Run::builder(live, step).baumgarte(gains).inputs(inputs).build()?;
     let info = live.declared_info();
     let (n, m) = (info.coordinates.len(), info.constraints.len());

@@ -7,7 +7,7 @@ use c_code::{Built, Choice, Fault, build, compilers};
 use mbs_codegen::analyse;
 use mbs_codegen::target::{Scalar, c};
 use mbs_runtime::{
-    Baumgarte, Components, Error, Feedback, Held, Mechanism, PerStage, Real, Simulation, mechanism,
+    Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Real, Simulation, mechanism,
 };
 
 /// A declaration for Rust, and as text.
@@ -108,7 +108,7 @@ mod chains;
 pendulum!(mechanism; Rods40 40);
 
 /// Runs both, and compares states, accelerations, multipliers and outputs as numbers.
-fn compare<M, F: Feedback>(text: &str, mechanism: M, baumgarte: Baumgarte<F>, step: f64, inputs: &[f64])
+fn compare<M, X: Method>(text: &str, mechanism: M, baumgarte: Baumgarte<X>, step: f64, inputs: &[f64])
 where
     M: Mechanism,
 {
@@ -124,7 +124,7 @@ where
         .inputs(M::Inputs::from_array(array))
         .build()
         .expect("it starts");
-    let feedback = Some((baumgarte.alpha(), baumgarte.beta(), F::IS_HELD));
+    let feedback = Some((baumgarte.alpha(), baumgarte.beta(), X::EXPLICIT.is_held));
     let choice = Choice { step, steps: STEPS, every: 1, feedback, inputs, start: None };
     let lines = built.run(&choice).unwrap_or_else(|fault| panic!("{}: {fault}", M::INFO.name));
     assert_eq!(lines.len(), STEPS + 1);

@@ -10,7 +10,7 @@ pub use compare::{Case, bisect};
 pub use run::{Instant, Run};
 
 use compare::Widening;
-use mbs_runtime::{Error, Feedback, Mechanism, Simulation};
+use mbs_runtime::{Error, Mechanism, Method, Simulation};
 use steps::{Fused, InLanes, InStages, Steps, narrowed};
 
 /// What is compared in single precision.
@@ -33,12 +33,12 @@ pub enum Single {
 ///
 /// # Panics
 /// If a number deviates.
-pub fn through_every_path<M: Mechanism<Real = f64>, F: Feedback>(
+pub fn through_every_path<M: Mechanism<Real = f64>, X: Method>(
     name: &str,
     step: f64,
     single: Single,
-    start: impl Fn(f64) -> Result<Simulation<M, F>, Error>,
-    comparison: impl Fn(&mut Case, &mut Run<M, F>) -> Result<(), Error>,
+    start: impl Fn(f64) -> Result<Simulation<M, X>, Error>,
+    comparison: impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let of_rounding = f64::from(f32::EPSILON) / f64::EPSILON;
     let (longer, of_truncation) = match single {
@@ -60,21 +60,21 @@ pub fn through_every_path<M: Mechanism<Real = f64>, F: Feedback>(
 ///
 /// # Panics
 /// If a number deviates.
-pub fn through_double_paths<M: Mechanism<Real = f64>, F: Feedback>(
+pub fn through_double_paths<M: Mechanism<Real = f64>, X: Method>(
     name: &str,
     step: f64,
-    start: impl Fn(f64) -> Result<Simulation<M, F>, Error>,
-    comparison: impl Fn(&mut Case, &mut Run<M, F>) -> Result<(), Error>,
+    start: impl Fn(f64) -> Result<Simulation<M, X>, Error>,
+    comparison: impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     compare_along(&double(), name, Widening::NONE, || start(step), &comparison)
 }
 
-fn compare_along<M: Mechanism<Real = f64>, F: Feedback>(
-    paths: &[Path<M, F>],
+fn compare_along<M: Mechanism<Real = f64>, X: Method>(
+    paths: &[Path<M, X>],
     name: &str,
     widening: Widening,
-    start: impl Fn() -> Result<Simulation<M, F>, Error>,
-    comparison: &impl Fn(&mut Case, &mut Run<M, F>) -> Result<(), Error>,
+    start: impl Fn() -> Result<Simulation<M, X>, Error>,
+    comparison: &impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     for (path, begin) in paths {
         let mut case = Case::widened(&format!("{name}, {path}"), widening);
@@ -85,11 +85,11 @@ fn compare_along<M: Mechanism<Real = f64>, F: Feedback>(
 }
 
 /// What it is called, and how it begins.
-type Path<M, F> = (&'static str, Start<M, F>);
+type Path<M, X> = (&'static str, Start<M, X>);
 
-type Start<M, F> = fn(&Simulation<M, F>) -> Result<Box<dyn Steps<M>>, Error>;
+type Start<M, X> = fn(&Simulation<M, X>) -> Result<Box<dyn Steps<M>>, Error>;
 
-fn double<M: Mechanism<Real = f64>, F: Feedback>() -> [Path<M, F>; 4] {
+fn double<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 4] {
     [
         ("in stages", |from| Ok(Box::new(InStages(*from)))),
         ("fused", |from| Ok(Box::new(Fused(*from)))),
@@ -98,7 +98,7 @@ fn double<M: Mechanism<Real = f64>, F: Feedback>() -> [Path<M, F>; 4] {
     ]
 }
 
-fn narrow<M: Mechanism<Real = f64>, F: Feedback>() -> [Path<M, F>; 3] {
+fn narrow<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 3] {
     [
         ("in single precision", |from| Ok(Box::new(Fused(narrowed(from)?)))),
         ("in 8 single lanes", |from| Ok(Box::new(InLanes::<_, _, 8>::beside_others(&narrowed(from)?)?))),

@@ -1,20 +1,20 @@
 //! A run on a path.
 
-use mbs_runtime::{Error, Feedback, Mechanism, Real, Simulation, State};
+use mbs_runtime::{Error, Mechanism, Method, Real, Simulation, State};
 
 use crate::Start;
 use crate::steps::{Steps, cast, with_step};
 
 /// A mechanism on a path.
-pub struct Run<M: Mechanism<Real = f64>, F: Feedback> {
-    begin: Start<M, F>,
-    from: Simulation<M, F>,
+pub struct Run<M: Mechanism<Real = f64>, X: Method> {
+    begin: Start<M, X>,
+    from: Simulation<M, X>,
     steps: Box<dyn Steps<M>>,
     taken: u64,
 }
 
-impl<M: Mechanism<Real = f64>, F: Feedback> Run<M, F> {
-    pub(crate) fn new(begin: Start<M, F>, from: Simulation<M, F>) -> Result<Self, Error> {
+impl<M: Mechanism<Real = f64>, X: Method> Run<M, X> {
+    pub(crate) fn new(begin: Start<M, X>, from: Simulation<M, X>) -> Result<Self, Error> {
         Ok(Self { begin, from, steps: begin(&from)?, taken: 0 })
     }
 
@@ -93,7 +93,7 @@ pub struct Instant<M: Mechanism> {
 }
 
 impl<M: Mechanism<Real = f64>> Instant<M> {
-    pub(crate) fn of<S: Mechanism, F: Feedback>(run: &Simulation<S, F>) -> Result<Self, Error> {
+    pub(crate) fn of<S: Mechanism, X: Method>(run: &Simulation<S, X>) -> Result<Self, Error> {
         let reactions = run.reactions()?;
         Ok(Self {
             t: run.time().to_f64(),

@@ -1,7 +1,7 @@
 //! What takes the steps.
 
 use mbs_runtime::lanes::Lane;
-use mbs_runtime::{Components, Error, Feedback, Mechanism, Pack, Real, Simulation, State};
+use mbs_runtime::{Components, Error, Mechanism, Method, Pack, Real, Simulation, State};
 
 use crate::Instant;
 
@@ -11,9 +11,9 @@ pub trait Steps<M: Mechanism<Real = f64>> {
     fn now(&self) -> Result<Instant<M>, Error>;
 }
 
-pub struct InStages<S: Mechanism, F: Feedback>(pub Simulation<S, F>);
+pub struct InStages<S: Mechanism, X: Method>(pub Simulation<S, X>);
 
-impl<M: Mechanism<Real = f64>, S: Mechanism, F: Feedback> Steps<M> for InStages<S, F> {
+impl<M: Mechanism<Real = f64>, S: Mechanism, X: Method> Steps<M> for InStages<S, X> {
     fn advance(&mut self, steps: u64) -> Result<(), Error> {
         (0..steps).try_for_each(|_| self.0.step_in_stages())
     }
@@ -22,9 +22,9 @@ impl<M: Mechanism<Real = f64>, S: Mechanism, F: Feedback> Steps<M> for InStages<
     }
 }
 
-pub struct Fused<S: Mechanism, F: Feedback>(pub Simulation<S, F>);
+pub struct Fused<S: Mechanism, X: Method>(pub Simulation<S, X>);
 
-impl<M: Mechanism<Real = f64>, S: Mechanism, F: Feedback> Steps<M> for Fused<S, F> {
+impl<M: Mechanism<Real = f64>, S: Mechanism, X: Method> Steps<M> for Fused<S, X> {
     fn advance(&mut self, steps: u64) -> Result<(), Error> {
         (0..steps).try_for_each(|_| self.0.step())
     }
@@ -34,13 +34,13 @@ impl<M: Mechanism<Real = f64>, S: Mechanism, F: Feedback> Steps<M> for Fused<S, 
 }
 
 /// The last lane is the one that is looked at.
-pub struct InLanes<S: Mechanism<Real: Lane>, F: Feedback, const N: usize>(Pack<S, F, N>);
+pub struct InLanes<S: Mechanism<Real: Lane>, X: Method, const N: usize>(Pack<S, X, N>);
 
-impl<M, S, F, const N: usize> Steps<M> for InLanes<S, F, N>
+impl<M, S, X, const N: usize> Steps<M> for InLanes<S, X, N>
 where
     M: Mechanism<Real = f64>,
     S: Mechanism<Real: Lane>,
-    F: Feedback,
+    X: Method,
 {
     fn advance(&mut self, steps: u64) -> Result<(), Error> {
         let mut taken = 0;
@@ -58,9 +58,9 @@ where
     }
 }
 
-impl<S: Mechanism<Real: Lane>, F: Feedback, const N: usize> InLanes<S, F, N> {
+impl<S: Mechanism<Real: Lane>, X: Method, const N: usize> InLanes<S, X, N> {
     /// In the last lane, beside neighbours that take shorter steps, each its own.
-    pub fn beside_others(from: &Simulation<S, F>) -> Result<Self, Error> {
+    pub fn beside_others(from: &Simulation<S, X>) -> Result<Self, Error> {
         let mut members = [*from; N];
         for (at, member) in members.iter_mut().rev().enumerate() {
             let share = 1.0 - at as f64 / 64.0;
@@ -83,19 +83,19 @@ impl<S: Mechanism<Real: Lane>, F: Feedback, const N: usize> InLanes<S, F, N> {
 }
 
 /// The same in another state, with steps of another length.
-pub fn with_step<S: Mechanism, F: Feedback>(
-    from: &Simulation<S, F>,
+pub fn with_step<S: Mechanism, X: Method>(
+    from: &Simulation<S, X>,
     state: State<S::Coordinates>,
     step: f64,
-) -> Result<Simulation<S, F>, Error> {
+) -> Result<Simulation<S, X>, Error> {
     let builder = Simulation::builder(*from.mechanism(), step).baumgarte(*from.baumgarte());
     builder.from_state(state).inputs(*from.inputs()).as_declared().build()
 }
 
 /// The same in single precision.
-pub fn narrowed<M: Mechanism<Real = f64>, F: Feedback>(
-    from: &Simulation<M, F>,
-) -> Result<Simulation<M::Over<f32>, F>, Error> {
+pub fn narrowed<M: Mechanism<Real = f64>, X: Method>(
+    from: &Simulation<M, X>,
+) -> Result<Simulation<M::Over<f32>, X>, Error> {
     let mechanism = <M::Over<f32>>::new(cast(*from.mechanism().parameters()))?;
     let State { t, q, v } = *from.state();
     let builder = Simulation::builder(mechanism, from.step_size()).baumgarte(*from.baumgarte());

@@ -353,18 +353,18 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
 }
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
-    /// the pivots included; a step takes two, or less.
+    /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = 30u32;
     /// The size of a state (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
         ::mbs_runtime::State<PendulumCoordinates<T>>,
     >();
     /// A bound of the stack that a step takes, in bytes, in optimized code:
-    /// every value of both evaluations of the right-hand side once, eight
-    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    /// every value of all evaluations of the right-hand side once, four
+    /// copies of the state, the inputs and the rows per stage, and 1 KiB for calls.
     pub const STACK_BYTES: ::core::primitive::usize = 60usize
         * ::core::mem::size_of::<T>()
-        + 8
+        + 8usize
             * (Self::STATE_BYTES + ::core::mem::size_of::<PendulumConstraints<T>>()
                 + ::core::mem::size_of::<::mbs_runtime::NoComponents<T>>()) + 1024;
 }
@@ -677,7 +677,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             sum: v60.get(),
         }
     }
-    ///A step with feedback in both stages.
+    ///A step with feedback in every stage.
     #[inline(always)]
     fn step_per_stage(
         &self,
@@ -897,7 +897,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
         )
     }
-    ///A step with feedback in both stages, and the reactions at its start.
+    ///A step with feedback in every stage, and the reactions at its start.
     #[inline(always)]
     fn step_per_stage_with_reactions(
         &self,
@@ -1030,6 +1030,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = Pendulum<Scalar>;
+    type Scheme = ::mbs_runtime::Heun;
     type Parameters = PendulumParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = PendulumCoordinates<T>;
@@ -1705,7 +1706,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         }
     }
     #[inline(always)]
-    fn fused_step<F: ::mbs_runtime::Feedback>(
+    fn fused_step<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
@@ -1714,7 +1715,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         t_next: T,
     ) -> ::core::option::Option<::mbs_runtime::Stepped<PendulumCoordinates<T>>> {
         ::core::option::Option::Some(
-            if F::IS_HELD {
+            if X::EXPLICIT.is_held {
                 self.step_held(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage(at, inputs, gains, h, t_next)
@@ -1722,7 +1723,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         )
     }
     #[inline(always)]
-    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+    fn fused_step_with_reactions<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
@@ -1736,7 +1737,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         ),
     > {
         ::core::option::Option::Some(
-            if F::IS_HELD {
+            if X::EXPLICIT.is_held {
                 self.step_held_with_reactions(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage_with_reactions(at, inputs, gains, h, t_next)

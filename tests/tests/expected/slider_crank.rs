@@ -296,13 +296,13 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
 }
 impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
-    /// the pivots included; a step takes two, or less.
+    /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = ..;
     /// The size of a state (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ..;
     /// A bound of the stack that a step takes, in bytes, in optimized code:
-    /// every value of both evaluations of the right-hand side once, eight
-    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    /// every value of all evaluations of the right-hand side once, four
+    /// copies of the state, the inputs and the rows per stage, and 1 KiB for calls.
     pub const STACK_BYTES: ::core::primitive::usize = ..;
 }
 #[allow(unused_variables, clippy::all)]
@@ -482,7 +482,7 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         h: T,
         t_next: T,
     ) -> ::mbs_runtime::Stepped<SliderCrankCoordinates<T>> {}
-    ///A step with feedback in both stages.
+    ///A step with feedback in every stage.
     #[inline(always)]
     fn step_per_stage(
         &self,
@@ -505,7 +505,7 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
         ::mbs_runtime::Stepped<SliderCrankCoordinates<T>>,
         ::mbs_runtime::Reactions<SliderCrankCoordinates<T>, SliderCrankConstraints<T>>,
     ) {}
-    ///A step with feedback in both stages, and the reactions at its start.
+    ///A step with feedback in every stage, and the reactions at its start.
     #[inline(always)]
     fn step_per_stage_with_reactions(
         &self,
@@ -523,6 +523,7 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = SliderCrank<Scalar>;
+    type Scheme = ::mbs_runtime::Heun;
     type Parameters = SliderCrankParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = SliderCrankCoordinates<T>;
@@ -588,7 +589,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {}
     #[inline(always)]
-    fn fused_step<F: ::mbs_runtime::Feedback>(
+    fn fused_step<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
@@ -597,7 +598,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         t_next: T,
     ) -> ::core::option::Option<::mbs_runtime::Stepped<SliderCrankCoordinates<T>>> {}
     #[inline(always)]
-    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+    fn fused_step_with_reactions<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,

@@ -331,13 +331,13 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
 }
 impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
-    /// the pivots included; a step takes two, or less.
+    /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = ..;
     /// The size of a state (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ..;
     /// A bound of the stack that a step takes, in bytes, in optimized code:
-    /// every value of both evaluations of the right-hand side once, eight
-    /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+    /// every value of all evaluations of the right-hand side once, four
+    /// copies of the state, the inputs and the rows per stage, and 1 KiB for calls.
     pub const STACK_BYTES: ::core::primitive::usize = ..;
 }
 #[allow(unused_variables, clippy::all)]
@@ -520,7 +520,7 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
         h: T,
         t_next: T,
     ) -> ::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>> {}
-    ///A step with feedback in both stages.
+    ///A step with feedback in every stage.
     #[inline(always)]
     fn step_per_stage(
         &self,
@@ -546,7 +546,7 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
             SliderCrankFreeConstraints<T>,
         >,
     ) {}
-    ///A step with feedback in both stages, and the reactions at its start.
+    ///A step with feedback in every stage, and the reactions at its start.
     #[inline(always)]
     fn step_per_stage_with_reactions(
         &self,
@@ -567,6 +567,7 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
 impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Real = T;
     type Over<Scalar: ::mbs_runtime::Real> = SliderCrankFree<Scalar>;
+    type Scheme = ::mbs_runtime::Heun;
     type Parameters = SliderCrankFreeParameters<T>;
     type Inputs = SliderCrankFreeInputs<T>;
     type Coordinates = SliderCrankFreeCoordinates<T>;
@@ -639,7 +640,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {}
     #[inline(always)]
-    fn fused_step<F: ::mbs_runtime::Feedback>(
+    fn fused_step<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
         inputs: &SliderCrankFreeInputs<T>,
@@ -648,7 +649,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         t_next: T,
     ) -> ::core::option::Option<::mbs_runtime::Stepped<SliderCrankFreeCoordinates<T>>> {}
     #[inline(always)]
-    fn fused_step_with_reactions<F: ::mbs_runtime::Feedback>(
+    fn fused_step_with_reactions<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
         inputs: &SliderCrankFreeInputs<T>,

@@ -164,6 +164,7 @@ fn choices(solver: &model::Solver) -> Choices {
         unrolled: solver.unrolled(),
         stack: solver.stack.map(|(limit, _)| limit),
         step: solver.step.map(|(step, _)| step),
+        scheme: solver.scheme(),
         feedback: solver.feedback.as_ref().map(|feedback| Feedback {
             is_held: feedback.is_held,
             alpha: feedback.alpha,

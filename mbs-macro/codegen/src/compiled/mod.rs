@@ -13,8 +13,8 @@
 //!   parameters; all other functions read its results as [`Operand::Hoisted`].
 //! - [`FunctionId::Conditions`] gives numbers that [`Compiled::conditions`] judge: a
 //!   target refuses parameters that fail one, with the words that stand there.
-//! - [`FunctionId::Stabilized`] and [`FunctionId::Constrained`] give the accelerations of
-//!   the two stages of a step, [`FunctionId::Reactions`] those without feedback and the
+//! - [`FunctionId::Stabilized`] gives the accelerations of the first stage of a step,
+//!   [`FunctionId::Constrained`] those of the stages that are given its feedback, [`FunctionId::Reactions`] those without feedback and the
 //!   multipliers. The last output of a function that solves is its pivot growth. Where
 //!   the growth exceeds [`GROWTH_LIMIT`] or is not a number, the
 //!   position is singular and the result must not be used.
@@ -48,6 +48,7 @@ mod vectors;
 
 use std::rc::Rc;
 
+use mbs_schemes::Tableau;
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -193,6 +194,8 @@ pub struct Choices {
     pub stack: Option<u32>,
     /// The step in s.
     pub step: Option<f64>,
+    /// The scheme of its steps, which is that of [`Compiled::fused_step`].
+    pub scheme: &'static Tableau,
     /// The feedback of the constraint violation; it comes with a step.
     pub feedback: Option<Feedback>,
 }
@@ -200,7 +203,7 @@ pub struct Choices {
 /// Feedback −2αΦ̇ − β²Φ of the constraint violation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feedback {
-    /// Whether the second stage of a step is given that of the first.
+    /// Whether all stages of a step are given that of the first.
     pub is_held: bool,
     /// α in 1/s
     pub alpha: f64,

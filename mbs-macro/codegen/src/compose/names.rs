@@ -53,6 +53,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Limit { .. }
         | ItemKind::Step { .. }
         | ItemKind::Closes { .. }
+        | ItemKind::Method { .. }
         | ItemKind::Feedback { .. }
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
@@ -159,6 +160,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         | ItemKind::Crate { .. }
         | ItemKind::Redundant { .. }
         | ItemKind::Limit { .. }
+        | ItemKind::Method { .. }
         | ItemKind::Assembly { .. } => {}
     }
 }

@@ -1,6 +1,7 @@
-//! `step = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
+//! `step = …;`, `method = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
 //! integrated, and what that may cost.
 
+use mbs_schemes::{HEUN, Tableau};
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};
@@ -27,6 +28,7 @@ pub struct Solver {
     /// loops.
     pub unrolled: Option<(u32, Span)>,
     pub step: Option<(f64, Span)>,
+    pub scheme: Option<(&'static Tableau, Span)>,
     pub feedback: Option<Feedback>,
 }
 
@@ -38,6 +40,11 @@ pub struct Feedback {
 }
 
 impl Solver {
+    /// The scheme of its steps: Heun's method, unless it declares another.
+    pub fn scheme(&self) -> &'static Tableau {
+        self.scheme.map_or(&HEUN, |(scheme, _)| scheme)
+    }
+
     /// Instructions that a program may have before its repeated parts become
     /// loops.
     pub fn unrolled(&self) -> usize {
@@ -105,6 +112,13 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(value.span, message).help("as in `step = 0.5 [ms];`"));
         }
         self.solver.step = Some((step, keyword));
+    }
+
+    pub(super) fn resolve_method(&mut self, keyword: Span, scheme: &'static Tableau) {
+        match self.solver.scheme {
+            Some((_, earlier)) => self.repeated("`method`", keyword, earlier),
+            None => self.solver.scheme = Some((scheme, keyword)),
+        }
     }
 
     pub(super) fn resolve_feedback(&mut self, keyword: Span, is_held: bool, gains: &[Formula; 2]) {

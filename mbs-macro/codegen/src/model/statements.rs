@@ -102,6 +102,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Closes { keyword, coordinate, from, to } => {
                 self.resolve_closes(*keyword, coordinate.as_ref(), from, to);
             }
+            ItemKind::Method { keyword, scheme } => self.resolve_method(*keyword, scheme),
             ItemKind::Feedback { keyword, is_held, gains } => {
                 self.resolve_feedback(*keyword, *is_held, gains);
             }

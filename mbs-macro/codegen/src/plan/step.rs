@@ -1,7 +1,8 @@
-//! A whole step of Heun's method as one program.
+//! A whole step of the declared scheme as one program.
 
 use std::collections::HashMap;
 
+use mbs_schemes::Row;
 use mbs_symbolic::pairs::{Layout, Woven, weave};
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
@@ -21,7 +22,7 @@ pub struct FusedStep {
 
 /// A step with each kind of feedback.
 pub struct Kinds {
-    /// The second stage is given the feedback of the first.
+    /// All stages are given the feedback of the first.
     pub held: Woven,
     /// Each stage has its own.
     pub per_stage: Woven,
@@ -29,10 +30,10 @@ pub struct Kinds {
     pub programs: Programs,
 }
 
-/// The programs of a step with each kind of feedback: q⁺, v⁺ and the growth of both stages;
+/// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages, added;
 /// with reactions q⁺, v⁺, q̈, λ, the growth, and that of the reactions.
 pub struct Programs {
-    /// The second stage is given the feedback of the first.
+    /// All stages are given the feedback of the first.
     pub held: Program,
     /// Each stage has its own.
     pub per_stage: Program,
@@ -139,6 +140,11 @@ fn check(
     Ok(())
 }
 
+/// A share of the step.
+fn in_steps(share: f64, h: f64, half_h: f64) -> f64 {
+    if share == 0.5 { half_h } else { share * h }
+}
+
 /// The results of [`step`], from the programs of the stages.
 fn in_stages(
     model: &Model,
@@ -148,56 +154,76 @@ fn in_stages(
 ) -> Vec<f64> {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let (given, hoisted) = (probe::symbol(point), probe::hoisted(point));
-    let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(&given);
+    let [t, h, half_h, t_next] =
+        [model.symbols.time, model.symbols.step, model.symbols.half_step, model.symbols.next_time]
+            .map(&given);
     let [q, v] = [|c: &Coordinate| c.position, |c: &Coordinate| c.velocity]
         .map(|symbol| model.coordinates.iter().map(|c| given(symbol(c))).collect::<Vec<f64>>());
-    let here = first.evaluate_with(&given, &hoisted);
-    let predicted: Vec<f64> = v.iter().zip(&here).map(|(v, a)| v + h * a).collect();
-    let at_end = |symbol: Symbol| match model.meanings.get(symbol.index()) {
-        Some(Meaning::Coordinate(at)) => q[*at] + h * v[*at],
-        Some(Meaning::Velocity(at)) => predicted[*at],
-        Some(Meaning::Time) => given(model.symbols.next_time),
-        Some(Meaning::Feedback(row)) => here[n + *row],
-        _ => given(symbol),
+    // x₀ + (share · h) Σ w k, as the runtime computes it
+    let combine = |row: &Row, x: f64, slopes: &dyn Fn(usize) -> f64| {
+        let terms = row.terms().map(|(stage, weight)| weight * slopes(stage));
+        x + in_steps(row.share, h, half_h) * terms.reduce(|sum, term| sum + term).unwrap_or(f64::NAN)
     };
-    let there = second.evaluate_with(&at_end, &hoisted);
+    let scheme = model.solver.scheme();
+    let mut velocities = vec![v.clone()];
+    let mut solved = vec![first.evaluate_with(&given, &hoisted)];
+    for row in scheme.stages {
+        let node = row.node();
+        let time = if node == 1.0 { t_next } else { t + in_steps(node, h, half_h) };
+        let predicted: Vec<f64> = (0..n).map(|at| combine(row, v[at], &|stage| solved[stage][at])).collect();
+        let there = |symbol: Symbol| match model.meanings.get(symbol.index()) {
+            Some(&Meaning::Coordinate(at)) => combine(row, q[at], &|stage| velocities[stage][at]),
+            Some(&Meaning::Velocity(at)) => predicted[at],
+            Some(Meaning::Time) => time,
+            Some(&Meaning::Feedback(row)) => solved[0][n + row],
+            _ => given(symbol),
+        };
+        let next = second.evaluate_with(&there, &hoisted);
+        velocities.push(predicted);
+        solved.push(next);
+    }
     let without_feedback = |symbol: Symbol| match model.meanings.get(symbol.index()) {
         Some(Meaning::Feedback(_)) => 0.0,
         _ => given(symbol),
     };
     let clean = reactions.map(|reactions| reactions.evaluate_with(&without_feedback, &hoisted));
-    let mut results: Vec<f64> = (0..n).map(|at| q[at] + half_h * (v[at] + predicted[at])).collect();
-    results.extend((0..n).map(|at| v[at] + half_h * (here[at] + there[at])));
+    let end = |x: f64, slopes: &dyn Fn(usize) -> f64| combine(&scheme.update, x, slopes);
+    let mut results: Vec<f64> = (0..n).map(|at| end(q[at], &|stage| velocities[stage][at])).collect();
+    results.extend((0..n).map(|at| end(v[at], &|stage| solved[stage][at])));
     results.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
-    results.extend(here.last().zip(there.last()).map(|(here, there)| here + there));
+    results
+        .extend(solved.iter().filter_map(|stage| stage.last().copied()).reduce(|sum, growth| sum + growth));
     results.extend(clean.iter().flat_map(|clean| clean.last()));
     results
 }
 
-/// q⁺, v⁺ and the growth, with a second stage that is given the feedback of the
-/// first, or computes its own. With reactions: q⁺, v⁺, q̈, λ, the growth, and that of
+/// q⁺, v⁺ and the growth, with stages behind the first one that are given its feedback, or
+/// compute their own. With reactions: q⁺, v⁺, q̈, λ, the growth, and that of
 /// the reactions.
 fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Program>) -> Program {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
     let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
-    let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(Operand::Symbol);
-
+    let scheme = model.solver.scheme();
     let mut steps = Fusion::default();
-    let here = steps.append(first, &HashMap::new());
-    let (here_acceleration, feedback) = (&here[..n], &here[n..n + m]);
-
-    let mut stage: HashMap<Symbol, Operand> = HashMap::new();
-    let mut predicted = Vec::new();
-    for (at, coordinate) in model.coordinates.iter().enumerate() {
-        let position = steps.axpy(h, v[at], q[at]);
-        let velocity = steps.axpy(h, here_acceleration[at], v[at]);
-        stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
-        predicted.push(velocity);
+    let mut velocities = vec![v.clone()];
+    let mut solved = vec![steps.append(first, &HashMap::new())];
+    let held: HashMap<Symbol, Operand> =
+        model.symbols.feedback.iter().copied().zip(solved[0][n..n + m].iter().copied()).collect();
+    for row in scheme.stages {
+        let mut stage = held.clone();
+        let mut predicted = Vec::new();
+        for (at, coordinate) in model.coordinates.iter().enumerate() {
+            let position = steps.combine(model, row, q[at], &|stage| velocities[stage][at]);
+            let velocity = steps.combine(model, row, v[at], &|stage| solved[stage][at]);
+            stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
+            predicted.push(velocity);
+        }
+        stage.insert(model.symbols.time, steps.time(model, row.node()));
+        let there = steps.append(second, &stage);
+        velocities.push(predicted);
+        solved.push(there);
     }
-    stage.insert(model.symbols.time, Operand::Symbol(model.symbols.next_time));
-    stage.extend(model.symbols.feedback.iter().copied().zip(feedback.iter().copied()));
-    let there = steps.append(second, &stage);
     // Without feedback; what agrees with the first stage is there already.
     let zero = Operand::Number(Number::ZERO);
     let none = model.symbols.feedback.iter().map(|&symbol| (symbol, zero)).collect();
@@ -205,19 +231,20 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
 
     let mut outputs = Vec::new();
     for at in 0..n {
-        let sum = steps.push(Operation::Add, v[at], predicted[at], None);
-        outputs.push(steps.axpy(half_h, sum, q[at]));
+        outputs.push(steps.combine(model, &scheme.update, q[at], &|stage| velocities[stage][at]));
     }
     for at in 0..n {
-        let sum = steps.push(Operation::Add, here_acceleration[at], there[at], None);
-        outputs.push(steps.axpy(half_h, sum, v[at]));
+        outputs.push(steps.combine(model, &scheme.update, v[at], &|stage| solved[stage][at]));
     }
     outputs.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
-    if let (Some(&here), Some(&there)) = (here.last(), there.last()) {
-        outputs.push(steps.push(Operation::Add, here, there, None));
-    }
+    let growths = solved.iter().filter_map(|stage| stage.last().copied());
+    outputs.extend(growths.reduce(|sum, growth| steps.push(Operation::Add, sum, growth, None)));
     outputs.extend(clean.iter().filter_map(|clean| clean.last()));
     Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
+}
+
+fn number(value: f64) -> Operand {
+    Operand::Number(Number::Float(value))
 }
 
 /// Instructions one after the other, none of them twice.
@@ -253,10 +280,47 @@ impl Fusion {
         }
     }
 
-    /// y + a x
-    fn axpy(&mut self, a: Operand, x: Operand, y: Operand) -> Operand {
-        let product = self.push(Operation::Mul, a, x, None);
-        self.push(Operation::Add, y, product, None)
+    /// x + (share · h) Σ w k
+    fn combine(
+        &mut self,
+        model: &Model,
+        row: &Row,
+        x: Operand,
+        slopes: &dyn Fn(usize) -> Operand,
+    ) -> Operand {
+        let mut sum = None;
+        for (stage, weight) in row.terms() {
+            let slope = slopes(stage);
+            let term =
+                if weight == 1.0 { slope } else { self.push(Operation::Mul, number(weight), slope, None) };
+            sum = Some(match sum {
+                None => term,
+                Some(sum) => self.push(Operation::Add, sum, term, None),
+            });
+        }
+        let Some(sum) = sum else { return x };
+        let factor = self.in_steps(model, row.share);
+        let product = self.push(Operation::Mul, factor, sum, None);
+        self.push(Operation::Add, x, product, None)
+    }
+
+    /// A share of the step.
+    fn in_steps(&mut self, model: &Model, share: f64) -> Operand {
+        let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(Operand::Symbol);
+        match share {
+            1.0 => h,
+            0.5 => half_h,
+            share => self.push(Operation::Mul, number(share), h, None),
+        }
+    }
+
+    /// The time of a stage, a share `node` of the step behind the start.
+    fn time(&mut self, model: &Model, node: f64) -> Operand {
+        if node == 1.0 {
+            return Operand::Symbol(model.symbols.next_time);
+        }
+        let behind = self.in_steps(model, node);
+        self.push(Operation::Add, Operand::Symbol(model.symbols.time), behind, None)
     }
 
     /// Appends a program with these values for its symbols; its outputs.

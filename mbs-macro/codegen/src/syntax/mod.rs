@@ -12,6 +12,7 @@ mod solver;
 mod statements;
 mod words;
 
+use mbs_schemes::Tableau;
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -49,6 +50,8 @@ pub enum ItemKind {
     Limit { keyword: Span, limited: Limited, value: u32 },
     /// `step = 0.5 [ms];`
     Step { keyword: Span, value: Formula },
+    /// `method = rk4;`
+    Method { keyword: Span, scheme: &'static Tableau },
     /// `feedback = held(alpha, beta);`
     Feedback { keyword: Span, is_held: bool, gains: [Formula; 2] },
     /// `closes = 0 [s] .. 0.3 [s];`, or over a coordinate.

@@ -1,6 +1,7 @@
 //! How a mechanism is to be solved: `redundant = …;`, `limit …;`, `step = …;`,
-//! `feedback = …;`.
+//! `method = …;`, `feedback = …;`.
 
+use mbs_schemes::{SCHEMES, Tableau};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
@@ -8,6 +9,7 @@ use syn::{Error, Result};
 
 use super::words::{equals, semicolon};
 use super::{Formula, FormulaKind, ItemKind, Limited};
+use crate::diagnostics::listing;
 
 pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
@@ -59,6 +61,19 @@ pub fn closes(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     let to = input.parse()?;
     semicolon(input)?;
     Ok(ItemKind::Closes { keyword, coordinate, from, to })
+}
+
+pub fn method(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let words: Vec<_> =
+        SCHEMES.iter().map(|scheme| format!("`{}` ({})", scheme.word, scheme.title)).collect();
+    let expected = format!("a scheme is expected here: {}", listing(words.iter().map(String::as_str)));
+    let word = Ident::parse_any(input).map_err(|error| Error::new(error.span(), &expected))?;
+    let Some(scheme) = Tableau::find(&word.to_string()) else {
+        return Err(Error::new(word.span(), expected));
+    };
+    semicolon(input)?;
+    Ok(ItemKind::Method { keyword, scheme })
 }
 
 pub fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

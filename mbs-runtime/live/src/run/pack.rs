@@ -61,20 +61,20 @@ impl Pack {
     /// # Errors
     /// The runs themselves if there is none, if there are more than
     /// [`LANES`](crate::LANES), if their mechanisms do not
-    /// [share their programs](crate::Live::shares_programs_with), if some hold their feedback
-    /// over a step and others do not, or if the mechanism has redundant constraints, which
+    /// [share their programs](crate::Live::shares_programs_with), if their methods
+    /// differ, or if the mechanism has redundant constraints, which
     /// are judged run by run.
     pub fn new(runs: Vec<Run>) -> Result<Self, Vec<Run>> {
         let Some(first) = runs.first() else { return Err(runs) };
         let is_like_first =
-            |run: &Run| run.mechanism.shares_programs_with(&first.mechanism) && run.is_held == first.is_held;
+            |run: &Run| run.mechanism.shares_programs_with(&first.mechanism) && run.method == first.method;
         let has_redundant = !first.mechanism.declared_info().redundant.is_empty();
         if runs.len() > LANES || has_redundant || !runs.iter().all(is_like_first) {
             return Err(runs);
         }
         // lanes that are left over do what the first one does
         let member = |lane: usize| runs.get(lane).unwrap_or(first).member();
-        let block = Block::new(first.is_held, &first.mechanism, member);
+        let block = Block::new(first.method, &first.mechanism, member);
         Ok(Self { goes_on: vec![true; runs.len()], runs, block })
     }
 

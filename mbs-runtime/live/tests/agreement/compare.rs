@@ -4,7 +4,7 @@ use crate::packs::packs_agree;
 use crate::runs::runs_agree;
 use mbs_live::{Live, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
-use mbs_runtime::{Baumgarte, Components, Feedback, Gains, Held, Mechanism, PerStage, Simulation, State};
+use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Method, PerStage, Rk4, Simulation, State};
 
 const STEPS: usize = 1000;
 
@@ -21,6 +21,8 @@ where
     start_agrees(&live, &mechanism, h);
     steps_agree::<M, Held>(&live, mechanism, inputs, Baumgarte::<Held>::deadbeat(h), h);
     steps_agree::<M, PerStage>(&live, mechanism, inputs, Baumgarte::<PerStage>::deadbeat(h), h);
+    steps_agree::<M, Held<Rk4>>(&live, mechanism, inputs, Baumgarte::deadbeat(h), h);
+    steps_agree::<M, PerStage<Rk4>>(&live, mechanism, inputs, Baumgarte::deadbeat(h), h);
     runs_agree(&live, mechanism, inputs, h);
     packs_agree(&live, inputs, h);
 }
@@ -50,7 +52,7 @@ fn random(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-fn gains<F: Feedback>(best: &Baumgarte<F>) -> Gains<f64> {
+fn gains<X: Method>(best: &Baumgarte<X>) -> Gains<f64> {
     Gains { minus_two_alpha: -2.0 * best.alpha(), minus_beta_squared: -best.beta() * best.beta() }
 }
 
@@ -117,16 +119,16 @@ fn start_agrees<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, h: f64) {
     same("velocities of the start", &v, &numbers(start.v));
 }
 
-fn steps_agree<M: Mechanism<Real = f64>, F: Feedback>(
+fn steps_agree<M: Mechanism<Real = f64>, X: Method>(
     live: &Live,
     mechanism: M,
     inputs: &[f64],
-    baumgarte: Baumgarte<F>,
+    baumgarte: Baumgarte<X>,
     h: f64,
 ) {
     let mut run =
         Simulation::builder(mechanism, h).inputs(of(inputs)).baumgarte(baumgarte).build().expect("a start");
-    let mut steps = Stepper::new(live, F::IS_HELD);
+    let mut steps = Stepper::new(live, X::EXPLICIT);
     let gains = gains(&baumgarte);
     let start = *run.state();
     let (mut q, mut v) = (numbers(start.q), numbers(start.v));

@@ -97,6 +97,7 @@ declare! { INCLINE;
     /// Block that is thrown up a slope.
     pub Incline {
         dof = 1;
+        method = rk4;
         param mass = 2 [kg] where mass > 0;
         param slope = 30 [deg] where abs(slope) < 90 [deg];
         param speed = 2 [m/s];
@@ -145,6 +146,7 @@ declare! { FUNCTIONS;
     /// A force with every function of the language in it.
     pub Functions {
         dof = 2;
+        method = rk4;
         param k = 3 [N];
         param l = 2 [m];
         input first [1];

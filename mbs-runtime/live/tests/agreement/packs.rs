@@ -1,30 +1,25 @@
 //! Runs that advance together, and each alone.
 
 use mbs_live::{LANES, Live, Pack, Run};
-use mbs_runtime::{Baumgarte, Held, PerStage, System};
+use mbs_runtime::{Explicit, SCHEMES, System};
 
 use crate::compare::same;
 
-/// Each run of a pack with its own parameters and inputs, with both kinds of feedback, is
-/// what it is alone.
+/// Each run of a pack with its own parameters and inputs, with every scheme and both kinds of
+/// feedback, is what it is alone.
 pub fn packs_agree(live: &Live, inputs: &[f64], h: f64) {
     let info = live.declared_info();
-    let start = |lane: usize, is_held: bool| -> Run {
+    let start = |lane: usize, method: Explicit| -> Run {
         let factor = 1.0 + 1e-4 * lane as f64;
         let change = |values: &mut [f64]| values.iter_mut().for_each(|value| *value *= factor);
         let mechanism = live.with_parameters(change).expect("parameters");
         let inputs: Vec<f64> = inputs.iter().map(|input| input * factor).collect();
-        let run = Run::builder(&mechanism, h).inputs(&inputs);
-        let run = if is_held {
-            run.baumgarte(Baumgarte::<Held>::deadbeat(h)).build()
-        } else {
-            run.baumgarte(Baumgarte::<PerStage>::deadbeat(h)).build()
-        };
-        run.expect("a start")
+        Run::builder(&mechanism, h).method(method).inputs(&inputs).build().expect("a start")
     };
-    for is_held in [true, false] {
-        let mut alone: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, is_held)).collect();
-        let together: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, is_held)).collect();
+    let methods = SCHEMES.map(|tableau| [true, false].map(|is_held| Explicit { tableau, is_held }));
+    for method in methods.into_iter().flatten() {
+        let mut alone: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, method)).collect();
+        let together: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, method)).collect();
         let mut pack = match Pack::new(together) {
             Ok(pack) => pack,
             // which are judged run by run

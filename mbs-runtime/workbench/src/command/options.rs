@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_runtime::{Dimension, Info, Quantity};
+use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Tableau};
 
 use crate::quantity::TIME;
 use crate::{Error, FeedbackKind, Model, Settings, Signals, StartKind, Unit, quantity};
@@ -47,6 +47,8 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "RATE",
             "Feedback of the position violation in 1/s [default: as declared, or deadbeat]",
         ),
+        option("method", "SCHEME", "The scheme of the steps [default: as declared, or heun]")
+            .value_parser(PossibleValuesParser::new(SCHEMES.map(|scheme| scheme.word))),
         option("feedback", "WHEN", "When the violation is fed back [default: as declared, or held]")
             .value_parser(PossibleValuesParser::new(["held", "per-stage"])),
         option("start", "WHERE", "The declared start, made consistent or as it is")
@@ -78,6 +80,7 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
         alpha: value("alpha", RATE)?.or(defaults.alpha),
         beta: value("beta", RATE)?.or(defaults.beta),
+        scheme: Tableau::find(choice("method")).or(defaults.scheme),
         feedback: match choice("feedback") {
             "per-stage" => FeedbackKind::PerStage,
             "held" => FeedbackKind::Held,

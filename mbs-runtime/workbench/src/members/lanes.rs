@@ -6,14 +6,17 @@ use std::sync::atomic::AtomicBool;
 
 use mbs_ensemble::lanes::{Lane, Lanes, ManyCoordinates, ManyOutputs, Snapshot, unpack};
 use mbs_ensemble::{Cancelled, Ensemble, Observe};
-use mbs_runtime::{Components, Held, Mechanism};
+use mbs_runtime::{Components, Explicit, Held, Mechanism, Method};
 
 use super::{Extent, Member};
 use crate::model::simulation;
 use crate::settings::Start;
 
-/// Runs with held feedback and constant inputs, many at once.
+/// Runs with constant inputs, many at once.
 pub trait InLanes: Send + Sync {
+    /// Whether they can be those of a method.
+    fn can_take(&self, method: Explicit) -> bool;
+
     /// Members to a vector instruction.
     fn width(&self) -> usize;
 
@@ -42,6 +45,11 @@ pub struct Batch<'a> {
 pub(crate) struct Typed<M>(pub PhantomData<M>);
 
 impl<M: Mechanism<Real = f64>> InLanes for Typed<M> {
+    // One method, because each takes some seconds to compile.
+    fn can_take(&self, method: Explicit) -> bool {
+        method == Held::<M::Scheme>::EXPLICIT
+    }
+
     fn width(&self) -> usize {
         8
     }
@@ -52,7 +60,7 @@ impl<M: Mechanism<Real = f64>> InLanes for Typed<M> {
         let ensemble = Ensemble::new(*end).progress(&report).cancelled_by(cancel);
         ensemble.for_each(
             members.len(),
-            |at| simulation::<M, Held>(&start(members.start + at)),
+            |at| simulation::<M, Held<M::Scheme>>(&start(members.start + at)),
             &Extents,
             |at, outcome| {
                 let ended = |run: mbs_ensemble::Run<M, Vec<Extent>>| run.ended.map_or(Ok(run.observed), Err);

@@ -37,4 +37,16 @@ mechanism! {
     }
 }
 
+mechanism! {
+    pub Twice {
+        dof = 1;
+        method = rk4;
+        method = heun;
+        param l = 1 [m];
+        body bob (x, y) { mass = 1 [kg]; }
+        constraint rod: x^2 + y^2 = l^2;
+        start { x = 1 [m]; }
+    }
+}
+
 fn main() {}

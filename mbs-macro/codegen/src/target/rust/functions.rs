@@ -11,6 +11,7 @@ use super::matrices;
 use super::names::{Names, field};
 use super::program::{Body, body};
 use super::sketch;
+use super::solver;
 use super::stages;
 use super::step;
 use crate::compiled::{Compiled, FunctionId};
@@ -136,6 +137,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
     let fields = Fields::new(compiled);
+    let scheme = solver::scheme(compiled, names);
     let inline = inlining(compiled);
     let info = info::emit(compiled, names);
     let derivation = derivation::emit(compiled);
@@ -158,6 +160,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         impl<T: #runtime::Real> #runtime::Mechanism for #mechanism<T> {
             type Real = T;
             type Over<Scalar: #runtime::Real> = #mechanism<Scalar>;
+            type Scheme = #scheme;
             type Parameters = #parameters<T>;
             type Inputs = #inputs;
             type Coordinates = #q;

@@ -1,31 +1,41 @@
 //! What a step costs, and the declared step and feedback, as constants; whether
 //! these are stable is decided by the runtime's own condition.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::names::Names;
 use crate::compiled::{Compiled, Feedback, FunctionId};
+
+/// The type of the declared scheme.
+pub fn scheme(compiled: &Compiled, names: &Names) -> TokenStream {
+    let runtime = &names.runtime;
+    let scheme = Ident::new(compiled.choices.scheme.type_name, Span::call_site());
+    quote!(#runtime::#scheme)
+}
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, state, .. } = names;
     let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
     let stabilized = compiled.program(FunctionId::Stabilized);
     let operations = stabilized.operations().total();
-    let values =
-        2 * stabilized.instructions.len().max(compiled.program(FunctionId::Constrained).instructions.len());
+    let stages = compiled.choices.scheme.stage_count();
+    // the state before and after a step, and in each stage where it is and what changes it
+    let states = 4 * stages;
+    let values = stages
+        * stabilized.instructions.len().max(compiled.program(FunctionId::Constrained).instructions.len());
     let mut tokens = quote! {
         impl<T: #runtime::Real> #mechanism<T> {
             /// Operations of one evaluation of the right-hand side, the watch over
-            /// the pivots included; a step takes two, or less.
+            /// the pivots included; a step takes one per stage, or less.
             pub const OPERATIONS: ::core::primitive::u32 = #operations;
             /// The size of a state (time, positions, velocities) in bytes.
             pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#state>();
             /// A bound of the stack that a step takes, in bytes, in optimized code:
-            /// every value of both evaluations of the right-hand side once, eight
-            /// copies of the state, the inputs and the rows, and 1 KiB for calls.
+            /// every value of all evaluations of the right-hand side once, four
+            /// copies of the state, the inputs and the rows per stage, and 1 KiB for calls.
             pub const STACK_BYTES: ::core::primitive::usize = #values * ::core::mem::size_of::<T>()
-                + 8 * (Self::STATE_BYTES + ::core::mem::size_of::<#rows>() + ::core::mem::size_of::<#inputs>())
+                + #states * (Self::STATE_BYTES + ::core::mem::size_of::<#rows>() + ::core::mem::size_of::<#inputs>())
                 + 1024;
         }
     };
@@ -49,12 +59,13 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     };
     let Feedback { is_held, alpha, beta } = *feedback;
     let kind = if is_held { quote!(Held) } else { quote!(PerStage) };
+    let scheme = scheme(compiled, names);
     let message = feedback.refusal(step);
     tokens.extend(quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The declared feedback of the constraint violation, stable with
             /// steps of [`STEP`](Self::STEP).
-            pub const FEEDBACK: #runtime::Baumgarte<#runtime::#kind> =
+            pub const FEEDBACK: #runtime::Baumgarte<#runtime::#kind<#scheme>> =
                 match #runtime::Baumgarte::new(#alpha, #beta) {
                     ::core::result::Result::Ok(feedback) => feedback,
                     ::core::result::Result::Err(_) => #runtime::Baumgarte::NONE,

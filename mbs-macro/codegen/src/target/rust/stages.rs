@@ -93,8 +93,8 @@ pub fn step(names: &Names) -> TokenStream {
     let inputs = &names.inputs.of_t;
     quote! {
         #[inline(always)]
-        fn long_step<F: #runtime::Feedback>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T, alarm: T) -> ::core::option::Option<T> {
-            #runtime::arrays::step::<Self, F>(self, state, inputs, gains, h, t_next, alarm)
+        fn long_step<X: #runtime::Method>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T, alarm: T) -> ::core::option::Option<T> {
+            #runtime::arrays::step::<Self, X>(self, state, inputs, gains, h, t_next, alarm)
         }
     }
 }

@@ -36,7 +36,7 @@ pub fn functions(compiled: &Compiled, names: &Names) -> TokenStream {
         function(doc, name, &stepped, &quote!(#statements #value))
     };
     let held = alone("A step with feedback held over it.", "step_held", &step.alone.held);
-    let per_stage = alone("A step with feedback in both stages.", "step_per_stage", &step.alone.per_stage);
+    let per_stage = alone("A step with feedback in every stage.", "step_per_stage", &step.alone.per_stage);
     let both = quote!((#stepped, #reactions));
     let with_reactions = |doc: &str, name: &str, woven: &Woven| {
         let Body { statements, stepped, reactions } = Body::new(compiled, names, &fields, woven);
@@ -49,7 +49,7 @@ pub fn functions(compiled: &Compiled, names: &Names) -> TokenStream {
             &step.held,
         );
         let per_stage = with_reactions(
-            "A step with feedback in both stages, and the reactions at its start.",
+            "A step with feedback in every stage, and the reactions at its start.",
             "step_per_stage_with_reactions",
             &step.per_stage,
         );
@@ -75,8 +75,8 @@ pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
             ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{suffix}"));
         quote! {
             #[inline(always)]
-            fn #name<F: #runtime::Feedback>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
-                ::core::option::Option::Some(if F::IS_HELD {
+            fn #name<X: #runtime::Method>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
+                ::core::option::Option::Some(if X::EXPLICIT.is_held {
                     self.#held(at, inputs, gains, h, t_next)
                 } else {
                     self.#per_stage(at, inputs, gains, h, t_next)
