@@ -1,5 +1,6 @@
 //! What generated code calls. Not part of the public interface.
 
+#[cfg(feature = "macro")]
 pub use nalgebra;
 
 pub use crate::spline::{Segment, Spline};

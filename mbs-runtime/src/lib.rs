@@ -99,6 +99,9 @@
 //!
 //! `std` (default): elementary functions from the standard library. Without it
 //! the crate is `no_std` and takes them from `libm`.
+//!
+//! `macro` (default): `mechanism!` and the matrices of generated code. Without it the crate
+//! has what runs any mechanism.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -145,6 +148,7 @@ pub use error::Error;
 pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
+#[cfg(feature = "macro")]
 pub use mbs_macro::mechanism;
 pub use mbs_schemes::{Explicit, HEUN, RK4, SCHEMES, Tableau};
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};

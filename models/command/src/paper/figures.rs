@@ -259,7 +259,7 @@ fn peaks(scalars: &Scalars) -> Picture {
 }
 
 fn feedback_torques(study: &Study) -> Picture {
-    let p = Setup::gains(0.0, 0.0).torque(200.0, Inertia::Rod).parameters();
+    let p = Setup::gains(0.0, 0.0).torque(200.0, Inertia::Rod).parameters(&study.crank);
     let exact =
         (0..=360).map(|k| f64::from(k).to_radians()).map(|theta| [theta, torque::closed_form(&p, theta)]);
     let turn = std::f64::consts::TAU;

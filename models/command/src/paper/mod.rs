@@ -2,6 +2,7 @@
 //! Numerical Study on Crank-slider Mechanism", reproduced.
 //! <https://doi.org/10.26855/oajrcap.2025.12.001>
 
+mod crank;
 mod figures;
 mod page;
 mod scalars;
@@ -54,7 +55,7 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
     if let Some(folder) = &folder {
         std::fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
     }
-    let study = study::study()?;
+    let study = study::study(crank::Crank::new()?)?;
     let scalars = scalars::scalars(&study);
     let results = verdict::table(&study, &scalars);
     say(&results)?;

@@ -4,6 +4,7 @@ use mbs_workbench::Table;
 use mbs_workbench::picture::{self, Shape};
 use mbs_workbench::report::{Animation, Block, Readout, Report, Section};
 
+use super::crank::Crank;
 use super::figures::Picture;
 use super::setup::{Setup, Trace};
 use super::study::Study;
@@ -42,6 +43,7 @@ pub fn report(study: &Study, parts: Parts) -> Report {
             )
             .with(Block::Table(parts.results)),
         Section::new("The mechanism").with(Block::Animation(animation(
+            &study.crank,
             "Driven at 200 rpm, held feedback, consistent start",
             &study.held,
         ))),
@@ -50,6 +52,7 @@ pub fn report(study: &Study, parts: Parts) -> Report {
             "The paper integrates Eq. (6) from a start in which only the crank moves. That start violates the \
              velocity constraints, nothing corrects it, and the parts drift away from each other.",
             &mut std::iter::once(Block::Animation(animation(
+            &study.crank,
                 "The paper's start without stabilization: the linkage falls apart",
                 &study.drift,
             )))
@@ -83,10 +86,10 @@ pub fn report(study: &Study, parts: Parts) -> Report {
 
 /// Each body drawn where its own coordinates say it is, so that a violated
 /// joint is seen to be open.
-fn animation(title: &str, run: &Trace) -> Animation {
+fn animation(crank: &Crank, title: &str, run: &Trace) -> Animation {
     /// Every third step: a turn has 200 pictures.
     const STRIDE: usize = 3;
-    let p = Setup::gains(0.0, 0.0).parameters();
+    let p = Setup::gains(0.0, 0.0).parameters(crank);
     let [x1, y1, theta1, x2, y2, theta2, x3] = &run.q;
     let frames = (0..run.t.len()).step_by(STRIDE).filter(|&k| run.q.iter().all(|q| q[k].abs() < 1e3));
     let frames: Vec<_> = frames.collect();

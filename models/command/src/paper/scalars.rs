@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use mbs_runtime::{Error, PerStage};
+use mbs_runtime::Error;
 use serde_json::Value;
 
-use super::setup::{Inertia, SPEEDS, Setup, Trace, max_violations};
+use super::setup::{Inertia, SPEEDS, Setup, Trace};
 use super::study::Study;
 use super::torque;
 
@@ -45,7 +45,7 @@ impl Scalars {
 pub fn scalars(study: &Study) -> Scalars {
     let mut s = Scalars::default();
     stability(study, &mut s);
-    gains(&mut s);
+    gains(study, &mut s);
     torques(study, &mut s);
     feedbacks(study, &mut s);
     s
@@ -91,7 +91,7 @@ fn time_of_largest(run: &Trace, column: &[f64]) -> Result<f64, Error> {
 }
 
 /// Figures 11 and 12: max ‖Φ‖ over one turn from the paper's start.
-fn gains(s: &mut Scalars) {
+fn gains(study: &Study, s: &mut Scalars) {
     let along_alpha = [200, 500, 1000, 1500, 2000, 2100, 2200, 2500, 3000];
     let along_beta = [200, 500, 1000, 1500, 1800, 2000];
     let points = along_alpha.map(|alpha| (format!("fig11.beta2000.alpha{alpha}"), f64::from(alpha), 2000.0));
@@ -99,7 +99,7 @@ fn gains(s: &mut Scalars) {
     points.extend(along_beta.map(|beta| (format!("fig12.alpha2000.beta{beta}"), 2000.0, f64::from(beta))));
     points.push(("deadbeat.per_stage.max_phi".into(), 2000.0, 2000.0 * std::f64::consts::SQRT_2));
     let gains: Vec<_> = points.iter().map(|(_, alpha, beta)| (*alpha, *beta)).collect();
-    for ((key, ..), violation) in points.into_iter().zip(max_violations::<PerStage>("gains", &gains)) {
+    for ((key, ..), violation) in points.into_iter().zip(study.crank.max_violations("gains", &gains)) {
         s.set(key, violation);
     }
 }
@@ -111,7 +111,7 @@ fn torques(study: &Study, s: &mut Scalars) {
         s.set(format!("table3.{rpm}rpm"), run.steady_peak(&run.raw_torque));
         s.set(format!("torque.clean.ml2_12.{rpm}rpm"), clean.steady_peak(&clean.clean_torque));
         for inertia in [Inertia::Paper, Inertia::Rod] {
-            let parameters = Setup::gains(0.0, 0.0).torque(*rpm, inertia).parameters();
+            let parameters = Setup::gains(0.0, 0.0).torque(*rpm, inertia).parameters(&study.crank);
             s.set(format!("torque.closed_form.{}.{rpm}rpm", inertia.key()), Ok(torque::peak(&parameters)));
         }
         for (at, instant) in ["t0", "t1"].into_iter().enumerate() {

@@ -1,9 +1,9 @@
 //! The runs of the paper: what they are made with, and what is recorded.
 
-use crate::{SliderCrank, SliderCrankParameters};
-use mbs_ensemble::Violation;
-use mbs_runtime::{Baumgarte, Components, Error, Feedback, Simulation};
-use mbs_workbench::sweep;
+use mbs_live::Run;
+use mbs_runtime::{Error, Explicit, System};
+
+use super::crank::{Crank, PER_STAGE, Parameters};
 
 /// The paper's step, 0.5 ms.
 pub const STEP: f64 = 0.5e-3;
@@ -78,19 +78,17 @@ impl Setup {
     }
 
     /// The parameters of the mechanism.
-    pub fn parameters(&self) -> SliderCrankParameters {
-        SliderCrankParameters {
-            omega: self.rpm * (std::f64::consts::PI / 30.0),
-            inertia_factor: self.inertia.factor(),
-            ..SliderCrankParameters::default()
-        }
+    pub fn parameters(&self, crank: &Crank) -> Parameters {
+        let omega = self.rpm * (std::f64::consts::PI / 30.0);
+        Parameters { omega, inertia_factor: self.inertia.factor(), ..crank.parameters() }
     }
 
-    fn simulation<F: Feedback>(&self) -> Result<Simulation<SliderCrank, F>, Error> {
-        let baumgarte = Baumgarte::<F>::new(self.alpha, self.beta)?;
-        let mechanism = SliderCrank::new(self.parameters())?;
+    fn run(&self, crank: &Crank, method: Explicit) -> Result<Run, Error> {
+        let Parameters { omega, inertia_factor, .. } = self.parameters(crank);
+        let mechanism = crank.with(&[("omega", omega), ("inertia_factor", inertia_factor)])?;
         // The paper's study goes beyond the stability limit on purpose.
-        let builder = Simulation::builder(mechanism, STEP).baumgarte(baumgarte).allow_unstable();
+        let builder = Run::builder(&mechanism, STEP).method(method).gains([self.alpha, self.beta]);
+        let builder = builder.allow_unstable();
         if self.consistent { builder.build() } else { builder.as_declared().build() }
     }
 
@@ -98,13 +96,13 @@ impl Setup {
     ///
     /// # Errors
     /// Only what keeps a run from starting; an error on the way is in [`Trace::ended`].
-    pub fn trace<F: Feedback>(&self) -> Result<Trace, Error> {
-        let mut simulation = self.simulation::<F>()?;
+    pub fn trace(&self, crank: &Crank, method: Explicit) -> Result<Trace, Error> {
+        let mut run = self.run(crank, method)?;
         let mut trace = Trace::default();
-        let steps = simulation.steps_to(self.end)?;
+        let steps = run.steps_to(self.end)?;
         for taken in 0..=steps {
-            let outcome = trace.append(&simulation, self);
-            let outcome = outcome.and_then(|()| if taken < steps { simulation.step() } else { Ok(()) });
+            let outcome = trace.append(&run, crank, self);
+            let outcome = outcome.and_then(|()| if taken < steps { run.step() } else { Ok(()) });
             if let Err(error) = outcome {
                 trace.ended = Some(error);
                 break;
@@ -112,18 +110,20 @@ impl Setup {
         }
         Ok(trace)
     }
-}
 
-/// max ‖Φ‖ over all steps of one turn, both ends included, at 200 rpm from the paper's
-/// start with each of these gains; or the error with which the run ended, if it did not
-/// reach its end.
-pub fn max_violations<F: Feedback>(title: &str, gains: &[(f64, f64)]) -> Vec<Result<f64, Error>> {
-    let member = |at: usize| Setup::gains(gains[at].0, gains[at].1).simulation::<F>();
-    let runs = sweep::ensemble(title, TURN, gains.len(), member, &Violation);
-    let largest = |run: mbs_ensemble::Run<SliderCrank, mbs_ensemble::OfConstraints<f64>>| {
-        run.ended.map_or(Ok(run.observed.phi), Err)
-    };
-    runs.into_iter().map(|run| run.and_then(largest)).collect()
+    /// max ‖Φ‖ over all steps up to a time, both ends included, with feedback in both stages.
+    ///
+    /// # Errors
+    /// What ended the run.
+    pub fn largest_violation(&self, crank: &Crank, end: f64) -> Result<f64, Error> {
+        let mut run = self.run(crank, PER_STAGE)?;
+        let mut largest = 0.0;
+        for _ in 0..run.steps_to(end)? {
+            largest = run.violations()[0].max(largest);
+            run.step()?;
+        }
+        Ok(run.violations()[0].max(largest))
+    }
 }
 
 /// A recorded run.
@@ -150,21 +150,30 @@ pub struct Trace {
 }
 
 impl Trace {
-    fn append<F: Feedback>(&mut self, run: &Simulation<SliderCrank, F>, setup: &Setup) -> Result<(), Error> {
-        let state = run.state();
-        let raw = run.raw_reactions()?;
-        let clean = run.reactions()?;
-        let exact = exact_x3(&setup.parameters(), state.t);
-        for (column, value) in self.q.iter_mut().zip(state.q.into_array()) {
+    fn append(&mut self, run: &Run, crank: &Crank, setup: &Setup) -> Result<(), Error> {
+        let (mut q, mut v, mut acceleration) = ([0.0; 7], [0.0; 7], [0.0; 7]);
+        let mut multipliers = vec![0.0; crank.mechanism.declared_info().constraints.len()];
+        let torque = |solved: Result<(), Error>, multipliers: &[f64]| {
+            solved.map(|()| -multipliers.get(crank.drive).copied().unwrap_or(f64::NAN))
+        };
+        run.state(&mut q, &mut v);
+        let raw = run.raw_reactions(&mut acceleration, &mut multipliers);
+        let raw = torque(raw, &multipliers)?;
+        let clean = run.reactions(&mut acceleration, &mut multipliers);
+        let clean = torque(clean, &multipliers)?;
+        let (t, x3) = (run.time(), q[crank.x3]);
+        let exact = exact_x3(&setup.parameters(crank), t);
+        for (column, value) in self.q.iter_mut().zip(q) {
             column.push(value);
         }
-        self.t.push(state.t);
+        let [phi, phi_dot] = run.violations();
+        self.t.push(t);
         self.exact_x3.push(exact);
-        self.relative_x3.push(((state.q.x3 - exact) / exact).abs());
-        self.phi.push(run.violation());
-        self.phi_dot.push(run.velocity_violation());
-        self.raw_torque.push(-raw.multipliers.crank_speed);
-        self.clean_torque.push(-clean.multipliers.crank_speed);
+        self.relative_x3.push(((x3 - exact) / exact).abs());
+        self.phi.push(phi);
+        self.phi_dot.push(phi_dot);
+        self.raw_torque.push(raw);
+        self.clean_torque.push(clean);
         Ok(())
     }
 
@@ -189,7 +198,7 @@ impl Trace {
 }
 
 /// x3 = l1 cos θ1 + l2 cos θ2 with θ1 = ωt and l1 sin θ1 + l2 sin θ2 = 0.
-pub fn exact_x3(p: &SliderCrankParameters, t: f64) -> f64 {
+pub fn exact_x3(p: &Parameters, t: f64) -> f64 {
     let (s, c) = (p.omega * t).sin_cos();
     let sin2 = -p.l1 / p.l2 * s;
     p.l1 * c + p.l2 * (1.0 - sin2 * sin2).sqrt()

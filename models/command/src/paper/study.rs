@@ -1,9 +1,10 @@
 //! Every run that the paper's figures and tables need, computed once.
 
-use mbs_runtime::{Error, Held, PerStage};
+use mbs_runtime::{Error, Explicit};
 use mbs_workbench::sweep;
 
-use super::setup::{Inertia, SPEEDS, STEP, Setup, TURN, Trace, max_violations};
+use super::crank::{Crank, HELD, PER_STAGE};
+use super::setup::{Inertia, SPEEDS, STEP, Setup, TURN, Trace};
 
 /// Points of the sweep over α and over β.
 const SWEEP: usize = 73;
@@ -13,6 +14,8 @@ pub type Point = (f64, Result<f64, Error>);
 
 /// All runs.
 pub struct Study {
+    /// The mechanism.
+    pub crank: Crank,
     /// No feedback, the paper's start, 0.15 s (Figures 4–7).
     pub drift: Trace,
     /// No feedback, consistent start, one turn.
@@ -53,58 +56,55 @@ pub struct FeedbackRun {
 ///
 /// # Errors
 /// What keeps a run from starting. Runs that end early are results, not errors.
-pub fn study() -> Result<Study, Error> {
+pub fn study(crank: Crank) -> Result<Study, Error> {
     let none = Setup::gains(0.0, 0.0);
     let paper = Setup::gains(2000.0, 2000.0);
     let deadbeat = Setup::gains(0.75 / STEP, 1.0 / STEP).consistent();
 
     let gains = sweep::evenly(200.0, 2000.0, SWEEP);
     let grid: Vec<_> = gains.iter().flat_map(|&beta| gains.iter().map(move |&alpha| (alpha, beta))).collect();
-    let map = max_violations::<PerStage>("Figure 11: α and β", &grid);
+    let map = crank.max_violations("Figure 11: α and β", &grid);
     let wide = sweep::evenly(200.0, 3000.0, 113);
     let along = |title: &str, point: fn(f64) -> (f64, f64)| -> Vec<Point> {
         let points: Vec<_> = wide.iter().copied().map(point).collect();
-        wide.iter().copied().zip(max_violations::<PerStage>(title, &points)).collect()
+        wide.iter().copied().zip(crank.max_violations(title, &points)).collect()
     };
     let along_beta = along("Figure 12: β", |beta| (2000.0, beta));
     let along_alpha = along("α beyond 2000", |alpha| (alpha, 2000.0));
 
-    let torque = |setup: Setup, inertia: Inertia, held: bool| {
-        let runs = sweep::map("torque", &SPEEDS, |&rpm| {
-            let setup = setup.torque(rpm, inertia);
-            if held { setup.trace::<Held>() } else { setup.trace::<PerStage>() }
-        });
+    let torque = |setup: Setup, inertia: Inertia, method: Explicit| {
+        let runs = sweep::map("torque", &SPEEDS, |&rpm| setup.torque(rpm, inertia).trace(&crank, method));
         runs.into_iter().collect::<Result<Vec<_>, _>>()
     };
     Ok(Study {
-        drift: Setup { end: 0.15, ..none }.trace::<PerStage>()?,
-        drift_consistent: none.consistent().trace::<PerStage>()?,
-        stabilized: paper.trace::<PerStage>()?,
-        stabilized_consistent: paper.consistent().trace::<PerStage>()?,
-        held: deadbeat.trace::<Held>()?,
+        drift: Setup { end: 0.15, ..none }.trace(&crank, PER_STAGE)?,
+        drift_consistent: none.consistent().trace(&crank, PER_STAGE)?,
+        stabilized: paper.trace(&crank, PER_STAGE)?,
+        stabilized_consistent: paper.consistent().trace(&crank, PER_STAGE)?,
+        held: deadbeat.trace(&crank, HELD)?,
         gains,
         map,
         along_beta,
         along_alpha,
-        torque: torque(Setup::gains(1000.0, 1000.0), Inertia::Paper, false)?,
-        clean: torque(deadbeat, Inertia::Rod, true)?,
-        feedbacks: feedbacks()?,
+        torque: torque(Setup::gains(1000.0, 1000.0), Inertia::Paper, PER_STAGE)?,
+        clean: torque(deadbeat, Inertia::Rod, HELD)?,
+        feedbacks: feedbacks(&crank)?,
+        crank,
     })
 }
 
-fn feedbacks() -> Result<Vec<FeedbackRun>, Error> {
+fn feedbacks(crank: &Crank) -> Result<Vec<FeedbackRun>, Error> {
     let root2 = std::f64::consts::SQRT_2;
     let cases = [
-        ("per_stage.a2000", "both stages, αh = βh = 1 (paper)", 1.0, 1.0, false),
-        ("per_stage.a2000_sqrt2", "both stages, αh = 1, βh = √2", 1.0, root2, false),
-        ("per_stage.a1000", "both stages, αh = βh = ½", 0.5, 0.5, false),
-        ("held.a1500", "held, αh = ¾, βh = 1", 0.75, 1.0, true),
-        ("none", "none", 0.0, 0.0, true),
+        ("per_stage.a2000", "both stages, αh = βh = 1 (paper)", 1.0, 1.0, PER_STAGE),
+        ("per_stage.a2000_sqrt2", "both stages, αh = 1, βh = √2", 1.0, root2, PER_STAGE),
+        ("per_stage.a1000", "both stages, αh = βh = ½", 0.5, 0.5, PER_STAGE),
+        ("held.a1500", "held, αh = ¾, βh = 1", 0.75, 1.0, HELD),
+        ("none", "none", 0.0, 0.0, HELD),
     ];
-    let run = |(key, name, alpha_h, beta_h, held): (&'static str, &'static str, f64, f64, bool)| {
+    let run = |(key, name, alpha_h, beta_h, method): (&'static str, &'static str, f64, f64, Explicit)| {
         let setup = Setup { end: 2.0 * TURN, ..Setup::gains(alpha_h / STEP, beta_h / STEP) }.consistent();
-        let trace = if held { setup.trace::<Held>()? } else { setup.trace::<PerStage>()? };
-        Ok(FeedbackRun { key, name, trace })
+        Ok(FeedbackRun { key, name, trace: setup.trace(crank, method)? })
     };
     cases.into_iter().map(run).collect()
 }

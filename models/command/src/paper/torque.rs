@@ -27,13 +27,13 @@
 //! differentiation of x2 = l1 cos θ + ½ l2 cos θ2 and x3 = l1 cos θ + l2 cos θ2.
 //! Gravity acts along −y on both rods: V = ½ g l1 (m1 + m2) sin θ.
 
-use crate::SliderCrankParameters;
+use super::crank::Parameters;
 
 /// Standard gravity as the paper has it, in m/s².
 const GRAVITY: f64 = 9.81;
 
 /// τ(θ) in N·m at the crank angle `theta` in rad.
-pub fn closed_form(p: &SliderCrankParameters, theta: f64) -> f64 {
+pub fn closed_form(p: &Parameters, theta: f64) -> f64 {
     let (s1, c1) = theta.sin_cos();
     let s2 = -p.l1 / p.l2 * s1;
     let c2 = (1.0 - s2 * s2).sqrt();
@@ -53,7 +53,7 @@ pub fn closed_form(p: &SliderCrankParameters, theta: f64) -> f64 {
 
 /// The largest τ over a turn: the best of a fine grid, refined by golden
 /// section search between its neighbours.
-pub fn peak(p: &SliderCrankParameters) -> f64 {
+pub fn peak(p: &Parameters) -> f64 {
     const GRID: u32 = 3600;
     let spacing = std::f64::consts::TAU / f64::from(GRID);
     let torque = |theta: f64| closed_form(p, theta);
@@ -73,12 +73,15 @@ pub fn peak(p: &SliderCrankParameters) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test says by panicking what is wrong")]
+
     use super::*;
+    use crate::paper::crank::Crank;
 
     #[test]
     fn work_over_a_turn_is_zero() {
         // Gravity and inertia forces are conservative: ∮ τ dθ = 0.
-        let p: SliderCrankParameters = SliderCrankParameters::default();
+        let p = Crank::new().unwrap().parameters();
         let work: f64 = (0..360).map(|k| closed_form(&p, f64::from(k).to_radians())).sum();
         assert!(work.abs() < 1e-10, "{work}");
     }
@@ -86,7 +89,7 @@ mod tests {
     #[test]
     fn torque_is_the_slope_of_the_energy() {
         // I(θ) by the definition, differenced centrally.
-        let p: SliderCrankParameters = SliderCrankParameters::default();
+        let p = Crank::new().unwrap().parameters();
         let energy = |theta: f64| {
             let h = 1e-5;
             let places = |theta: f64| {
