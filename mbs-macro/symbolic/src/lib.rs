@@ -36,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 mod abbreviated;
+mod algebra;
 mod arena;
 mod collected;
 mod construct;
@@ -58,6 +59,7 @@ mod spline;
 mod substitute;
 pub mod units;
 
+pub use algebra::{Algebra, Scalar, Vector};
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
 pub use eliminate::{
     Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
