@@ -24,6 +24,7 @@ mod compose;
 mod derive;
 mod diagnostics;
 mod independence;
+mod mechanics;
 mod model;
 mod plan;
 mod quantity;

@@ -9,10 +9,10 @@ use proc_macro2::Ident;
 use super::Meaning;
 use super::hints::in_radians;
 use super::joints::{self, row_suffixes};
-use super::laws::LAWS;
 use super::measures::MEASURES;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
+use crate::mechanics::laws::LAWS;
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 impl Scope<'_> {

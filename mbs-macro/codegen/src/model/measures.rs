@@ -1,17 +1,17 @@
 //! Functions that measure the mechanism: what its elements exert and do, how
 //! fast its points are, how its bodies stand. Those of joints are in `reactions`.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Number};
+use mbs_symbolic::{Algebra, Expr, Function, Number};
 use proc_macro2::{Ident, Span};
 
-use super::energies::{self, Inertia};
 use super::joints;
 use super::names::{Place, Scope, Typed};
-use super::{Meaning, Work, reactions};
+use super::reactions;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::mechanics::{Inertia, Work, kinetic, potential};
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// The functions of this file.
@@ -101,17 +101,16 @@ impl Scope<'_> {
                     .help("rename one of them"));
             }
             (Some(source), None) => {
-                let work = source.work.clone();
-                let powers: Vec<_> = work.iter().map(|work| (self.power_of(work), Number::ONE)).collect();
-                self.arena.sum(&powers)
+                let algebra = &Algebra::new(&mut self.arena);
+                algebra.sum(source.work.iter().map(|work| work.power(algebra, &self.motion))).expr()
             }
             (None, Some(row)) => {
                 let (phi, multiplier) = (row.phi, row.multiplier);
                 let phi = phi.unwrap_or(self.arena.zero());
-                let rate = self.rate_at_rest(phi);
-                let lambda = self.arena.variable(multiplier);
-                let power = self.arena.mul(lambda, rate);
-                self.arena.neg(power)
+                let algebra = Algebra::new(&mut self.arena);
+                let rate = self.motion.rate_at_rest(algebra.scalar(phi));
+                let lambda = algebra.variable(multiplier);
+                (-(lambda * rate)).expr()
             }
             (None, None) => {
                 let known = self.sources.keys().chain(self.rows.keys());
@@ -119,16 +118,6 @@ impl Scope<'_> {
             }
         };
         Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
-    }
-
-    fn power_of(&mut self, work: &Work) -> Expr {
-        let mut terms = Vec::new();
-        for &(coordinate, slope) in &work.along {
-            let velocity = self.velocity(coordinate);
-            terms.push((self.arena.mul(slope, velocity), Number::ONE));
-        }
-        let rate = self.arena.sum(&terms);
-        self.arena.mul(work.force, rate)
     }
 
     /// `force(s)`, `torque(m)`: the scalar that an element exerts.
@@ -220,14 +209,13 @@ impl Scope<'_> {
 
     fn energy(&mut self, name: &Ident) -> Result<Typed, Diagnostic> {
         self.only_in_outputs(name)?;
-        let expr = match &self.energies {
-            Some(Energies { inertias, .. }) if name == "kinetic_energy" => {
-                energies::kinetic(&mut self.arena, inertias)
-            }
-            Some(Energies { inertias, springs }) => energies::potential(&mut self.arena, inertias, springs),
-            None => self.arena.zero(),
+        let algebra = Algebra::new(&mut self.arena);
+        let energy = match &self.energies {
+            Some(Energies { inertias, .. }) if name == "kinetic_energy" => kinetic(&algebra, inertias),
+            Some(Energies { inertias, springs }) => potential(&algebra, inertias, springs),
+            None => algebra.number(0),
         };
-        Ok(Typed { expr, dimension: Some(ENERGY) })
+        Ok(Typed { expr: energy.expr(), dimension: Some(ENERGY) })
     }
 
     /// Forces are all known once the energies are: outputs come last.
@@ -241,33 +229,8 @@ impl Scope<'_> {
 
     /// The total time derivative of a function of coordinates and time.
     pub(super) fn rate(&mut self, expr: Expr) -> Expr {
-        self.rate_with(expr, true)
-    }
-
-    /// The same with time held.
-    fn rate_at_rest(&mut self, expr: Expr) -> Expr {
-        self.rate_with(expr, false)
-    }
-
-    fn rate_with(&mut self, expr: Expr, has_time: bool) -> Expr {
-        let mut direction = HashMap::new();
-        for symbol in self.arena.symbols_in(expr) {
-            let rate = match self.meaning(symbol) {
-                Meaning::Coordinate(at) => self.velocity(at),
-                Meaning::Time if has_time => self.arena.one(),
-                _ => continue,
-            };
-            direction.insert(symbol, rate);
-        }
-        self.arena.derivative(expr, &direction)
-    }
-
-    fn velocity(&mut self, coordinate: usize) -> Expr {
-        let at = self.meanings.iter().position(|&meaning| meaning == Meaning::Velocity(coordinate));
-        match at.and_then(|at| self.arena.symbol_at(at)) {
-            Some(symbol) => self.arena.variable(symbol),
-            None => self.arena.zero(),
-        }
+        let algebra = Algebra::new(&mut self.arena);
+        self.motion.rate(algebra.scalar(expr)).expr()
     }
 
     /// The length of a vector, smooth at 0; exact where one component is 0.
