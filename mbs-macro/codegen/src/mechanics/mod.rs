@@ -4,11 +4,16 @@
 
 mod energies;
 mod equations;
+pub mod joints;
 pub mod laws;
 mod loads;
 mod motion;
+mod norm;
+mod places;
 
 pub use energies::{Inertia, kinetic, potential};
 pub use equations::{Equations, Mechanism, derive};
 pub use loads::{Applied, Load, Work};
 pub use motion::Motion;
+pub use norm::norm;
+pub use places::Placed;

@@ -5,7 +5,6 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::ReactiveLoad;
-use super::joints;
 use super::measures::Exerts;
 use super::names::{Place, Value, duplicate};
 use super::resolver::Resolver;
@@ -113,7 +112,9 @@ impl Resolver<'_> {
                     self.exerts(load.name, Exerts { value, dimension: ENERGY });
                 }
             }
-            (false, syntax::Load::Vector(vector)) => self.force_on_body(load, placed.position, vector),
+            (false, syntax::Load::Vector(vector)) => {
+                self.force_on_body(load, placed.position.components(), vector)
+            }
             (true, syntax::Load::Vector(vector)) => self.errors.push(
                 Diagnostic::new(vector.span, "a planar torque is a scalar")
                     .help(format!("write `torque … on {name} = …;` with one formula")),
@@ -135,7 +136,8 @@ impl Resolver<'_> {
             Some(frame) => {
                 let angle = self.scope.frame(frame).map(|frame| frame.angle);
                 let (Some(angle), Some(fx), Some(fy)) = (self.errors.take(angle), fx, fy) else { return };
-                let [fx, fy] = joints::rotate(&mut self.scope.arena, angle, [fx, fy]);
+                let algebra = Algebra::new(&mut self.scope.arena);
+                let [fx, fy] = algebra.vector([fx, fy]).rotated(algebra.scalar(angle)).exprs();
                 (Some(fx), Some(fy))
             }
         };

@@ -4,14 +4,13 @@
 use std::collections::BTreeSet;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Algebra, Expr, Function, Number};
+use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
-use super::joints;
 use super::names::{Place, Scope, Typed};
 use super::reactions;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
-use crate::mechanics::{Inertia, Work, kinetic, potential};
+use crate::mechanics::{Inertia, Work, kinetic, norm, potential};
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// The functions of this file.
@@ -29,10 +28,6 @@ pub const MEASURES: &[&str] = &[
 
 pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
 pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
-
-/// Below this size the norm of a vector is kept from its kink at 0, so that
-/// its derivative exists there: (1e-12)² in SI units.
-const SOFTENING: f64 = 1e-24;
 
 /// A named force, torque or element.
 pub struct Source {
@@ -162,7 +157,8 @@ impl Scope<'_> {
         let [first, second] = &ends;
         let placed = self.attachment(first, errors).zip(self.attachment(second, errors));
         Ok(placed.map(|(first, second)| {
-            let expr = joints::distance_between(&mut self.arena, &first, &second);
+            let algebra = Algebra::new(&mut self.arena);
+            let expr = first.on(&algebra).distance_to(second.on(&algebra)).expr();
             Typed { expr, dimension: Some(Dimension::LENGTH) }
         }))
     }
@@ -185,8 +181,9 @@ impl Scope<'_> {
             }
         };
         let Some(placed) = self.attachment(&attachment, errors) else { return Ok(None) };
-        let velocity = placed.position.map(|component| self.rate(component));
-        let expr = self.norm(velocity);
+        let algebra = Algebra::new(&mut self.arena);
+        let velocity = placed.on(&algebra).position.map(|component| self.motion.rate(component));
+        let expr = norm(velocity).expr();
         Ok(Some(Typed { expr, dimension: Some(Dimension::of(0, 1, -1)) }))
     }
 
@@ -198,12 +195,9 @@ impl Scope<'_> {
                 .help("write `transmission_angle(rod, rocker)`")),
         };
         let (a, b) = (angle(a)?, angle(b)?);
-        let between = self.arena.sub(a, b);
-        let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| {
-            let value = self.arena.call(function, between);
-            self.arena.call(Function::Abs, value)
-        });
-        let expr = self.arena.call2(Function::Atan2, sine, cosine);
+        let algebra = Algebra::new(&mut self.arena);
+        let between = algebra.scalar(a) - algebra.scalar(b);
+        let expr = between.sin().abs().atan2(between.cos().abs()).expr();
         Ok(Typed { expr, dimension: Some(Dimension::NONE) })
     }
 
@@ -231,21 +225,6 @@ impl Scope<'_> {
     pub(super) fn rate(&mut self, expr: Expr) -> Expr {
         let algebra = Algebra::new(&mut self.arena);
         self.motion.rate(algebra.scalar(expr)).expr()
-    }
-
-    /// The length of a vector, smooth at 0; exact where one component is 0.
-    pub(super) fn norm(&mut self, [x, y]: [Expr; 2]) -> Expr {
-        let arena = &mut self.arena;
-        match (arena.is_zero(x), arena.is_zero(y)) {
-            (_, true) => arena.call(Function::Abs, x),
-            (true, false) => arena.call(Function::Abs, y),
-            (false, false) => {
-                let (xx, yy) = (arena.powi(x, 2), arena.powi(y, 2));
-                let softening = arena.number(SOFTENING.into());
-                let square = arena.sum(&[(xx, Number::ONE), (yy, Number::ONE), (softening, Number::ONE)]);
-                arena.call(Function::Sqrt, square)
-            }
-        }
     }
 }
 

@@ -12,7 +12,6 @@ mod elements;
 mod formula;
 mod functions;
 mod hints;
-mod joints;
 mod laws;
 mod loads;
 mod measures;

@@ -59,7 +59,7 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     })?;
     let word = keyword.to_string();
     let statement = STATEMENTS.iter().find(|(known, ..)| *known == word);
-    let joint = joints::JOINTS.iter().find(|shape| shape.word == word);
+    let joint = joints::Shape::named(&word);
     let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
     let kind = match (statement, joint, element) {
         (Some((.., read)), _, _) => read(input, keyword.span()),

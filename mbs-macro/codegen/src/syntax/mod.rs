@@ -17,9 +17,9 @@ use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
-pub use joints::JOINTS;
 pub use keywords::{Keyword, KeywordKind, keywords};
 
+use crate::mechanics::joints::JointKind;
 use crate::quantity::Comparison;
 
 /// A whole `mechanism! { … }`.
@@ -147,7 +147,7 @@ pub struct Property {
 /// A joint between two places.
 #[derive(Clone)]
 pub struct Joint {
-    pub kind: JointKind,
+    pub kind: &'static JointKind,
     pub name: Ident,
     pub first: Attachment,
     pub second: Attachment,
@@ -155,31 +155,19 @@ pub struct Joint {
     pub clauses: Vec<Clause>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointKind {
-    Revolute,
-    Fixed,
-    Prismatic,
-    PointOnLine,
-    Distance,
-    Gear,
-    InternalGear,
-    Belt,
-    CrossedBelt,
-    Rack,
-    Rolling,
-    Cam,
-}
-
 /// What a joint says behind its two places.
 #[derive(Clone)]
 pub enum Clause {
     /// `along (1, 0)`: a direction in the frame of the second body.
     Along(Vector),
-    /// `at 30 [deg]`: a constant offset.
-    At(Formula),
-    /// `= 0.5 [m]`: a distance, or the profile of a cam.
-    Equals(Formula),
+    /// `at 30 [deg]`: a constant angle between the bodies.
+    Angle(Formula),
+    /// `at 20 [mm]`: where on a line both angles are equal.
+    Place(Formula),
+    /// `= 0.5 [m]`
+    Distance(Formula),
+    /// `= r0*(1 + 0.2*cos(angle))`: the profile of a cam.
+    Profile(Formula),
     /// `radius r`
     Radius(Formula),
     /// `radii (r1, r2)`
@@ -188,17 +176,6 @@ pub enum Clause {
     Teeth(Vector),
     /// `carrier arm`: the body relative to which the others turn.
     Carrier(Ident),
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum ClauseKind {
-    Along,
-    At,
-    Equals,
-    Radius,
-    Radii,
-    Teeth,
-    Carrier,
 }
 
 /// A periodic function through points of (argument, value).

@@ -3,21 +3,25 @@
 //!
 //! λ: the tension of the rod, positive when it pulls the points together.
 
-use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Expr, Number};
+use mbs_symbolic::Scalar;
 
-use super::{Connection, JointRow, separation, square};
+use super::{ClauseKind, Holds, Joint, JointKind, Row, Wrench};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let separation = separation(arena, connection);
-    let squared = square(arena, separation);
-    let half = arena.number(Number::ratio(1, 2));
-    let scaled = arena.product(&[(squared, 1), (half, 1), (connection.value, -1)]);
-    let half_length = arena.mul(half, connection.value);
-    vec![JointRow { phi: arena.sub(scaled, half_length), dimension: Dimension::LENGTH }]
+pub const DISTANCE: JointKind = JointKind {
+    word: "distance",
+    meaning: "two points keep their distance",
+    example: "(bob, ground.hook) = 0.5 [m]",
+    needs: &[&[ClauseKind::Distance]],
+    rows: &[Row { suffix: "", restricts: "", holds: Holds::Length, phi, wrench: Some(pull) }],
+    ..JointKind::PLAIN
+};
+
+fn phi<'a>(joint: &Joint<'a>) -> Scalar<'a> {
+    let (r, length) = (joint.separation(), joint.value);
+    (r.dot(r) / length - length) / 2
 }
 
 /// (p₁ − p₂)/L: the tension pulls the second body to the first.
-pub fn pull(arena: &mut Arena, connection: &Connection) -> [Expr; 2] {
-    separation(arena, connection).map(|component| arena.product(&[(component, 1), (connection.value, -1)]))
+fn pull<'a>(joint: &Joint<'a>) -> Wrench<'a> {
+    Wrench::Force(joint.separation() / joint.value)
 }

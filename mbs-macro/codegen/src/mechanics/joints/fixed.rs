@@ -2,12 +2,22 @@
 //!
 //! λ: force (ground frame) and torque on the second body; the first feels −λ.
 
-use mbs_symbolic::Arena;
+use super::revolute::{X, Y};
+use super::{ClauseKind, Holds, JointKind, Row, Wrench};
 
-use super::{Connection, JointRow, relative_angle, revolute};
+pub const FIXED: JointKind = JointKind {
+    word: "fixed",
+    meaning: "two bodies move as one",
+    example: "(arm.end, hand.base) at 90 [deg]",
+    takes: &[ClauseKind::Angle],
+    rows: &[X, Y, ANGLE],
+    ..JointKind::PLAIN
+};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let mut rows = revolute::rows(arena, connection);
-    rows.push(relative_angle(arena, connection));
-    rows
-}
+pub const ANGLE: Row = Row {
+    suffix: "_angle",
+    restricts: " in its angle",
+    holds: Holds::Angle,
+    phi: |joint| joint.relative_angle() - joint.at,
+    wrench: Some(|joint| Wrench::Torque(joint.algebra().number(1))),
+};

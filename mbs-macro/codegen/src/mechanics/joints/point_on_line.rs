@@ -4,13 +4,22 @@
 //!
 //! λ: the first body feels the force −λ n at p₁, the second one λ n there.
 
-use mbs_symbolic::Arena;
-use mbs_symbolic::units::Dimension;
+use super::{ClauseKind, Holds, JointKind, Row};
 
-use super::{Connection, JointRow, component};
+pub const POINT_ON_LINE: JointKind = JointKind {
+    word: "point_on_line",
+    meaning: "a point stays on a line of another body",
+    also: Some(("pin_slot", "a pin stays in a slot, the same as `point_on_line`")),
+    example: "(rod.end, ground.rail) along (1, 0)",
+    needs: &[&[ClauseKind::Along]],
+    rows: &[Row { suffix: "", restricts: "", ..NORMAL }],
+    ..JointKind::PLAIN
+};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let [ux, uy] = connection.along;
-    let normal = [arena.neg(uy), ux];
-    vec![JointRow { phi: component(arena, connection, normal), dimension: Dimension::LENGTH }]
-}
+pub const NORMAL: Row = Row {
+    suffix: "_normal",
+    restricts: " across its line",
+    holds: Holds::Length,
+    phi: |joint| joint.across_line(),
+    wrench: Some(|joint| joint.force_across_line()),
+};

@@ -5,12 +5,16 @@
 //! λ: normal force as for a point on a line; torque on the second body, the
 //! first feels −λ.
 
-use mbs_symbolic::Arena;
+use super::fixed::ANGLE;
+use super::point_on_line::NORMAL;
+use super::{ClauseKind, JointKind};
 
-use super::{Connection, JointRow, point_on_line, relative_angle};
-
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let mut rows = point_on_line::rows(arena, connection);
-    rows.push(relative_angle(arena, connection));
-    rows
-}
+pub const PRISMATIC: JointKind = JointKind {
+    word: "prismatic",
+    meaning: "a body slides along another without turning against it",
+    example: "(slider, ground.rail) along (1, 0)",
+    needs: &[&[ClauseKind::Along]],
+    takes: &[ClauseKind::Angle],
+    rows: &[NORMAL, ANGLE],
+    ..JointKind::PLAIN
+};

@@ -6,15 +6,30 @@
 //! λ: the tooth force on the rack is λ u at that point; the pinion feels −λ u
 //! there, and so a torque of −rλ about its centre.
 
-use mbs_symbolic::Arena;
-use mbs_symbolic::units::Dimension;
+use mbs_symbolic::Scalar;
 
-use super::{Connection, JointRow, component};
+use super::{ClauseKind, Holds, Joint, JointKind, Part, Row};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let travel = component(arena, connection, connection.along);
-    let turned = arena.sub(connection.first.angle, connection.second.angle);
-    let rolled = arena.mul(connection.sizes[0], turned);
-    let sum = arena.add(travel, rolled);
-    vec![JointRow { phi: arena.sub(sum, connection.at), dimension: Dimension::LENGTH }]
+pub const RACK: JointKind = JointKind {
+    word: "rack",
+    meaning: "a pinion meshes with a rack",
+    example: "(pinion, bar) along (1, 0) radius 15 [mm]",
+    needs: &[&[ClauseKind::Along], &[ClauseKind::Radius]],
+    takes: &[ClauseKind::Place],
+    rows: &[MESH],
+    turns: &[(Part::First, Part::Second)],
+    ..JointKind::PLAIN
+};
+
+pub const MESH: Row = Row {
+    suffix: "",
+    restricts: "",
+    holds: Holds::Length,
+    phi,
+    wrench: Some(|joint| joint.force_along_line()),
+};
+
+fn phi<'a>(joint: &Joint<'a>) -> Scalar<'a> {
+    let [radius, _] = joint.sizes;
+    joint.along_line() + radius * joint.relative_angle() - joint.at
 }

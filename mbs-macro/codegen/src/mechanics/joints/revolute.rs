@@ -3,12 +3,33 @@
 //! λ: the force on the second body at the point, in the ground frame; the first
 //! feels −λ.
 
-use mbs_symbolic::Arena;
-use mbs_symbolic::units::Dimension;
+use super::{Holds, Joint, JointKind, Mend, Row, Wrench};
 
-use super::{Connection, JointRow, separation};
+pub const REVOLUTE: JointKind = JointKind {
+    word: "revolute",
+    meaning: "two points coincide",
+    example: "(crank.tip, rod.base)",
+    rows: &[X, Y],
+    mend: Mend::RemoveOrMove,
+    ..JointKind::PLAIN
+};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let row = |phi| JointRow { phi, dimension: Dimension::LENGTH };
-    separation(arena, connection).map(row).into()
+pub const X: Row = Row {
+    suffix: "_x",
+    restricts: " along x",
+    holds: Holds::Place,
+    phi: |joint| joint.separation().x,
+    wrench: Some(|joint| force(joint, [1, 0])),
+};
+
+pub const Y: Row = Row {
+    suffix: "_y",
+    restricts: " along y",
+    phi: |joint| joint.separation().y,
+    wrench: Some(|joint| force(joint, [0, 1])),
+    ..X
+};
+
+fn force<'a>(joint: &Joint<'a>, along: [i64; 2]) -> Wrench<'a> {
+    Wrench::Force(along.map(|component| joint.algebra().number(component)).into())
 }

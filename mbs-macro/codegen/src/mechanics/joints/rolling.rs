@@ -8,18 +8,25 @@
 //! track carries a wheel with a negative λ_normal: the constraint would also
 //! hold the wheel down.
 
-use mbs_symbolic::Arena;
-use mbs_symbolic::units::Dimension;
+use mbs_symbolic::Scalar;
 
-use super::{Connection, JointRow, point_on_line, rack};
+use super::point_on_line::NORMAL;
+use super::rack::MESH;
+use super::{ClauseKind, Joint, JointKind, Mend, Part, Row};
 
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let mut rows = rack::rows(arena, connection);
-    let radius = connection.sizes[0];
-    rows.extend(
-        point_on_line::rows(arena, connection)
-            .into_iter()
-            .map(|height| JointRow { phi: arena.sub(height.phi, radius), dimension: Dimension::LENGTH }),
-    );
-    rows
+pub const ROLLING: JointKind = JointKind {
+    word: "rolling",
+    meaning: "a wheel rolls on a track without slip",
+    example: "(wheel, ground.track) along (1, 0) radius 0.3 [m]",
+    needs: &[&[ClauseKind::Along], &[ClauseKind::Radius]],
+    takes: &[ClauseKind::Place],
+    rows: &[Row { suffix: "_slip", ..MESH }, Row { phi: height, ..NORMAL }],
+    turns: &[(Part::First, Part::Second)],
+    mend: Mend::Move("the contact holds the wheel at its height, so that it needs both positions"),
+    ..JointKind::PLAIN
+};
+
+fn height<'a>(joint: &Joint<'a>) -> Scalar<'a> {
+    let [radius, _] = joint.sizes;
+    joint.across_line() - radius
 }

@@ -3,14 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::Number;
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Algebra, Number};
 use proc_macro2::Span;
 
 use super::super::measures::Exerts;
 use super::super::resolver::Resolver;
 use super::{FORCE, Property, Resolved, SPEED, all_said};
 use crate::diagnostics::Diagnostic;
+use crate::mechanics::norm;
 use crate::syntax::Element;
 
 pub const PROPERTIES: &[Property] = &[
@@ -27,7 +28,7 @@ pub fn is_said(element: &Element, given: &BTreeMap<String, Span>) -> Result<(), 
 
 impl Resolver<'_> {
     pub(super) fn resolve_drag(&mut self, drag: &Resolved<'_>) {
-        let place = drag.first.position;
+        let place = drag.first.position.components();
         let help = "let it act on a body that has a position";
         if !self.check_motion(drag.element, &place, help) {
             return;
@@ -42,7 +43,8 @@ impl Resolver<'_> {
         let velocity = place.map(|component| self.scope.rate(component));
         let arena = &mut self.scope.arena;
         let against = [arena.sub(velocity[0], wind[0]), arena.sub(velocity[1], wind[1])];
-        let speed = self.scope.norm(against);
+        let algebra = Algebra::new(arena);
+        let speed = norm(algebra.vector(against)).expr();
         let arena = &mut self.scope.arena;
         let factor = arena.product(&[(density, 1), (area, 1), (coefficient, 1), (speed, 1)]);
         let factor = arena.scale(factor, Number::ratio(-1, 2));

@@ -8,16 +8,16 @@
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Node, Number};
+use mbs_symbolic::{Algebra, Expr, Function, Node, Number};
 use proc_macro2::Span;
 
-use super::super::joints;
 use super::super::measures::Exerts;
 use super::super::reactions::KnownJoint;
 use super::super::resolver::Resolver;
 use super::{FORCE, Property, RATE, Resolved, SPEED, TORQUE, all_said};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Attachment, Element, ElementKind, JointKind};
+use crate::mechanics::joints::Holds;
+use crate::syntax::{Attachment, Element, ElementKind};
 
 pub const SLIDING: &[Property] = &[
     Property::varying("coefficient", Dimension::NONE).not_negative(),
@@ -103,13 +103,7 @@ impl Resolver<'_> {
             let [first, second] = joint.ends.each_ref();
             let is_between = (same(ends[0], first) && same(ends[1], second))
                 || (same(ends[0], second) && same(ends[1], first));
-            is_between
-                && match joint.kind {
-                    JointKind::Fixed => true,
-                    JointKind::Revolute => is_sliding,
-                    JointKind::Prismatic => !is_sliding,
-                    _ => false,
-                }
+            is_between && joint.kind.holds(if is_sliding { Holds::Place } else { Holds::Angle })
         };
         let Some(joint) = self.scope.joints.values().find(holds) else { return true };
         let (what, help) = match is_sliding {
@@ -129,7 +123,9 @@ impl Resolver<'_> {
         let element = friction.element;
         let along = element.along.as_ref()?;
         let along = self.direction_of(&element.name, along)?;
-        Some(joints::offset_along(&mut self.scope.arena, &friction.first, &friction.second, along))
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let [first, second] = [friction.first.on(&algebra), friction.second.on(&algebra)];
+        Some(first.offset_along(second, algebra.vector(along)).expr())
     }
 
     /// The largest dry friction: μ |N|, times the radius of a pin; or as given.

@@ -17,10 +17,10 @@ use proc_macro2::{Ident, Span};
 
 use super::Check;
 use super::hints::in_radians;
-use super::joints::Placed;
 use super::names::Place;
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::mechanics::Placed;
 use crate::syntax::{Element, ElementKind, ElementProperty, Formula, Load};
 
 const FORCE: Dimension = Dimension::of(1, 1, -2);

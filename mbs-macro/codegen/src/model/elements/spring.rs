@@ -12,15 +12,15 @@
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Number};
+use mbs_symbolic::{Algebra, Expr, Number};
 use proc_macro2::Span;
 
 use super::super::Gap;
-use super::super::joints;
 use super::super::measures::Exerts;
 use super::super::resolver::Resolver;
 use super::{FORCE, Property, Resolved, TORQUE, missing};
 use crate::diagnostics::Diagnostic;
+use crate::mechanics::norm;
 use crate::syntax::{Element, ElementKind, ElementProperty, Formula, FormulaKind, Load};
 
 pub const LINEAR: &[Property] = &[
@@ -60,7 +60,9 @@ impl Resolver<'_> {
             self.resolve_torsion_spring(spring);
             return;
         }
-        let between = joints::difference(&mut self.scope.arena, &spring.first, &spring.second);
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let [first, second] = [spring.first.on(&algebra), spring.second.on(&algebra)];
+        let between = (first.position - second.position).exprs();
         if !self.check_motion(spring.element, &between, "let it act between points that move apart") {
             return;
         }
@@ -69,7 +71,8 @@ impl Resolver<'_> {
             self.resolve_spring_without_length(spring, between);
             return;
         }
-        let distance = joints::distance_between(&mut self.scope.arena, &spring.first, &spring.second);
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let distance = spring.first.on(&algebra).distance_to(spring.second.on(&algebra)).expr();
         self.gaps.push(Gap { distance, free, name: spring.element.name.clone() });
         let elongation = self.scope.arena.sub(distance, free);
         let tension = self.tension(spring, elongation);
@@ -101,7 +104,8 @@ impl Resolver<'_> {
             self.store(stiffness, component);
         }
         let damping = self.value_or_zero(spring, "damping");
-        let distance = self.scope.norm(between);
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let distance = norm(algebra.vector(between)).expr();
         let rate = self.scope.rate(distance);
         let arena = &mut self.scope.arena;
         let viscous = arena.mul(damping, rate);
@@ -109,7 +113,9 @@ impl Resolver<'_> {
         let drag = arena.neg(viscous);
         self.apply(name, drag, distance);
         let arena = &mut self.scope.arena;
-        let length = joints::distance_between(arena, &spring.first, &spring.second);
+        let algebra = Algebra::new(arena);
+        let length = spring.first.on(&algebra).distance_to(spring.second.on(&algebra)).expr();
+        let arena = &mut self.scope.arena;
         let elastic = arena.mul(stiffness, length);
         let value = arena.add(elastic, viscous);
         self.exerts(name, Exerts { value, dimension: FORCE });
