@@ -2,6 +2,7 @@
 //! data. Here are no names, no spans and no tokens; who reads a declaration knows this
 //! room, and it knows nobody but the algebra.
 
+pub mod elements;
 mod energies;
 mod equations;
 pub mod joints;

@@ -46,7 +46,7 @@ impl<'a> Resolver<'a> {
             }
             ItemKind::Element(element) => {
                 let ends = element.second.clone().map(|second| [element.first.clone(), second]);
-                self.declare_source(&element.name, element.kind.word(), ends);
+                self.declare_source(&element.name, element.kind.word, ends);
             }
             _ => {}
         }

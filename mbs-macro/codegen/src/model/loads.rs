@@ -5,10 +5,10 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::ReactiveLoad;
-use super::measures::Exerts;
 use super::names::{Place, Value, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::mechanics::elements::Exerts;
 use crate::mechanics::{Applied, Work};
 use crate::syntax::{self, Attachment};
 
@@ -178,7 +178,11 @@ impl Resolver<'_> {
     }
 
     fn push_work(&mut self, name: &Ident, work: Work) {
-        let Applied { work, loads } = work.applied(&Algebra::new(&mut self.scope.arena), &self.scope.motion);
+        let applied = work.applied(&Algebra::new(&mut self.scope.arena), &self.scope.motion);
+        self.push_applied(name, applied);
+    }
+
+    pub(super) fn push_applied(&mut self, name: &Ident, Applied { work, loads }: Applied) {
         match loads {
             Some(loads) => self.loads.extend(loads),
             None => self.reactive_loads.push(ReactiveLoad { work: work.clone(), span: name.span() }),

@@ -10,6 +10,7 @@ use proc_macro2::{Ident, Span};
 use super::names::{Place, Scope, Typed};
 use super::reactions;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::mechanics::elements::Exerts;
 use crate::mechanics::{Inertia, Work, kinetic, norm, potential};
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
@@ -39,13 +40,6 @@ pub struct Source {
     pub work: Vec<Work>,
     /// The scalar that it exerts, if it has one.
     pub exerts: Option<Exerts>,
-}
-
-/// A tension, a friction force, a torque.
-#[derive(Clone, Copy)]
-pub struct Exerts {
-    pub value: Expr,
-    pub dimension: Dimension,
 }
 
 /// What the energies are made of.
@@ -219,12 +213,6 @@ impl Scope<'_> {
         }
         Err(Diagnostic::new(name.span(), format!("`{name}` cannot stand here"))
             .help("it measures the mechanism in motion, for outputs alone"))
-    }
-
-    /// The total time derivative of a function of coordinates and time.
-    pub(super) fn rate(&mut self, expr: Expr) -> Expr {
-        let algebra = Algebra::new(&mut self.arena);
-        self.motion.rate(algebra.scalar(expr)).expr()
     }
 }
 

@@ -146,7 +146,7 @@ impl Resolver<'_> {
             }
             ItemKind::Element(element) => {
                 let Some(second) = &element.second else { return };
-                (&element.name, element.kind.word(), &element.first, second, None)
+                (&element.name, element.kind.word, &element.first, second, None)
             }
             _ => return,
         };

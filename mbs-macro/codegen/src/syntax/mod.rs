@@ -19,6 +19,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use items::parse;
 pub use keywords::{Keyword, KeywordKind, keywords};
 
+use crate::mechanics::elements::ElementKind;
 use crate::mechanics::joints::JointKind;
 use crate::quantity::Comparison;
 
@@ -190,23 +191,13 @@ pub struct Profile {
 #[derive(Clone)]
 pub struct Element {
     pub name: Ident,
-    pub kind: ElementKind,
+    pub kind: &'static ElementKind,
     pub first: Attachment,
     /// The other end, where it has one.
     pub second: Option<Attachment>,
     /// The direction in which it acts, in the frame of the second body.
     pub along: Option<Vector>,
     pub properties: Vec<ElementProperty>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementKind {
-    Spring,
-    TorsionSpring,
-    Motor,
-    Friction,
-    TorsionFriction,
-    Drag,
 }
 
 /// `stiffness = …;` in an element.
