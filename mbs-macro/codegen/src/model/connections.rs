@@ -13,8 +13,7 @@ use crate::mechanics::joints::{Holds, Mend, Row};
 use crate::syntax::Joint;
 
 impl Resolver<'_> {
-    /// The rows that the joint will have. A joint that holds an angle between
-    /// bodies that do not turn has no row for it.
+    /// Enters the rows that the joint will have.
     pub(super) fn declare_joint(&mut self, joint: &Joint) {
         let declared = self.rows_of(joint);
         for row in &declared {
@@ -31,13 +30,19 @@ impl Resolver<'_> {
         self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 
+    /// The rows that a joint has. One that holds an angle between bodies that do not turn
+    /// has no row for it, if it has others.
     fn rows_of(&self, joint: &Joint) -> Vec<&'static Row> {
         let turns = |body: &Ident| match self.scope.bodies.get(&body.to_string()) {
             Some(frame) => self.scope.arena.as_number(frame.angle).is_none(),
             None => true,
         };
-        let any_turns = turns(&joint.first.body) || turns(&joint.second.body);
-        joint.kind.rows.iter().filter(|row| any_turns || row.holds != Holds::Angle).collect()
+        let is_kept = |row: &&Row| row.holds != Holds::Angle;
+        let others: Vec<_> = joint.kind.rows.iter().filter(is_kept).collect();
+        if others.is_empty() || turns(&joint.first.body) || turns(&joint.second.body) {
+            return joint.kind.rows.iter().collect();
+        }
+        others
     }
 
     pub(super) fn resolve_joint(&mut self, joint: &Joint, doc: &str) {
