@@ -148,3 +148,28 @@ impl Row {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::{ClauseKind, JOINTS, JointKind};
+
+    fn differ<T: Ord>(mut all: impl Iterator<Item = T>) -> bool {
+        let mut known = BTreeSet::new();
+        all.all(|one| known.insert(one))
+    }
+
+    /// What `PLAIN` leaves empty is said, and nothing is said twice.
+    #[test]
+    fn every_kind_is_whole() {
+        assert!(differ(JOINTS.iter().flat_map(|kind| kind.words().map(|(word, _)| word))));
+        for kind in JOINTS {
+            let JointKind { word, example, rows, .. } = kind;
+            assert!(kind.words().all(|(word, meaning)| !word.is_empty() && !meaning.is_empty()));
+            assert!(!example.is_empty() && !rows.is_empty(), "{word}");
+            assert!(differ(rows.iter().map(|row| row.suffix)), "{word}");
+            assert!(differ(kind.clauses().map(ClauseKind::word)), "{word}");
+        }
+    }
+}
