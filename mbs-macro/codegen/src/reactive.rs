@@ -119,7 +119,7 @@ impl System<'_> {
         }
         let has_kink = |node: &Expr| {
             let is_kinked = match arena.node(*node) {
-                Node::Call(function, _) | Node::Call2(function, ..) => is_piecewise(*function),
+                Node::Call(function, _) | Node::Call2(function, ..) => function.row().is_piecewise,
                 _ => false,
             };
             is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))
@@ -233,11 +233,6 @@ impl System<'_> {
         }
         Ok(rows.iter().map(|row| row[count]).collect())
     }
-}
-
-/// Whether a function is made of smooth pieces.
-fn is_piecewise(function: Function) -> bool {
-    matches!(function, Function::Abs | Function::Sign | Function::Min | Function::Max | Function::Greater)
 }
 
 /// λ₀: the multipliers without the loads that depend on them.

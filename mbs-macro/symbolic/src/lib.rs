@@ -69,7 +69,7 @@ pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;
-pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};
+pub use operators::{Function, Latex, Parity, Partials, Range, Row, TABLE as FUNCTIONS};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
 pub use sin_cos::SinCos;

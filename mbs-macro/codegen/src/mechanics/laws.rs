@@ -44,7 +44,7 @@ fn cycloidal(s: Scalar<'_>) -> Scalar<'_> {
 
 /// 10s³ − 15s⁴ + 6s⁵
 fn polynomial_345(s: Scalar<'_>) -> Scalar<'_> {
-    10 * s.pow(3) - 15 * s.pow(4) + 6 * s.pow(5)
+    10 * s.powi(3) - 15 * s.powi(4) + 6 * s.powi(5)
 }
 
 /// (1 − cos πs)/2

@@ -248,7 +248,7 @@ impl Scope<'_> {
 
 /// The functions of the language.
 fn known<'a>() -> impl Iterator<Item = &'a str> {
-    let elementary = mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).filter(|name| !name.is_empty());
+    let elementary = mbs_symbolic::FUNCTIONS.iter().filter(|row| row.is_word).map(|row| row.name);
     elementary
         .chain(LAWS.iter().map(|law| law.name))
         .chain(["der", "lambda", "effort", "distance"])

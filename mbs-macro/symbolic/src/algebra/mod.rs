@@ -132,13 +132,18 @@ impl<'a> Scalar<'a> {
     }
 
     /// x to an integer power.
-    pub fn pow(self, exponent: i32) -> Self {
+    pub fn powi(self, exponent: i32) -> Self {
         self.algebra.make((self.expr, exponent), |arena, (x, exponent)| arena.powi(x, exponent))
+    }
+
+    /// xʸ
+    pub fn pow(self, y: Self) -> Self {
+        self.algebra.make((self.expr, y.expr), |arena, (x, y)| arena.pow(x, y))
     }
 
     /// x²
     pub fn squared(self) -> Self {
-        self.pow(2)
+        self.powi(2)
     }
 
     /// √x
@@ -161,6 +166,16 @@ impl<'a> Scalar<'a> {
         self.call(Function::Tanh)
     }
 
+    /// ln x
+    pub fn ln(self) -> Self {
+        self.call(Function::Ln)
+    }
+
+    /// −1, 0 or 1
+    pub fn sign(self) -> Self {
+        self.call(Function::Sign)
+    }
+
     /// |x|
     pub fn abs(self) -> Self {
         self.call(Function::Abs)
@@ -179,6 +194,11 @@ impl<'a> Scalar<'a> {
     /// The larger one; at equal values, with the slope of the second.
     pub fn max(self, other: Self) -> Self {
         self.call2(Function::Max, other)
+    }
+
+    /// 1 if it is larger than the other one, else 0.
+    pub fn greater(self, other: Self) -> Self {
+        self.call2(Function::Greater, other)
     }
 
     /// ∂x/∂symbol

@@ -72,6 +72,22 @@ impl<'a> Sub<Scalar<'a>> for i64 {
     }
 }
 
+impl<'a> Add<Scalar<'a>> for i64 {
+    type Output = Scalar<'a>;
+
+    fn add(self, x: Scalar<'a>) -> Scalar<'a> {
+        x.algebra.number(self) + x
+    }
+}
+
+impl Sub<i64> for Scalar<'_> {
+    type Output = Self;
+
+    fn sub(self, number: i64) -> Self {
+        self - self.algebra.number(number)
+    }
+}
+
 impl Div<i64> for Scalar<'_> {
     type Output = Self;
 
