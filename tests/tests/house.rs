@@ -13,7 +13,7 @@ fn root() -> PathBuf {
 /// commas are neighbours, which do not see each other.
 fn order() -> Vec<Vec<String>> {
     let text = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("it is there");
-    let line = text.lines().find(|line| line.trim_start().starts_with("diagnostics, quantity ←"));
+    let line = text.lines().find(|line| line.trim_start().starts_with("mechanics, diagnostics, quantity ←"));
     let line = line.expect("the order of rooms is drawn");
     let rooms = |step: &str| step.split(',').map(|room| room.trim().to_owned()).collect();
     line.split('←').map(rooms).collect()
@@ -76,6 +76,20 @@ fn targets_see_the_waist_alone() {
             let is_allowed =
                 ["compiled", "target", "diagnostics", "Compiled", "FunctionId"].contains(&&*other);
             assert!(is_allowed, "{}: a target must not see `{other}`", path.display());
+        }
+    }
+}
+
+/// Mechanics are formulas and facts: no names of a declaration, no spans, no tokens.
+#[test]
+fn mechanics_know_no_tokens() {
+    let mut found = Vec::new();
+    files(&root().join("mbs-macro/codegen/src/mechanics"), &mut found);
+    assert!(found.len() > 5, "{}", found.len());
+    for path in found {
+        let text = fs::read_to_string(&path).expect("a text");
+        for library in ["proc_macro", "syn::", "quote"] {
+            assert!(!text.contains(library), "{}: no `{library}` here", path.display());
         }
     }
 }

@@ -15,6 +15,9 @@
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
 //! | `target` | tokens, or C | what is written computes what was checked |
 //!
+//! `mechanics` is no stage: formulas and facts of joints, forces and equations, which the
+//! first stages read and `derive` puts together.
+//!
 //! Errors of a stage are collected and shown together; a stage with errors is
 //! the last.
 #![forbid(unsafe_code)]
@@ -24,6 +27,7 @@ mod compose;
 mod derive;
 mod diagnostics;
 mod independence;
+mod mechanics;
 mod model;
 mod plan;
 mod quantity;

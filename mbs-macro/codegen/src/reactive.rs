@@ -84,7 +84,7 @@ pub fn forces(
     let positive = model.arena.mul(positive, solved);
     let growth = model.arena.powi(positive, -1);
     for (at, force) in solution.into_iter().enumerate() {
-        for (coordinate, slope) in model.reactive_loads[at].along.clone() {
+        for (coordinate, slope) in model.reactive_loads[at].work.along.clone() {
             let value = model.arena.mul(force, slope);
             values[coordinate] = model.arena.add(values[coordinate], value);
         }
@@ -109,7 +109,7 @@ impl System<'_> {
         let ([load], [response]) = (self.model.reactive_loads.as_slice(), self.responses.as_slice()) else {
             return STEPS;
         };
-        let force = load.force;
+        let force = load.work.force;
         let arena = &mut self.model.arena;
         let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
         let slope = arena.derivative(force, &direction);
@@ -119,7 +119,7 @@ impl System<'_> {
         }
         let has_kink = |node: &Expr| {
             let is_kinked = match arena.node(*node) {
-                Node::Call(function, _) | Node::Call2(function, ..) => is_piecewise(*function),
+                Node::Call(function, _) | Node::Call2(function, ..) => function.row().is_piecewise,
                 _ => false,
             };
             is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))
@@ -135,7 +135,7 @@ impl System<'_> {
         let multipliers = self.multipliers(at);
         let mut rows = Vec::new();
         for row in 0..count {
-            let load = self.model.reactive_loads[row].force;
+            let load = self.model.reactive_loads[row].work.force;
             let arena = &mut self.model.arena;
             // (1 − f′ G) f⁺ = f(λ) − f′ G f, with λ and f of before the step
             let mut right = vec![(arena.substitute(load, &multipliers), Number::ONE)];
@@ -160,7 +160,7 @@ impl System<'_> {
         let multipliers = self.multipliers(solution);
         let mut solved = self.model.arena.one();
         for (row, &force) in solution.iter().enumerate() {
-            let law = self.model.reactive_loads[row].force;
+            let law = self.model.reactive_loads[row].work.force;
             let arena = &mut self.model.arena;
             let lawful = arena.substitute(law, &multipliers);
             let rest = arena.sub(force, lawful);
@@ -235,11 +235,6 @@ impl System<'_> {
     }
 }
 
-/// Whether a function is made of smooth pieces.
-fn is_piecewise(function: Function) -> bool {
-    matches!(function, Function::Abs | Function::Sign | Function::Min | Function::Max | Function::Greater)
-}
-
 /// λ₀: the multipliers without the loads that depend on them.
 fn reactions_without(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Multipliers {
     let forces = equations.forces.iter().enumerate();
@@ -250,7 +245,7 @@ fn reactions_without(model: &mut Model, equations: &Equations, factorization: &F
 
 /// G Dᵢ: the multipliers for the load i alone, of size 1.
 fn response(model: &mut Model, factorization: &Factorization, load: usize) -> Multipliers {
-    let along = model.reactive_loads[load].along.iter();
+    let along = model.reactive_loads[load].work.along.iter();
     let rhs = along.map(|&(at, slope)| (Unknown::Coordinate(at), slope)).collect();
     multipliers_for(model, factorization, &rhs)
 }
@@ -263,7 +258,7 @@ fn multipliers_for(
     let solution = factorization.solve(&mut model.arena, rhs);
     let mut multipliers = Multipliers::new();
     for load in &model.reactive_loads {
-        for symbol in model.arena.symbols_in(load.force) {
+        for symbol in model.arena.symbols_in(load.work.force) {
             if let Meaning::Multiplier(row) = model.meanings[symbol.index()] {
                 let value = solution.get(&Unknown::Row(row)).copied().unwrap_or(model.arena.zero());
                 multipliers.insert(symbol, model.arena.share(value));

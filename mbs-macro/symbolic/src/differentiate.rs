@@ -4,8 +4,10 @@ use std::collections::HashMap;
 
 use rustc_hash::FxHashMap;
 
+use crate::algebra::{Algebra, Scalar};
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
+use crate::operators::Function;
 use crate::spline::next_order;
 
 /// The derivative of a product of n factors has n terms of n factors, and the next one n
@@ -51,14 +53,14 @@ impl Arena {
                 if self.is_zero(known[&x]) {
                     return self.zero();
                 }
-                let [dx, _] = (function.row().partials)(self, x, x, expr);
+                let [dx, _] = self.partials(function, x, x, expr);
                 self.mul(dx, known[&x])
             }
             Node::Call2(function, x, y) => {
                 if self.is_zero(known[&x]) && self.is_zero(known[&y]) {
                     return self.zero();
                 }
-                let [dx, dy] = (function.row().partials)(self, x, y, expr);
+                let [dx, dy] = self.partials(function, x, y, expr);
                 let (along_x, along_y) = (self.mul(dx, known[&x]), self.mul(dy, known[&y]));
                 self.add(along_x, along_y)
             }
@@ -74,6 +76,13 @@ impl Arena {
             }
             Node::Shared(x) => known[&x],
         }
+    }
+
+    /// ∂f/∂x and ∂f/∂y where f(x, y) is this value.
+    fn partials(&mut self, function: Function, x: Expr, y: Expr, value: Expr) -> [Expr; 2] {
+        let algebra = Algebra::new(self);
+        let [x, y, value] = [x, y, value].map(|expr| algebra.scalar(expr));
+        (function.row().partials)(x, y, value).map(Scalar::expr)
     }
 
     /// (Π fᵢ^eᵢ)′ from the derivatives of the factors.

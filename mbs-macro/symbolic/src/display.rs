@@ -47,8 +47,7 @@ impl Arena {
             Node::Product(factors) => self.write_product(out, factors, names),
             Node::Call(function, x) => self.write_call(out, function.row().name, &[*x], names),
             Node::Call2(function, x, y) => {
-                let name = function.row().name;
-                self.write_call(out, if name.is_empty() { "greater" } else { name }, &[*x, *y], names);
+                self.write_call(out, function.row().name, &[*x, *y], names);
             }
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());

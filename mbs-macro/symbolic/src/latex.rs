@@ -3,6 +3,7 @@
 use crate::abbreviated::Names;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
+use crate::operators::{Function, Latex, Row};
 
 /// Greek letters that names may begin with, longer ones first.
 const GREEK: &[&str] = &[
@@ -38,8 +39,8 @@ impl Arena {
             Node::Symbol(symbol) => (symbol_name(self.name(*symbol)), Binding::Power),
             Node::Sum(constant, terms) => self.typeset_sum(*constant, terms, names),
             Node::Product(factors) => self.typeset_product(factors, names),
-            Node::Call(function, x) => return self.typeset_call(function.row().name, &[*x], names),
-            Node::Call2(function, x, y) => return self.typeset_call(function.row().name, &[*x, *y], names),
+            Node::Call(function, x) => return self.typeset_call(*function, &[*x], names),
+            Node::Call2(function, x, y) => return self.typeset_call(*function, &[*x, *y], names),
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
                 let name = symbol_name(&self.splines()[spline.index()].name);
@@ -115,18 +116,16 @@ impl Arena {
         }
     }
 
-    fn typeset_call(&self, name: &str, arguments: &[Expr], names: &Names) -> String {
-        match (name, arguments) {
-            ("sqrt", [x]) => format!(r"\sqrt{{{}}}", self.typeset(*x, Binding::Sum, names)),
-            ("abs", [x]) => format!(r"\left|{}\right|", self.typeset(*x, Binding::Sum, names)),
-            ("sin" | "cos" | "tan" | "tanh" | "exp" | "ln", [x]) => {
-                format!(r"\{name} {}", self.argument(*x, names))
+    fn typeset_call(&self, function: Function, arguments: &[Expr], names: &Names) -> String {
+        let Row { name, latex, .. } = function.row();
+        match (latex, arguments) {
+            (Latex::Around(before, behind), [x]) => {
+                format!("{before}{}{behind}", self.typeset(*x, Binding::Sum, names))
             }
-            ("asin" | "acos" | "atan", [x]) => format!(r"\arc{} {}", &name[1..], self.argument(*x, names)),
+            (Latex::Operator(operator), [x]) => format!("{operator} {}", self.argument(*x, names)),
             _ => {
                 let arguments: Vec<_> =
                     arguments.iter().map(|&x| self.typeset(x, Binding::Sum, names)).collect();
-                let name = if name.is_empty() { "greater" } else { name };
                 format!(r"\operatorname{{{name}}}\left({}\right)", arguments.join(", "))
             }
         }

@@ -36,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 mod abbreviated;
+mod algebra;
 mod arena;
 mod collected;
 mod construct;
@@ -58,6 +59,7 @@ mod spline;
 mod substitute;
 pub mod units;
 
+pub use algebra::{Algebra, Scalar, Vector};
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
 pub use eliminate::{
     Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
@@ -67,7 +69,7 @@ pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use number::Number;
-pub use operators::{Function, Parity, Row, TABLE as FUNCTIONS};
+pub use operators::{Function, Latex, Parity, Partials, Range, Row, TABLE as FUNCTIONS};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
 pub use sin_cos::SinCos;

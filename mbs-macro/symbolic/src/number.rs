@@ -185,6 +185,12 @@ impl std::ops::Neg for Number {
     }
 }
 
+impl From<i64> for Number {
+    fn from(value: i64) -> Self {
+        Self::integer(value)
+    }
+}
+
 impl From<f64> for Number {
     /// An integer if it is one exactly, else a float.
     fn from(x: f64) -> Self {

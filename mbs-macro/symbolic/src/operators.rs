@@ -1,7 +1,6 @@
 //! The elementary functions, one row of a table each.
 
-use crate::arena::{Arena, Expr};
-use crate::number::Number;
+use crate::algebra::Scalar;
 
 /// An elementary function of one or two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -46,20 +45,31 @@ pub enum Function {
 pub struct Row {
     /// The function itself.
     pub function: Function,
-    /// How it is written in the language; empty if it cannot be written there.
+    /// Its name.
     pub name: &'static str,
+    /// Whether the language has it, by that name.
+    pub is_word: bool,
     /// One or two.
     pub arity: usize,
+    /// Behaviour under x → −x.
+    pub parity: Parity,
+    /// Where its values are.
+    pub range: Range,
+    /// Whether it is made of pieces: its slope, or itself, jumps.
+    pub is_piecewise: bool,
+    /// Its name in C's `math.h`, for `double`, if it stands there.
+    pub c: Option<&'static str>,
+    /// How it is typeset.
+    pub latex: Latex,
     /// Its value; the second argument is ignored where `arity` is 1.
     pub value: fn(f64, f64) -> f64,
     /// Partial derivatives with respect to both arguments (the second 0 where
     /// `arity` is 1), given the arguments and the value.
-    pub partials: fn(&mut Arena, Expr, Expr, Expr) -> [Expr; 2],
-    /// Behaviour under x → −x.
-    pub parity: Parity,
-    /// Its name in C's `math.h`, for `double`, if it stands there.
-    pub c: Option<&'static str>,
+    pub partials: Partials,
 }
+
+/// From x, y and f(x, y): ∂f/∂x and ∂f/∂y.
+pub type Partials = for<'a> fn(Scalar<'a>, Scalar<'a>, Scalar<'a>) -> [Scalar<'a>; 2];
 
 /// f(−x) = −f(x), f(x), or neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,31 +82,106 @@ pub enum Parity {
     Neither,
 }
 
+/// Where the values of a function are, whatever its arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// anywhere
+    All,
+    /// 0 ≤ f(x)
+    NotNegative,
+    /// −1 ≤ f(x) ≤ 1
+    Unit,
+}
+
+/// How a function is typeset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Latex {
+    /// By this operator before its argument.
+    Operator(&'static str),
+    /// By what stands before and behind its argument.
+    Around(&'static str, &'static str),
+    /// By its name and arguments in parentheses.
+    Name,
+}
+
 use Function as F;
+use Latex::{Around, Name, Operator};
 use Parity::{Even, Neither, Odd};
+use Range::{All, NotNegative, Unit};
 
 /// Derivatives are those of the smooth pieces: |x|′ = sign x with 0 at 0,
 /// sign′ = 0, and `min`, `max` take the slope of their second argument where
 /// both are equal.
 #[rustfmt::skip]
 pub const TABLE: &[Row] = &[
-    Row { function: F::Sin,  name: "sin",  arity: 1, parity: Odd,     c: Some("sin"),   value: |x, _| x.sin(),  partials: |a, x, _, _| { let d = a.call(F::Cos, x); one(a, d) } },
-    Row { function: F::Cos,  name: "cos",  arity: 1, parity: Even,    c: Some("cos"),   value: |x, _| x.cos(),  partials: |a, x, _, _| { let s = a.call(F::Sin, x); let d = a.neg(s); one(a, d) } },
-    Row { function: F::Tan,  name: "tan",  arity: 1, parity: Odd,     c: Some("tan"),   value: |x, _| x.tan(),  partials: |a, _, _, f| { let d = polynomial(a, f, 1, 1); one(a, d) } },
-    Row { function: F::Asin, name: "asin", arity: 1, parity: Odd,     c: Some("asin"),  value: |x, _| x.asin(), partials: |a, x, _, _| { let d = inverse_root(a, x); one(a, d) } },
-    Row { function: F::Acos, name: "acos", arity: 1, parity: Neither, c: Some("acos"),  value: |x, _| x.acos(), partials: |a, x, _, _| { let r = inverse_root(a, x); let d = a.neg(r); one(a, d) } },
-    Row { function: F::Atan, name: "atan", arity: 1, parity: Odd,     c: Some("atan"),  value: |x, _| x.atan(), partials: |a, x, _, _| { let p = polynomial(a, x, 1, 1); let d = a.powi(p, -1); one(a, d) } },
-    Row { function: F::Sqrt, name: "sqrt", arity: 1, parity: Neither, c: Some("sqrt"),  value: |x, _| x.sqrt(), partials: |a, _, _, f| { let r = a.powi(f, -1); let d = a.scale(r, Number::ratio(1, 2)); one(a, d) } },
-    Row { function: F::Exp,  name: "exp",  arity: 1, parity: Neither, c: Some("exp"),   value: |x, _| x.exp(),  partials: |a, _, _, f| one(a, f) },
-    Row { function: F::Ln,   name: "ln",   arity: 1, parity: Neither, c: Some("log"),   value: |x, _| x.ln(),   partials: |a, x, _, _| { let d = a.powi(x, -1); one(a, d) } },
-    Row { function: F::Tanh, name: "tanh", arity: 1, parity: Odd,     c: Some("tanh"),  value: |x, _| x.tanh(), partials: |a, _, _, f| { let d = polynomial(a, f, 1, -1); one(a, d) } },
-    Row { function: F::Abs,  name: "abs",  arity: 1, parity: Even,    c: Some("fabs"),  value: |x, _| x.abs(),  partials: |a, x, _, _| { let d = a.call(F::Sign, x); one(a, d) } },
-    Row { function: F::Sign, name: "sign", arity: 1, parity: Odd,     c: None,          value: |x, _| sign(x),  partials: |a, _, _, _| [a.zero(), a.zero()] },
-    Row { function: F::Atan2, name: "atan2", arity: 2, parity: Neither, c: Some("atan2"), value: f64::atan2, partials: atan2_partials },
-    Row { function: F::Min,   name: "min",   arity: 2, parity: Neither, c: None,          value: |x, y| if x < y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, y, x) },
-    Row { function: F::Max,   name: "max",   arity: 2, parity: Neither, c: None,          value: |x, y| if x > y || x.is_nan() { x } else { y }, partials: |a, x, y, _| select(a, x, y) },
-    Row { function: F::Pow,   name: "pow",   arity: 2, parity: Neither, c: Some("pow"),   value: f64::powf, partials: pow_partials },
-    Row { function: F::Greater, name: "",    arity: 2, parity: Neither, c: None,          value: |x, y| f64::from(u8::from(x > y)), partials: |a, _, _, _| [a.zero(), a.zero()] },
+    Row {
+        function: F::Sin, name: "sin", is_word: true, arity: 1, parity: Odd, range: Unit, is_piecewise: false,
+        c: Some("sin"), latex: Operator(r"\sin"), value: |x, _| x.sin(), partials: |x, _, _| one(x.cos()),
+    },
+    Row {
+        function: F::Cos, name: "cos", is_word: true, arity: 1, parity: Even, range: Unit, is_piecewise: false,
+        c: Some("cos"), latex: Operator(r"\cos"), value: |x, _| x.cos(), partials: |x, _, _| one(-x.sin()),
+    },
+    Row {
+        function: F::Tan, name: "tan", is_word: true, arity: 1, parity: Odd, range: All, is_piecewise: false,
+        c: Some("tan"), latex: Operator(r"\tan"), value: |x, _| x.tan(), partials: |_, _, f| one(1 + f.squared()),
+    },
+    Row {
+        function: F::Asin, name: "asin", is_word: true, arity: 1, parity: Odd, range: All, is_piecewise: false,
+        c: Some("asin"), latex: Operator(r"\arcsin"), value: |x, _| x.asin(), partials: |x, _, _| one((1 - x.squared()).sqrt().powi(-1)),
+    },
+    Row {
+        function: F::Acos, name: "acos", is_word: true, arity: 1, parity: Neither, range: All, is_piecewise: false,
+        c: Some("acos"), latex: Operator(r"\arccos"), value: |x, _| x.acos(), partials: |x, _, _| one(-(1 - x.squared()).sqrt().powi(-1)),
+    },
+    Row {
+        function: F::Atan, name: "atan", is_word: true, arity: 1, parity: Odd, range: All, is_piecewise: false,
+        c: Some("atan"), latex: Operator(r"\arctan"), value: |x, _| x.atan(), partials: |x, _, _| one((1 + x.squared()).powi(-1)),
+    },
+    Row {
+        function: F::Sqrt, name: "sqrt", is_word: true, arity: 1, parity: Neither, range: NotNegative, is_piecewise: false,
+        c: Some("sqrt"), latex: Around(r"\sqrt{", "}"), value: |x, _| x.sqrt(), partials: |_, _, f| one(f.powi(-1) / 2),
+    },
+    Row {
+        function: F::Exp, name: "exp", is_word: true, arity: 1, parity: Neither, range: NotNegative, is_piecewise: false,
+        c: Some("exp"), latex: Operator(r"\exp"), value: |x, _| x.exp(), partials: |_, _, f| one(f),
+    },
+    Row {
+        function: F::Ln, name: "ln", is_word: true, arity: 1, parity: Neither, range: All, is_piecewise: false,
+        c: Some("log"), latex: Operator(r"\ln"), value: |x, _| x.ln(), partials: |x, _, _| one(x.powi(-1)),
+    },
+    Row {
+        function: F::Tanh, name: "tanh", is_word: true, arity: 1, parity: Odd, range: Unit, is_piecewise: false,
+        c: Some("tanh"), latex: Operator(r"\tanh"), value: |x, _| x.tanh(), partials: |_, _, f| one(1 - f.squared()),
+    },
+    Row {
+        function: F::Abs, name: "abs", is_word: true, arity: 1, parity: Even, range: NotNegative, is_piecewise: true,
+        c: Some("fabs"), latex: Around(r"\left|", r"\right|"), value: |x, _| x.abs(), partials: |x, _, _| one(x.sign()),
+    },
+    Row {
+        function: F::Sign, name: "sign", is_word: true, arity: 1, parity: Odd, range: Unit, is_piecewise: true,
+        c: None, latex: Name, value: |x, _| sign(x), partials: |x, _, _| [x.algebra().number(0); 2],
+    },
+    Row {
+        function: F::Atan2, name: "atan2", is_word: true, arity: 2, parity: Neither, range: All, is_piecewise: false,
+        c: Some("atan2"), latex: Name, value: f64::atan2, partials: atan2_partials,
+    },
+    Row {
+        function: F::Min, name: "min", is_word: true, arity: 2, parity: Neither, range: All, is_piecewise: true,
+        c: None, latex: Name, value: |x, y| if x < y || x.is_nan() { x } else { y }, partials: |x, y, _| select(y, x),
+    },
+    Row {
+        function: F::Max, name: "max", is_word: true, arity: 2, parity: Neither, range: All, is_piecewise: true,
+        c: None, latex: Name, value: |x, y| if x > y || x.is_nan() { x } else { y }, partials: |x, y, _| select(x, y),
+    },
+    Row {
+        function: F::Pow, name: "pow", is_word: true, arity: 2, parity: Neither, range: All, is_piecewise: false,
+        c: Some("pow"), latex: Name, value: f64::powf, partials: pow_partials,
+    },
+    Row {
+        function: F::Greater, name: "greater", is_word: false, arity: 2, parity: Neither, range: Unit, is_piecewise: true,
+        c: None, latex: Name, value: |x, y| f64::from(u8::from(x > y)), partials: |x, _, _| [x.algebra().number(0); 2],
+    },
 ];
 
 impl Function {
@@ -108,7 +193,7 @@ impl Function {
 
     /// The function written `name` in the language.
     pub fn named(name: &str) -> Option<Self> {
-        TABLE.iter().find(|row| !row.name.is_empty() && row.name == name).map(|row| row.function)
+        TABLE.iter().find(|row| row.is_word && row.name == name).map(|row| row.function)
     }
 }
 
@@ -117,53 +202,30 @@ fn sign(x: f64) -> f64 {
 }
 
 /// The partials of a function of one argument.
-fn one(arena: &Arena, derivative: Expr) -> [Expr; 2] {
-    [derivative, arena.zero()]
-}
-
-/// constant + coefficient·x²
-fn polynomial(arena: &mut Arena, x: Expr, constant: i64, coefficient: i64) -> Expr {
-    let square = arena.powi(x, 2);
-    let scaled = arena.scale(square, Number::integer(coefficient));
-    let constant = arena.number(Number::integer(constant));
-    arena.add(constant, scaled)
-}
-
-/// 1/√(1 − x²)
-fn inverse_root(arena: &mut Arena, x: Expr) -> Expr {
-    let inner = polynomial(arena, x, 1, -1);
-    let root = arena.call(F::Sqrt, inner);
-    arena.powi(root, -1)
+fn one(slope: Scalar<'_>) -> [Scalar<'_>; 2] {
+    [slope, slope.algebra().number(0)]
 }
 
 /// Slopes of `max`-like functions: [larger > smaller, its complement], in the
 /// order of the function's own arguments.
-fn select(arena: &mut Arena, larger: Expr, smaller: Expr) -> [Expr; 2] {
-    let first = arena.call2(F::Greater, larger, smaller);
-    let one = arena.one();
-    [first, arena.sub(one, first)]
+fn select<'a>(larger: Scalar<'a>, smaller: Scalar<'a>) -> [Scalar<'a>; 2] {
+    let first = larger.greater(smaller);
+    [first, 1 - first]
 }
 
-fn atan2_partials(arena: &mut Arena, y: Expr, x: Expr, _: Expr) -> [Expr; 2] {
-    let (yy, xx) = (arena.powi(y, 2), arena.powi(x, 2));
-    let squares = arena.add(yy, xx);
-    let inverse = arena.powi(squares, -1);
-    let dy = arena.mul(x, inverse);
-    let dx = arena.mul(y, inverse);
-    [dy, arena.neg(dx)]
+/// x/(x² + y²) and −y/(x² + y²), of the angle of (x, y).
+fn atan2_partials<'a>(y: Scalar<'a>, x: Scalar<'a>, _: Scalar<'a>) -> [Scalar<'a>; 2] {
+    let inverse = (y.squared() + x.squared()).powi(-1);
+    [x * inverse, -(y * inverse)]
 }
 
 /// ∂xʸ = y xʸ⁻¹, xʸ ln x; the second only where y is not constant.
-fn pow_partials(arena: &mut Arena, x: Expr, y: Expr, value: Expr) -> [Expr; 2] {
-    let minus_one = arena.number(Number::MINUS_ONE);
-    let lower = arena.add(y, minus_one);
-    let power = arena.pow(x, lower);
-    let dx = arena.mul(y, power);
-    if arena.as_number(y).is_some() {
-        return [dx, arena.zero()];
+fn pow_partials<'a>(x: Scalar<'a>, y: Scalar<'a>, value: Scalar<'a>) -> [Scalar<'a>; 2] {
+    let along_x = y * x.pow(y - 1);
+    if y.number().is_some() {
+        return one(along_x);
     }
-    let ln = arena.call(F::Ln, x);
-    [dx, arena.mul(value, ln)]
+    [along_x, value * x.ln()]
 }
 
 #[cfg(test)]

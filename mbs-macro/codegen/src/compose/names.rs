@@ -128,9 +128,11 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
                     Clause::Along(value) | Clause::Radii(value) | Clause::Teeth(value) => {
                         in_vector(value, visit)
                     }
-                    Clause::At(value) | Clause::Equals(value) | Clause::Radius(value) => {
-                        in_formula(value, visit)
-                    }
+                    Clause::Angle(value)
+                    | Clause::Place(value)
+                    | Clause::Distance(value)
+                    | Clause::Profile(value)
+                    | Clause::Radius(value) => in_formula(value, visit),
                     Clause::Carrier(body) => visit(Mention::Name(body)),
                 }
             }

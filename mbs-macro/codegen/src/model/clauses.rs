@@ -1,17 +1,17 @@
 //! What a joint says behind its places, as expressions.
 
-use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::Check;
 use super::hints::in_radians;
-use super::joints::{self, Connection};
 use super::names::Place;
 use super::places::GROUND;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Clause, Formula, Joint, JointKind, Vector};
+use crate::mechanics::joints::{Connection, Part};
+use crate::syntax::{Clause, Formula, Joint, Vector};
 
 const COINCIDENT: &str = "points that coincide are a `revolute` joint";
 
@@ -48,14 +48,19 @@ impl Resolver<'_> {
         for clause in &joint.clauses {
             match clause {
                 Clause::Along(vector) => along = self.direction_of(&joint.name, vector),
-                Clause::At(formula) => at = self.offset(joint, formula),
-                Clause::Equals(formula) if joint.kind == JointKind::Cam => {
+                Clause::Angle(formula) => at = self.angle_between(formula),
+                Clause::Place(formula) => {
+                    let what = ("the place at which the angles are equal", Dimension::LENGTH);
+                    at = self.scope.formula_of(formula, Place::Property, what, &mut self.errors);
+                }
+                Clause::Profile(formula) => {
                     value = places.and_then(|(first, second)| {
-                        let angle = joints::polar_angle(&mut self.scope.arena, &first, &second);
+                        let algebra = Algebra::new(&mut self.scope.arena);
+                        let angle = first.on(&algebra).polar_angle_of(second.on(&algebra)).expr();
                         self.polar_profile(joint, formula, angle)
                     });
                 }
-                Clause::Equals(formula) => value = self.distance_of(joint, formula),
+                Clause::Distance(formula) => value = self.distance_of(joint, formula),
                 Clause::Radius(formula) => {
                     sizes = self.size(joint, formula, &RADIUS).map(|radius| [radius; 2]);
                 }
@@ -73,7 +78,7 @@ impl Resolver<'_> {
         let connection = Connection {
             first,
             second,
-            along: along?,
+            along: along?.into(),
             at: at?,
             value: value?,
             sizes: sizes?,
@@ -107,17 +112,9 @@ impl Resolver<'_> {
         Some([x.expr, y.expr])
     }
 
-    /// `at`: a length where something moves along a line, else an angle.
-    fn offset(&mut self, joint: &Joint, formula: &Formula) -> Option<Expr> {
-        let what = match joint.kind {
-            JointKind::Rack | JointKind::Rolling => {
-                ("the place at which the angles are equal", Dimension::LENGTH)
-            }
-            _ => {
-                self.errors.take(in_radians(formula))?;
-                ("the angle between the bodies", Dimension::NONE)
-            }
-        };
+    fn angle_between(&mut self, formula: &Formula) -> Option<Expr> {
+        self.errors.take(in_radians(formula))?;
+        let what = ("the angle between the bodies", Dimension::NONE);
         self.scope.formula_of(formula, Place::Property, what, &mut self.errors)
     }
 
@@ -174,20 +171,12 @@ impl Resolver<'_> {
 
     /// What a joint turns has to be able to.
     fn turns(&mut self, joint: &Joint, connection: &Connection) -> bool {
-        use JointKind::{Belt, CrossedBelt, Gear, InternalGear, Rack, Rolling};
-        let Connection { first, second, carrier, .. } = connection;
-        let turning: &[(&Ident, Expr, Expr)] = match joint.kind {
-            Gear | InternalGear | Belt | CrossedBelt => {
-                &[(&joint.first.body, first.angle, *carrier), (&joint.second.body, second.angle, *carrier)]
-            }
-            Rack | Rolling => &[(&joint.first.body, first.angle, second.angle)],
-            _ => &[],
-        };
         let mut all = true;
-        for &(body, angle, reference) in turning {
-            let relative = self.scope.arena.sub(angle, reference);
+        for &(part, against) in joint.kind.turns {
+            let angle = connection.angle(part);
+            let relative = self.scope.arena.sub(angle, connection.angle(against));
             if self.coordinates_in(relative) == 0 {
-                self.errors.push(still(joint, body, self.coordinates_in(angle) > 0));
+                self.errors.push(still(joint, (part, against), self.coordinates_in(angle) > 0));
                 all = false;
             }
         }
@@ -196,17 +185,19 @@ impl Resolver<'_> {
 }
 
 /// The error for a body that does not turn relative to what it should.
-fn still(joint: &Joint, body: &Ident, has_angle: bool) -> Diagnostic {
+fn still(joint: &Joint, (part, against): (Part, Part), has_angle: bool) -> Diagnostic {
     let name = &joint.name;
+    let body = if part == Part::First { &joint.first.body } else { &joint.second.body };
     if has_angle {
         return Diagnostic::new(body.span(), format!("`{body}` cannot turn relative to itself"))
             .help(format!("`{name}` connects two bodies; a carrier is a third one"));
     }
-    let is_on_line = matches!(joint.kind, JointKind::Rack | JointKind::Rolling);
-    let help = match body == GROUND {
-        true if is_on_line => "the first place is that of the body that turns".to_owned(),
-        true => "what meshes with the ground needs a carrier that turns: `carrier arm`".to_owned(),
-        false => format!("give it an angle: `body {body} (angle = phi) {{ inertia = …; }}`"),
+    let help = match (body == GROUND, against) {
+        (true, Part::Carrier) => {
+            "what meshes with the ground needs a carrier that turns: `carrier arm`".to_owned()
+        }
+        (true, _) => "the first place is that of the body that turns".to_owned(),
+        (false, _) => format!("give it an angle: `body {body} (angle = phi) {{ inertia = …; }}`"),
     };
     Diagnostic::new(body.span(), format!("`{body}` does not turn, as `{name}` needs")).help(help)
 }

@@ -1,85 +1,83 @@
 //! Joints between places: names of their rows, then the rows themselves.
 
-use mbs_symbolic::{Expr, Symbol};
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Algebra, Expr, Symbol};
 use proc_macro2::Ident;
 
-use super::joints::{self, JointRow};
 use super::places::GROUND;
 use super::reactions::KnownJoint;
 use super::resolver::Resolver;
 use super::{Constraint, Meaning, Source};
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Joint, JointKind};
+use crate::mechanics::joints::{Holds, Mend, Row};
+use crate::syntax::Joint;
 
 impl Resolver<'_> {
-    /// The rows that the joint will have. A joint that holds an angle between
-    /// bodies that do not turn has no row for it.
+    /// Enters the rows that the joint will have.
     pub(super) fn declare_joint(&mut self, joint: &Joint) {
-        for suffix in self.suffixes(joint) {
-            self.declare_row(&row_name(joint, suffix), false);
+        let declared = self.rows_of(joint);
+        for row in &declared {
+            self.declare_row(&row_name(joint, row), false);
         }
-        let multipliers: Vec<_> = self
-            .suffixes(joint)
-            .into_iter()
-            .filter_map(|suffix| self.scope.rows.get(&row_name(joint, suffix).to_string()))
-            .map(|row| row.multiplier)
-            .collect();
+        let multiplier = |row| {
+            let known = self.scope.rows.get(&row_name(joint, row).to_string())?;
+            Some((row, known.multiplier))
+        };
+        let rows = declared.into_iter().filter_map(multiplier).collect();
         let ends = [joint.first.clone(), joint.second.clone()];
         let (kind, span) = (joint.kind, joint.name.span());
-        let known = KnownJoint { kind, span, ends, multipliers, connection: None };
+        let known = KnownJoint { kind, span, ends, rows, connection: None };
         self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 
-    fn suffixes(&self, joint: &Joint) -> Vec<&'static str> {
+    /// The rows that a joint has. One that holds an angle between bodies that do not turn
+    /// has no row for it, if it has others.
+    fn rows_of(&self, joint: &Joint) -> Vec<&'static Row> {
         let turns = |body: &Ident| match self.scope.bodies.get(&body.to_string()) {
             Some(frame) => self.scope.arena.as_number(frame.angle).is_none(),
             None => true,
         };
-        let any_turns = turns(&joint.first.body) || turns(&joint.second.body);
-        joints::row_suffixes(joint.kind)
-            .iter()
-            .copied()
-            .filter(|suffix| any_turns || *suffix != "_angle")
-            .collect()
+        let is_kept = |row: &&Row| row.holds != Holds::Angle;
+        let others: Vec<_> = joint.kind.rows.iter().filter(is_kept).collect();
+        if others.is_empty() || turns(&joint.first.body) || turns(&joint.second.body) {
+            return joint.kind.rows.iter().collect();
+        }
+        others
     }
 
     pub(super) fn resolve_joint(&mut self, joint: &Joint, doc: &str) {
-        let rows = self.joint_rows(joint);
-        for (at, suffix) in self.suffixes(joint).into_iter().enumerate() {
-            let name = row_name(joint, suffix);
-            let row = rows.as_ref().and_then(|rows| rows.get(at));
-            let is_restricting = row.is_some_and(|row| self.depends_on_coordinates(row.phi));
-            if row.is_some() && !is_restricting {
-                let error = self.useless_row(joint, suffix);
+        let rows = self.rows_of(joint);
+        let equations = self.equations(joint, &rows);
+        for (at, row) in rows.into_iter().enumerate() {
+            let name = row_name(joint, row).to_string();
+            let equation = equations.as_ref().map(|equations| equations[at]);
+            let is_restricting = equation.is_some_and(|(phi, _)| self.depends_on_coordinates(phi));
+            if equation.is_some() && !is_restricting {
+                let error = self.useless_row(joint, row);
                 self.errors.push(error);
             }
-            if let Some(known) = self.scope.rows.get_mut(&name.to_string()) {
+            if let Some(known) = self.scope.rows.get_mut(&name) {
                 known.is_broken = !is_restricting;
-                known.dimension = row.map(|row| row.dimension);
-                known.phi = row.map(|row| row.phi);
+                known.dimension = equation.map(|(_, dimension)| dimension);
+                known.phi = equation.map(|(phi, _)| phi);
             }
-            if let (Some(JointRow { phi, dimension }), true) = (row, is_restricting) {
-                let (name, doc, span) = (name.to_string(), doc.to_owned(), joint.name.span());
-                let (source, phi, dimension) = (source(joint), *phi, *dimension);
-                self.constraints.push(Constraint {
-                    name,
-                    source,
-                    doc,
-                    span,
-                    is_drive: false,
-                    phi,
-                    dimension,
-                });
+            if let (Some((phi, dimension)), true) = (equation, is_restricting) {
+                let (doc, span) = (doc.to_owned(), joint.name.span());
+                let (source, is_drive) = (source(joint), false);
+                self.constraints.push(Constraint { name, source, doc, span, is_drive, phi, dimension });
             }
         }
     }
 
-    fn joint_rows(&mut self, joint: &Joint) -> Option<Vec<JointRow>> {
+    /// Φ of each row, with its dimension.
+    fn equations(&mut self, joint: &Joint, rows: &[&Row]) -> Option<Vec<(Expr, Dimension)>> {
         let connection = self.connection(joint)?;
         if let Some(known) = self.scope.joints.get_mut(&joint.name.to_string()) {
             known.connection = Some(connection);
         }
-        Some(joints::rows(&mut self.scope.arena, joint.kind, &connection))
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let joint = connection.on(&algebra);
+        Some(rows.iter().map(|row| ((row.phi)(&joint).expr(), row.dimension(joint.unit))).collect())
     }
 
     pub(super) fn depends_on_coordinates(&self, phi: Expr) -> bool {
@@ -93,33 +91,20 @@ impl Resolver<'_> {
     }
 
     /// The error for a row in which nothing can move.
-    fn useless_row(&self, joint: &Joint, suffix: &str) -> Diagnostic {
-        let what = match suffix {
-            "_x" => " along x",
-            "_y" => " along y",
-            "_normal" => " across its line",
-            "_angle" => " in its angle",
-            _ => "",
-        };
-        let missing = match joint.kind {
-            JointKind::Revolute | JointKind::Rolling => self.missing_coordinate(&joint.first.body),
-            _ => None,
-        };
-        let help = match (joint.kind, missing) {
-            (JointKind::Rolling, Some(missing)) => {
-                format!(
-                    "{missing}: the contact holds the wheel at its height, so that it needs both positions"
-                )
-            }
-            (JointKind::Revolute, Some(missing)) => format!("remove the joint, or {missing}"),
-            (JointKind::Revolute | JointKind::Rolling, None) => {
+    fn useless_row(&self, joint: &Joint, row: &Row) -> Diagnostic {
+        let missing = self.missing_coordinate(&joint.first.body);
+        let help = match (joint.kind.mend, missing) {
+            (Mend::Remove, _) => "remove the joint: its bodies cannot move otherwise".to_owned(),
+            (Mend::Move(reason), Some(missing)) => format!("{missing}: {reason}"),
+            (Mend::RemoveOrMove, Some(missing)) => format!("remove the joint, or {missing}"),
+            (Mend::Move(_) | Mend::RemoveOrMove, None) => {
                 "remove the joint, or give a body the coordinate that is missing".to_owned()
             }
-            _ => "remove the joint: its bodies cannot move otherwise".to_owned(),
         };
+        let (name, restricts) = (&joint.name, row.restricts);
         let message =
-            format!("joint `{}` restricts nothing{what}: neither of its places can move so", joint.name);
-        Diagnostic::new(joint.name.span(), message).help(help)
+            format!("joint `{name}` restricts nothing{restricts}: neither of its places can move so");
+        Diagnostic::new(name.span(), message).help(help)
     }
 
     /// What to write for a position that a body lacks.
@@ -141,6 +126,6 @@ fn source(joint: &Joint) -> Source {
     Source { kind: "joint", name: joint.name.to_string(), bodies: Some(bodies) }
 }
 
-fn row_name(joint: &Joint, suffix: &str) -> Ident {
-    Ident::new(&format!("{}{suffix}", joint.name), joint.name.span())
+fn row_name(joint: &Joint, row: &Row) -> Ident {
+    Ident::new(&format!("{}{}", joint.name, row.suffix), joint.name.span())
 }

@@ -46,7 +46,7 @@ impl<'a> Resolver<'a> {
             }
             ItemKind::Element(element) => {
                 let ends = element.second.clone().map(|second| [element.first.clone(), second]);
-                self.declare_source(&element.name, element.kind.word(), ends);
+                self.declare_source(&element.name, element.kind.word, ends);
             }
             _ => {}
         }
@@ -156,6 +156,7 @@ impl<'a> Resolver<'a> {
         let text = name.to_string();
         let position = self.scope.symbol(&text, Stage::Variable, Meaning::Coordinate(at));
         let velocity = self.scope.symbol(&format!("der({text})"), Stage::Variable, Meaning::Velocity(at));
+        self.scope.motion.add_coordinate(position, velocity);
         self.scope.symbol(&format!("der(der({text}))"), Stage::Variable, Meaning::Acceleration(at));
         let (unit, dimension) = match direction {
             Direction::Angle => ("rad", Dimension::NONE),
@@ -184,6 +185,7 @@ impl<'a> Resolver<'a> {
         self.row_count += 1;
         let multiplier =
             self.scope.symbol(&format!("lambda({text})"), Stage::Variable, Meaning::Multiplier(position));
+        self.scope.motion.add_multiplier(multiplier);
         let span = name.span();
         let row = Row { position, is_drive, span, multiplier, dimension: None, phi: None, is_broken: false };
         self.scope.rows.insert(text, row);

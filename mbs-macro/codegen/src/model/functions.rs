@@ -3,16 +3,15 @@
 use std::collections::HashMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Function, Number, Symbol};
+use mbs_symbolic::{Algebra, Function, Number, Symbol};
 use proc_macro2::Ident;
 
 use super::Meaning;
 use super::hints::in_radians;
-use super::joints::{self, row_suffixes};
-use super::laws::LAWS;
 use super::measures::MEASURES;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
+use crate::mechanics::laws::LAWS;
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 impl Scope<'_> {
@@ -78,7 +77,9 @@ impl Scope<'_> {
             None => None,
         };
         let (first, second) = (placed(first), placed(second));
-        let expr = joints::distance_between(&mut self.arena, &first?, &second?);
+        let (first, second) = (first?, second?);
+        let algebra = Algebra::new(&mut self.arena);
+        let expr = first.on(&algebra).distance_to(second.on(&algebra)).expr();
         self.allowed(Typed { expr, dimension: Some(Dimension::LENGTH) }, name, place, errors)
     }
 
@@ -201,8 +202,8 @@ impl Scope<'_> {
         };
         let text = row.to_string();
         let Some(known) = self.rows.get(&text) else {
-            let suffixes = self.joints.get(&text).map_or(&[][..], |joint| row_suffixes(joint.kind));
-            let rows: Vec<String> = suffixes.iter().map(|suffix| format!("{text}{suffix}")).collect();
+            let rows = self.joints.get(&text).map_or(&[][..], |joint| joint.kind.rows);
+            let rows: Vec<String> = rows.iter().map(|row| format!("{text}{}", row.suffix)).collect();
             if let [first, ..] = &rows[..] {
                 let message = format!("joint `{text}` has several multipliers: {}", listing(&rows));
                 return Err(Diagnostic::new(row.span(), message).help(format!(
@@ -247,7 +248,7 @@ impl Scope<'_> {
 
 /// The functions of the language.
 fn known<'a>() -> impl Iterator<Item = &'a str> {
-    let elementary = mbs_symbolic::FUNCTIONS.iter().map(|row| row.name).filter(|name| !name.is_empty());
+    let elementary = mbs_symbolic::FUNCTIONS.iter().filter(|row| row.is_word).map(|row| row.name);
     elementary
         .chain(LAWS.iter().map(|law| law.name))
         .chain(["der", "lambda", "effort", "distance"])

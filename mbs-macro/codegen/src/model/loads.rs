@@ -1,15 +1,15 @@
 //! Forces and torques: on a body as vector or torque, or along a coordinate.
 
-use mbs_symbolic::Expr;
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
-use super::joints;
-use super::measures::Exerts;
+use super::ReactiveLoad;
 use super::names::{Place, Value, duplicate};
 use super::resolver::Resolver;
-use super::{Load, Meaning, Work};
 use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::mechanics::elements::Exerts;
+use crate::mechanics::{Applied, Work};
 use crate::syntax::{self, Attachment};
 
 /// λᵀΦ and Qᵀδq are energies.
@@ -90,7 +90,7 @@ impl Resolver<'_> {
         if let Some(value) = self.scope.formula_of(formula, Place::Load, (&what, dimension), &mut self.errors)
         {
             let one = self.scope.arena.one();
-            self.push_work(name, Work { force: value, along: vec![(coordinate, one)], span: name.span() });
+            self.push_work(name, Work { force: value, along: vec![(coordinate, one)] });
             self.exerts(name, Exerts { value, dimension });
         }
     }
@@ -112,7 +112,9 @@ impl Resolver<'_> {
                     self.exerts(load.name, Exerts { value, dimension: ENERGY });
                 }
             }
-            (false, syntax::Load::Vector(vector)) => self.force_on_body(load, placed.position, vector),
+            (false, syntax::Load::Vector(vector)) => {
+                self.force_on_body(load, placed.position.components(), vector)
+            }
             (true, syntax::Load::Vector(vector)) => self.errors.push(
                 Diagnostic::new(vector.span, "a planar torque is a scalar")
                     .help(format!("write `torque … on {name} = …;` with one formula")),
@@ -134,7 +136,8 @@ impl Resolver<'_> {
             Some(frame) => {
                 let angle = self.scope.frame(frame).map(|frame| frame.angle);
                 let (Some(angle), Some(fx), Some(fy)) = (self.errors.take(angle), fx, fy) else { return };
-                let [fx, fy] = joints::rotate(&mut self.scope.arena, angle, [fx, fy]);
+                let algebra = Algebra::new(&mut self.scope.arena);
+                let [fx, fy] = algebra.vector([fx, fy]).rotated(algebra.scalar(angle)).exprs();
                 (Some(fx), Some(fy))
             }
         };
@@ -167,29 +170,22 @@ impl Resolver<'_> {
     /// Adds a force F that does the virtual work F δs: F ∂s/∂q along every
     /// coordinate q; false if s depends on none.
     pub(super) fn apply(&mut self, name: &Ident, force: Expr, moved: Expr) -> bool {
-        let mut along = Vec::new();
-        for symbol in self.scope.arena.symbols_in(moved) {
-            if let Meaning::Coordinate(coordinate) = self.scope.meaning(symbol) {
-                let slope = self.scope.arena.partial(moved, symbol);
-                if !self.scope.arena.is_zero(slope) {
-                    along.push((coordinate, slope));
-                }
-            }
-        }
-        let moves = !along.is_empty();
-        self.push_work(name, Work { force, along, span: name.span() });
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let work = Work::along(&self.scope.motion, algebra.scalar(force), algebra.scalar(moved));
+        let moves = !work.along.is_empty();
+        self.push_work(name, work);
         moves
     }
 
     fn push_work(&mut self, name: &Ident, work: Work) {
-        let is_multiplier = |symbol| matches!(self.scope.meaning(symbol), Meaning::Multiplier(_));
-        if self.scope.arena.symbols_in(work.force).into_iter().any(is_multiplier) {
-            self.reactive_loads.push(work.clone());
-        } else {
-            for &(coordinate, slope) in &work.along {
-                let value = self.scope.arena.mul(work.force, slope);
-                self.loads.push(Load { coordinate, value });
-            }
+        let applied = work.applied(&Algebra::new(&mut self.scope.arena), &self.scope.motion);
+        self.push_applied(name, applied);
+    }
+
+    pub(super) fn push_applied(&mut self, name: &Ident, Applied { work, loads }: Applied) {
+        match loads {
+            Some(loads) => self.loads.extend(loads),
+            None => self.reactive_loads.push(ReactiveLoad { work: work.clone(), span: name.span() }),
         }
         if let Some(source) = self.scope.sources.get_mut(&name.to_string()) {
             source.work.push(work);

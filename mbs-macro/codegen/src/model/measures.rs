@@ -1,17 +1,17 @@
 //! Functions that measure the mechanism: what its elements exert and do, how
 //! fast its points are, how its bodies stand. Those of joints are in `reactions`.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Function, Number};
+use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
-use super::energies::{self, Inertia};
-use super::joints;
 use super::names::{Place, Scope, Typed};
-use super::{Meaning, Work, reactions};
+use super::reactions;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::mechanics::elements::Exerts;
+use crate::mechanics::{Inertia, Work, kinetic, norm, potential};
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// The functions of this file.
@@ -30,10 +30,6 @@ pub const MEASURES: &[&str] = &[
 pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
 pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
 
-/// Below this size the norm of a vector is kept from its kink at 0, so that
-/// its derivative exists there: (1e-12)² in SI units.
-const SOFTENING: f64 = 1e-24;
-
 /// A named force, torque or element.
 pub struct Source {
     /// The word that declares it.
@@ -44,13 +40,6 @@ pub struct Source {
     pub work: Vec<Work>,
     /// The scalar that it exerts, if it has one.
     pub exerts: Option<Exerts>,
-}
-
-/// A tension, a friction force, a torque.
-#[derive(Clone, Copy)]
-pub struct Exerts {
-    pub value: Expr,
-    pub dimension: Dimension,
 }
 
 /// What the energies are made of.
@@ -101,17 +90,16 @@ impl Scope<'_> {
                     .help("rename one of them"));
             }
             (Some(source), None) => {
-                let work = source.work.clone();
-                let powers: Vec<_> = work.iter().map(|work| (self.power_of(work), Number::ONE)).collect();
-                self.arena.sum(&powers)
+                let algebra = &Algebra::new(&mut self.arena);
+                algebra.sum(source.work.iter().map(|work| work.power(algebra, &self.motion))).expr()
             }
             (None, Some(row)) => {
                 let (phi, multiplier) = (row.phi, row.multiplier);
                 let phi = phi.unwrap_or(self.arena.zero());
-                let rate = self.rate_at_rest(phi);
-                let lambda = self.arena.variable(multiplier);
-                let power = self.arena.mul(lambda, rate);
-                self.arena.neg(power)
+                let algebra = Algebra::new(&mut self.arena);
+                let rate = self.motion.rate_at_rest(algebra.scalar(phi));
+                let lambda = algebra.variable(multiplier);
+                (-(lambda * rate)).expr()
             }
             (None, None) => {
                 let known = self.sources.keys().chain(self.rows.keys());
@@ -119,16 +107,6 @@ impl Scope<'_> {
             }
         };
         Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
-    }
-
-    fn power_of(&mut self, work: &Work) -> Expr {
-        let mut terms = Vec::new();
-        for &(coordinate, slope) in &work.along {
-            let velocity = self.velocity(coordinate);
-            terms.push((self.arena.mul(slope, velocity), Number::ONE));
-        }
-        let rate = self.arena.sum(&terms);
-        self.arena.mul(work.force, rate)
     }
 
     /// `force(s)`, `torque(m)`: the scalar that an element exerts.
@@ -173,7 +151,8 @@ impl Scope<'_> {
         let [first, second] = &ends;
         let placed = self.attachment(first, errors).zip(self.attachment(second, errors));
         Ok(placed.map(|(first, second)| {
-            let expr = joints::distance_between(&mut self.arena, &first, &second);
+            let algebra = Algebra::new(&mut self.arena);
+            let expr = first.on(&algebra).distance_to(second.on(&algebra)).expr();
             Typed { expr, dimension: Some(Dimension::LENGTH) }
         }))
     }
@@ -196,8 +175,9 @@ impl Scope<'_> {
             }
         };
         let Some(placed) = self.attachment(&attachment, errors) else { return Ok(None) };
-        let velocity = placed.position.map(|component| self.rate(component));
-        let expr = self.norm(velocity);
+        let algebra = Algebra::new(&mut self.arena);
+        let velocity = placed.on(&algebra).position.map(|component| self.motion.rate(component));
+        let expr = norm(velocity).expr();
         Ok(Some(Typed { expr, dimension: Some(Dimension::of(0, 1, -1)) }))
     }
 
@@ -209,25 +189,21 @@ impl Scope<'_> {
                 .help("write `transmission_angle(rod, rocker)`")),
         };
         let (a, b) = (angle(a)?, angle(b)?);
-        let between = self.arena.sub(a, b);
-        let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| {
-            let value = self.arena.call(function, between);
-            self.arena.call(Function::Abs, value)
-        });
-        let expr = self.arena.call2(Function::Atan2, sine, cosine);
+        let algebra = Algebra::new(&mut self.arena);
+        let between = algebra.scalar(a) - algebra.scalar(b);
+        let expr = between.sin().abs().atan2(between.cos().abs()).expr();
         Ok(Typed { expr, dimension: Some(Dimension::NONE) })
     }
 
     fn energy(&mut self, name: &Ident) -> Result<Typed, Diagnostic> {
         self.only_in_outputs(name)?;
-        let expr = match &self.energies {
-            Some(Energies { inertias, .. }) if name == "kinetic_energy" => {
-                energies::kinetic(&mut self.arena, inertias)
-            }
-            Some(Energies { inertias, springs }) => energies::potential(&mut self.arena, inertias, springs),
-            None => self.arena.zero(),
+        let algebra = Algebra::new(&mut self.arena);
+        let energy = match &self.energies {
+            Some(Energies { inertias, .. }) if name == "kinetic_energy" => kinetic(&algebra, inertias),
+            Some(Energies { inertias, springs }) => potential(&algebra, inertias, springs),
+            None => algebra.number(0),
         };
-        Ok(Typed { expr, dimension: Some(ENERGY) })
+        Ok(Typed { expr: energy.expr(), dimension: Some(ENERGY) })
     }
 
     /// Forces are all known once the energies are: outputs come last.
@@ -237,52 +213,6 @@ impl Scope<'_> {
         }
         Err(Diagnostic::new(name.span(), format!("`{name}` cannot stand here"))
             .help("it measures the mechanism in motion, for outputs alone"))
-    }
-
-    /// The total time derivative of a function of coordinates and time.
-    pub(super) fn rate(&mut self, expr: Expr) -> Expr {
-        self.rate_with(expr, true)
-    }
-
-    /// The same with time held.
-    fn rate_at_rest(&mut self, expr: Expr) -> Expr {
-        self.rate_with(expr, false)
-    }
-
-    fn rate_with(&mut self, expr: Expr, has_time: bool) -> Expr {
-        let mut direction = HashMap::new();
-        for symbol in self.arena.symbols_in(expr) {
-            let rate = match self.meaning(symbol) {
-                Meaning::Coordinate(at) => self.velocity(at),
-                Meaning::Time if has_time => self.arena.one(),
-                _ => continue,
-            };
-            direction.insert(symbol, rate);
-        }
-        self.arena.derivative(expr, &direction)
-    }
-
-    fn velocity(&mut self, coordinate: usize) -> Expr {
-        let at = self.meanings.iter().position(|&meaning| meaning == Meaning::Velocity(coordinate));
-        match at.and_then(|at| self.arena.symbol_at(at)) {
-            Some(symbol) => self.arena.variable(symbol),
-            None => self.arena.zero(),
-        }
-    }
-
-    /// The length of a vector, smooth at 0; exact where one component is 0.
-    pub(super) fn norm(&mut self, [x, y]: [Expr; 2]) -> Expr {
-        let arena = &mut self.arena;
-        match (arena.is_zero(x), arena.is_zero(y)) {
-            (_, true) => arena.call(Function::Abs, x),
-            (true, false) => arena.call(Function::Abs, y),
-            (false, false) => {
-                let (xx, yy) = (arena.powi(x, 2), arena.powi(y, 2));
-                let softening = arena.number(SOFTENING.into());
-                let square = arena.sum(&[(xx, Number::ONE), (yy, Number::ONE), (softening, Number::ONE)]);
-                arena.call(Function::Sqrt, square)
-            }
-        }
     }
 }
 

@@ -9,11 +9,9 @@ mod connections;
 mod declare;
 mod definitions;
 mod elements;
-pub mod energies;
 mod formula;
 mod functions;
 mod hints;
-mod joints;
 mod laws;
 mod loads;
 mod measures;
@@ -35,6 +33,7 @@ pub use resolver::resolve;
 pub use sketch::{Link, Sketch};
 pub use solver::Solver;
 
+use crate::mechanics::{Inertia, Load, Motion, Work};
 use crate::quantity::{Comparison, Quantity};
 
 /// A resolved mechanism.
@@ -57,11 +56,14 @@ pub struct Model {
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
+    /// What each coordinate moves.
+    pub inertias: Vec<Inertia>,
+    pub motion: Motion,
     pub constraints: Vec<Constraint>,
     pub gravity: [Expr; 2],
     pub loads: Vec<Load>,
     /// Loads that depend on multipliers.
-    pub reactive_loads: Vec<Work>,
+    pub reactive_loads: Vec<ReactiveLoad>,
     /// What properties of joints and elements have to satisfy.
     pub checks: Vec<Check>,
     /// Places of springs that must not coincide.
@@ -172,17 +174,9 @@ pub struct Source {
     pub bodies: Option<[String; 2]>,
 }
 
-/// A generalized force along a coordinate.
-pub struct Load {
-    pub coordinate: usize,
-    pub value: Expr,
-}
-
-/// A force F that does the virtual work F δs, with ∂s/∂q where that is not 0.
-#[derive(Clone)]
-pub struct Work {
-    pub force: Expr,
-    pub along: Vec<(usize, Expr)>,
+/// A force that depends on multipliers.
+pub struct ReactiveLoad {
+    pub work: Work,
     /// The name of what exerts it.
     pub span: Span,
 }

@@ -12,6 +12,7 @@ use super::places::{Frame, GROUND};
 use super::profiles::Profile;
 use super::reactions::KnownJoint;
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::mechanics::Motion;
 use crate::syntax::Formula;
 
 /// Names that the language itself defines.
@@ -104,6 +105,7 @@ pub struct Local {
 pub struct Scope<'a> {
     pub arena: Arena,
     pub meanings: Vec<Meaning>,
+    pub motion: Motion,
     pub values: BTreeMap<String, Value<'a>>,
     /// Bodies, and the ground.
     pub bodies: BTreeMap<String, Frame>,
@@ -136,24 +138,24 @@ pub struct Row {
 
 impl<'a> Scope<'a> {
     pub fn new() -> Self {
-        let mut scope = Self {
-            arena: Arena::new(),
-            meanings: Vec::new(),
+        let mut arena = Arena::new();
+        let time = arena.symbol("t", Stage::Variable);
+        let ground = Frame::new(Vec::new(), [arena.zero(); 2], arena.zero());
+        Self {
+            arena,
+            meanings: vec![Meaning::Time],
+            motion: Motion::new(time),
             values: BTreeMap::new(),
-            bodies: BTreeMap::new(),
+            bodies: BTreeMap::from([(GROUND.to_owned(), ground)]),
             rows: BTreeMap::new(),
             joints: BTreeMap::new(),
             sources: BTreeMap::new(),
             energies: None,
-            time: Arena::new().symbol("t", Stage::Variable),
+            time,
             local: None,
             depth: 0,
             profiles: BTreeMap::new(),
-        };
-        scope.time = scope.symbol("t", Stage::Variable, Meaning::Time);
-        let zero = scope.arena.zero();
-        scope.bodies.insert(GROUND.to_owned(), Frame::new(Vec::new(), [zero; 2], zero));
-        scope
+        }
     }
 
     pub fn symbol(&mut self, name: &str, stage: Stage, meaning: Meaning) -> Symbol {

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Node};
+use mbs_symbolic::{Algebra, Expr, Node};
 use proc_macro2::{Ident, Span};
 
-use super::joints::{self, Placed};
 use super::names::{Place, Scope, Typed, duplicate};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
+use crate::mechanics::Placed;
 use crate::syntax::{Attachment, Vector};
 
 /// What a body without coordinates, at the origin, is called.
@@ -98,17 +98,18 @@ impl Scope<'_> {
     /// A place on a body; `None` if it has errors, which are added or were.
     pub fn attachment(&mut self, attachment: &Attachment, errors: &mut Diagnostics) -> Option<Placed> {
         let frame = errors.take(self.frame(&attachment.body))?;
-        let (origin, angle) = (frame.origin, frame.angle);
+        let origin = Placed { position: frame.origin.into(), angle: frame.angle };
         if frame.is_broken {
             return None;
         }
-        let Some(name) = &attachment.point else { return Some(Placed { position: origin, angle }) };
+        let Some(name) = &attachment.point else { return Some(origin) };
         let Some(point) = frame.points.get(&name.to_string()) else {
             errors.push(self.unknown_point(&attachment.body, name, frame));
             return None;
         };
         let local = point.local?;
-        Some(joints::place(&mut self.arena, origin, angle, local))
+        let algebra = Algebra::new(&mut self.arena);
+        Some(origin.on(&algebra).point(algebra.vector(local)).exprs())
     }
 
     /// The coordinate of a body that is called or meant by this name.
@@ -171,8 +172,8 @@ impl Scope<'_> {
         };
         let placed = self.attachment(&attachment, errors)?;
         let (expr, dimension) = match member.to_string().as_str() {
-            "x" => (placed.position[0], Dimension::LENGTH),
-            "y" => (placed.position[1], Dimension::LENGTH),
+            "x" => (placed.position.x, Dimension::LENGTH),
+            "y" => (placed.position.y, Dimension::LENGTH),
             "angle" => (placed.angle, Dimension::NONE),
             _ => {
                 let last = path.len() == 2

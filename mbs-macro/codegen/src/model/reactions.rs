@@ -1,20 +1,22 @@
 //! Functions that tell what joints exert.
 
-use mbs_symbolic::{Expr, Function, Number, Symbol};
+use mbs_symbolic::{Algebra, Scalar, Symbol, Vector};
 use proc_macro2::{Ident, Span};
 
-use super::joints::{self, Connection, Wrench};
 use super::measures::{ENERGY, FORCE, name_of, unknown, wrong_arguments};
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
-use crate::syntax::{Attachment, Formula, FormulaKind, JointKind};
+use crate::mechanics::joints::{Connection, JointKind, Row, Wrench};
+use crate::mechanics::norm;
+use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// A declared joint.
 pub struct KnownJoint {
-    pub kind: JointKind,
+    pub kind: &'static JointKind,
     pub span: Span,
     pub ends: [Attachment; 2],
-    pub multipliers: Vec<Symbol>,
+    /// Those of its rows that it has, with their multipliers.
+    pub rows: Vec<(&'static Row, Symbol)>,
     /// Known once its rows are.
     pub connection: Option<Connection>,
 }
@@ -42,22 +44,23 @@ impl Scope<'_> {
     /// `reaction(pin)`: how large the force is that a joint transmits.
     pub(super) fn reaction(&mut self, name: &Ident, joint: &Formula) -> Result<Typed, Diagnostic> {
         let asked = name_of(name, joint)?;
-        let wrenches = self.wrenches(name, asked)?;
-        let forces: Vec<Expr> =
-            wrenches.iter().filter(|(_, w)| w.force.is_some()).map(|(lambda, _)| *lambda).collect();
+        let acting = self.acting(name, asked)?;
+        let algebra = Algebra::new(&mut self.arena);
+        let wrenches = acting.wrenches(&algebra);
+        let is_force = |(_, wrench): &&(Scalar<'_>, Wrench<'_>)| matches!(wrench, Wrench::Force(_));
+        let forces: Vec<_> = wrenches.iter().filter(is_force).map(|(lambda, _)| *lambda).collect();
         // The rows of a joint are along directions at right angles.
-        let expr = match forces[..] {
-            [x, y] => self.norm([x, y]),
-            [along] => self.arena.call(Function::Abs, along),
+        let size = match forces[..] {
+            [x, y] => norm(Vector { x, y }),
+            [along] => along.abs(),
             _ => {
-                return Err(Diagnostic::new(
-                    asked.span(),
-                    format!("`{asked}` transmits no force between two places"),
-                )
-                .help(format!("what its multiplier `lambda({asked})` means is said in the list of joints")));
+                let message = format!("`{asked}` transmits no force between two places");
+                let help =
+                    format!("what its multiplier `lambda({asked})` means is said in the list of joints");
+                return Err(Diagnostic::new(asked.span(), message).help(help));
             }
         };
-        Ok(Typed { expr, dimension: Some(FORCE) })
+        Ok(Typed { expr: size.expr(), dimension: Some(FORCE) })
     }
 
     fn reaction_on(
@@ -68,11 +71,8 @@ impl Scope<'_> {
     ) -> Result<Typed, Diagnostic> {
         let [joint, rest @ ..] = arguments else { return Err(wrong_arguments(name, "reaction")) };
         let asked = name_of(name, joint)?;
-        let wrenches = self.wrenches(name, asked)?;
-        let Some(known) = self.joints.get(&asked.to_string()) else {
-            return Err(unknown(asked, "joint", self.joints.keys()));
-        };
-        let bodies = known.ends.each_ref().map(|end| end.body.to_string());
+        let acting = self.acting(name, asked)?;
+        let bodies = acting.bodies.each_ref();
         let body = match rest {
             [Formula { kind: FormulaKind::Name(body), .. }] => body,
             _ => {
@@ -83,30 +83,17 @@ impl Scope<'_> {
                 )));
             }
         };
-        let sign = match bodies.iter().rposition(|known| body == known) {
-            Some(0) => Number::MINUS_ONE,
-            Some(_) => Number::ONE,
-            None => {
-                let message = format!("`{asked}` does not act on `{body}`");
-                return Err(
-                    Diagnostic::new(body.span(), message).help(format!("it connects {}", listing(bodies)))
-                );
-            }
+        let Some(at) = bodies.iter().rposition(|known| body == known) else {
+            let message = format!("`{asked}` does not act on `{body}`");
+            let help = format!("it connects {}", listing(bodies));
+            return Err(Diagnostic::new(body.span(), message).help(help));
         };
-        let along = |wrench: &Wrench| match member.to_string().as_str() {
-            "x" => Some(wrench.force.map(|force| force[0])),
-            "y" => Some(wrench.force.map(|force| force[1])),
-            "torque" => Some(wrench.torque),
-            _ => None,
-        };
+        let algebra = Algebra::new(&mut self.arena);
+        let wrenches = acting.wrenches(&algebra);
         let mut terms = Vec::new();
         for (lambda, wrench) in &wrenches {
-            let component = along(wrench).ok_or_else(|| {
-                Diagnostic::new(member.span(), format!("a reaction has no `{member}`"))
-                    .help("it has `x`, `y` and `torque`")
-            })?;
-            if let Some(component) = component {
-                terms.push((self.arena.mul(*lambda, component), sign));
+            if let Some(component) = component(wrench, member)? {
+                terms.push(*lambda * component);
             }
         }
         if terms.is_empty() {
@@ -115,11 +102,13 @@ impl Scope<'_> {
                 .help("record what it does exert"));
         }
         let dimension = if member == "torque" { ENERGY } else { FORCE };
-        Ok(Typed { expr: self.arena.sum(&terms), dimension: Some(dimension) })
+        let on_second = algebra.sum(terms);
+        let exerted = if at == 0 { -on_second } else { on_second };
+        Ok(Typed { expr: exerted.expr(), dimension: Some(dimension) })
     }
 
-    /// The multipliers of a joint, and what each one exerts on the second body.
-    fn wrenches(&mut self, name: &Ident, joint: &Ident) -> Result<Vec<(Expr, Wrench)>, Diagnostic> {
+    /// A joint whose rows are known.
+    fn acting(&self, name: &Ident, joint: &Ident) -> Result<Acting, Diagnostic> {
         let text = joint.to_string();
         let Some(known) = self.joints.get(&text) else {
             if let Some(row) = self.rows.get(&text) {
@@ -129,16 +118,43 @@ impl Scope<'_> {
             }
             return Err(unknown(joint, "joint", self.joints.keys()));
         };
-        let Some(connection) = &known.connection else {
+        let Some(connection) = known.connection else {
             // A constraint is being resolved, by way of a `let`; or it is
             // broken, and has its error.
             return Err(Diagnostic::new(name.span(), format!("the reaction of `{text}` cannot stand here"))
                 .help(Place::Constraint.rule()));
         };
-        let wrenches = joints::wrenches(&mut self.arena, known.kind, connection);
-        let multipliers = known.multipliers.clone();
-        let lambdas = multipliers.into_iter().map(|symbol| self.arena.variable(symbol)).collect::<Vec<_>>();
-        Ok(lambdas.into_iter().zip(wrenches).collect())
+        let bodies = known.ends.each_ref().map(|end| end.body.to_string());
+        Ok(Acting { connection, rows: known.rows.clone(), bodies })
+    }
+}
+
+/// A joint whose rows are known.
+struct Acting {
+    connection: Connection,
+    rows: Vec<(&'static Row, Symbol)>,
+    bodies: [String; 2],
+}
+
+impl Acting {
+    /// Its multipliers, and what each one exerts on the second body.
+    fn wrenches<'a>(&self, algebra: &'a Algebra<'a>) -> Vec<(Scalar<'a>, Wrench<'a>)> {
+        let joint = self.connection.on(algebra);
+        let wrench = |&(row, multiplier): &(&Row, Symbol)| Some((multiplier, row.wrench?(&joint)));
+        let wrenches: Vec<_> = self.rows.iter().filter_map(wrench).collect();
+        wrenches.into_iter().map(|(multiplier, wrench)| (algebra.variable(multiplier), wrench)).collect()
+    }
+}
+
+/// A component of a wrench, if it has one of this name.
+fn component<'a>(wrench: &Wrench<'a>, member: &Ident) -> Result<Option<Scalar<'a>>, Diagnostic> {
+    match (member.to_string().as_str(), wrench) {
+        ("x", Wrench::Force(force)) => Ok(Some(force.x)),
+        ("y", Wrench::Force(force)) => Ok(Some(force.y)),
+        ("torque", Wrench::Torque(torque)) => Ok(Some(*torque)),
+        ("x" | "y" | "torque", _) => Ok(None),
+        _ => Err(Diagnostic::new(member.span(), format!("a reaction has no `{member}`"))
+            .help("it has `x`, `y` and `torque`")),
     }
 }
 

@@ -6,14 +6,14 @@ use mbs_symbolic::{Expr, Stage};
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-use super::energies;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Gap, Load, Meaning, Model, Output, Parameter, Requirement,
-    Solver, Start, Symbols, Work,
+    Body, Check, Closes, Constraint, Coordinate, Direction, Gap, Meaning, Model, Output, Parameter,
+    ReactiveLoad, Requirement, Solver, Start, Symbols,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::mechanics::{Inertia, Load};
 use crate::quantity::Quantity;
 use crate::syntax::{Declaration, Item, ItemKind};
 
@@ -64,7 +64,7 @@ pub(super) struct Resolver<'a> {
     pub row_count: usize,
     pub gravity: Option<([Expr; 2], Span)>,
     pub loads: Vec<Load>,
-    pub reactive_loads: Vec<Work>,
+    pub reactive_loads: Vec<ReactiveLoad>,
     pub checks: Vec<Check>,
     pub gaps: Vec<Gap>,
     pub potentials: Vec<Expr>,
@@ -126,9 +126,23 @@ impl<'a> Resolver<'a> {
     }
 
     fn forces_are_known(&mut self) {
+        let springs = self.potentials.clone();
+        self.scope.energies = Some(Energies { inertias: self.inertias(), springs });
+    }
+
+    /// What each coordinate moves.
+    fn inertias(&self) -> Vec<Inertia> {
         let gravity = self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity);
-        let inertias = energies::inertias(&self.coordinates, &self.bodies, gravity);
-        self.scope.energies = Some(Energies { inertias, springs: self.potentials.clone() });
+        let inertia = |coordinate: &Coordinate| {
+            let body = &self.bodies[coordinate.body];
+            let (mass, gravity) = match coordinate.direction {
+                Direction::X => (body.mass, Some(gravity[0])),
+                Direction::Y => (body.mass, Some(gravity[1])),
+                Direction::Angle => (body.inertia, None),
+            };
+            Inertia { position: coordinate.position, velocity: coordinate.velocity, mass, gravity }
+        };
+        self.coordinates.iter().map(inertia).collect()
     }
 
     /// What nothing else has asked for still has to be right.
@@ -180,6 +194,8 @@ impl<'a> Resolver<'a> {
         let symbols = self.generated_symbols();
         let model = Model {
             symbols,
+            inertias: self.inertias(),
+            motion: self.scope.motion,
             meanings: self.scope.meanings,
             arena: self.scope.arena,
             doc: declaration.doc.clone(),

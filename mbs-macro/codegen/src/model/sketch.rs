@@ -3,15 +3,16 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Arena, Expr};
+use mbs_symbolic::{Algebra, Arena, Expr};
 use proc_macro2::Ident;
 
+use super::Direction;
 use super::names::Place;
 use super::places::GROUND;
 use super::resolver::Resolver;
-use super::{Direction, joints};
 use crate::diagnostics::Diagnostics;
-use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind, JOINTS, JointKind};
+use crate::mechanics::Placed;
+use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind};
 
 /// Points of bodies and pairs of them.
 #[derive(Default)]
@@ -48,9 +49,11 @@ pub struct Link {
 impl Sketch {
     /// x and y of every point, in the ground frame.
     pub fn places(&self, arena: &mut Arena) -> Vec<Expr> {
-        let place = |point: &Point| match point.local {
-            None => point.origin,
-            Some(local) => joints::place(arena, point.origin, point.angle, local).position,
+        let algebra = Algebra::new(arena);
+        let place = |point: &Point| {
+            let Some(local) = point.local else { return point.origin };
+            let origin = Placed { position: point.origin.into(), angle: point.angle };
+            origin.on(&algebra).point(algebra.vector(local)).position.exprs()
         };
         self.points.iter().flat_map(place).collect()
     }
@@ -139,11 +142,11 @@ impl Resolver<'_> {
                     Clause::Along(vector) => Some(vector),
                     _ => None,
                 });
-                (&joint.name, word(joint.kind), &joint.first, &joint.second, along)
+                (&joint.name, joint.kind.word, &joint.first, &joint.second, along)
             }
             ItemKind::Element(element) => {
                 let Some(second) = &element.second else { return };
-                (&element.name, element.kind.word(), &element.first, second, None)
+                (&element.name, element.kind.word, &element.first, second, None)
             }
             _ => return,
         };
@@ -173,9 +176,4 @@ impl Resolver<'_> {
             _ => sketch.joints.push(link),
         }
     }
-}
-
-/// The word that declares joints of a kind: the first, where there are several.
-fn word(kind: JointKind) -> &'static str {
-    JOINTS.iter().find(|shape| shape.kind == kind).map_or("", |shape| shape.word)
 }

@@ -15,6 +15,7 @@ use super::words::{block, definition, doc, equals, helped, name, name_before_uni
 use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
+use crate::mechanics::elements::ELEMENTS;
 use crate::quantity::Comparison;
 
 /// Reads a declaration.
@@ -59,12 +60,12 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     })?;
     let word = keyword.to_string();
     let statement = STATEMENTS.iter().find(|(known, ..)| *known == word);
-    let joint = joints::JOINTS.iter().find(|shape| shape.word == word);
-    let element = elements::ELEMENTS.iter().find(|shape| shape.word == word);
+    let joint = joints::Shape::named(&word);
+    let element = ELEMENTS.iter().find(|kind| kind.word == word);
     let kind = match (statement, joint, element) {
         (Some((.., read)), _, _) => read(input, keyword.span()),
         (None, Some(shape), _) => joints::joint(input, shape),
-        (None, None, Some(shape)) => elements::element(input, shape),
+        (None, None, Some(kind)) => elements::element(input, kind),
         (None, None, None) => Err(unknown_statement(&keyword, &word)),
     }?;
     Ok((doc, kind))

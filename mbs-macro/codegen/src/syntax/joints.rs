@@ -1,7 +1,6 @@
 //! Points and joints: `point tip on crank = (l/2, 0);`, `revolute pin (crank.tip, rod.base);`.
 //!
-//! A joint is a name, two places and clauses in any order; [`JOINTS`] says which
-//! clauses a kind takes.
+//! A joint is a name, two places and clauses in any order; its kind says which it takes.
 
 use mbs_symbolic::units;
 use proc_macro2::Span;
@@ -10,57 +9,27 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
 use super::words::{equals, helped, name, semicolon};
-use super::{Attachment, Clause, ClauseKind, ItemKind, Joint, JointKind};
+use super::{Attachment, Clause, ItemKind, Joint};
 use crate::diagnostics::nearest;
+use crate::mechanics::joints::{ClauseKind, JOINTS, JointKind};
 
-/// A kind of joint: the word that declares it, and its clauses.
-pub struct Shape {
-    pub word: &'static str,
-    pub kind: JointKind,
-    /// Of each of these groups, one clause is needed and no other is taken.
-    needs: &'static [&'static [ClauseKind]],
-    takes: &'static [ClauseKind],
-    /// How its places and clauses are written.
-    pub example: &'static str,
-    /// What it does.
-    pub meaning: &'static str,
-}
+/// What stands for the word of a clause that begins with `=`.
+const EQUALS: &str = ClauseKind::EQUALS;
 
-use ClauseKind::{Along, At, Carrier, Equals, Radii, Radius, Teeth};
-
-/// A row of the table.
-const fn shape(
+/// A kind of joint by a word that declares it.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
     word: &'static str,
-    kind: JointKind,
-    needs: &'static [&'static [ClauseKind]],
-    takes: &'static [ClauseKind],
-    example: &'static str,
-    meaning: &'static str,
-) -> Shape {
-    Shape { word, kind, needs, takes, example, meaning }
+    kind: &'static JointKind,
 }
 
-/// Transmissions between turning bodies are alike.
-const SIZES: &[&[ClauseKind]] = &[&[Radii, Teeth]];
-const LINE_AND_RADIUS: &[&[ClauseKind]] = &[&[Along], &[Radius]];
-
-/// The words that declare joints.
-#[rustfmt::skip]
-pub const JOINTS: &[Shape] = &[
-    shape("revolute", JointKind::Revolute, &[], &[], "(crank.tip, rod.base)", "two points coincide"),
-    shape("fixed", JointKind::Fixed, &[], &[At], "(arm.end, hand.base) at 90 [deg]", "two bodies move as one"),
-    shape("prismatic", JointKind::Prismatic, &[&[Along]], &[At], "(slider, ground.rail) along (1, 0)", "a body slides along another without turning against it"),
-    shape("point_on_line", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)", "a point stays on a line of another body"),
-    shape("pin_slot", JointKind::PointOnLine, &[&[Along]], &[], "(rod.end, ground.rail) along (1, 0)", "a pin stays in a slot, the same as `point_on_line`"),
-    shape("distance", JointKind::Distance, &[&[Equals]], &[], "(bob, ground.hook) = 0.5 [m]", "two points keep their distance"),
-    shape("gear", JointKind::Gear, SIZES, &[Carrier, At], "(sun, planet) radii (20 [mm], 40 [mm]) carrier arm", "two gears turn against each other"),
-    shape("internal_gear", JointKind::InternalGear, SIZES, &[Carrier, At], "(ring, planet) radii (80 [mm], 20 [mm]) carrier arm", "a gear turns in a ring"),
-    shape("belt", JointKind::Belt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])", "two pulleys turn the same way"),
-    shape("crossed_belt", JointKind::CrossedBelt, SIZES, &[Carrier, At], "(driver, driven) radii (30 [mm], 60 [mm])", "two pulleys turn opposite ways"),
-    shape("rack", JointKind::Rack, LINE_AND_RADIUS, &[At], "(pinion, bar) along (1, 0) radius 15 [mm]", "a pinion meshes with a rack"),
-    shape("rolling", JointKind::Rolling, LINE_AND_RADIUS, &[At], "(wheel, ground.track) along (1, 0) radius 0.3 [m]", "a wheel rolls on a track without slip"),
-    shape("cam", JointKind::Cam, &[&[Equals]], &[], "(disk, follower.tip) = r0*(1 + 0.2*cos(angle))", "a point follows the profile of a cam"),
-];
+impl Shape {
+    /// The joint that this word declares.
+    pub fn named(word: &str) -> Option<Self> {
+        let shapes = JOINTS.iter().flat_map(|&kind| kind.words().map(move |(word, _)| Self { word, kind }));
+        shapes.into_iter().find(|shape| shape.word == word)
+    }
+}
 
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     let what = name(input)?;
@@ -83,16 +52,16 @@ pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Point { name: what, body, value })
 }
 
-pub(super) fn joint(input: ParseStream<'_>, shape: &Shape) -> Result<ItemKind> {
+pub(super) fn joint(input: ParseStream<'_>, shape: Shape) -> Result<ItemKind> {
     let name = name(input)?;
-    let example = format!("{} {name} {};", shape.word, shape.example);
+    let example = format!("{} {name} {};", shape.word, shape.kind.example);
     let (first, second) = two_places(input, "the two places that it connects are", "a joint", &example)?;
     let clauses = clauses(input, shape, &name, &example)?;
     Ok(ItemKind::Joint(Box::new(Joint { kind: shape.kind, name, first, second, clauses })))
 }
 
 /// Clauses up to the `;`, each at most once, all that are needed.
-fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -> Result<Vec<Clause>> {
+fn clauses(input: ParseStream<'_>, shape: Shape, name: &Ident, example: &str) -> Result<Vec<Clause>> {
     let mut clauses = Vec::new();
     let mut given: Vec<(ClauseKind, Span)> = Vec::new();
     while !input.peek(Token![;]) {
@@ -110,7 +79,7 @@ fn clauses(input: ParseStream<'_>, shape: &Shape, name: &Ident, example: &str) -
         given.push((kind, span));
         clauses.push(clause(input, kind)?);
     }
-    for group in shape.needs {
+    for group in shape.kind.needs {
         if !given.iter().any(|(kind, _)| group.contains(kind)) {
             let missing: Vec<_> = group.iter().map(ToString::to_string).collect();
             let missing = missing.join(" or ");
@@ -146,40 +115,37 @@ pub(super) fn two_places(
 }
 
 /// Whether both clauses cannot stand together.
-fn excludes(shape: &Shape, kind: ClauseKind, other: ClauseKind) -> bool {
-    kind == other || shape.needs.iter().any(|group| group.contains(&kind) && group.contains(&other))
+fn excludes(shape: Shape, kind: ClauseKind, other: ClauseKind) -> bool {
+    kind == other || shape.kind.needs.iter().any(|group| group.contains(&kind) && group.contains(&other))
 }
 
 /// The word, or `=`, with which a clause begins.
-fn clause_word(input: ParseStream<'_>, shape: &Shape, example: &str) -> Result<(ClauseKind, Span)> {
+fn clause_word(input: ParseStream<'_>, shape: Shape, example: &str) -> Result<(ClauseKind, Span)> {
     let span = input.span();
-    let needed = shape.needs.iter().flat_map(|group| group.iter());
-    let taken: Vec<ClauseKind> = needed.chain(shape.takes).copied().collect();
+    let taken: Vec<ClauseKind> = shape.kind.clauses().collect();
+    let taken_as = |word: &str| taken.iter().copied().find(|kind| kind.word() == word);
     if input.parse::<Option<Token![=]>>()?.is_some() {
-        if taken.contains(&Equals) {
-            return Ok((Equals, span));
-        }
-        return Err(helped(span, format!("`{}` takes no {Equals}", shape.word), help(&taken, example)));
+        return taken_as(EQUALS).map(|kind| (kind, span)).ok_or_else(|| {
+            helped(span, format!("`{}` takes no `{EQUALS}`", shape.word), help(&taken, example))
+        });
     }
     let Ok(word) = input.fork().call(Ident::parse_any) else {
         return Err(helped(span, "a clause or `;` is expected here", help(&taken, example)));
     };
     let text = word.to_string();
-    match ClauseKind::WORDS.iter().find(|(known, _)| *known == text) {
-        Some((_, kind)) if taken.contains(kind) => {
-            Ident::parse_any(input)?;
-            Ok((*kind, span))
-        }
-        Some((_, kind)) => {
-            Err(helped(span, format!("`{}` takes no {kind}", shape.word), help(&taken, example)))
-        }
+    if let Some(kind) = taken_as(&text) {
+        Ident::parse_any(input)?;
+        return Ok((kind, span));
+    }
+    match ClauseKind::ALL.into_iter().find(|kind| kind.word() == text) {
+        Some(kind) => Err(helped(span, format!("`{}` takes no {kind}", shape.word), help(&taken, example))),
         None if units::lookup(&text).is_some() => {
             let help = format!("units stand in brackets: `[{text}]`");
             Err(helped(span, format!("`{text}` is no clause"), help))
         }
         None => {
-            let words = ClauseKind::WORDS.iter().filter(|(_, kind)| taken.contains(kind));
-            let help = match nearest(&text, words.map(|(word, _)| *word)) {
+            let words = ClauseKind::ALL.into_iter().filter(|kind| taken.contains(kind));
+            let help = match nearest(&text, words.map(ClauseKind::word).filter(|word| *word != EQUALS)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => help(&taken, example),
             };
@@ -197,33 +163,16 @@ fn help(taken: &[ClauseKind], example: &str) -> String {
 
 fn clause(input: ParseStream<'_>, kind: ClauseKind) -> Result<Clause> {
     Ok(match kind {
-        Along => Clause::Along(input.parse()?),
-        At => Clause::At(input.parse()?),
-        Equals => Clause::Equals(input.parse()?),
-        Radius => Clause::Radius(input.parse()?),
-        Radii => Clause::Radii(input.parse()?),
-        Teeth => Clause::Teeth(input.parse()?),
-        Carrier => Clause::Carrier(name(input)?),
+        ClauseKind::Along => Clause::Along(input.parse()?),
+        ClauseKind::Angle => Clause::Angle(input.parse()?),
+        ClauseKind::Place => Clause::Place(input.parse()?),
+        ClauseKind::Distance => Clause::Distance(input.parse()?),
+        ClauseKind::Profile => Clause::Profile(input.parse()?),
+        ClauseKind::Radius => Clause::Radius(input.parse()?),
+        ClauseKind::Radii => Clause::Radii(input.parse()?),
+        ClauseKind::Teeth => Clause::Teeth(input.parse()?),
+        ClauseKind::Carrier => Clause::Carrier(name(input)?),
     })
-}
-
-impl ClauseKind {
-    /// The words with which clauses begin.
-    const WORDS: [(&'static str, Self); 6] = [
-        ("along", Along),
-        ("at", At),
-        ("radius", Radius),
-        ("radii", Radii),
-        ("teeth", Teeth),
-        ("carrier", Carrier),
-    ];
-}
-
-impl std::fmt::Display for ClauseKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let word = Self::WORDS.iter().find(|(_, kind)| kind == self).map_or("= …", |(word, _)| word);
-        write!(f, "`{word}`")
-    }
 }
 
 impl Parse for Attachment {

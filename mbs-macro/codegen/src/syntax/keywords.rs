@@ -6,9 +6,9 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::elements::ELEMENTS;
-use super::joints::JOINTS;
 use super::{ItemKind, Role, items, joints, profiles, solver};
+use crate::mechanics::elements::ELEMENTS;
+use crate::mechanics::joints::JOINTS;
 
 /// A word with which a statement begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,8 +84,9 @@ const BLOCKS: &[(&str, &str, &str)] = &[
 pub fn keywords() -> Vec<Keyword> {
     let of = |kind| move |(word, form, meaning)| Keyword { word, kind, form, meaning };
     let statements = STATEMENTS.iter().map(|&(word, form, meaning, _)| (word, form, meaning));
-    let joints = JOINTS.iter().map(|shape| (shape.word, shape.example, shape.meaning));
-    let elements = ELEMENTS.iter().map(|shape| (shape.word, shape.example, shape.meaning));
+    let joints =
+        JOINTS.iter().flat_map(|kind| kind.words().map(|(word, meaning)| (word, kind.example, meaning)));
+    let elements = ELEMENTS.iter().map(|kind| (kind.word, kind.example, kind.meaning));
     let mut all: Vec<Keyword> = statements.map(of(KeywordKind::Statement)).collect();
     all.extend(joints.map(of(KeywordKind::Joint)));
     all.extend(elements.map(of(KeywordKind::Element)));

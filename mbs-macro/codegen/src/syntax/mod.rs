@@ -18,9 +18,10 @@ use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
-pub use joints::JOINTS;
 pub use keywords::{Keyword, KeywordKind, keywords};
 
+use crate::mechanics::elements::ElementKind;
+use crate::mechanics::joints::JointKind;
 use crate::quantity::Comparison;
 
 /// A whole `mechanism! { … }`.
@@ -150,7 +151,7 @@ pub struct Property {
 /// A joint between two places.
 #[derive(Clone)]
 pub struct Joint {
-    pub kind: JointKind,
+    pub kind: &'static JointKind,
     pub name: Ident,
     pub first: Attachment,
     pub second: Attachment,
@@ -158,31 +159,19 @@ pub struct Joint {
     pub clauses: Vec<Clause>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointKind {
-    Revolute,
-    Fixed,
-    Prismatic,
-    PointOnLine,
-    Distance,
-    Gear,
-    InternalGear,
-    Belt,
-    CrossedBelt,
-    Rack,
-    Rolling,
-    Cam,
-}
-
 /// What a joint says behind its two places.
 #[derive(Clone)]
 pub enum Clause {
     /// `along (1, 0)`: a direction in the frame of the second body.
     Along(Vector),
-    /// `at 30 [deg]`: a constant offset.
-    At(Formula),
-    /// `= 0.5 [m]`: a distance, or the profile of a cam.
-    Equals(Formula),
+    /// `at 30 [deg]`: a constant angle between the bodies.
+    Angle(Formula),
+    /// `at 20 [mm]`: where on a line both angles are equal.
+    Place(Formula),
+    /// `= 0.5 [m]`
+    Distance(Formula),
+    /// `= r0*(1 + 0.2*cos(angle))`: the profile of a cam.
+    Profile(Formula),
     /// `radius r`
     Radius(Formula),
     /// `radii (r1, r2)`
@@ -191,17 +180,6 @@ pub enum Clause {
     Teeth(Vector),
     /// `carrier arm`: the body relative to which the others turn.
     Carrier(Ident),
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum ClauseKind {
-    Along,
-    At,
-    Equals,
-    Radius,
-    Radii,
-    Teeth,
-    Carrier,
 }
 
 /// A periodic function through points of (argument, value).
@@ -216,23 +194,13 @@ pub struct Profile {
 #[derive(Clone)]
 pub struct Element {
     pub name: Ident,
-    pub kind: ElementKind,
+    pub kind: &'static ElementKind,
     pub first: Attachment,
     /// The other end, where it has one.
     pub second: Option<Attachment>,
     /// The direction in which it acts, in the frame of the second body.
     pub along: Option<Vector>,
     pub properties: Vec<ElementProperty>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementKind {
-    Spring,
-    TorsionSpring,
-    Motor,
-    Friction,
-    TorsionFriction,
-    Drag,
 }
 
 /// `stiffness = …;` in an element.

@@ -2,7 +2,7 @@
 
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
-use crate::operators::Function;
+use crate::operators::{Function, Range};
 
 impl Arena {
     /// A bound of |e| that depends on parameters alone, with |sin| and |cos|
@@ -36,9 +36,7 @@ impl Arena {
                 }
                 Some(self.product(&bounds))
             }
-            Node::Call(Function::Sin | Function::Cos | Function::Tanh | Function::Sign, _) => {
-                Some(self.one())
-            }
+            Node::Call(function, _) if function.row().range == Range::Unit => Some(self.one()),
             Node::Shared(x) => self.bound(x),
             _ => None,
         }
@@ -99,7 +97,7 @@ impl Arena {
             Node::Product(factors) => {
                 factors.iter().all(|(factor, exponent)| exponent % 2 == 0 || self.is_not_negative(*factor))
             }
-            Node::Call(function, _) => matches!(function, Function::Sqrt | Function::Abs | Function::Exp),
+            Node::Call(function, _) => function.row().range == Range::NotNegative,
             Node::Call2(..) | Node::Spline(..) => false,
             Node::Shared(x) => self.is_not_negative(x),
         }

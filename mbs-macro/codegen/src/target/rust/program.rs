@@ -334,8 +334,7 @@ pub fn operation_tokens(
 
 /// The method of `Real` that computes a function.
 fn method(function: Function) -> Ident {
-    let name = if function == Function::Greater { "greater" } else { function.row().name };
-    Ident::new(name, Span::call_site())
+    Ident::new(function.row().name, Span::call_site())
 }
 
 pub fn number_tokens(number: Number) -> TokenStream {

@@ -140,8 +140,8 @@ impl Point<'_> {
         };
         let at_reactions = Point { symbol: &symbol, ..*self };
         for load in &self.model.reactive_loads {
-            let value = at_reactions.value(load.force);
-            for &(coordinate, slope) in &load.along {
+            let value = at_reactions.value(load.work.force);
+            for &(coordinate, slope) in &load.work.along {
                 forces[coordinate] = forces[coordinate] + value * self.value(slope);
             }
         }

@@ -9,12 +9,19 @@
 //! turned by 90° it is −λ ρ′/|d|. The cam feels the opposite at p₂, about p₁ a
 //! torque of λρ′.
 
-use mbs_symbolic::Arena;
-use mbs_symbolic::units::Dimension;
+use super::{ClauseKind, Holds, JointKind, Row};
 
-use super::{Connection, JointRow, distance_between};
-
-pub fn rows(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    let distance = distance_between(arena, &connection.first, &connection.second);
-    vec![JointRow { phi: arena.sub(connection.value, distance), dimension: Dimension::LENGTH }]
-}
+pub const CAM: JointKind = JointKind {
+    word: "cam",
+    meaning: "a point follows the profile of a cam",
+    example: "(disk, follower.tip) = r0*(1 + 0.2*cos(angle))",
+    needs: &[&[ClauseKind::Profile]],
+    rows: &[Row {
+        suffix: "",
+        restricts: "",
+        holds: Holds::Length,
+        phi: |joint| joint.value - joint.first.distance_to(joint.second),
+        wrench: None,
+    }],
+    ..JointKind::PLAIN
+};

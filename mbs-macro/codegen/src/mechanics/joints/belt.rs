@@ -9,14 +9,16 @@
 //! −λ on the first, ±λ z₂/z₁ on the second. The sum of the tensions is not
 //! determined by the motion, and bearings are without the belt's pull.
 
-use mbs_symbolic::{Arena, Number};
+use super::JointKind;
+use super::gear::{GEAR, OPPOSITE, SAME_WAY};
 
-use super::{Connection, JointRow, transmission};
+pub const BELT: JointKind = JointKind {
+    word: "belt",
+    meaning: "two pulleys turn the same way",
+    example: "(driver, driven) radii (30 [mm], 60 [mm])",
+    rows: &[SAME_WAY],
+    ..GEAR
+};
 
-pub fn open(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    vec![transmission(arena, connection, Number::MINUS_ONE)]
-}
-
-pub fn crossed(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    vec![transmission(arena, connection, Number::ONE)]
-}
+pub const CROSSED_BELT: JointKind =
+    JointKind { word: "crossed_belt", meaning: "two pulleys turn opposite ways", rows: &[OPPOSITE], ..BELT };

@@ -16,14 +16,44 @@
 //! it: the multipliers of bearings are without it, and what they would carry of
 //! it turns the carrier by the torque above.
 
-use mbs_symbolic::{Arena, Number};
+use super::{ClauseKind, Holds, JointKind, Part, Row};
 
-use super::{Connection, JointRow, transmission};
+pub const GEAR: JointKind = JointKind {
+    word: "gear",
+    meaning: "two gears turn against each other",
+    example: "(sun, planet) radii (20 [mm], 40 [mm]) carrier arm",
+    needs: &[&[ClauseKind::Radii, ClauseKind::Teeth]],
+    takes: &[ClauseKind::Carrier, ClauseKind::Angle],
+    rows: &[OPPOSITE],
+    turns: &[(Part::First, Part::Carrier), (Part::Second, Part::Carrier)],
+    ..JointKind::PLAIN
+};
 
-pub fn external(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    vec![transmission(arena, connection, Number::ONE)]
-}
+pub const INTERNAL_GEAR: JointKind = JointKind {
+    word: "internal_gear",
+    meaning: "a gear turns in a ring",
+    example: "(ring, planet) radii (80 [mm], 20 [mm]) carrier arm",
+    rows: &[SAME_WAY],
+    ..GEAR
+};
 
-pub fn internal(arena: &mut Arena, connection: &Connection) -> Vec<JointRow> {
-    vec![transmission(arena, connection, Number::MINUS_ONE)]
-}
+/// The bodies turn against each other.
+pub const OPPOSITE: Row = Row {
+    suffix: "",
+    restricts: "",
+    holds: Holds::Turns,
+    phi: |joint| {
+        let [first, second] = joint.turns();
+        first + second
+    },
+    wrench: None,
+};
+
+/// The bodies turn the same way.
+pub const SAME_WAY: Row = Row {
+    phi: |joint| {
+        let [first, second] = joint.turns();
+        first - second
+    },
+    ..OPPOSITE
+};

@@ -1,0 +1,124 @@
+//! Dry and viscous friction, along a direction or about a pin:
+//! F = −(μ |N| tanh(v/v_t) + c v) at the sliding speed v.
+//!
+//! The hyperbolic tangent stands for the sign of v (Coulomb's law made smooth):
+//! below the transition speed v_t the friction is a stiff damper, so what should
+//! stick creeps at up to v_t.
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Function, Scalar};
+
+use super::properties::{FORCE, Given, Property, RATE, SPEED, TORQUE, Unsaid};
+use super::{Effects, Element, ElementKind, Freedom, Places};
+use crate::mechanics::joints::Holds;
+
+pub const FRICTION: ElementKind = ElementKind {
+    word: "friction",
+    meaning: "brakes what slides",
+    example: "(block, ground) along (1, 0) { coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }",
+    places: Places::TwoAlong,
+    properties: &[
+        Property::varying("coefficient", Dimension::NONE).not_negative(),
+        Property::varying("normal", FORCE),
+        Property::fixed("transition", SPEED).positive(),
+        Property::varying("viscous", Dimension::of(1, 0, -1)).not_negative(),
+    ],
+    said: |given| {
+        let example = "{ coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }";
+        is_said(given, &["coefficient", "normal"], [example; 2])
+    },
+    moved: |friction| vec![slide(friction)],
+    mend: "let it act where two bodies slide along each other",
+    needs: Some(Freedom {
+        from: Holds::Place,
+        verb: "slides",
+        mend: "friction of a pin is `torsion_friction`",
+    }),
+    forces: |friction, effects| {
+        let force = resist(friction, slide(friction), effects);
+        effects.exert(force, FORCE);
+        Some(())
+    },
+};
+
+pub const TORSION_FRICTION: ElementKind = ElementKind {
+    word: "torsion_friction",
+    meaning: "brakes what turns",
+    example: "(arm, ground) { torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }",
+    places: Places::Two,
+    properties: &[
+        Property::varying("torque", TORQUE).not_negative(),
+        Property::varying("coefficient", Dimension::NONE).not_negative(),
+        Property::varying("normal", FORCE),
+        Property::fixed("radius", Dimension::LENGTH).not_negative(),
+        Property::fixed("transition", RATE).positive(),
+        Property::varying("viscous", Dimension::of(1, 2, -1)).not_negative(),
+    ],
+    said: |given| {
+        let by_torque = "{ torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }";
+        let by_force = "{ coefficient = 0.1; normal = 20 [N]; radius = 5 [mm]; transition = 0.1 [rad/s]; }";
+        is_said(given, &["coefficient", "normal", "radius"], [by_torque, by_force])
+    },
+    moved: |friction| vec![friction.relative_angle()],
+    mend: "one of its bodies has to turn",
+    needs: Some(Freedom { from: Holds::Angle, verb: "turns", mend: "friction of a guide is `friction`" }),
+    forces: |friction, effects| {
+        let torque = resist(friction, friction.relative_angle(), effects);
+        effects.exert(torque, TORQUE);
+        Some(())
+    },
+};
+
+/// Either all of the dry part is given, `dry` or a torque with the transition,
+/// or the viscous part alone. Of the examples, the second has the properties `dry`.
+fn is_said(given: &Given<'_>, dry: &'static [&'static str], examples: [&str; 2]) -> Result<(), Unsaid> {
+    let of_dry = dry.iter().find(|name| given.has(name));
+    if let (true, Some(second)) = (given.has("torque"), of_dry) {
+        let keep = "give `torque`, or `coefficient`, `normal` and `radius`";
+        return Err(Unsaid::Twice { first: "torque", second, keep });
+    }
+    let example = examples[usize::from(of_dry.is_some())];
+    let is_dry = given.has("torque") || of_dry.is_some() || given.has("transition");
+    if !is_dry && given.has("viscous") {
+        return Ok(());
+    }
+    if !given.has("torque") {
+        given.all(dry, example)?;
+    }
+    given.all(&["transition"], example)
+}
+
+/// u·(p₁ − p₂): how far the first place is along the direction on the
+/// second body. Its variation is what the friction force does work along,
+/// with the reaction at the first place.
+fn slide<'a>(friction: &Element<'a>) -> Scalar<'a> {
+    friction.first.offset_along(friction.second, friction.along)
+}
+
+/// −(limit tanh(v/v_t) + c v) for the motion s, applied.
+fn resist<'a>(friction: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) -> Scalar<'a> {
+    let limit = dry_limit(friction);
+    let speed = effects.rate(s);
+    let mut force = -(friction.get_or_zero("viscous") * speed);
+    if let (Some(limit), Some(transition)) = (limit, friction.get("transition")) {
+        force = force - limit * (speed / transition).tanh();
+    }
+    let force = force.shared();
+    effects.apply(force, s);
+    force
+}
+
+/// The largest dry friction: μ |N|, times the radius of a pin; or as given.
+fn dry_limit<'a>(friction: &Element<'a>) -> Option<Scalar<'a>> {
+    if let Some(torque) = friction.get("torque") {
+        return Some(torque);
+    }
+    let (coefficient, normal) = (friction.get("coefficient")?, friction.get("normal")?);
+    let normal = match normal.function() {
+        // The size of a reaction is one already.
+        Some(Function::Abs | Function::Sqrt) => normal,
+        _ => normal.abs(),
+    };
+    let radius = friction.get("radius").unwrap_or_else(|| friction.algebra.number(1));
+    Some(coefficient * normal * radius)
+}

@@ -1,0 +1,20 @@
+//! The mechanics that a declaration is made of: formulas, and facts about them as plain
+//! data. Here are no names, no spans and no tokens; who reads a declaration knows this
+//! room, and it knows nobody but the algebra.
+
+pub mod elements;
+mod energies;
+mod equations;
+pub mod joints;
+pub mod laws;
+mod loads;
+mod motion;
+mod norm;
+mod places;
+
+pub use energies::{Inertia, kinetic, potential};
+pub use equations::{Equations, Mechanism, derive};
+pub use loads::{Applied, Load, Work};
+pub use motion::Motion;
+pub use norm::norm;
+pub use places::Placed;

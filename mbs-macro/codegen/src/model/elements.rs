@@ -1,0 +1,217 @@
+//! Force elements: their properties are read and judged here, what comes of them is
+//! mechanics.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::{Algebra, Expr};
+use proc_macro2::{Ident, Span};
+
+use super::hints::in_radians;
+use super::names::Place;
+use super::reactions::KnownJoint;
+use super::resolver::Resolver;
+use super::{Check, Gap};
+use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::mechanics::Placed;
+use crate::mechanics::elements::{self, Effects, Freedom, Given, Property, Range, Unsaid};
+use crate::mechanics::joints::Holds;
+use crate::syntax::{Attachment, Element, ElementProperty, Formula, FormulaKind, Load};
+
+/// An element with its places found and its properties read.
+struct Resolved {
+    first: Placed,
+    second: Placed,
+    along: [Expr; 2],
+    values: BTreeMap<&'static str, Vec<Expr>>,
+}
+
+impl Resolver<'_> {
+    pub(super) fn resolve_element(&mut self, element: &Element) {
+        if !self.declare_load(&element.name) {
+            return;
+        }
+        let Some(resolved) = self.resolved(element) else { return };
+        if !self.check_motion(element, &resolved) || !self.check_freedom(element) {
+            return;
+        }
+        let mut effects = Effects::new(&self.scope.motion);
+        let algebra = Algebra::new(&mut self.scope.arena);
+        (element.kind.forces)(&resolved.on(&algebra), &mut effects);
+        let Effects { applied, energies, exerts, gap, .. } = effects;
+        for applied in applied {
+            self.push_applied(&element.name, applied);
+        }
+        self.potentials.extend(energies);
+        self.gaps.extend(gap.map(|(distance, free)| Gap { distance, free, name: element.name.clone() }));
+        if let Some(exerts) = exerts {
+            self.exerts(&element.name, exerts);
+        }
+    }
+
+    fn resolved(&mut self, element: &Element) -> Option<Resolved> {
+        let first = self.scope.attachment(&element.first, &mut self.errors);
+        let second = match &element.second {
+            Some(second) => self.scope.attachment(second, &mut self.errors),
+            None => first,
+        };
+        let values = self.element_properties(element)?;
+        let (first, second) = (first?, second?);
+        let along = match &element.along {
+            Some(along) => self.direction_of(&element.name, along)?,
+            None => [self.scope.arena.one(), self.scope.arena.zero()],
+        };
+        Some(Resolved { first, second, along, values })
+    }
+
+    fn element_properties(&mut self, element: &Element) -> Option<BTreeMap<&'static str, Vec<Expr>>> {
+        let known = element.kind.properties;
+        let mut values = BTreeMap::new();
+        let mut given: BTreeMap<String, Span> = BTreeMap::new();
+        let mut is_complete = true;
+        for property in &element.properties {
+            let text = property.name.to_string();
+            let what = format!("the {text} of `{}`", element.name);
+            if let Some(earlier) = given.insert(text.clone(), property.name.span()) {
+                self.repeated(&what, property.name.span(), earlier);
+                is_complete = false;
+                continue;
+            }
+            let Some(row) = known.iter().find(|row| row.name == text) else {
+                self.errors.push(unknown_property(element, &property.name));
+                is_complete = false;
+                continue;
+            };
+            match self.property_value(element, row, property) {
+                Some(value) => drop(values.insert(row.name, value)),
+                None => is_complete = false,
+            }
+        }
+        if is_complete {
+            let said = is_said(element);
+            self.errors.take(said);
+        }
+        is_complete.then_some(values)
+    }
+
+    fn property_value(
+        &mut self,
+        element: &Element,
+        row: &Property,
+        property: &ElementProperty,
+    ) -> Option<Vec<Expr>> {
+        let what = format!("the {} of `{}`", row.name, element.name);
+        let formulas: Vec<&Formula> = match (&property.value, row.is_vector) {
+            (Load::Scalar(formula), false) => vec![formula],
+            (Load::Vector(vector), true) => vec![&vector.x, &vector.y],
+            (Load::Scalar(formula), true) => {
+                let help = format!("write `{} = (…, …);`", row.name);
+                self.errors.push(Diagnostic::new(formula.span, format!("{what} is a vector")).help(help));
+                return None;
+            }
+            (Load::Vector(vector), false) => {
+                let help = format!("write one formula: `{} = …;`", row.name);
+                self.errors.push(Diagnostic::new(vector.span, format!("{what} is a scalar")).help(help));
+                return None;
+            }
+        };
+        let place = if row.varies { Place::Load } else { Place::Property };
+        let mut read = |formula: &Formula| {
+            if row.is_angle {
+                self.errors.take(in_radians(formula))?;
+            }
+            self.scope.formula_of(formula, place, (&what, row.dimension), &mut self.errors)
+        };
+        let values: Option<Vec<Expr>> = formulas.iter().map(|formula| read(formula)).collect();
+        let values = values?;
+        if let (true, [value]) = (row.range != Range::All, values.as_slice()) {
+            self.checks.push(Check {
+                value: *value,
+                is_strict: row.range == Range::Positive,
+                property: row.name,
+                owner: element.name.to_string(),
+                span: property.name.span(),
+                zero_help: None,
+            });
+        }
+        Some(values)
+    }
+
+    /// Refuses an element of which nothing moves.
+    fn check_motion(&mut self, element: &Element, resolved: &Resolved) -> bool {
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let moved: Vec<Expr> =
+            (element.kind.moved)(&resolved.on(&algebra)).into_iter().map(|moved| moved.expr()).collect();
+        let moves = moved.into_iter().any(|moved| self.depends_on_coordinates(moved));
+        if !moves {
+            let what = if element.second.is_some() { "connects nothing" } else { "acts on nothing" };
+            let message = format!("`{}` {what} that moves", element.name);
+            self.errors.push(Diagnostic::new(element.name.span(), message).help(element.kind.mend));
+        }
+        moves
+    }
+
+    /// Refuses an element where a joint holds what it needs free: sliding of points that
+    /// coincide, turning of bodies that keep their angle.
+    fn check_freedom(&mut self, element: &Element) -> bool {
+        let (Some(needed), Some(second)) = (element.kind.needs, &element.second) else { return true };
+        let Freedom { from, verb, mend } = needed;
+        let ends = [&element.first, second];
+        let same =
+            |a: &Attachment, b: &Attachment| a.body == b.body && (from != Holds::Place || a.point == b.point);
+        let holds = |joint: &&KnownJoint| {
+            let [first, second] = joint.ends.each_ref();
+            let is_between = (same(ends[0], first) && same(ends[1], second))
+                || (same(ends[0], second) && same(ends[1], first));
+            is_between && joint.kind.holds(from)
+        };
+        let Some(joint) = self.scope.joints.values().find(holds) else { return true };
+        let message = format!("nothing {verb} at `{}`", element.name);
+        let error = Diagnostic::new(element.name.span(), message).help(mend);
+        self.errors.push(error.note(joint.span, "this joint holds its places together"));
+        false
+    }
+}
+
+impl Resolved {
+    /// The same, to compute with.
+    fn on<'a>(&self, algebra: &'a Algebra<'a>) -> elements::Element<'a> {
+        elements::Element {
+            algebra,
+            first: self.first.on(algebra),
+            second: self.second.on(algebra),
+            along: algebra.vector(self.along),
+            values: self.values.clone(),
+        }
+    }
+}
+
+/// Whether all properties are given that the element needs.
+fn is_said(element: &Element) -> Result<(), Diagnostic> {
+    let is_zero = |value: &Load| match value {
+        Load::Scalar(Formula { kind: FormulaKind::Number { value, .. }, .. }) => value.is_zero(),
+        _ => false,
+    };
+    let names: Vec<_> = element.properties.iter().map(|property| property.name.to_string()).collect();
+    let zeros = element.properties.iter().map(|property| is_zero(&property.value));
+    let given = Given(names.iter().map(String::as_str).zip(zeros).collect());
+    let name = &element.name;
+    let (message, help) = match (element.kind.said)(&given) {
+        Ok(()) => return Ok(()),
+        Err(Unsaid::Missing { what, example }) => {
+            (format!("`{name}` does not say its {what}"), format!("as in `{example}`"))
+        }
+        Err(Unsaid::Twice { first, second, keep }) => {
+            (format!("`{name}` says its `{first}` and its `{second}`"), keep.to_owned())
+        }
+    };
+    Err(Diagnostic::new(name.span(), message).help(help))
+}
+
+fn unknown_property(element: &Element, name: &Ident) -> Diagnostic {
+    let names: Vec<_> = element.kind.properties.iter().map(|row| row.name).collect();
+    let error = Diagnostic::new(name.span(), format!("a {} has no `{name}`", element.kind.word));
+    match nearest(&name.to_string(), names.iter().copied()) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None => error.help(format!("its properties are {}", listing(names))),
+    }
+}
