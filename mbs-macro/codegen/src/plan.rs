@@ -19,7 +19,7 @@ use crate::model::{Direction, Model};
 use crate::reactive::{self, Circular, Forces};
 use correction::correction;
 pub use input::Input;
-pub use step::{FusedStep, Kinds, Programs};
+pub use step::{FusedStep, Kinds};
 
 /// An order that changes more entries than this per unknown fills the matrix of a
 /// chain, and is given up.

@@ -99,7 +99,7 @@ impl Programs {
 
 /// The steps with both kinds of feedback: the state after it, and the growth.
 fn steps(compiled: &Compiled, step: &FusedStep) -> Result<[Arc<Code>; 2], Inconsistency> {
-    let compiled::Programs { held, per_stage } = &step.alone.programs;
+    let compiled::Kinds { held, per_stage } = &step.alone;
     let code = |program| Code::new(compiled, program).map(Arc::new);
     Ok([code(held)?, code(per_stage)?])
 }

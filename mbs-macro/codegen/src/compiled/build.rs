@@ -25,6 +25,7 @@ impl Compiled {
         Self {
             name: model.name.to_string(),
             doc: model.doc.clone(),
+            places: places(&model),
             conditions: conditions(&model),
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
@@ -74,6 +75,15 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::StartPivots => &plan.start_pivots,
         FunctionId::Points => &plan.points,
     }
+}
+
+/// Where the x of a body has its y behind it.
+fn places(model: &Model) -> Vec<usize> {
+    let neighbours = model.coordinates.windows(2).enumerate().filter_map(|(at, pair)| match pair {
+        [a, b] if a.body == b.body && (a.direction, b.direction) == (Direction::X, Direction::Y) => Some(at),
+        _ => None,
+    });
+    neighbours.collect()
 }
 
 impl From<model::Parameter> for Parameter {

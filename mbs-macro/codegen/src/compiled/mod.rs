@@ -53,7 +53,7 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
-pub use crate::plan::{FusedStep, Input, Kinds, Programs};
+pub use crate::plan::{FusedStep, Input, Kinds};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
@@ -77,6 +77,8 @@ pub struct Compiled {
     pub inputs: Vec<Quantity>,
     /// The coordinates q; their rates v have the same names.
     pub coordinates: Vec<Quantity>,
+    /// Coordinates, by position, that are the x of a body whose y follows.
+    pub places: Vec<usize>,
     /// The constraints Φ(q, t) = 0, one multiplier each.
     pub constraints: Vec<Constraint>,
     /// What the declaration measures.

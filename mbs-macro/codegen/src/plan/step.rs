@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 
 use mbs_schemes::Row;
-use mbs_symbolic::pairs::{Layout, Woven, weave};
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
-use crate::model::{Coordinate, Direction, Meaning, Model};
+use crate::model::{Coordinate, Meaning, Model};
 
 /// Longer steps are left in two stages: rustc nests a scope per statement, and its
 /// stack ends at about twice as many.
@@ -20,19 +19,9 @@ pub struct FusedStep {
     pub with_reactions: Option<Kinds>,
 }
 
-/// A step with each kind of feedback.
+/// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages,
+/// added; with reactions q⁺, v⁺, q̈, λ, the growth, and that of the reactions.
 pub struct Kinds {
-    /// All stages are given the feedback of the first.
-    pub held: Woven,
-    /// Each stage has its own.
-    pub per_stage: Woven,
-    /// What was woven, for targets without pairs.
-    pub programs: Programs,
-}
-
-/// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages, added;
-/// with reactions q⁺, v⁺, q̈, λ, the growth, and that of the reactions.
-pub struct Programs {
     /// All stages are given the feedback of the first.
     pub held: Program,
     /// Each stage has its own.
@@ -72,52 +61,7 @@ fn kinds(
     }
     check(model, [stabilized, constrained], reactions, &held)?;
     check(model, [stabilized, stabilized], reactions, &per_stage)?;
-    let meaning = |symbol: Symbol| model.meanings[symbol.index()];
-    // The x and the y of a body. An angle next to an x is not read with it: it would
-    // have to be written with it, or the processor waits for the two writes.
-    let is_place = |a: usize, b: usize| {
-        b == a + 1
-            && matches!(
-                (model.coordinates.get(a), model.coordinates.get(b)),
-                (Some(a), Some(b))
-                    if a.body == b.body && (a.direction, b.direction) == (Direction::X, Direction::Y)
-            )
-    };
-    let are_neighbours = |a: Symbol, b: Symbol| match (meaning(a), meaning(b)) {
-        (Meaning::Coordinate(a), Meaning::Coordinate(b)) | (Meaning::Velocity(a), Meaning::Velocity(b)) => {
-            is_place(a, b)
-        }
-        _ => false,
-    };
-    let n = model.coordinates.len();
-    // What belongs to coordinates: q⁺, v⁺, and q̈ where it is given.
-    let of_coordinates = if reactions.is_some() { 3 * n } else { 2 * n };
-    let are_written_together =
-        |a: usize, b: usize| a.max(b) < of_coordinates && a / n == b / n && is_place(a % n, b % n);
-    // What is finite only if a step is good: these, and λ.
-    let finite = if reactions.is_some() { 3 * n + model.constraints.len() } else { 2 * n };
-    let is_constant = |symbol: Symbol| {
-        !matches!(
-            meaning(symbol),
-            Meaning::Time | Meaning::NextTime | Meaning::Coordinate(_) | Meaning::Velocity(_)
-        )
-    };
-    let layout = Layout {
-        are_neighbours: &are_neighbours,
-        are_written_together: &are_written_together,
-        is_constant: &is_constant,
-    };
-    let woven = |program: &Program| {
-        let mut woven = weave(program, &layout);
-        woven.sum_outputs(finite);
-        woven.check(program)?;
-        Ok(woven)
-    };
-    Ok(Some(Kinds {
-        held: woven(&held)?,
-        per_stage: woven(&per_stage)?,
-        programs: Programs { held, per_stage },
-    }))
+    Ok(Some(Kinds { held, per_stage }))
 }
 
 /// A step gives what its stages give one after the other, with numbers without any relation

@@ -33,8 +33,8 @@ struct Output {
 pub fn all(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
     let mut kernels = FunctionId::all().map(|id| kernel(target, id)).collect::<Result<Vec<_>, _>>()?;
     if let Some(step) = &target.compiled.fused_step {
-        kernels.push(fused(target, "held", "held over it", &step.alone.programs.held)?);
-        kernels.push(fused(target, "per_stage", "in both stages", &step.alone.programs.per_stage)?);
+        kernels.push(fused(target, "held", "held over it", &step.alone.held)?);
+        kernels.push(fused(target, "per_stage", "in both stages", &step.alone.per_stage)?);
     }
     Ok(kernels)
 }

@@ -17,6 +17,7 @@ mod splines;
 mod stages;
 mod step;
 mod types;
+mod weave;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -39,7 +40,10 @@ pub fn rust(compiled: &Compiled) -> Result<TokenStream, Diagnostics> {
     let step = if are_on_arrays {
         stages::implementation(compiled, &names)
     } else {
-        step::functions(compiled, &names)
+        step::functions(compiled, &names).unwrap_or_else(|fault| {
+            names.faults.borrow_mut().push(fault);
+            TokenStream::new()
+        })
     };
     let mechanism = functions::mechanism(compiled, &names, are_on_arrays);
     if let Some(fault) = names.faults.borrow().first() {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use mbs_symbolic::Operation;
 use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Woven};
+use mbs_symbolic::{Inconsistency, Operation, Program};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
@@ -11,12 +11,16 @@ use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
 use super::program::{named, number_tokens, operation_tokens, symbol_tokens};
+use super::weave;
 use crate::compiled::Compiled;
 
 /// The functions of both kinds of feedback, without and with the reactions; nothing
 /// if the mechanism is too large.
-pub fn functions(compiled: &Compiled, names: &Names) -> TokenStream {
-    let Some(step) = &compiled.fused_step else { return TokenStream::new() };
+///
+/// # Errors
+/// A step on pairs that does not compute what its program does.
+pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inconsistency> {
+    let Some(step) = &compiled.fused_step else { return Ok(TokenStream::new()) };
     let Names { mechanism, runtime, state, reactions, .. } = names;
     let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
     let fields = Fields::new(compiled);
@@ -31,38 +35,36 @@ pub fn functions(compiled: &Compiled, names: &Names) -> TokenStream {
         }
     };
     let stepped = quote!(#runtime::Stepped<#q>);
-    let alone = |doc: &str, name: &str, woven: &Woven| {
-        let Body { statements, stepped: value, .. } = Body::new(compiled, names, &fields, woven);
-        function(doc, name, &stepped, &quote!(#statements #value))
+    let alone = |doc: &str, name: &str, program: &Program| -> Result<TokenStream, Inconsistency> {
+        let woven = weave::woven(compiled, program, false)?;
+        let Body { statements, stepped: value, .. } = Body::new(compiled, names, &fields, &woven);
+        Ok(function(doc, name, &stepped, &quote!(#statements #value)))
     };
-    let held = alone("A step with feedback held over it.", "step_held", &step.alone.held);
-    let per_stage = alone("A step with feedback in every stage.", "step_per_stage", &step.alone.per_stage);
+    let held = alone("A step with feedback held over it.", "step_held", &step.alone.held)?;
+    let per_stage = alone("A step with feedback in every stage.", "step_per_stage", &step.alone.per_stage)?;
     let both = quote!((#stepped, #reactions));
-    let with_reactions = |doc: &str, name: &str, woven: &Woven| {
-        let Body { statements, stepped, reactions } = Body::new(compiled, names, &fields, woven);
-        function(doc, name, &both, &quote!(#statements (#stepped, #reactions)))
+    let with_reactions = |doc: &str, name: &str, program: &Program| -> Result<TokenStream, Inconsistency> {
+        let woven = weave::woven(compiled, program, true)?;
+        let Body { statements, stepped, reactions } = Body::new(compiled, names, &fields, &woven);
+        Ok(function(doc, name, &both, &quote!(#statements (#stepped, #reactions))))
     };
-    let with_reactions = step.with_reactions.as_ref().map(|step| {
-        let held = with_reactions(
+    let mut functions = quote!(#held #per_stage);
+    if let Some(step) = &step.with_reactions {
+        functions.extend(with_reactions(
             "A step with feedback held over it, and the reactions at its start.",
             "step_held_with_reactions",
             &step.held,
-        );
-        let per_stage = with_reactions(
+        )?);
+        functions.extend(with_reactions(
             "A step with feedback in every stage, and the reactions at its start.",
             "step_per_stage_with_reactions",
             &step.per_stage,
-        );
-        quote!(#held #per_stage)
-    });
-    quote! {
-        #[allow(unused_variables, clippy::all)]
-        impl<T: #runtime::Real> #mechanism<T> {
-            #held
-            #per_stage
-            #with_reactions
-        }
+        )?);
     }
+    Ok(quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl<T: #runtime::Real> #mechanism<T> { #functions }
+    })
 }
 
 /// The trait's functions, which choose between the two.
