@@ -43,6 +43,7 @@ pub use diagnostics::{Diagnostic, Diagnostics};
 pub use syntax::{Keyword, KeywordKind, keywords};
 
 /// What `mechanism! { … }` expands to; errors become `compile_error!`.
+#[cfg(feature = "rust")]
 pub fn expand(declaration: TokenStream) -> TokenStream {
     compile(declaration).unwrap_or_else(|errors| errors.to_compile_errors())
 }
@@ -51,6 +52,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
 ///
 /// # Errors
 /// All errors of the first stage that has any.
+#[cfg(feature = "rust")]
 pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
     target::rust(&analyse(declaration)?)
 }

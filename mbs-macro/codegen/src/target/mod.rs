@@ -2,8 +2,10 @@
 //! alone.
 
 mod c;
+#[cfg(feature = "rust")]
 mod rust;
 mod words;
 
 pub use c::{CSources, File, Scalar, c};
+#[cfg(feature = "rust")]
 pub use rust::rust;
