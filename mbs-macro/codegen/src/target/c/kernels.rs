@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use mbs_symbolic::{Block, Inconsistency, Operand, Operations, Program};
 
 use super::Target;
+use super::docs::comment;
 use super::instructions::{Kept, Printer, argument};
 use super::loops;
-use crate::compiled::{Argument, Count, FunctionId, Results, Vector};
+use crate::compiled::{Argument, Count, FunctionId, Programs, Results, Vector};
 
 /// A function of C.
 pub struct Kernel {
@@ -18,6 +19,15 @@ pub struct Kernel {
     pub body: String,
     /// Whether others than the code itself may call it.
     pub is_public: bool,
+}
+
+impl Kernel {
+    /// The function; the comment of a public one stands in the header.
+    pub fn text(&self) -> String {
+        let Self { doc, head, body, is_public } = self;
+        let doc = if *is_public { String::new() } else { comment(doc, "") };
+        format!("{doc}{head}\n{{\n{body}}}\n\n")
+    }
 }
 
 /// A struct or an array that a function writes its results into.
@@ -31,12 +41,7 @@ struct Output {
 /// # Errors
 /// A program is not written as it was checked.
 pub fn all(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
-    let mut kernels = FunctionId::all().map(|id| kernel(target, id)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(step) = &target.compiled.fused_step {
-        kernels.push(fused(target, "held", "held over it", &step.alone.programs.held)?);
-        kernels.push(fused(target, "per_stage", "in both stages", &step.alone.programs.per_stage)?);
-    }
-    Ok(kernels)
+    FunctionId::all().map(|id| kernel(target, id)).collect()
 }
 
 fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
@@ -67,23 +72,51 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     })
 }
 
-/// A whole step as one program, which gives the growth of both stages.
-fn fused(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Result<Kernel, Inconsistency> {
-    let outputs = ["q_next", "v_next"].map(|name| Output { name, kind: Results::Coordinates });
+/// A whole step as one program, for both kinds of feedback; nothing if the mechanism is too large.
+///
+/// # Errors
+/// A program is not written as it was checked.
+pub fn fused(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
+    let Some(step) = &target.compiled.fused_step else { return Ok(Vec::new()) };
+    let Programs { held, per_stage, .. } = &step.alone.programs;
+    let kinds = [("held", "held over it", held), ("per_stage", "in both stages", per_stage)];
+    kinds.into_iter().map(|(name, how, program)| fused_step(target, name, how, program)).collect()
+}
+
+fn fused_step(
+    target: &Target<'_>,
+    name: &str,
+    how: &str,
+    program: &Program,
+) -> Result<Kernel, Inconsistency> {
     let given = ["m", "t", "q", "v", "inputs", "gains", "h", "half_h", "t_next"];
     let unused = unused(target, program, given.into_iter());
-    // as long as it may be, a fused step is one block
-    let blocks = [Block::Straight(0..program.instructions.len())];
-    let statements = statements(target, program, &blocks, &outputs, true)?;
-    let head = format!(
-        "static inline real NAME_step_{name}(const struct NAME_run *run, real t_next, struct NAME_state *next)"
-    );
+    let mut printer = Printer::new(target, program, 0..program.instructions.len(), None, "    ");
+    for at in 0..program.instructions.len() {
+        printer.instruction(at, [None, None])?;
+    }
+    let members = target.names.members(Vector::Positions);
+    let places = ["q", "v"].into_iter().flat_map(|vector| members.iter().map(move |member| (vector, member)));
+    let mut values = program.outputs.iter();
+    for ((vector, member), &value) in places.zip(values.by_ref()) {
+        let value = printer.operand(value)?;
+        printer.line(&format!("next.{vector}.{member} = {value};"));
+        printer.line(&format!("sum += {value};"));
+    }
+    if let Some(&growth) = values.next() {
+        let growth = printer.operand(growth)?;
+        printer.line("/* the sum is finite only if every component is */");
+        printer.line(
+            &target.fill(&format!("const int is_taken = isfinite(sum) && NAME_take(run, &next, {growth});")),
+        );
+        printer.line(&target.fill("return is_taken ? CAPS_OK : NAME_step_again(run, t_next);"));
+    }
     let given = target.fill(include_str!("text/step_fused_head.c"));
     let cost = cost(&program.operations(), 0);
     Ok(Kernel {
         doc: format!("A step with the feedback {how}, both stages in one.\nCost: {cost}."),
-        head: target.fill(&head),
-        body: format!("{given}{unused}{statements}"),
+        head: target.fill(&format!("static int NAME_step_{name}(struct NAME_run *run, real t_next)")),
+        body: format!("{given}{unused}{}", printer.text),
         is_public: false,
     })
 }

@@ -106,12 +106,13 @@ impl Target<'_> {
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar };
-    let kernels =
-        kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
+    let kernels = kernels::all(&target).map_err(internal)?;
+    let fused = kernels::fused(&target).map_err(internal)?;
     let file = |name: String, text| File { name, text };
     Ok(CSources {
         header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),
-        source: file(format!("{}.c", names.prefix), source::source(&target, &kernels)),
+        source: file(format!("{}.c", names.prefix), source::source(&target, &kernels, &fused)),
         example: file("main.c".to_owned(), source::example(&target)),
         readme: file("README.md".to_owned(), docs::readme(&target)),
         prefix: names.prefix,

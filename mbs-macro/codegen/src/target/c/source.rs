@@ -10,25 +10,23 @@ use super::kernels::Kernel;
 use super::{Scalar, Target};
 use crate::compiled::{Comparison, Compiled, GROWTH_LIMIT, Pivot, Vector};
 
-pub fn source(target: &Target<'_>, kernels: &[Kernel]) -> String {
-    let mut code = String::new();
-    for Kernel { doc, head, body, is_public } in kernels {
-        // that of a public function stands in the header
-        let doc = if *is_public { String::new() } else { comment(doc, "") };
-        let _ = write!(code, "{doc}{head}\n{{\n{body}}}\n\n");
-    }
-    let step = match target.compiled.fused_step {
-        Some(_) => include_str!("text/step_fused.c"),
-        None => include_str!("text/step_in_stages.c"),
+/// The text from the functions of the programs, and from a step that is one program.
+pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
+    let step = if fused.is_empty() {
+        "NAME_step_again(run, t_next)"
+    } else {
+        "run->is_held ? NAME_step_held(run, t_next) : NAME_step_per_stage(run, t_next)"
     };
-    code += &target.fill(include_str!("text/vectors.c"));
-    code += &construction(target);
-    for text in
-        [include_str!("text/start.c"), include_str!("text/step.c"), step, include_str!("text/results.c")]
-    {
-        code.push('\n');
-        code += &target.fill(text);
-    }
+    let code = [
+        kernels.iter().map(Kernel::text).collect(),
+        target.fill(include_str!("text/vectors.c")),
+        construction(target),
+        target.fill(include_str!("text/start.c")),
+        target.fill(include_str!("text/step.c")),
+        fused.iter().map(Kernel::text).collect(),
+        target.fill(&include_str!("text/results.c").replace("STEP", step)),
+    ];
+    let code = code.concat();
     format!("{}{}{}{code}", head(target), tables(target), helpers(target, &code))
 }
 

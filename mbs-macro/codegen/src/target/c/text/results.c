@@ -1,3 +1,9 @@
+int NAME_step(struct NAME_run *run)
+{
+    const real t_next = run->start_time + (real)(run->steps + 1) * run->step;
+    return STEP;
+}
+
 /* What a run gives. */
 
 int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)

@@ -203,3 +203,4 @@ int NAME_start(struct NAME_run *run, const struct NAME *m, double step)
     NAME_begin(run);
     return code;
 }
+

@@ -146,6 +146,17 @@ static void NAME_note(struct NAME_run *run, real growth)
     run->steps++;
 }
 
+/* Takes a step that is calm: its growth has not risen, and redundant constraints are met. */
+static inline int NAME_take(struct NAME_run *run, const struct NAME_state *next, real growth)
+{
+    if (!(growth <= run->alarm) || NAME_watch_redundant(run, next) != CAPS_OK) {
+        return 0;
+    }
+    run->state = *next;
+    NAME_note(run, growth);
+    return 1;
+}
+
 /* A step whose growth has risen: whether its constraints can still be met. A growth that has
    doubled since one was examined is examined again. */
 static int NAME_examine(struct NAME_run *run, const struct NAME_state *next, real growth)
@@ -181,10 +192,6 @@ static int NAME_step_again(struct NAME_run *run, real t_next)
     if (!is_healthy) {
         return NAME_diagnose(run, &trial);
     }
-    if (!(growth <= run->alarm) || NAME_watch_redundant(run, &trial.next) != CAPS_OK) {
-        return NAME_examine(run, &trial.next, growth);
-    }
-    run->state = trial.next;
-    NAME_note(run, growth);
-    return CAPS_OK;
+    return NAME_take(run, &trial.next, growth) ? CAPS_OK : NAME_examine(run, &trial.next, growth);
 }
+

@@ -106,3 +106,4 @@ static int NAME_check_state(struct NAME_run *run, const struct NAME_state *at)
     }
     return run->where < 0 ? CAPS_OK : CAPS_NOT_FINITE;
 }
+
