@@ -37,7 +37,6 @@ pub fn readme(target: &Target<'_>) -> String {
     target
         .fill(include_str!("text/README.md"))
         .replace("PRECISION", precision.trim())
-        .replace("SCALAR", target.scalar.name())
         .replace("STAGE", &stabilized.to_string())
         .replace("FUSION", step)
         .replace("MECHANISM", &compiled.name)

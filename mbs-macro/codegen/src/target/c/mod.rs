@@ -70,11 +70,12 @@ struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, and
-    /// `SQRT` and `FABS` for functions. No name of a declaration may be in it.
+    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, `SCALAR`
+    /// for the type, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
     fn fill(&self, text: &str) -> String {
         text.replace("NAME", &self.names.prefix)
             .replace("CAPS", &self.names.capitals)
+            .replace("SCALAR", self.scalar.name())
             .replace("SQRT", &self.scalar.of_math("sqrt"))
             .replace("FABS", &self.scalar.of_math("fabs"))
     }
@@ -106,9 +107,9 @@ impl Target<'_> {
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar };
-    let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
-    let kernels = kernels::all(&target).map_err(internal)?;
-    let fused = kernels::fused(&target).map_err(internal)?;
+    let kernels =
+        kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let fused = kernels::fused(&target);
     let file = |name: String, text| File { name, text };
     Ok(CSources {
         header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::compiled::{Compiled, Vector};
+use super::docs::constraint;
+use crate::compiled::{Compiled, Quantity, Results, Vector};
+use crate::target::words::quantity;
 
 /// The names of a printed mechanism.
 pub struct Names {
@@ -10,42 +12,83 @@ pub struct Names {
     pub prefix: String,
     /// What every constant begins with: `SLIDER_CRANK`.
     pub capitals: String,
-    parameters: Vec<String>,
-    inputs: Vec<String>,
-    coordinates: Vec<String>,
-    constraints: Vec<String>,
-    /// The members of the outputs.
-    pub outputs: Vec<String>,
+    /// Those of parameters, inputs, coordinates, constraints and outputs.
+    pub structs: [Struct; 5],
+}
+
+/// A struct of numbers.
+pub struct Struct {
+    /// What the numbers are, in the plural.
+    pub name: &'static str,
+    pub doc: &'static str,
+    pub members: Vec<Member>,
+}
+
+/// A number with a name.
+pub struct Member {
+    /// As it is declared.
+    pub declared: String,
+    /// As C takes it.
+    pub name: String,
+    pub doc: String,
 }
 
 impl Names {
     pub fn new(compiled: &Compiled) -> Self {
         let prefix = mended(&snake_case(&compiled.name), &mut BTreeSet::new());
-        Self {
-            capitals: prefix.to_uppercase(),
-            prefix,
-            parameters: members(compiled.parameters.iter().map(|parameter| &parameter.quantity.name)),
-            inputs: members(compiled.inputs.iter().map(|input| &input.name)),
-            coordinates: members(compiled.coordinates.iter().map(|coordinate| &coordinate.name)),
-            constraints: members(compiled.constraints.iter().map(|constraint| &constraint.name)),
-            outputs: members(compiled.outputs.iter().map(|output| &output.name)),
+        let numbers = |list: &[Quantity]| members(list.iter().map(|it| (&it.name, quantity(it, None))));
+        let parameters = compiled.parameters.iter().map(|it| (&it.quantity, it.value));
+        let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
+        let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
+        let structs = [
+            ("parameters", PARAMETERS, members(parameters)),
+            ("inputs", INPUTS, numbers(&compiled.inputs)),
+            ("coordinates", COORDINATES, numbers(&compiled.coordinates)),
+            ("constraints", CONSTRAINTS, members(constraints)),
+            ("outputs", OUTPUTS, numbers(&compiled.outputs)),
+        ];
+        let structs = structs.map(|(name, doc, members)| Struct { name, doc, members });
+        Self { capitals: prefix.to_uppercase(), prefix, structs }
+    }
+
+    /// The struct that holds a vector.
+    pub fn of(&self, vector: Vector) -> &Struct {
+        let [parameters, inputs, coordinates, constraints, _] = &self.structs;
+        match vector {
+            Vector::Parameters => parameters,
+            Vector::Inputs => inputs,
+            Vector::Positions | Vector::Velocities | Vector::Accelerations => coordinates,
+            Vector::Multipliers | Vector::Feedback => constraints,
         }
     }
 
-    /// The members of the struct that holds a vector.
-    pub fn members(&self, vector: Vector) -> &[String] {
-        match vector {
-            Vector::Parameters => &self.parameters,
-            Vector::Inputs => &self.inputs,
-            Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.coordinates,
-            Vector::Multipliers | Vector::Feedback => &self.constraints,
+    /// The struct that holds results; `None` of an array.
+    pub fn of_results(&self, results: Results) -> Option<&Struct> {
+        let [.., coordinates, constraints, outputs] = &self.structs;
+        match results {
+            Results::Coordinates => Some(coordinates),
+            Results::Constraints => Some(constraints),
+            Results::Outputs => Some(outputs),
+            _ => None,
         }
     }
 }
 
-fn members<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+const PARAMETERS: &str = "Numbers that are set once.";
+const INPUTS: &str = "Numbers that may change from step to step.";
+const COORDINATES: &str = "The coordinates, or their rates per second.";
+const CONSTRAINTS: &str =
+    "One number per constraint: its violation, its multiplier, or an amount added to its right-hand side.";
+const OUTPUTS: &str = "What the declaration measures.";
+
+fn members<'a>(declared: impl Iterator<Item = (&'a String, String)>) -> Vec<Member> {
     let mut taken = BTreeSet::new();
-    names.map(|name| mended(name, &mut taken)).collect()
+    let member = |(name, doc): (&String, String)| Member {
+        declared: name.clone(),
+        name: mended(name, &mut taken),
+        doc,
+    };
+    declared.map(member).collect()
 }
 
 /// A name that C takes and nobody has yet.
@@ -127,8 +170,9 @@ mod tests {
 
     #[test]
     fn words_of_c_are_mended_and_no_name_is_given_twice() {
-        let names = ["int", "int_", "r#type", "θ", "u3b8", "x1", "M_PI"].map(str::to_owned);
-        let mended = members(names.iter());
+        let mut taken = BTreeSet::new();
+        let mended =
+            ["int", "int_", "r#type", "θ", "u3b8", "x1", "M_PI"].map(|name| mended(name, &mut taken));
         assert_eq!(mended, ["int_", "int__", "type", "u3b8", "u3b8_", "x1", "M_PI_"]);
         assert_eq!(super::mended("math", &mut BTreeSet::new()), "math_");
     }

@@ -5,10 +5,12 @@ use std::fmt::Write;
 use mbs_symbolic::units::Dimension;
 
 use super::docs::comment;
-use super::header::ERRORS;
+use super::header::errors;
 use super::kernels::Kernel;
+use super::loops::lines;
+use super::names::Struct;
 use super::{Scalar, Target};
-use crate::compiled::{Comparison, Compiled, GROWTH_LIMIT, Pivot, Vector};
+use crate::compiled::{Comparison, Condition, GROWTH_LIMIT, Pivot};
 
 /// The text from the functions of the programs, and from a step that is one program.
 pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
@@ -20,14 +22,14 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
     let code = [
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
-        construction(target),
+        target.fill(include_str!("text/init.c")),
         target.fill(include_str!("text/start.c")),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
         target.fill(&include_str!("text/results.c").replace("STEP", step)),
     ];
     let code = code.concat();
-    format!("{}{}{}{code}", head(target), tables(target), helpers(target, &code))
+    format!("{}{}{}{}{code}", head(target), tables(target), construction(target), helpers(target, &code))
 }
 
 /// What stands before everything else.
@@ -36,82 +38,58 @@ fn head(target: &Target<'_>) -> String {
         Scalar::Double => [GROWTH_LIMIT, f64::EPSILON],
         Scalar::Float => [1.0 / (1024.0 * f64::from(f32::EPSILON)), f32::EPSILON.into()],
     };
-    let compiled = target.compiled;
     let mut text = target
         .fill(include_str!("text/head.c"))
         .replace("EPSILON", &target.scalar.literal(epsilon))
         .replace("LIMIT", &target.scalar.literal(limit));
-    let sizes = [
-        ("parameters", compiled.parameters.len()),
-        ("inputs", compiled.inputs.len()),
-        ("coordinates", compiled.coordinates.len()),
-        ("constraints", compiled.constraints.len()),
-        ("outputs", compiled.outputs.len()),
-    ];
-    let prefix = &target.names.prefix;
-    for (name, count) in sizes {
-        let count = count.max(1);
-        let _ = writeln!(
-            text,
-            "typedef char {prefix}_{name}_are_an_array[sizeof(struct {prefix}_{name}) == {count} * sizeof(real) ? 1 : -1];"
-        );
+    for Struct { name, members, .. } in &target.names.structs {
+        let (prefix, count) = (&target.names.prefix, members.len().max(1));
+        let size = format!("sizeof(struct {prefix}_{name}) == {count} * sizeof(real)");
+        let _ = writeln!(text, "typedef char {prefix}_{name}_are_an_array[{size} ? 1 : -1];");
     }
-    text.push('\n');
-    text
+    text + "\n"
 }
 
 /// Names, places, dimensions and splines.
 fn tables(target: &Target<'_>) -> String {
     let (compiled, prefix) = (target.compiled, &target.names.prefix);
-    let name = |quantity: &crate::compiled::Quantity| quantity.name.clone();
-    let pivot = |pivot: &Pivot| match (pivot.constraint.as_str(), pivot.coordinate.as_str()) {
-        (name, "") | ("", name) => name.to_owned(),
-        (constraint, coordinate) => format!("{constraint} of {coordinate}"),
-    };
     let mut text = String::new();
-    let lists: [(&str, &str, Vec<String>); 8] = [
-        ("", "parameter_names", compiled.parameters.iter().map(|it| name(&it.quantity)).collect()),
-        ("", "input_names", compiled.inputs.iter().map(name).collect()),
-        ("", "coordinate_names", compiled.coordinates.iter().map(name).collect()),
-        ("", "constraint_names", compiled.constraints.iter().map(|it| it.name.clone()).collect()),
-        ("", "output_names", compiled.outputs.iter().map(name).collect()),
-        ("", "point_names", compiled.sketch.points.clone()),
-        ("static ", "pivot_names", compiled.pivots.iter().map(pivot).collect()),
-        ("static ", "start_pivot_names", compiled.start_pivots.iter().map(pivot).collect()),
-    ];
-    for (storage, list, names) in lists {
-        text += &strings(&format!("{storage}const char *const {prefix}_{list}"), &names);
+    let mut names = |list: &str, names: Vec<&str>| {
+        let names = names.into_iter().map(quoted).collect();
+        text += &table(&format!("const char *const {prefix}_{list}_names"), "", names, "0");
+    };
+    for Struct { name, members, .. } in &target.names.structs {
+        names(name.trim_end_matches('s'), members.iter().map(|member| member.declared.as_str()).collect());
+    }
+    names("point", compiled.sketch.points.iter().map(String::as_str).collect());
+    let pivots = [("pivot", &compiled.pivots), ("start_pivot", &compiled.start_pivots)];
+    for (list, pivots) in pivots {
+        let names = pivots.iter().map(|pivot| quoted(&pivot_name(pivot))).collect();
+        text += &table(&format!("static const char *const {prefix}_{list}_names"), "", names, "0");
     }
     let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}"));
     text += &table(&format!("const int {prefix}_phi_q_places"), "[2]", places.collect(), "{0, 0}");
     let redundant = compiled.redundant.iter().map(ToString::to_string).collect();
     text += &table(&format!("static const int {prefix}_redundant"), "", redundant, "0");
-    let lengths = |dimensions: Vec<Dimension>| {
-        // a dimension with fractions is none of a constraint or a coordinate
-        let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length);
-        dimensions.into_iter().map(|dimension| length(dimension).to_string()).collect::<Vec<_>>()
-    };
-    let coordinates = lengths(compiled.coordinates.iter().map(|it| it.dimension).collect());
-    let constraints = lengths(compiled.constraints.iter().map(|it| it.dimension).collect());
+    // a dimension with fractions is none of a constraint or a coordinate
+    let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length).to_string();
+    let coordinates = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
+    let constraints = compiled.constraints.iter().map(|it| length(it.dimension)).collect();
     text += "/* The power of a length in the dimension of each. */\n";
     text += &table(&format!("static const int {prefix}_coordinate_length"), "", coordinates, "0");
     text += &table(&format!("static const int {prefix}_constraint_length"), "", constraints, "0");
-    text.push('\n');
     text + &splines(target)
 }
 
-/// A table of numbers, with one more at its end, because C has no arrays without elements.
-fn table(declaration: &str, columns: &str, mut elements: Vec<String>, last: &str) -> String {
-    elements.push(last.to_owned());
-    let lines: Vec<String> =
-        elements.chunks(12).map(|chunk| format!("    {},\n", chunk.join(", "))).collect();
-    format!("{declaration}[{}]{columns} = {{\n{}}};\n", elements.len(), lines.concat())
+fn pivot_name(Pivot { constraint, coordinate }: &Pivot) -> String {
+    let between = if constraint.is_empty() || coordinate.is_empty() { "" } else { " of " };
+    format!("{constraint}{between}{coordinate}")
 }
 
-/// A table of strings, and a null pointer.
-fn strings(declaration: &str, strings: &[String]) -> String {
-    let lines: Vec<String> = strings.iter().map(|string| format!("    {},\n", quoted(string))).collect();
-    format!("{declaration}[{}] = {{\n{}    0,\n}};\n\n", strings.len() + 1, lines.concat())
+/// A table with one element more at its end, because C has no arrays without elements.
+fn table(declaration: &str, columns: &str, mut elements: Vec<String>, last: &str) -> String {
+    elements.push(last.to_owned());
+    format!("{declaration}[{}]{columns} = {{\n{}}};\n\n", elements.len(), lines(&elements, "    "))
 }
 
 /// A string literal.
@@ -136,16 +114,18 @@ fn splines(target: &Target<'_>) -> String {
     // where an argument lies is decided in double precision
     let number = |value: f64| Scalar::Double.literal(value);
     for (at, spline) in splines.iter().enumerate() {
-        let count = spline.segments.len();
-        let _ = writeln!(text, "static const struct {prefix}_segment {prefix}_segments_{at}[{count}] = {{");
-        for segment in &spline.segments {
-            let coefficients = segment.coefficients.map(number).join(", ");
-            let _ = writeln!(text, "    {{{}, {{{coefficients}}}}},", number(segment.from));
-        }
+        let segments: Vec<String> = spline
+            .segments
+            .iter()
+            .map(|it| format!("{{{}, {{{}}}}}", number(it.from), it.coefficients.map(number).join(", ")))
+            .collect();
+        let (count, last) = (segments.len(), "{0, {0, 0, 0, 0}}");
         let (origin, period) = (number(spline.origin), number(spline.period));
+        let declaration = format!("static const struct {prefix}_segment {prefix}_segments_{at}");
+        text += &table(&declaration, "", segments, last);
         let _ = write!(
             text,
-            "}};\n\n{}static const struct {prefix}_spline {prefix}_spline_{at} = {{\n    \
+            "{}static const struct {prefix}_spline {prefix}_spline_{at} = {{\n    \
              {origin}, {period}, {count}, {prefix}_segments_{at},\n}};\n\n",
             comment(&spline.name, "")
         );
@@ -178,39 +158,26 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
 /// Declared parameters, their conditions, and what codes mean.
 fn construction(target: &Target<'_>) -> String {
     let (compiled, prefix) = (target.compiled, &target.names.prefix);
-    let members = target.names.members(Vector::Parameters);
-    let mut text = target.fill("\nvoid NAME_default_parameters(struct NAME_parameters *parameters)\n{\n");
-    for (parameter, member) in compiled.parameters.iter().zip(members) {
-        let _ = writeln!(text, "    parameters->{member} = {};", target.scalar.literal(parameter.value));
-    }
-    if members.is_empty() {
-        text += "    parameters->none = 0;\n";
-    }
-    text += &target.fill(include_str!("text/init.c"));
-    for (at, condition) in compiled.conditions.iter().enumerate() {
-        let comparison = match condition.comparison {
-            Comparison::Less => "<",
-            Comparison::LessOrEqual => "<=",
-            Comparison::Greater => ">",
-            Comparison::GreaterOrEqual => ">=",
+    let errors = errors().map(|(_, words)| quoted(words)).collect();
+    let words = |condition: &Condition| quoted(&format!("{}: {}", condition.name, condition.requirement));
+    let conditions = compiled.conditions.iter().map(words).collect();
+    let mut text = table(&format!("static const char *const {prefix}_error_words"), "", errors, "0");
+    text += &table(&format!("static const char *const {prefix}_condition_words"), "", conditions, "0");
+    let values: Vec<String> = compiled.parameters.iter().map(|it| target.scalar.literal(it.value)).collect();
+    text += &table(&format!("static const real {prefix}_declared"), "", values, "0");
+    let judged = |condition: &Condition| {
+        let (sign, is_strict) = match condition.comparison {
+            Comparison::Less => (-1, 1),
+            Comparison::LessOrEqual => (-1, 0),
+            Comparison::Greater => (1, 1),
+            Comparison::GreaterOrEqual => (1, 0),
         };
-        let (value, capitals) = (condition.difference, &target.names.capitals);
-        let _ = writeln!(
-            text,
-            "    if (!(values[{value}] {comparison} 0)) {{\n        return {capitals}_BAD_CONDITION + {at};\n    }}"
-        );
-    }
-    text += &target.fill("    NAME_compute_hoisted(m, m->hoisted);\n    return CAPS_OK;\n}\n\n");
-    let errors: Vec<String> = ERRORS.iter().map(|(_, words)| (*words).to_owned()).collect();
-    text += &strings(&format!("static const char *const {prefix}_error_words"), &errors);
-    text +=
-        &strings(&format!("static const char *const {prefix}_condition_words"), &condition_words(compiled));
-    text + &target.fill(include_str!("text/words.c"))
-}
-
-fn condition_words(compiled: &Compiled) -> Vec<String> {
-    let conditions = compiled.conditions.iter();
-    conditions.map(|condition| format!("{}: {}", condition.name, condition.requirement)).collect()
+        format!("{{{}, {sign}, {is_strict}}}", condition.difference)
+    };
+    let judged = compiled.conditions.iter().map(judged).collect();
+    text += "/* What is judged, its sign, and whether it must not be 0. */\n";
+    text += &table(&format!("static const int {prefix}_conditions"), "[3]", judged, "{0, 0, 0}");
+    text
 }
 
 /// A program that runs the mechanism as it is declared.

@@ -10,27 +10,24 @@ int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
 {
     const struct NAME_state *const at = &run->state;
     const struct NAME_constraints no_feedback = {0};
-    int pivot;
+    struct NAME_coordinates *const acceleration = &reactions->acceleration;
     reactions->growth = NAME_compute_reactions(
-        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions->acceleration,
+        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, acceleration,
         &reactions->multipliers);
     const int row = NAME_first_non_finite(NAME_elements(&reactions->multipliers), CAPS_CONSTRAINTS);
-    const int coordinate = NAME_first_non_finite(NAME_elements(&reactions->acceleration), CAPS_COORDINATES);
-    if (row < 0 && coordinate < 0 && reactions->growth < NAME_growth_limit) {
+    const int is_good = reactions->growth < NAME_growth_limit
+        && NAME_first_non_finite(NAME_elements(acceleration), CAPS_COORDINATES) < 0;
+    if (is_good && row < 0) {
         return CAPS_OK;
     }
     if (NAME_check_state(run, at) == CAPS_BAD_INPUT) {
         return CAPS_BAD_INPUT;
     }
-    if (coordinate < 0 && reactions->growth < NAME_growth_limit) {
+    if (is_good) {
         run->where = row;
         return CAPS_UNDEFINED_MULTIPLIER;
     }
-    const real worst = NAME_worst_pivot(run->mechanism, at->t, &at->q, &pivot);
-    const struct NAME_cause cause =
-        NAME_cause_of(&at->q, &reactions->acceleration, reactions->growth, NAME_growth_limit, pivot, worst);
-    run->where = cause.where;
-    return cause.code;
+    return NAME_cause_of(run, at->t, &at->q, acceleration, reactions->growth, NAME_growth_limit);
 }
 
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)

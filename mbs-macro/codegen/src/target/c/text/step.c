@@ -45,96 +45,68 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
     const struct NAME *const m = run->mechanism;
     const struct NAME_coordinates still = {0};
     const struct NAME_constraints no_feedback = {0};
-    struct NAME_coordinates q = *start, moved, unmoved;
-    struct NAME_constraints phi = {0}, best = {0}, feedback = {0};
     const real h = run->step;
-    int place;
+    struct NAME_coordinates q = *start, moved, unmoved;
+    struct NAME_constraints phi = {0}, best = {0};
     NAME_compute_phi(m, t, &q, &best);
     for (int iteration = 0; iteration < 30; iteration++) {
+        struct NAME_constraints feedback = {0};
         NAME_compute_phi(m, t, &q, &phi);
         if (NAME_norm(NAME_elements(&phi), CAPS_CONSTRAINTS) < NAME_norm(NAME_elements(&best), CAPS_CONSTRAINTS)) {
             best = phi;
         }
-        for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
-            NAME_places(&feedback)[row] = -(NAME_elements(&phi)[row] / (h * h));
-        }
+        NAME_add(NAME_places(&feedback), -1 / (h * h), NAME_elements(&phi), CAPS_CONSTRAINTS);
         const real growth = NAME_compute_constrained(m, t, &q, &still, &run->inputs, &feedback, &moved);
         NAME_compute_constrained(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved);
-        for (int j = 0; j < CAPS_COORDINATES; j++) {
-            NAME_places(&moved)[j] = h * h * (NAME_elements(&moved)[j] - NAME_elements(&unmoved)[j]);
-        }
-        const real length = NAME_largest(NAME_elements(&moved), CAPS_COORDINATES, &place);
-        const real size = 1 + NAME_largest(NAME_elements(&q), CAPS_COORDINATES, &place);
+        NAME_add(NAME_places(&moved), -1, NAME_elements(&unmoved), CAPS_COORDINATES);
+        const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_COORDINATES);
         /* without a first correction it is a drive that ends, and not a position */
-        if (length <= (64 + growth) * NAME_epsilon * size || (iteration == 0 && !isfinite(length))) {
+        if (length <= (64 + growth) * NAME_epsilon * NAME_extent(&q) || (iteration == 0 && !isfinite(length))) {
             return CAPS_OK;
         }
         if (!isfinite(length)) {
             break;
         }
-        for (int j = 0; j < CAPS_COORDINATES; j++) {
-            NAME_places(&q)[j] += NAME_elements(&moved)[j];
-        }
+        NAME_add(NAME_places(&q), h * h, NAME_elements(&moved), CAPS_COORDINATES);
     }
-    (void)NAME_largest(NAME_elements(&best), CAPS_CONSTRAINTS, &run->where);
+    run->where = NAME_place(NAME_elements(&best), CAPS_CONSTRAINTS);
     return CAPS_OUT_OF_REACH;
 }
 
-/* Redundant constraints are watched: a thousandth of the size is allowed. */
-static int NAME_watch_redundant(struct NAME_run *run, const struct NAME_state *at)
-{
-    struct NAME_constraints phi = {0};
-    if (CAPS_REDUNDANT == 0) {
-        return CAPS_OK;
-    }
-    NAME_compute_phi(run->mechanism, at->t, &at->q, &phi);
-    for (int k = 0; k < CAPS_REDUNDANT; k++) {
-        const int row = NAME_redundant[k];
-        real allowed = (real)1e-3;
-        for (int power = 0; power < NAME_constraint_length[row]; power++) {
-            allowed = allowed * run->size;
-        }
-        if (!(FABS(NAME_elements(&phi)[row]) <= allowed)) {
-            run->where = row;
-            return CAPS_OUT_OF_REACH;
-        }
-    }
-    return CAPS_OK;
-}
-
-/* Why a step failed: an input, a position that cannot be reached from one that was good,
-   or what its stages say. */
-static int NAME_diagnose(struct NAME_run *run, const struct NAME_trial *trial)
+/* What the stages of a step that failed say of themselves. */
+static int NAME_cause_in_stages(struct NAME_run *run, const struct NAME_trial *trial)
 {
     const struct NAME_state *const stages[2] = {&run->state, &trial->predicted};
     const struct NAME_coordinates *const solved[2] = {&trial->here, &trial->there};
     const real growths[2] = {trial->growth_here, trial->growth_there};
     /* if only the sum of two growths is over the limit, the larger is over half */
     const real limit = NAME_growth_limit / 2;
-    struct NAME_cause cause = {CAPS_NOT_FINITE, -1};
     for (int stage = 0; stage < 2; stage++) {
-        const struct NAME_coordinates *const q = &stages[stage]->q;
-        int pivot, code = NAME_check_state(run, stages[stage]);
-        if (code == CAPS_BAD_INPUT) {
-            return code;
-        }
+        const struct NAME_state *const at = stages[stage];
+        const int code = NAME_check_state(run, at);
         if (code != CAPS_OK) {
-            cause.where = run->where;
-            break;
+            return code;
         }
         if (!(growths[stage] < limit)
             || NAME_first_non_finite(NAME_elements(solved[stage]), CAPS_COORDINATES) >= 0) {
-            const real worst = NAME_worst_pivot(run->mechanism, stages[stage]->t, q, &pivot);
-            cause = NAME_cause_of(q, solved[stage], growths[stage], limit, pivot, worst);
-            break;
+            return NAME_cause_of(run, at->t, &at->q, solved[stage], growths[stage], limit);
         }
     }
-    if (trial->growth_here < NAME_growth_limit && NAME_reach(run, run->state.t, &run->state.q) == CAPS_OK
+    return CAPS_NOT_FINITE;
+}
+
+/* Why a step failed: a position that cannot be reached from one that was good, or what its
+   stages say. */
+static int NAME_diagnose(struct NAME_run *run, const struct NAME_trial *trial)
+{
+    const int code = NAME_cause_in_stages(run, trial), where = run->where;
+    if (code != CAPS_BAD_INPUT && trial->growth_here < NAME_growth_limit
+        && NAME_reach(run, run->state.t, &run->state.q) == CAPS_OK
         && NAME_reach(run, trial->next.t, &run->state.q) != CAPS_OK) {
         return CAPS_OUT_OF_REACH;
     }
-    run->where = cause.where;
-    return cause.code;
+    run->where = where;
+    return code;
 }
 
 /* A step is taken: its growth is compared with that of the next. */
@@ -149,7 +121,7 @@ static void NAME_note(struct NAME_run *run, real growth)
 /* Takes a step that is calm: its growth has not risen, and redundant constraints are met. */
 static inline int NAME_take(struct NAME_run *run, const struct NAME_state *next, real growth)
 {
-    if (!(growth <= run->alarm) || NAME_watch_redundant(run, next) != CAPS_OK) {
+    if (!(growth <= run->alarm) || !NAME_meets_redundant(run, next, (real)1e-3, run->size)) {
         return 0;
     }
     run->state = *next;
@@ -163,12 +135,9 @@ static int NAME_examine(struct NAME_run *run, const struct NAME_state *next, rea
 {
     const int is_first = run->worst_growth <= 0;
     const real before = (real)1.125 * run->alarm;
-    int code = NAME_reach(run, next->t, &next->q);
-    if (code == CAPS_OK) {
-        code = NAME_watch_redundant(run, next);
-    }
-    if (code != CAPS_OK) {
-        return code;
+    if (NAME_reach(run, next->t, &next->q) != CAPS_OK
+        || !NAME_meets_redundant(run, next, (real)1e-3, run->size)) {
+        return CAPS_OUT_OF_REACH;
     }
     if (growth > run->remembered_from) {
         run->remembered_from = 2 * growth < NAME_growth_limit ? 2 * growth : NAME_growth_limit;
@@ -186,10 +155,9 @@ static int NAME_step_again(struct NAME_run *run, real t_next)
     struct NAME_trial trial;
     NAME_try(run, t_next, &trial);
     const real growth = trial.growth_here + trial.growth_there;
-    const int is_healthy = growth < NAME_growth_limit
-        && NAME_first_non_finite(NAME_elements(&trial.next.q), CAPS_COORDINATES) < 0
-        && NAME_first_non_finite(NAME_elements(&trial.next.v), CAPS_COORDINATES) < 0;
-    if (!is_healthy) {
+    if (!(growth < NAME_growth_limit)
+        || NAME_first_non_finite(NAME_elements(&trial.next.q), CAPS_COORDINATES) >= 0
+        || NAME_first_non_finite(NAME_elements(&trial.next.v), CAPS_COORDINATES) >= 0) {
         return NAME_diagnose(run, &trial);
     }
     return NAME_take(run, &trial.next, growth) ? CAPS_OK : NAME_examine(run, &trial.next, growth);

@@ -5,5 +5,5 @@
     const struct NAME_gains *const gains = &run->gains;
     const real h = run->step, half_h = (real)0.5 * h;
     struct NAME_state next;
-    real sum = 0;
+    real sum = 0, growth;
     next.t = t_next;
