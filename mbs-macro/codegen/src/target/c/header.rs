@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::Target;
-use super::docs::comment;
+use super::docs::{comment, entries};
 use super::kernels::Kernel;
 use super::names::Struct;
 use crate::compiled::Results;
@@ -11,7 +11,7 @@ use crate::compiled::Results;
 /// The errors that functions return, and what they mean. Those of parameters and of
 /// conditions follow, one for each.
 pub fn errors() -> impl Iterator<Item = (&'static str, &'static str)> {
-    include_str!("text/errors.txt").lines().filter_map(|line| line.split_once(": "))
+    entries(include_str!("text/errors.txt"))
 }
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {

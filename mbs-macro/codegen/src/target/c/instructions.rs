@@ -11,18 +11,6 @@ use super::Target;
 use super::names::plain;
 use crate::compiled::{Input, Vector};
 
-/// What a function reads symbols from, by the name of its argument.
-pub fn argument(input: Input) -> &'static str {
-    match input {
-        Input::Time => "t",
-        Input::MinusTwoAlpha | Input::MinusBetaSquared => "gains",
-        Input::Step => "h",
-        Input::HalfStep => "half_h",
-        Input::NextTime => "t_next",
-        _ => input.component().map_or("", |it| before(it.vector).split('-').next().unwrap_or("")),
-    }
-}
-
 /// What stands before a member of a vector.
 fn before(vector: Vector) -> &'static str {
     match vector {
@@ -90,6 +78,11 @@ impl<'a> Printer<'a> {
     ) -> Self {
         let (pairs, printed, text) = (SinCos::of(program), HashSet::new(), String::new());
         Self { target, program, pairs, range, kept, printed, indent, text }
+    }
+
+    /// A whole program in straight lines, up to its outputs.
+    pub fn of(target: &'a Target<'a>, program: &'a Program) -> Self {
+        Self::new(target, program, 0..program.instructions.len(), None, "    ").instructions()
     }
 
     /// All instructions, as they stand in the program.
@@ -160,14 +153,18 @@ impl<'a> Printer<'a> {
 impl Target<'_> {
     /// How a function reads what a symbol stands for.
     pub fn input(&self, input: Input) -> String {
-        match (input, input.component()) {
-            (_, Some(Component { vector, place })) => {
-                format!("{}{}", before(vector), self.names.of(vector).members[place].name)
-            }
-            (Input::MinusTwoAlpha, _) => "gains->minus_two_alpha".to_owned(),
-            (Input::MinusBetaSquared, _) => "gains->minus_beta_squared".to_owned(),
-            _ => argument(input).to_owned(),
+        if let Some(Component { vector, place }) = input.component() {
+            return format!("{}{}", before(vector), self.names.of(vector).members[place].name);
         }
+        let name = match input {
+            Input::MinusTwoAlpha => "gains->minus_two_alpha",
+            Input::MinusBetaSquared => "gains->minus_beta_squared",
+            Input::Step => "h",
+            Input::HalfStep => "half_h",
+            Input::NextTime => "t_next",
+            _ => "t",
+        };
+        name.to_owned()
     }
 
     fn operation(&self, operation: Operation, a: &str, b: &str) -> String {
@@ -181,7 +178,7 @@ impl Target<'_> {
             Operation::Call2(function) => format!("{}({a}, {b})", self.function(function)),
             Operation::Spline(spline, order) => {
                 let prefix = &self.names.prefix;
-                format!("{prefix}_interpolate(&{prefix}_spline_{}, {order}, {a})", spline.index())
+                format!("{prefix}_interpolate(&{prefix}_splines[{}], {order}, {a})", spline.index())
             }
         }
     }

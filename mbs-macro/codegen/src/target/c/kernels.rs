@@ -1,12 +1,10 @@
 //! The functions of a mechanism, one for each program.
 
-use std::collections::BTreeSet;
-
-use mbs_symbolic::{Block, Inconsistency, Operand, Operations, Program};
+use mbs_symbolic::{Block, Inconsistency, Operations, Program};
 
 use super::Target;
-use super::docs::comment;
-use super::instructions::{Kept, Printer, argument};
+use super::docs::{comment, entries};
+use super::instructions::{Kept, Printer};
 use super::loops;
 use crate::compiled::{Argument, Count, FunctionId, Programs, Results, Vector};
 
@@ -54,25 +52,25 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
     let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
     let outputs: Vec<Output> = outputs.collect();
+    let doc = entries(include_str!("text/kernels.txt")).find(|(name, _)| *name == id.name());
+    let doc = doc.map_or("", |(_, doc)| doc);
     // a last single number is returned
     let returns = outputs.len() < id.results().len();
-    let mut arguments = vec![("const struct NAME *", "m")];
+    let mut arguments = vec![("const struct NAME *".to_owned(), "m")];
     arguments.extend(id.arguments().iter().map(|&argument| argument_of(argument)));
-    let empty = outputs.iter().filter(|output| target.compiled.length(output.kind) == 0);
-    let names = arguments.iter().map(|(_, name)| *name).chain(empty.map(|output| output.name));
-    let unused = unused(target, program, names);
-    let written = outputs.iter().map(|output| output.declaration(target));
-    let declarations: Vec<String> =
-        arguments.iter().map(|(of, name)| format!("{of}{name}")).chain(written).collect();
+    arguments.extend(outputs.iter().map(|output| (output.declared_as(target), output.name)));
+    let declarations: Vec<String> = arguments.iter().map(|(of, name)| format!("{of}{name}")).collect();
+    // not every program reads all that it is given
+    let given: Vec<String> = arguments.iter().map(|(_, name)| format!("(void){name};")).collect();
     let is_static = if is_public { "" } else { "static " };
     let result = if returns { "NAME_real" } else { "void" };
     let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
     let head = format!("{is_static}{result} NAME_compute_{name}(\n    {})", declarations.join(",\n    "));
     let statements = statements(target, program, &outputs, returns)?;
     Ok(Kernel {
-        doc: documented(described(id), &operations, watch, id.solves()),
+        doc: documented(doc, &operations, watch, id.solves()),
         head: target.fill(&head),
-        body: format!("{unused}{statements}"),
+        body: format!("    {}\n{statements}", given.join(" ")),
         is_public,
     })
 }
@@ -89,12 +87,12 @@ fn statements(
     let blocks = compiled.blocks(program);
     if !matches!(blocks[..], [] | [Block::Straight(_)]) {
         let layout = compiled.layout(program, &blocks, &lengths)?;
-        let results: Vec<String> = outputs.iter().map(|output| output.array(target)).collect();
+        let results: Vec<String> =
+            outputs.iter().map(|it| format!("{}_places({})", target.names.prefix, it.name)).collect();
         let kept = Kept { layout: &layout, results: &results };
         return Ok(loops::statements(target, program, kept, &lengths, returns));
     }
-    let mut printer =
-        Printer::new(target, program, 0..program.instructions.len(), None, "    ").instructions();
+    let mut printer = Printer::of(target, program);
     let mut values = program.outputs.iter();
     for (output, length) in outputs.iter().zip(lengths) {
         for (at, &value) in (0..length).zip(values.by_ref()) {
@@ -116,10 +114,7 @@ pub fn fused(target: &Target<'_>) -> Vec<Kernel> {
 }
 
 fn fused_step(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Kernel {
-    let given = ["m", "t", "q", "v", "inputs", "gains", "h", "half_h", "t_next"];
-    let unused = unused(target, program, given.into_iter());
-    let mut printer =
-        Printer::new(target, program, 0..program.instructions.len(), None, "    ").instructions();
+    let mut printer = Printer::of(target, program);
     let members = &target.names.of(Vector::Positions).members;
     let places = ["q", "v"].into_iter().flat_map(|vector| members.iter().map(move |member| (vector, member)));
     let mut values = program.outputs.iter();
@@ -137,53 +132,30 @@ fn fused_step(target: &Target<'_>, name: &str, how: &str, program: &Program) -> 
     Kernel {
         doc: documented(&doc, &program.operations(), 0, false),
         head: target.fill(&format!("static int NAME_step_{name}(struct NAME_run *run, real t_next)")),
-        body: format!("{given}{unused}{}{end}", printer.text),
+        body: format!("{given}{}{end}", printer.text),
         is_public: false,
     }
 }
 
-/// Statements without effect for arguments that a program does not read.
-fn unused(target: &Target<'_>, program: &Program, arguments: impl Iterator<Item = &'static str>) -> String {
-    let of_instructions = program.instructions.iter().flat_map(|instruction| [instruction.a, instruction.b]);
-    let used: BTreeSet<&str> = of_instructions
-        .chain(program.outputs.iter().copied())
-        .filter_map(|operand| match operand {
-            Operand::Hoisted(_) => Some("m"),
-            other => target.compiled.input_of(other).map(argument),
-        })
-        .collect();
-    let unused: Vec<String> =
-        arguments.filter(|name| !used.contains(name)).map(|name| format!("(void){name};")).collect();
-    if unused.is_empty() { String::new() } else { format!("    {}\n", unused.join(" ")) }
-}
-
 /// The type of an argument, and its name.
-fn argument_of(argument: Argument) -> (&'static str, &'static str) {
-    match argument {
-        Argument::Time => ("NAME_real ", "t"),
-        Argument::Positions => ("const struct NAME_coordinates *", "q"),
-        Argument::Velocities => ("const struct NAME_coordinates *", "v"),
-        Argument::Inputs => ("const struct NAME_inputs *", "inputs"),
-        Argument::Gains => ("const struct NAME_gains *", "gains"),
-        Argument::Feedback => ("const struct NAME_constraints *", "feedback"),
-        Argument::Reactions => ("const struct NAME_reactions *", "reactions"),
-    }
+fn argument_of(argument: Argument) -> (String, &'static str) {
+    let (of, name) = match argument {
+        Argument::Time => return ("NAME_real ".to_owned(), "t"),
+        Argument::Positions => ("coordinates", "q"),
+        Argument::Velocities => ("coordinates", "v"),
+        Argument::Inputs => ("inputs", "inputs"),
+        Argument::Gains => ("gains", "gains"),
+        Argument::Feedback => ("constraints", "feedback"),
+        Argument::Reactions => ("reactions", "reactions"),
+    };
+    (format!("const struct NAME_{of} *"), name)
 }
 
 impl Output {
-    fn declaration(&self, target: &Target<'_>) -> String {
-        match target.names.of_results(self.kind) {
-            Some(of) => format!("struct NAME_{} *{}", of.name, self.name),
-            None => format!("NAME_real *{}", self.name),
-        }
-    }
-
-    /// All of it, as an array.
-    fn array(&self, target: &Target<'_>) -> String {
-        match target.names.of_results(self.kind) {
-            Some(_) => format!("{}_places({})", target.names.prefix, self.name),
-            None => self.name.to_owned(),
-        }
+    /// The type of the argument that it is written to.
+    fn declared_as(&self, target: &Target<'_>) -> String {
+        let of = target.names.of_results(self.kind);
+        of.map_or_else(|| "NAME_real *".to_owned(), |of| format!("struct NAME_{} *", of.name))
     }
 
     /// A number of it.
@@ -210,40 +182,5 @@ fn results(id: FunctionId) -> &'static [&'static str] {
         FunctionId::Start => &["q", "v"],
         FunctionId::KineticEnergy | FunctionId::PotentialEnergy => &[],
         _ => &["result"],
-    }
-}
-
-/// What a function computes.
-fn described(id: FunctionId) -> &'static str {
-    match id {
-        FunctionId::Hoisted => "What depends on parameters alone.",
-        FunctionId::Phi => "The constraints Φ(q, t): 0 where the mechanism is assembled.",
-        FunctionId::PhiDot => "The constraint violation in velocities, Φ̇ = Φ_q v + Φ_t.",
-        FunctionId::PhiQ => {
-            "The entries of the Jacobian Φ_q that are not 0, as the table of places has them."
-        }
-        FunctionId::PhiT => "The partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.",
-        FunctionId::Gamma => "γ, so that accelerations satisfy Φ_q q̈ = γ.",
-        FunctionId::BaumgarteRhs => "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation.",
-        FunctionId::Mass => "The diagonal of the mass matrix M; its other entries are 0.",
-        FunctionId::Forces => "The generalized forces Q: gravity and applied loads.",
-        FunctionId::KineticEnergy => "The kinetic energy ½ vᵀMv in J.",
-        FunctionId::PotentialEnergy => "The potential energy of gravity and springs in J.",
-        FunctionId::Stabilized => {
-            "Accelerations with feedback of the state's own violation, and this feedback."
-        }
-        FunctionId::Constrained => "Accelerations with the given feedback.",
-        FunctionId::Reactions => "q̈ and λ from M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ + feedback.",
-        FunctionId::PositionCorrection => {
-            "The shortest Δq, measured by masses, with Φ_q Δq = feedback, a residual here; coordinates\n\
-             that the start prescribes do not move."
-        }
-        FunctionId::VelocityCorrection => "The same for velocities.",
-        FunctionId::Outputs => "The declared outputs.",
-        FunctionId::Conditions => "What the conditions of the parameters judge.",
-        FunctionId::Start => "The declared start, before guesses are corrected. Returns its time.",
-        FunctionId::Pivots => "The growth of every pivot that may vanish.",
-        FunctionId::StartPivots => "The growth of every pivot of the corrections.",
-        FunctionId::Points => "Where the points of the mechanism are in m: x and y of each.",
     }
 }

@@ -162,11 +162,8 @@ impl Columns<'_> {
         match rule {
             Rule::Line { first, step, is_down } => {
                 let distance = if step == 1 { "copy".to_owned() } else { format!("{step} * copy") };
-                match (first, is_down) {
-                    (0, false) => distance,
-                    (_, false) => format!("{first} + {distance}"),
-                    (_, true) => format!("{first} - {distance}"),
-                }
+                let sign = if is_down { "-" } else { "+" };
+                if first == 0 && !is_down { distance } else { format!("{first} {sign} {distance}") }
             }
             Rule::Table(table) => format!("places[copy][{table}]"),
         }

@@ -73,11 +73,12 @@ impl Target<'_> {
     /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, `SCALAR`
     /// for the type, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
     fn fill(&self, text: &str) -> String {
-        text.replace("NAME", &self.names.prefix)
-            .replace("CAPS", &self.names.capitals)
-            .replace("SCALAR", self.scalar.name())
+        // names last, because they may be any word
+        text.replace("SCALAR", self.scalar.name())
             .replace("SQRT", &self.scalar.of_math("sqrt"))
             .replace("FABS", &self.scalar.of_math("fabs"))
+            .replace("NAME", &self.names.prefix)
+            .replace("CAPS", &self.names.capitals)
     }
 }
 

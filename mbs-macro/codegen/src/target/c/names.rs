@@ -41,11 +41,11 @@ impl Names {
         let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
         let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
         let structs = [
-            ("parameters", PARAMETERS, members(parameters)),
-            ("inputs", INPUTS, numbers(&compiled.inputs)),
-            ("coordinates", COORDINATES, numbers(&compiled.coordinates)),
-            ("constraints", CONSTRAINTS, members(constraints)),
-            ("outputs", OUTPUTS, numbers(&compiled.outputs)),
+            ("parameters", "Numbers that are set once.", members(parameters)),
+            ("inputs", "Numbers that may change from step to step.", numbers(&compiled.inputs)),
+            ("coordinates", "The coordinates, or their rates per second.", numbers(&compiled.coordinates)),
+            ("constraints", ROWS, members(constraints)),
+            ("outputs", "What the declaration measures.", numbers(&compiled.outputs)),
         ];
         let structs = structs.map(|(name, doc, members)| Struct { name, doc, members });
         Self { capitals: prefix.to_uppercase(), prefix, structs }
@@ -74,12 +74,8 @@ impl Names {
     }
 }
 
-const PARAMETERS: &str = "Numbers that are set once.";
-const INPUTS: &str = "Numbers that may change from step to step.";
-const COORDINATES: &str = "The coordinates, or their rates per second.";
-const CONSTRAINTS: &str =
+const ROWS: &str =
     "One number per constraint: its violation, its multiplier, or an amount added to its right-hand side.";
-const OUTPUTS: &str = "What the declaration measures.";
 
 fn members<'a>(declared: impl Iterator<Item = (&'a String, String)>) -> Vec<Member> {
     let mut taken = BTreeSet::new();
@@ -129,17 +125,7 @@ fn snake_case(name: &str) -> String {
 
 /// Keywords of C and C++, macros of the headers that the code includes, and headers whose
 /// file a mechanism must not replace, nor that of the example.
-const RESERVED: &str = "\
-    auto break case char const continue default do double else enum extern float for goto if inline int long \
-    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
-    alignas alignof bool constexpr false nullptr static_assert thread_local true typeof typeof_unqual \
-    and and_eq asm bitand bitor catch char16_t char32_t char8_t class co_await co_return co_yield compl concept \
-    const_cast consteval constinit decltype delete dynamic_cast explicit export friend mutable namespace new \
-    noexcept not not_eq operator or or_eq private protected public reinterpret_cast requires static_cast template \
-    this throw try typeid typename using virtual wchar_t xor xor_eq \
-    NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL MATH_ERRNO MATH_ERREXCEPT math_errhandling NULL EOF I complex errno \
-    linux unix i386 arm assert ctype fenv inttypes iso646 limits locale math setjmp signal stdarg stdbool stddef \
-    stdint stdio stdlib string tgmath time wchar wctype main";
+const RESERVED: &str = include_str!("text/reserved.txt");
 
 fn is_reserved(name: &str) -> bool {
     // no macro of the headers ends like a mended name

@@ -10,7 +10,7 @@ use super::kernels::Kernel;
 use super::loops::lines;
 use super::names::Struct;
 use super::{Scalar, Target};
-use crate::compiled::{Comparison, Condition, GROWTH_LIMIT, Pivot};
+use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
 
 /// The text from the functions of the programs, and from a step that is one program.
 pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
@@ -29,7 +29,7 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(&include_str!("text/results.c").replace("STEP", step)),
     ];
     let code = code.concat();
-    format!("{}{}{}{}{code}", head(target), tables(target), construction(target), helpers(target, &code))
+    format!("{}{}{}{code}", head(target), tables(target), helpers(target, &code))
 }
 
 /// What stands before everything else.
@@ -50,35 +50,55 @@ fn head(target: &Target<'_>) -> String {
     text + "\n"
 }
 
-/// Names, places, dimensions and splines.
+/// Names, places, dimensions, what codes mean, and splines.
 fn tables(target: &Target<'_>) -> String {
-    let (compiled, prefix) = (target.compiled, &target.names.prefix);
+    let compiled = target.compiled;
     let mut text = String::new();
-    let mut names = |list: &str, names: Vec<&str>| {
-        let names = names.into_iter().map(quoted).collect();
-        text += &table(&format!("const char *const {prefix}_{list}_names"), "", names, "0");
-    };
+    let mut add = |declaration: &str, elements, last| text += &table(target, declaration, elements, last);
     for Struct { name, members, .. } in &target.names.structs {
-        names(name.trim_end_matches('s'), members.iter().map(|member| member.declared.as_str()).collect());
+        let names = members.iter().map(|member| quoted(&member.declared)).collect();
+        add(&format!("const char *const NAME_{}_names[]", name.trim_end_matches('s')), names, "0");
     }
-    names("point", compiled.sketch.points.iter().map(String::as_str).collect());
-    let pivots = [("pivot", &compiled.pivots), ("start_pivot", &compiled.start_pivots)];
-    for (list, pivots) in pivots {
-        let names = pivots.iter().map(|pivot| quoted(&pivot_name(pivot))).collect();
-        text += &table(&format!("static const char *const {prefix}_{list}_names"), "", names, "0");
-    }
-    let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}"));
-    text += &table(&format!("const int {prefix}_phi_q_places"), "[2]", places.collect(), "{0, 0}");
+    let points = compiled.sketch.points.iter().map(|name| quoted(name)).collect();
+    add("const char *const NAME_point_names[]", points, "0");
+    let pivots = |pivots: &[Pivot]| pivots.iter().map(|pivot| quoted(&pivot_name(pivot))).collect();
+    add("static const char *const NAME_pivot_names[]", pivots(&compiled.pivots), "0");
+    add("static const char *const NAME_start_pivot_names[]", pivots(&compiled.start_pivots), "0");
+    let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
+    add("const int NAME_phi_q_places[][2]", places, "{0, 0}");
     let redundant = compiled.redundant.iter().map(ToString::to_string).collect();
-    text += &table(&format!("static const int {prefix}_redundant"), "", redundant, "0");
+    add("static const int NAME_redundant[]", redundant, "0");
     // a dimension with fractions is none of a constraint or a coordinate
     let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length).to_string();
-    let coordinates = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
-    let constraints = compiled.constraints.iter().map(|it| length(it.dimension)).collect();
-    text += "/* The power of a length in the dimension of each. */\n";
-    text += &table(&format!("static const int {prefix}_coordinate_length"), "", coordinates, "0");
-    text += &table(&format!("static const int {prefix}_constraint_length"), "", constraints, "0");
+    let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
+    add(
+        "/* The power of a length in the dimension. */\nstatic const int NAME_coordinate_length[]",
+        lengths,
+        "0",
+    );
+    let lengths = compiled.constraints.iter().map(|it| length(it.dimension)).collect();
+    add("static const int NAME_constraint_length[]", lengths, "0");
+    let values = compiled.parameters.iter().map(|it| target.scalar.literal(it.value)).collect();
+    add("static const real NAME_declared[]", values, "0");
+    let judged = compiled.conditions.iter().map(judged).collect();
+    let declaration = "/* What is judged, its sign, and whether it must not be 0. */\nstatic const int";
+    add(&format!("{declaration} NAME_conditions[][3]"), judged, "{0, 0, 0}");
+    let words = |it: &Condition| quoted(&format!("{}: {}", it.name, it.requirement));
+    let conditions = compiled.conditions.iter().map(words).collect();
+    add("static const char *const NAME_condition_words[]", conditions, "0");
+    let errors = errors().map(|(_, words)| quoted(words)).collect();
+    add("static const char *const NAME_error_words[]", errors, "0");
     text + &splines(target)
+}
+
+fn judged(condition: &Condition) -> String {
+    let (sign, is_strict) = match condition.comparison {
+        Comparison::Less => (-1, 1),
+        Comparison::LessOrEqual => (-1, 0),
+        Comparison::Greater => (1, 1),
+        Comparison::GreaterOrEqual => (1, 0),
+    };
+    format!("{{{}, {sign}, {is_strict}}}", condition.difference)
 }
 
 fn pivot_name(Pivot { constraint, coordinate }: &Pivot) -> String {
@@ -87,9 +107,9 @@ fn pivot_name(Pivot { constraint, coordinate }: &Pivot) -> String {
 }
 
 /// A table with one element more at its end, because C has no arrays without elements.
-fn table(declaration: &str, columns: &str, mut elements: Vec<String>, last: &str) -> String {
+fn table(target: &Target<'_>, declaration: &str, mut elements: Vec<String>, last: &str) -> String {
     elements.push(last.to_owned());
-    format!("{declaration}[{}]{columns} = {{\n{}}};\n\n", elements.len(), lines(&elements, "    "))
+    format!("{} = {{\n{}}};\n\n", target.fill(declaration), lines(&elements, "    "))
 }
 
 /// A string literal.
@@ -106,31 +126,25 @@ fn quoted(text: &str) -> String {
 }
 
 fn splines(target: &Target<'_>) -> String {
-    let (splines, prefix) = (&target.compiled.splines, &target.names.prefix);
-    let mut text = String::new();
-    if !splines.is_empty() {
-        text += &target.fill(include_str!("text/spline.c"));
+    let splines = &target.compiled.splines;
+    if splines.is_empty() {
+        return String::new();
     }
+    let mut text = target.fill(include_str!("text/spline.c"));
     // where an argument lies is decided in double precision
     let number = |value: f64| Scalar::Double.literal(value);
+    let mut rows = Vec::new();
     for (at, spline) in splines.iter().enumerate() {
-        let segments: Vec<String> = spline
-            .segments
-            .iter()
-            .map(|it| format!("{{{}, {{{}}}}}", number(it.from), it.coefficients.map(number).join(", ")))
-            .collect();
-        let (count, last) = (segments.len(), "{0, {0, 0, 0, 0}}");
-        let (origin, period) = (number(spline.origin), number(spline.period));
-        let declaration = format!("static const struct {prefix}_segment {prefix}_segments_{at}");
-        text += &table(&declaration, "", segments, last);
-        let _ = write!(
-            text,
-            "{}static const struct {prefix}_spline {prefix}_spline_{at} = {{\n    \
-             {origin}, {period}, {count}, {prefix}_segments_{at},\n}};\n\n",
-            comment(&spline.name, "")
-        );
+        let segment = |coefficients: [f64; 4]| format!("{{{}}}", coefficients.map(number).join(", "));
+        let segments = spline.segments.iter();
+        let segments = segments.map(|it| format!("{{{}, {}}}", number(it.from), segment(it.coefficients)));
+        let declaration = format!("static const struct NAME_segment NAME_segments_{at}[]");
+        text += &comment(&spline.name, "");
+        text += &table(target, &declaration, segments.collect(), "{0, {0, 0, 0, 0}}");
+        let (origin, period, count) = (number(spline.origin), number(spline.period), spline.segments.len());
+        rows.push(format!("{{{origin}, {period}, {count}, {}_segments_{at}}}", target.names.prefix));
     }
-    text
+    text + &table(target, "static const struct NAME_spline NAME_splines[]", rows, "{0, 0, 0, 0}")
 }
 
 /// Those of the small functions that the code calls.
@@ -155,43 +169,13 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
     needed.into_iter().rev().map(|helper| format!("{helper}\n\n")).collect()
 }
 
-/// Declared parameters, their conditions, and what codes mean.
-fn construction(target: &Target<'_>) -> String {
-    let (compiled, prefix) = (target.compiled, &target.names.prefix);
-    let errors = errors().map(|(_, words)| quoted(words)).collect();
-    let words = |condition: &Condition| quoted(&format!("{}: {}", condition.name, condition.requirement));
-    let conditions = compiled.conditions.iter().map(words).collect();
-    let mut text = table(&format!("static const char *const {prefix}_error_words"), "", errors, "0");
-    text += &table(&format!("static const char *const {prefix}_condition_words"), "", conditions, "0");
-    let values: Vec<String> = compiled.parameters.iter().map(|it| target.scalar.literal(it.value)).collect();
-    text += &table(&format!("static const real {prefix}_declared"), "", values, "0");
-    let judged = |condition: &Condition| {
-        let (sign, is_strict) = match condition.comparison {
-            Comparison::Less => (-1, 1),
-            Comparison::LessOrEqual => (-1, 0),
-            Comparison::Greater => (1, 1),
-            Comparison::GreaterOrEqual => (1, 0),
-        };
-        format!("{{{}, {sign}, {is_strict}}}", condition.difference)
-    };
-    let judged = compiled.conditions.iter().map(judged).collect();
-    text += "/* What is judged, its sign, and whether it must not be 0. */\n";
-    text += &table(&format!("static const int {prefix}_conditions"), "[3]", judged, "{0, 0, 0}");
-    text
-}
-
 /// A program that runs the mechanism as it is declared.
 pub fn example(target: &Target<'_>) -> String {
     let choices = &target.compiled.choices;
     let step = choices.step.unwrap_or(1e-4);
-    let feedback = choices.feedback.as_ref().map_or_else(String::new, |feedback| {
-        let [alpha, beta] = [feedback.alpha, feedback.beta].map(|gain| Scalar::Double.literal(gain));
-        let is_held = u8::from(feedback.is_held);
-        format!(
-            "    if (code == CAPS_OK) {{\n        code = NAME_set_feedback(&run, {alpha}, {beta}, {is_held});\n    }}\n"
-        )
-    });
-    let text = include_str!("text/main.c");
-    let text = text.replace("STEP", &Scalar::Double.literal(step)).replace("FEEDBACK\n", &feedback);
-    target.fill(&text)
+    let deadbeat = Feedback { is_held: true, alpha: 0.75 / step, beta: 1.0 / step };
+    let Feedback { is_held, alpha, beta } = choices.feedback.unwrap_or(deadbeat);
+    let [step, alpha, beta] = [step, alpha, beta].map(|number| Scalar::Double.literal(number));
+    let feedback = format!("{alpha}, {beta}, {}", u8::from(is_held));
+    target.fill(&include_str!("text/main.c").replace("STEP", &step).replace("FEEDBACK", &feedback))
 }

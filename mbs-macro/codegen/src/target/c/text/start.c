@@ -6,7 +6,7 @@ static int NAME_check_correction(
 {
     const struct NAME_state *const at = &run->state;
     real growths[CAPS_START_PIVOTS + 1] = {0};
-    if (NAME_first_non_finite(NAME_elements(correction), CAPS_COORDINATES) < 0 && growth < NAME_growth_limit) {
+    if (NAME_is_finite(correction) && growth < NAME_growth_limit) {
         return CAPS_OK;
     }
     NAME_compute_start_pivots(run->mechanism, at->t, &at->q, growths);
@@ -21,13 +21,13 @@ static void NAME_damped(
     struct NAME_run *run, const struct NAME_coordinates *delta, struct NAME_constraints *phi)
 {
     const struct NAME_coordinates q = run->state.q;
-    const real violation = NAME_norm(NAME_elements(phi), CAPS_CONSTRAINTS);
+    const real violation = NAME_norm(phi);
     real length = 1;
     for (int halvings = 0; halvings <= 10; halvings++) {
         run->state.q = q;
         NAME_add(NAME_places(&run->state.q), length, NAME_elements(delta), CAPS_COORDINATES);
         NAME_compute_phi(run->mechanism, run->state.t, &run->state.q, phi);
-        if (NAME_norm(NAME_elements(phi), CAPS_CONSTRAINTS) < violation) {
+        if (NAME_norm(phi) < violation) {
             return;
         }
         length = length / 2;
@@ -51,7 +51,8 @@ static int NAME_assemble(struct NAME_run *run)
         if (code != CAPS_OK) {
             return code;
         }
-        is_at_rest = NAME_largest(NAME_elements(&delta), CAPS_COORDINATES) <= 4 * NAME_epsilon * NAME_extent(q);
+        const real length = NAME_largest(NAME_elements(&delta), CAPS_COORDINATES);
+        is_at_rest = length <= 4 * NAME_epsilon * NAME_extent(q);
         if (is_at_rest) {
             NAME_add(NAME_places(q), 1, NAME_elements(&delta), CAPS_COORDINATES);
         } else {
@@ -59,8 +60,9 @@ static int NAME_assemble(struct NAME_run *run)
         }
     }
     run->where = NAME_place(NAME_elements(&phi), CAPS_CONSTRAINTS);
+    const real most = NAME_largest(NAME_elements(&phi), CAPS_CONSTRAINTS);
     /* it may circle at rounding level, where the violation itself is at rounding */
-    if (is_at_rest || NAME_largest(NAME_elements(&phi), CAPS_CONSTRAINTS) <= 64 * NAME_epsilon * NAME_extent(q)) {
+    if (is_at_rest || most <= 64 * NAME_epsilon * NAME_extent(q)) {
         is_at_rest = NAME_meets_redundant(run, &run->state, SQRT(NAME_epsilon) * NAME_extent(q), 1);
     }
     return is_at_rest ? CAPS_OK : CAPS_NOT_ASSEMBLED;

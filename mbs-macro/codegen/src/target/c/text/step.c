@@ -52,7 +52,7 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
     for (int iteration = 0; iteration < 30; iteration++) {
         struct NAME_constraints feedback = {0};
         NAME_compute_phi(m, t, &q, &phi);
-        if (NAME_norm(NAME_elements(&phi), CAPS_CONSTRAINTS) < NAME_norm(NAME_elements(&best), CAPS_CONSTRAINTS)) {
+        if (NAME_norm(&phi) < NAME_norm(&best)) {
             best = phi;
         }
         NAME_add(NAME_places(&feedback), -1 / (h * h), NAME_elements(&phi), CAPS_CONSTRAINTS);
@@ -60,8 +60,9 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
         NAME_compute_constrained(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved);
         NAME_add(NAME_places(&moved), -1, NAME_elements(&unmoved), CAPS_COORDINATES);
         const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_COORDINATES);
+        const real roundings = (64 + growth) * NAME_epsilon;
         /* without a first correction it is a drive that ends, and not a position */
-        if (length <= (64 + growth) * NAME_epsilon * NAME_extent(&q) || (iteration == 0 && !isfinite(length))) {
+        if (length <= roundings * NAME_extent(&q) || (iteration == 0 && !isfinite(length))) {
             return CAPS_OK;
         }
         if (!isfinite(length)) {
@@ -88,7 +89,7 @@ static int NAME_cause_in_stages(struct NAME_run *run, const struct NAME_trial *t
             return code;
         }
         if (!(growths[stage] < limit)
-            || NAME_first_non_finite(NAME_elements(solved[stage]), CAPS_COORDINATES) >= 0) {
+            || !NAME_is_finite(solved[stage])) {
             return NAME_cause_of(run, at->t, &at->q, solved[stage], growths[stage], limit);
         }
     }
@@ -156,8 +157,8 @@ static int NAME_step_again(struct NAME_run *run, real t_next)
     NAME_try(run, t_next, &trial);
     const real growth = trial.growth_here + trial.growth_there;
     if (!(growth < NAME_growth_limit)
-        || NAME_first_non_finite(NAME_elements(&trial.next.q), CAPS_COORDINATES) >= 0
-        || NAME_first_non_finite(NAME_elements(&trial.next.v), CAPS_COORDINATES) >= 0) {
+        || !NAME_is_finite(&trial.next.q)
+        || !NAME_is_finite(&trial.next.v)) {
         return NAME_diagnose(run, &trial);
     }
     return NAME_take(run, &trial.next, growth) ? CAPS_OK : NAME_examine(run, &trial.next, growth);

@@ -7,3 +7,5 @@
     struct NAME_state next;
     real sum = 0, growth;
     next.t = t_next;
+    /* not every program reads all of them */
+    (void)m; (void)t; (void)inputs; (void)gains; (void)half_h;

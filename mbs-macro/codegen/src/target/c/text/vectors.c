@@ -1,9 +1,10 @@
 /* Small functions on vectors. */
 
-static real NAME_norm(const real *x, int count)
+static real NAME_norm(const struct NAME_constraints *phi)
 {
+    const real *const x = NAME_elements(phi);
     real sum = 0;
-    for (int at = 0; at < count; at++) {
+    for (int at = 0; at < CAPS_CONSTRAINTS; at++) {
         sum = sum + x[at] * x[at];
     }
     return SQRT(sum);
@@ -40,6 +41,11 @@ static int NAME_first_non_finite(const real *x, int count)
 {
     const int place = NAME_place(x, count);
     return place < 0 || isfinite(x[place]) ? -1 : place;
+}
+
+static int NAME_is_finite(const struct NAME_coordinates *x)
+{
+    return NAME_first_non_finite(NAME_elements(x), CAPS_COORDINATES) < 0;
 }
 
 /* The size of coordinates that rounding is compared with. */
