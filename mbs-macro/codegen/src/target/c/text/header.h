@@ -65,7 +65,8 @@ int NAME_init(struct NAME *m, const struct NAME_parameters *parameters);
    step. The mechanism has to outlive the run. */
 int NAME_start(struct NAME_run *run, const struct NAME *m, double step);
 
-/* Starts at a state that is kept as it is, with the step, feedback and inputs of the run. */
+/* Starts at a state that is kept as it is, with the step, feedback and inputs of the run, or
+   refuses one that is not consistent. */
 int NAME_start_from(struct NAME_run *run, const struct NAME_state *state);
 
 /* Other gains in 1/s, held over each step or computed in both stages. Deadbeat gains of a step
@@ -78,6 +79,9 @@ int NAME_step(struct NAME_run *run);
 /* Accelerations and multipliers of the present state, without feedback: the forces that the
    mechanism feels. */
 int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions);
+
+/* Both: accelerations and multipliers of the present state, then a step. */
+int NAME_step_with_reactions(struct NAME_run *run, struct NAME_reactions *reactions);
 
 /* The declared outputs in the present state. */
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs);

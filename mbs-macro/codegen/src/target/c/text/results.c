@@ -30,6 +30,12 @@ int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
     return NAME_cause_of(run, at->t, &at->q, acceleration, reactions->growth, NAME_growth_limit);
 }
 
+int NAME_step_with_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
+{
+    const int code = NAME_reactions(run, reactions);
+    return code == CAPS_OK ? NAME_step(run) : code;
+}
+
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)
 {
     const struct NAME_state *const at = &run->state;
@@ -74,6 +80,7 @@ const char *NAME_where(const struct NAME_run *run, int code)
     case CAPS_SINGULAR_START: return NAME_start_pivot_names[run->where];
     case CAPS_NOT_FINITE: return NAME_coordinate_names[run->where];
     case CAPS_NOT_ASSEMBLED:
+    case CAPS_INCONSISTENT:
     case CAPS_OUT_OF_REACH:
     case CAPS_UNDEFINED_MULTIPLIER: return NAME_constraint_names[run->where];
     case CAPS_UNDEFINED_OUTPUT: return NAME_output_names[run->where];

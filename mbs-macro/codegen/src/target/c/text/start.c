@@ -135,9 +135,47 @@ static void NAME_begin(struct NAME_run *run)
     run->size = NAME_size(run->mechanism, &run->state);
 }
 
+/* Refuses a given state that violates a constraint by more than a thousandth of its size, or the
+   rate of one by more than a thousandth of the motion, beside roundings of the size. */
+static int NAME_check_consistent(struct NAME_run *run, const struct NAME_state *at)
+{
+    const struct NAME *const m = run->mechanism;
+    const real *const v = NAME_elements(&at->v);
+    const real share = (real)1e-3, length = NAME_size(m, at), roundings = 1024 * NAME_epsilon / run->step;
+    real entries[CAPS_JACOBIAN + 1] = {0}, sizes[CAPS_CONSTRAINTS + 1] = {0}, fastest = 0;
+    struct NAME_constraints phi = {0}, phi_dot = {0}, rates = {0};
+    NAME_compute_phi(m, at->t, &at->q, &phi);
+    NAME_compute_phi_dot(m, at->t, &at->q, &at->v, &phi_dot);
+    NAME_compute_phi_t(m, at->t, &at->q, &rates);
+    NAME_compute_phi_q(m, at->t, &at->q, entries);
+    for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
+        NAME_places(&rates)[row] = FABS(NAME_elements(&rates)[row]);
+    }
+    for (int j = 0; j < CAPS_COORDINATES; j++) {
+        const real scale = NAME_coordinate_length[j] == 0 ? 1 : length;
+        fastest = FABS(v[j]) > fastest * scale && scale > 0 ? FABS(v[j]) / scale : fastest;
+    }
+    for (int k = 0; k < CAPS_JACOBIAN; k++) {
+        const int row = NAME_phi_q_places[k][0], j = NAME_phi_q_places[k][1];
+        sizes[row] += FABS(entries[k]) * (NAME_coordinate_length[j] == 0 ? 1 : length);
+        NAME_places(&rates)[row] += FABS(entries[k] * v[j]);
+    }
+    for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
+        const real size = sizes[row], motion = NAME_elements(&rates)[row];
+        const real rate = motion > size * fastest ? motion : size * fastest;
+        run->where = row;
+        if (!(FABS(NAME_elements(&phi)[row]) <= share * size)
+            || !(FABS(NAME_elements(&phi_dot)[row]) <= share * rate + roundings * size)) {
+            return CAPS_INCONSISTENT;
+        }
+    }
+    return CAPS_OK;
+}
+
 int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
 {
-    const int code = NAME_check_state(run, state);
+    int code = NAME_check_state(run, state);
+    code = code == CAPS_OK ? NAME_check_consistent(run, state) : code;
     if (code == CAPS_OK) {
         run->state = *state;
         NAME_begin(run);
