@@ -70,6 +70,27 @@ int main(void)
     bad.v.theta2 = NAN;
     CHECK(NAME_start_from(&run, &bad) == CAPS_NOT_FINITE);
     CHECK(strcmp(NAME_where(&run, CAPS_NOT_FINITE), "theta2") == 0);
+
+    /* one that violates its constraints, or their rates, and one that is kept to the bit */
+    bad = run.state;
+    bad.q.x2 += 1e-3;
+    CHECK(NAME_start_from(&run, &bad) == CAPS_INCONSISTENT);
+    CHECK(strcmp(NAME_where(&run, CAPS_INCONSISTENT), "rod_x") == 0);
+    bad = run.state;
+    bad.v.x3 += 1;
+    CHECK(NAME_start_from(&run, &bad) == CAPS_INCONSISTENT);
+    CHECK(strcmp(NAME_where(&run, CAPS_INCONSISTENT), "slider") == 0);
+    bad = run.state;
+    CHECK(NAME_start_from(&run, &bad) == CAPS_OK && run.steps == 0);
+    CHECK(memcmp(&run.state, &bad, sizeof bad) == 0);
+
+    /* a step with reactions is both */
+    struct NAME_run other = run;
+    struct NAME_reactions at_start;
+    CHECK(NAME_reactions(&other, &reactions) == CAPS_OK && NAME_step(&other) == CAPS_OK);
+    CHECK(NAME_step_with_reactions(&run, &at_start) == CAPS_OK);
+    CHECK(memcmp(&run.state, &other.state, sizeof run.state) == 0);
+    CHECK(memcmp(&reactions, &at_start, sizeof at_start) == 0);
     CHECK(strcmp(NAME_words(-1), NAME_words(1000)) == 0);
     return 0;
 }

@@ -7,7 +7,7 @@ use c_code::{Built, Choice, Fault, build, compilers};
 use mbs_codegen::analyse;
 use mbs_codegen::target::{Scalar, c};
 use mbs_runtime::{
-    Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Real, Simulation, mechanism,
+    Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Real, Rk4, Simulation, mechanism,
 };
 
 /// A declaration for Rust, and as text.
@@ -56,6 +56,46 @@ declared! { FREE;
         start { theta1 = 0; der(theta1) = 20 [rad/s]; }
         output speed [rpm] = der(theta1);
         output sharpness = tanh(theta1) + exp(-theta1^2) + abs(x1)/l1;
+    }
+}
+
+declared! { FOURTH_ORDER;
+    pub AccurateCrank {
+        dof = 1;
+        method = rk4;
+        param l1 = 60 [mm];    param l2 = 180 [mm];
+        input load [N*m];
+        gravity = (0, -9.81) [m/s^2];
+        body crank  (x1, y1, theta1) { mass = 0.5 [kg]; inertia = 0.01 [kg*m^2]; }
+        body rod    (x2, y2, theta2) { mass = 1.2 [kg]; inertia = 0.02 [kg*m^2]; }
+        body slider (x3)             { mass = 2 [kg]; }
+        point base on crank = (-l1/2, 0);    point tip on crank = (l1/2, 0);
+        point base on rod   = (-l2/2, 0);    point tip on rod   = (l2/2, 0);
+        revolute pivot (crank.base, ground);
+        revolute pin   (crank.tip, rod.base);
+        revolute wrist (rod.tip, slider);
+        torque motor on crank = load*cos(5 [rad/s]*t);
+        start { theta1 = 0; der(theta1) = 20 [rad/s]; }
+    }
+}
+
+declared! { FOURTH_ORDER_CHAIN;
+    pub AccurateChain {
+        dof = 40;
+        method = rk4;
+        const N = 40;
+        gravity = (0, -9.81) [m/s^2];
+        for i in 1..=N {
+            body bob[i] (x[i], y[i], angle[i]) { mass = 1 [kg]; inertia = 1/12 [kg*m^2]; }
+            point top on bob[i] = (0, 1/2 [m]);
+            point end on bob[i] = (0, -1/2 [m]);
+            if i == 1 {
+                revolute pin[i] (ground, bob[i].top);
+            } else {
+                revolute pin[i] (bob[i-1].end, bob[i].top);
+            }
+            start { angle[i] = 30 [deg]; der(angle[i]) = 0; }
+        }
     }
 }
 
@@ -158,6 +198,17 @@ fn the_driven_slider_crank_runs_alike() {
 fn a_free_crank_with_an_input_named_like_a_type_runs_alike() {
     compare(FREE, FreeCrank::declared(), Baumgarte::<Held>::deadbeat(1e-3), 1e-3, &[0.5]);
     compare(FREE, FreeCrank::declared(), Baumgarte::<PerStage>::deadbeat(1e-3), 1e-3, &[-0.25]);
+}
+
+/// Fused, and, where the growth of a step rises or the mechanism is long, stage by stage.
+#[test]
+fn schemes_of_higher_order_run_alike() {
+    let held = Baumgarte::<Held<Rk4>>::deadbeat(1e-3);
+    compare(FOURTH_ORDER, AccurateCrank::declared(), held, 1e-3, &[0.5]);
+    let per_stage = Baumgarte::<PerStage<Rk4>>::deadbeat(1e-3);
+    compare(FOURTH_ORDER, AccurateCrank::declared(), per_stage, 1e-3, &[0.5]);
+    compare(FOURTH_ORDER_CHAIN, AccurateChain::declared(), held, 1e-3, &[]);
+    compare(FOURTH_ORDER, AccurateCrank::<f32>::default(), held, 1e-3, &[0.5]);
 }
 
 #[test]

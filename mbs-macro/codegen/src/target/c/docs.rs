@@ -15,6 +15,11 @@ pub fn comment(text: &str, indent: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{indent}/* {text} */\n") }
 }
 
+/// The lines of a text that begin with a name and a colon.
+pub fn entries(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    text.lines().filter_map(|line| line.split_once(": "))
+}
+
 /// What a constraint says.
 pub fn constraint(constraint: &Constraint) -> String {
     format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
@@ -24,9 +29,9 @@ pub fn constraint(constraint: &Constraint) -> String {
 pub fn readme(target: &Target<'_>) -> String {
     let compiled = target.compiled;
     let step = if compiled.fused_step.is_some() {
-        "both stages of a step are one straight line of code"
+        "all stages of a step are one straight line of code"
     } else {
-        "a step runs its two stages one after the other"
+        "a step runs its stages one after the other"
     };
     let precision = match target.scalar {
         Scalar::Double => include_str!("text/double.md"),
@@ -37,7 +42,7 @@ pub fn readme(target: &Target<'_>) -> String {
     target
         .fill(include_str!("text/README.md"))
         .replace("PRECISION", precision.trim())
-        .replace("SCALAR", target.scalar.name())
+        .replace("ORDER", &compiled.choices.scheme.order.to_string())
         .replace("STAGE", &stabilized.to_string())
         .replace("FUSION", step)
         .replace("MECHANISM", &compiled.name)

@@ -2,114 +2,90 @@
 
 use std::fmt::Write;
 
+use mbs_schemes::Explicit;
+
 use super::Target;
-use super::docs::{comment, constraint};
+use super::docs::{comment, entries};
 use super::kernels::Kernel;
-use crate::compiled::{FunctionId, Results, Vector};
-use crate::target::words::quantity;
+use super::names::Struct;
+use crate::compiled::Results;
 
 /// The errors that functions return, and what they mean. Those of parameters and of
 /// conditions follow, one for each.
-pub const ERRORS: [(&str, &str); 11] = [
-    ("OK", "no error"),
-    ("SINGULAR", "the position is singular: constraints depend on each other there, or friction jams"),
-    ("SINGULAR_START", "constraints depend on each other at the start"),
-    ("NOT_FINITE", "a position or a velocity is no longer finite"),
-    (
-        "NOT_ASSEMBLED",
-        "the mechanism cannot be assembled: check the dimensions, or start from a closer guess",
-    ),
-    ("OUT_OF_REACH", "a constraint cannot be met any more: check the dimensions and how far the drives go"),
-    ("UNDEFINED_MULTIPLIER", "a multiplier is not finite, though the motion is"),
-    ("UNDEFINED_OUTPUT", "an output is not finite"),
-    ("BAD_INPUT", "an input is not finite"),
-    ("BAD_STEP", "the step has to be positive, finite, and more than the rounding of time"),
-    ("BAD_GAINS", "gains must not be negative, and violations must not grow with them from step to step"),
-];
+pub fn errors() -> impl Iterator<Item = (&'static str, &'static str)> {
+    entries(include_str!("text/errors.txt"))
+}
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
-    let (compiled, names) = (target.compiled, target.names);
-    let mut text = comment(&format!("{}\n\n{HEAD}", compiled.doc), "");
-    text += &target.fill(
-        "#ifndef CAPS_H\n#define CAPS_H\n\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n",
-    );
-    let _ = writeln!(text, "typedef {} {}_real;\n", target.scalar.name(), names.prefix);
-    text += &counts(target);
-    text += &errors(target);
-    let parameters = compiled.parameters.iter();
-    let parameters: Vec<_> =
-        parameters.map(|parameter| quantity(&parameter.quantity, Some(parameter.value))).collect();
-    let quantities = |list: &[_]| list.iter().map(|it| quantity(it, None)).collect::<Vec<String>>();
-    let constraints: Vec<_> = compiled.constraints.iter().map(constraint).collect();
-    text += &structure(target, "parameters", PARAMETERS, names.members(Vector::Parameters), &parameters);
-    let inputs = quantities(&compiled.inputs);
-    text += &structure(target, "inputs", INPUTS, names.members(Vector::Inputs), &inputs);
-    let coordinates = quantities(&compiled.coordinates);
-    text += &structure(target, "coordinates", COORDINATES, names.members(Vector::Positions), &coordinates);
-    text += &structure(target, "constraints", CONSTRAINTS, names.members(Vector::Multipliers), &constraints);
-    text += &structure(target, "outputs", OUTPUTS, &names.outputs, &quantities(&compiled.outputs));
-    text += &target.fill(include_str!("text/header.h"));
-    text += "/* The equations. Results must not lie where arguments do. */\n\n";
-    for Kernel { doc, head, .. } in kernels.iter().filter(|kernel| kernel.is_public) {
-        let _ = write!(text, "{}{head};\n\n", comment(doc, ""));
-    }
-    text += "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
-    text
+    let structs = &target.names.structs;
+    let parts = [
+        comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
+        target.fill(include_str!("text/header_head.h")),
+        counts(target),
+        codes(target),
+        structs.iter().map(|it| structure(target, it)).collect(),
+        target.fill(
+            &include_str!("text/header.h")
+                .replace("HELD", &deadbeat(target, true))
+                .replace("STAGED", &deadbeat(target, false)),
+        ),
+        kernels.iter().map(Kernel::declaration).collect(),
+        "#ifdef __cplusplus\n}\n#endif\n\n#endif\n".to_owned(),
+    ];
+    parts.concat()
 }
 
 const HEAD: &str =
     "Printed from its declaration; changes here are lost. All numbers are in SI units, angles in rad.";
-const PARAMETERS: &str = "Numbers that are set once.";
-const INPUTS: &str = "Numbers that may change from step to step.";
-const COORDINATES: &str = "The coordinates, or their rates per second.";
-const CONSTRAINTS: &str =
-    "One number per constraint: its violation, its multiplier, or an amount added to its right-hand side.";
-const OUTPUTS: &str = "What the declaration measures.";
+
+/// The gains that remove a violation fastest, for a step h.
+fn deadbeat(target: &Target<'_>, is_held: bool) -> String {
+    let [alpha, beta] = Explicit { tableau: target.compiled.choices.scheme, is_held }.deadbeat(1.0);
+    format!("{alpha}/h and {beta}/h")
+}
 
 /// How many there are of what.
 fn counts(target: &Target<'_>) -> String {
     let (compiled, capitals) = (target.compiled, &target.names.capitals);
-    let counts = [
-        ("PARAMETERS", compiled.parameters.len()),
-        ("INPUTS", compiled.inputs.len()),
-        ("COORDINATES", compiled.coordinates.len()),
-        ("CONSTRAINTS", compiled.constraints.len()),
+    let mut text = String::from("/* How many there are. */\nenum {\n");
+    for Struct { name, members, .. } in &target.names.structs {
+        let _ = writeln!(text, "    {capitals}_{} = {},", name.to_uppercase(), members.len());
+    }
+    let others = [
         ("REDUNDANT", compiled.redundant.len()),
-        ("OUTPUTS", compiled.outputs.len()),
         ("POINTS", compiled.sketch.points.len()),
         ("JACOBIAN", compiled.jacobian.len()),
         ("PIVOTS", compiled.pivots.len()),
         ("START_PIVOTS", compiled.start_pivots.len()),
         ("CONDITIONS", compiled.conditions.len()),
-        ("CONDITION_VALUES", compiled.program(FunctionId::Conditions).outputs.len()),
+        ("CONDITION_VALUES", compiled.length(Results::Conditions)),
         ("HOISTED", compiled.length(Results::Hoisted)),
+        ("STAGES", compiled.choices.scheme.stage_count()),
     ];
-    let lines = counts.map(|(name, count)| format!("    {capitals}_{name} = {count},\n"));
-    format!("/* How many there are. */\nenum {{\n{}}};\n\n", lines.concat())
+    for (name, count) in others {
+        let _ = writeln!(text, "    {capitals}_{name} = {count},");
+    }
+    text + "};\n\n"
 }
 
-fn errors(target: &Target<'_>) -> String {
-    let capitals = &target.names.capitals;
+/// The codes of all errors.
+fn codes(target: &Target<'_>) -> String {
     let mut text = String::from("/* What functions return that may fail. */\nenum {\n");
-    for (at, (name, words)) in ERRORS.iter().enumerate() {
-        let _ = writeln!(text, "    /* {words} */\n    {capitals}_{name} = {at},");
+    for (name, words) in errors() {
+        let _ = writeln!(text, "    /* {words} */\n    CAPS_{name},");
     }
-    let _ = write!(
-        text,
-        "    /* a parameter is not finite; with its position added */\n    {capitals}_BAD_PARAMETER = {},\n    \
-         /* a condition does not hold; with its position added */\n    \
-         {capitals}_BAD_CONDITION = {capitals}_BAD_PARAMETER + {capitals}_PARAMETERS\n}};\n\n",
-        ERRORS.len()
-    );
-    text
+    text += "    /* a parameter is not finite; with its position added */\n    CAPS_BAD_PARAMETER,\n";
+    text += "    /* a condition does not hold; with its position added */\n";
+    text += "    CAPS_BAD_CONDITION = CAPS_BAD_PARAMETER + CAPS_PARAMETERS\n};\n\n";
+    target.fill(&text)
 }
 
 /// A struct of numbers. C has no empty ones.
-fn structure(target: &Target<'_>, name: &str, doc: &str, members: &[String], docs: &[String]) -> String {
+fn structure(target: &Target<'_>, Struct { name, doc, members }: &Struct) -> String {
     let prefix = &target.names.prefix;
     let mut text = format!("{}struct {prefix}_{name} {{\n", comment(doc, ""));
-    for (member, doc) in members.iter().zip(docs) {
-        let _ = writeln!(text, "{}    {prefix}_real {member};", comment(doc, "    "));
+    for member in members {
+        let _ = writeln!(text, "{}    {prefix}_real {};", comment(&member.doc, "    "), member.name);
     }
     if members.is_empty() {
         let _ = writeln!(text, "    /* there are none */\n    {prefix}_real none;");

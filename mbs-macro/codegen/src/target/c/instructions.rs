@@ -4,51 +4,32 @@ use std::collections::HashSet;
 use std::fmt::Write;
 use std::ops::Range;
 
-use mbs_symbolic::layout::{Array, Layout, Place};
-use mbs_symbolic::{Function, Inconsistency, Operand, Operation, Program, SinCos};
+use mbs_symbolic::layout::{Array, Component, Layout, Place};
+use mbs_symbolic::{Function, Operand, Operation, Program, SinCos};
 
 use super::Target;
 use super::names::plain;
 use crate::compiled::{Input, Vector};
 
-/// What ends a program that reads a result which is not there.
-const KEPT: Inconsistency = Inconsistency { pass: "C", rule: "a result that is read is kept" };
-
-/// What a function reads symbols from, by the name of its argument.
-pub fn argument(input: Input) -> &'static str {
-    match input {
-        Input::Time => "t",
-        Input::Parameter(_) => "m",
-        Input::Input(_) => "inputs",
-        Input::Position(_) => "q",
-        Input::Velocity(_) => "v",
-        Input::Acceleration(_) | Input::Multiplier(_) => "reactions",
-        Input::Feedback(_) => "feedback",
-        Input::MinusTwoAlpha | Input::MinusBetaSquared => "gains",
-        Input::Step => "h",
-        Input::HalfStep => "half_h",
-        Input::NextTime => "t_next",
-    }
-}
-
-/// The struct that holds a vector, and how a member of it is chosen.
-fn structure(vector: Vector) -> (&'static str, &'static str) {
+/// What stands before a member of a vector.
+fn before(vector: Vector) -> &'static str {
     match vector {
-        Vector::Parameters => ("m->parameters", "."),
-        Vector::Inputs => ("inputs", "->"),
-        Vector::Positions => ("q", "->"),
-        Vector::Velocities => ("v", "->"),
-        Vector::Accelerations => ("reactions->acceleration", "."),
-        Vector::Multipliers => ("reactions->multipliers", "."),
-        Vector::Feedback => ("feedback", "->"),
+        Vector::Parameters => "m->parameters.",
+        Vector::Inputs => "inputs->",
+        Vector::Positions => "q->",
+        Vector::Velocities => "v->",
+        Vector::Accelerations => "reactions->acceleration.",
+        Vector::Multipliers => "reactions->multipliers.",
+        Vector::Feedback => "feedback->",
     }
 }
 
 /// A vector as an array.
 pub fn elements(target: &Target<'_>, vector: Vector) -> String {
-    let (structure, by) = structure(vector);
-    let address = if by == "." { "&" } else { "" };
-    format!("{}_elements({address}{structure})", target.names.prefix)
+    let before = before(vector);
+    let pointer =
+        before.strip_suffix("->").map_or_else(|| format!("&{}", before.trim_end_matches('.')), str::to_owned);
+    format!("{}_elements({pointer})", target.names.prefix)
 }
 
 /// Where the results of a program that is laid out are kept.
@@ -61,35 +42,27 @@ pub struct Kept<'a> {
 
 impl Kept<'_> {
     /// An array of results.
-    ///
-    /// # Errors
-    /// There is none.
-    pub fn array(&self, array: Array) -> Result<&str, Inconsistency> {
+    pub fn array(&self, array: Array) -> &str {
         match array {
-            Array::Slots => Ok("slots"),
-            Array::Result(at) => self.results.get(at).map(String::as_str).ok_or(KEPT),
+            Array::Slots => "slots",
+            Array::Result(at) => &self.results[at],
         }
     }
 
     /// An element of one.
-    ///
-    /// # Errors
-    /// There is none.
-    pub fn element(&self, place: Place) -> Result<String, Inconsistency> {
-        Ok(format!("{}[{}]", self.array(place.array)?, place.at))
+    pub fn element(&self, place: Place) -> String {
+        format!("{}[{}]", self.array(place.array), place.at)
     }
 }
 
 /// Prints some instructions of a program, one after the other.
 pub struct Printer<'a> {
-    pub target: &'a Target<'a>,
-    pub program: &'a Program,
+    target: &'a Target<'a>,
+    program: &'a Program,
     pairs: SinCos,
     /// What is printed here; results of other instructions are where they are kept.
     range: Range<usize>,
     kept: Option<Kept<'a>>,
-    /// Sines and cosines that are not of one angle in every copy of a loop.
-    apart: HashSet<usize>,
     printed: HashSet<usize>,
     indent: &'static str,
     pub text: String,
@@ -103,14 +76,22 @@ impl<'a> Printer<'a> {
         kept: Option<Kept<'a>>,
         indent: &'static str,
     ) -> Self {
-        let (pairs, text) = (SinCos::of(program), String::new());
-        let (apart, printed) = (HashSet::new(), HashSet::new());
-        Self { target, program, pairs, range, kept, apart, printed, indent, text }
+        let (pairs, printed, text) = (SinCos::of(program), HashSet::new(), String::new());
+        Self { target, program, pairs, range, kept, printed, indent, text }
     }
 
-    /// Does not take the result of an instruction from that of its partner.
-    pub fn set_apart(&mut self, at: usize) {
-        self.apart.insert(at);
+    /// A whole program in straight lines, up to its outputs.
+    pub fn of(target: &'a Target<'a>, program: &'a Program) -> Self {
+        Self::new(target, program, 0..program.instructions.len(), None, "    ").instructions()
+    }
+
+    /// All instructions, as they stand in the program.
+    pub fn instructions(mut self) -> Self {
+        for at in self.range.clone() {
+            let partner = self.pairs.partner(at);
+            self.instruction(at, [None, None], partner.filter(|partner| self.range.contains(partner)));
+        }
+        self
     }
 
     pub fn is_printed(&self, at: usize) -> bool {
@@ -122,55 +103,43 @@ impl<'a> Printer<'a> {
         let _ = writeln!(self.text, "{}{line}", self.indent);
     }
 
-    /// The statement of an instruction, unless a partner has brought it, with other operands
-    /// where there are any.
-    ///
-    /// # Errors
-    /// A result is read that is not kept.
-    pub fn instruction(&mut self, at: usize, operands: [Option<String>; 2]) -> Result<(), Inconsistency> {
-        if self.is_printed(at) {
-            return Ok(());
+    /// The statement of an instruction, with other operands where there are any, and of its
+    /// partner, which takes the cosine of the same angle or the sine; nothing if a partner has
+    /// brought it.
+    pub fn instruction(&mut self, at: usize, operands: [Option<String>; 2], partner: Option<usize>) {
+        if !self.printed.insert(at) {
+            return;
         }
-        let instruction = &self.program.instructions[at];
+        let (program, name) = (self.program, self.name(at));
+        let instruction = &program.instructions[at];
         let [a, b] = operands;
-        let a = a.map_or_else(|| self.operand(instruction.a), Ok)?;
-        let partner = self.pairs.partner(at);
-        let partner = partner.filter(|partner| self.range.contains(partner) && !self.apart.contains(&at));
-        match partner {
-            Some(partner) => {
-                let is_sine = instruction.operation == Operation::Call(Function::Sin);
-                let [sine, cosine] =
-                    if is_sine { [at, partner] } else { [partner, at] }.map(|it| self.name(it));
-                self.line(&format!("real {sine}, {cosine};"));
-                let prefix = &self.target.names.prefix;
-                self.line(&format!("{prefix}_sin_cos({a}, &{sine}, &{cosine});"));
-                self.printed.insert(partner);
-            }
-            None => {
-                let b = b.map_or_else(|| self.operand(instruction.b), Ok)?;
-                let value = self.target.operation(instruction.operation, &a, &b);
-                self.line(&format!("const real {} = {value};", self.name(at)));
-            }
-        }
-        self.printed.insert(at);
-        Ok(())
+        let a = a.unwrap_or_else(|| self.operand(instruction.a));
+        let Some(partner) = partner else {
+            let b = b.unwrap_or_else(|| self.operand(instruction.b));
+            let value = self.target.operation(instruction.operation, &a, &b);
+            return self.line(&format!("const real {name} = {value};"));
+        };
+        self.printed.insert(partner);
+        let other = self.name(partner);
+        let is_sine = instruction.operation == Operation::Call(Function::Sin);
+        let (sine, cosine) = if is_sine { (name, other) } else { (other, name) };
+        self.line(&format!("real {sine}, {cosine};"));
+        self.line(&format!("{}_sin_cos({a}, &{sine}, &{cosine});", self.target.names.prefix));
     }
 
     /// An operand as an expression that needs no parentheses.
-    ///
-    /// # Errors
-    /// It is a result that is not kept.
-    pub fn operand(&self, operand: Operand) -> Result<String, Inconsistency> {
-        Ok(match operand {
+    pub fn operand(&self, operand: Operand) -> String {
+        match operand {
             Operand::Number(number) => self.target.scalar.literal(number.to_f64()),
             Operand::Symbol(symbol) => self.target.input(self.target.compiled.input(symbol)),
             Operand::Hoisted(at) => format!("m->hoisted[{at}]"),
             Operand::Value(at) if self.is_printed(at) => self.name(at),
             Operand::Value(at) => {
-                let kept = self.kept.ok_or(KEPT)?;
-                kept.element(kept.layout.place(at).ok_or(KEPT)?)?
+                let kept = self.kept.and_then(|kept| Some(kept.element(kept.layout.place(at)?)));
+                // a mistake of the compiler, which no C compiler takes
+                kept.unwrap_or_else(|| "a_result_that_is_not_kept".to_owned())
             }
-        })
+        }
     }
 
     /// The variable that holds a result: the suggested name, or `v`, with the position, so that
@@ -184,16 +153,18 @@ impl<'a> Printer<'a> {
 impl Target<'_> {
     /// How a function reads what a symbol stands for.
     pub fn input(&self, input: Input) -> String {
-        if let Some(component) = input.component() {
-            let (structure, by) = structure(component.vector);
-            return format!("{structure}{by}{}", self.names.members(component.vector)[component.place]);
+        if let Some(Component { vector, place }) = input.component() {
+            return format!("{}{}", before(vector), self.names.of(vector).members[place].name);
         }
-        let of_gains = match input {
-            Input::MinusTwoAlpha => "->minus_two_alpha",
-            Input::MinusBetaSquared => "->minus_beta_squared",
-            _ => "",
+        let name = match input {
+            Input::MinusTwoAlpha => "gains->minus_two_alpha",
+            Input::MinusBetaSquared => "gains->minus_beta_squared",
+            Input::Step => "h",
+            Input::HalfStep => "half_h",
+            Input::NextTime => "t_next",
+            _ => "t",
         };
-        format!("{}{of_gains}", argument(input))
+        name.to_owned()
     }
 
     fn operation(&self, operation: Operation, a: &str, b: &str) -> String {
@@ -207,7 +178,7 @@ impl Target<'_> {
             Operation::Call2(function) => format!("{}({a}, {b})", self.function(function)),
             Operation::Spline(spline, order) => {
                 let prefix = &self.names.prefix;
-                format!("{prefix}_interpolate(&{prefix}_spline_{}, {order}, {a})", spline.index())
+                format!("{prefix}_interpolate(&{prefix}_splines[{}], {order}, {a})", spline.index())
             }
         }
     }

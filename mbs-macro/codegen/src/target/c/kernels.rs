@@ -1,23 +1,35 @@
 //! The functions of a mechanism, one for each program.
 
-use std::collections::BTreeSet;
-
-use mbs_symbolic::{Block, Inconsistency, Operand, Operations, Program};
+use mbs_symbolic::{Block, Inconsistency, Operations, Program};
 
 use super::Target;
-use super::instructions::{Kept, Printer, argument};
+use super::docs::{comment, entries};
+use super::instructions::{Kept, Printer};
 use super::loops;
-use crate::compiled::{Argument, Count, FunctionId, Results, Vector};
+use crate::compiled::{Argument, Count, FunctionId, Kinds, Results, Vector};
 
 /// A function of C.
 pub struct Kernel {
-    /// What it does, for a comment.
-    pub doc: String,
+    /// What it does, as a comment.
+    doc: String,
     /// Its head, without a semicolon.
-    pub head: String,
-    pub body: String,
+    head: String,
+    body: String,
     /// Whether others than the code itself may call it.
-    pub is_public: bool,
+    is_public: bool,
+}
+
+impl Kernel {
+    /// What the header says of it.
+    pub fn declaration(&self) -> String {
+        if self.is_public { format!("{}{};\n\n", self.doc, self.head) } else { String::new() }
+    }
+
+    /// The function; the comment of a public one stands in the header.
+    pub fn text(&self) -> String {
+        let doc = if self.is_public { "" } else { &self.doc };
+        format!("{doc}{}\n{{\n{}}}\n\n", self.head, self.body)
+    }
 }
 
 /// A struct or an array that a function writes its results into.
@@ -31,60 +43,35 @@ struct Output {
 /// # Errors
 /// A program is not written as it was checked.
 pub fn all(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
-    let mut kernels = FunctionId::all().map(|id| kernel(target, id)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(step) = &target.compiled.fused_step {
-        kernels.push(fused(target, "held", "held over it", &step.alone.held)?);
-        kernels.push(fused(target, "per_stage", "in both stages", &step.alone.per_stage)?);
-    }
-    Ok(kernels)
+    FunctionId::all().map(|id| kernel(target, id)).collect()
 }
 
 fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
     let program = target.compiled.program(id);
     let Count { operations, watch, .. } = target.compiled.count(id);
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
-    let outputs = outputs(id);
-    let returns = matches!(id.results().last(), Some(Results::Scalar | Results::Growth));
-    let mut arguments = vec![("const struct NAME *", "m")];
+    let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
+    let outputs: Vec<Output> = outputs.collect();
+    let doc = entries(include_str!("text/kernels.txt")).find(|(name, _)| *name == id.name());
+    let doc = doc.map_or("", |(_, doc)| doc);
+    // a last single number is returned
+    let returns = outputs.len() < id.results().len();
+    let mut arguments = vec![("const struct NAME *".to_owned(), "m")];
     arguments.extend(id.arguments().iter().map(|&argument| argument_of(argument)));
+    arguments.extend(outputs.iter().map(|output| (output.declared_as(target), output.name)));
+    let declarations: Vec<String> = arguments.iter().map(|(of, name)| format!("{of}{name}")).collect();
+    // not every program reads all that it is given
+    let given: Vec<String> = arguments.iter().map(|(_, name)| format!("(void){name};")).collect();
     let is_static = if is_public { "" } else { "static " };
     let result = if returns { "NAME_real" } else { "void" };
     let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
-    let written = outputs.iter().map(|output| (type_of(output.kind), output.name));
-    let declarations: Vec<_> =
-        arguments.iter().copied().chain(written).map(|(of, name)| format!("{of}{name}")).collect();
     let head = format!("{is_static}{result} NAME_compute_{name}(\n    {})", declarations.join(",\n    "));
-    let empty = outputs.iter().filter(|output| target.compiled.length(output.kind) == 0);
-    let names = arguments.iter().map(|(_, name)| *name).chain(empty.map(|output| output.name));
-    let unused = unused(target, program, names);
-    let blocks = target.compiled.blocks(program);
-    let statements = statements(target, program, &blocks, &outputs, returns)?;
+    let statements = statements(target, program, &outputs, returns)?;
     Ok(Kernel {
-        doc: format!("{}\nCost: {}.", doc(id), cost(&operations, watch)),
+        doc: documented(doc, &operations, watch, id.solves()),
         head: target.fill(&head),
-        body: format!("{unused}{statements}"),
+        body: format!("    {}\n{statements}", given.join(" ")),
         is_public,
-    })
-}
-
-/// A whole step as one program, which gives the growth of both stages.
-fn fused(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Result<Kernel, Inconsistency> {
-    let outputs = ["q_next", "v_next"].map(|name| Output { name, kind: Results::Coordinates });
-    let given = ["m", "t", "q", "v", "inputs", "gains", "h", "half_h", "t_next"];
-    let unused = unused(target, program, given.into_iter());
-    // as long as it may be, a fused step is one block
-    let blocks = [Block::Straight(0..program.instructions.len())];
-    let statements = statements(target, program, &blocks, &outputs, true)?;
-    let head = format!(
-        "static inline real NAME_step_{name}(const struct NAME_run *run, real t_next, struct NAME_state *next)"
-    );
-    let given = target.fill(include_str!("text/step_fused_head.c"));
-    let cost = cost(&program.operations(), 0);
-    Ok(Kernel {
-        doc: format!("A step with the feedback {how}, both stages in one.\nCost: {cost}."),
-        head: target.fill(&head),
-        body: format!("{given}{unused}{statements}"),
-        is_public: false,
     })
 }
 
@@ -92,178 +79,108 @@ fn fused(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Resul
 fn statements(
     target: &Target<'_>,
     program: &Program,
-    blocks: &[Block],
     outputs: &[Output],
     returns: bool,
 ) -> Result<String, Inconsistency> {
     let compiled = target.compiled;
     let lengths: Vec<usize> = outputs.iter().map(|output| compiled.length(output.kind)).collect();
-    let range = match blocks {
-        [] => 0..0,
-        [Block::Straight(range)] => range.clone(),
-        _ => {
-            let layout = compiled.layout(program, blocks, &lengths)?;
-            let results: Vec<String> = outputs.iter().map(|output| array(target, output)).collect();
-            let kept = Kept { layout: &layout, results: &results };
-            let mut text = loops::parts(target, program, kept)?;
-            let mut places = &layout.outputs[..];
-            for (at, &length) in lengths.iter().enumerate() {
-                let (here, rest) = places.split_at(length);
-                text += &loops::gather(kept, at, here)?;
-                places = rest;
-            }
-            if let (true, Some(place)) = (returns, places.first()) {
-                text += &format!("    return {};\n", kept.element(*place)?);
-            }
-            return Ok(text);
-        }
-    };
-    let mut printer = Printer::new(target, program, range.clone(), None, "    ");
-    for at in range {
-        printer.instruction(at, [None, None])?;
+    let blocks = compiled.blocks(program);
+    if !matches!(blocks[..], [] | [Block::Straight(_)]) {
+        let layout = compiled.layout(program, &blocks, &lengths)?;
+        let results: Vec<String> =
+            outputs.iter().map(|it| format!("{}_places({})", target.names.prefix, it.name)).collect();
+        let kept = Kept { layout: &layout, results: &results };
+        return Ok(loops::statements(target, program, kept, &lengths, returns));
     }
+    let mut printer = Printer::of(target, program);
     let mut values = program.outputs.iter();
     for (output, length) in outputs.iter().zip(lengths) {
         for (at, &value) in (0..length).zip(values.by_ref()) {
-            printer.line(&format!("{} = {};", member(target, output, at), printer.operand(value)?));
+            printer.line(&format!("{} = {};", output.element(target, at), printer.operand(value)));
         }
     }
     if let (true, Some(&value)) = (returns, values.next()) {
-        printer.line(&format!("return {};", printer.operand(value)?));
+        printer.line(&format!("return {};", printer.operand(value)));
     }
     Ok(printer.text)
 }
 
-/// Statements without effect for arguments that a program does not read.
-fn unused(target: &Target<'_>, program: &Program, arguments: impl Iterator<Item = &'static str>) -> String {
-    let of_instructions = program.instructions.iter().flat_map(|instruction| [instruction.a, instruction.b]);
-    let used: BTreeSet<&str> = of_instructions
-        .chain(program.outputs.iter().copied())
-        .filter_map(|operand| match operand {
-            Operand::Hoisted(_) => Some("m"),
-            other => target.compiled.input_of(other).map(argument),
-        })
-        .collect();
-    let unused: Vec<String> =
-        arguments.filter(|name| !used.contains(name)).map(|name| format!("(void){name};")).collect();
-    if unused.is_empty() { String::new() } else { format!("    {}\n", unused.join(" ")) }
+/// A whole step as one program, for both kinds of feedback; nothing if the mechanism is too large.
+pub fn fused(target: &Target<'_>) -> Vec<Kernel> {
+    let Some(step) = &target.compiled.fused_step else { return Vec::new() };
+    let Kinds { held, per_stage } = &step.alone;
+    let kinds = [("held", "held over it", held), ("per_stage", "in every stage", per_stage)];
+    kinds.into_iter().map(|(name, how, program)| fused_step(target, name, how, program)).collect()
+}
+
+fn fused_step(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Kernel {
+    let mut printer = Printer::of(target, program);
+    let members = &target.names.of(Vector::Positions).members;
+    let places = ["q", "v"].into_iter().flat_map(|vector| members.iter().map(move |member| (vector, member)));
+    let mut values = program.outputs.iter();
+    for ((vector, member), &value) in places.zip(values.by_ref()) {
+        let value = printer.operand(value);
+        printer.line(&format!("next.{vector}.{} = {value};", member.name));
+        printer.line(&format!("sum += {value};"));
+    }
+    if let Some(&growth) = values.next() {
+        printer.line(&format!("growth = {};", printer.operand(growth)));
+    }
+    let given = target.fill(include_str!("text/step_fused_head.c"));
+    let end = target.fill(include_str!("text/step_fused_end.c"));
+    let doc = format!("A step with the feedback {how}, all stages in one.");
+    Kernel {
+        doc: documented(&doc, &program.operations(), 0, false),
+        head: target.fill(&format!("static int NAME_step_{name}(struct NAME_run *run, real t_next)")),
+        body: format!("{given}{}{end}", printer.text),
+        is_public: false,
+    }
 }
 
 /// The type of an argument, and its name.
-fn argument_of(argument: Argument) -> (&'static str, &'static str) {
-    match argument {
-        Argument::Time => ("NAME_real ", "t"),
-        Argument::Positions => ("const struct NAME_coordinates *", "q"),
-        Argument::Velocities => ("const struct NAME_coordinates *", "v"),
-        Argument::Inputs => ("const struct NAME_inputs *", "inputs"),
-        Argument::Gains => ("const struct NAME_gains *", "gains"),
-        Argument::Feedback => ("const struct NAME_constraints *", "feedback"),
-        Argument::Reactions => ("const struct NAME_reactions *", "reactions"),
-    }
-}
-
-/// The type that results are written into.
-fn type_of(kind: Results) -> &'static str {
-    match kind {
-        Results::Coordinates => "struct NAME_coordinates *",
-        Results::Constraints => "struct NAME_constraints *",
-        Results::Outputs => "struct NAME_outputs *",
-        _ => "NAME_real *",
-    }
-}
-
-/// What a function writes; a last single number is returned.
-fn outputs(id: FunctionId) -> Vec<Output> {
-    let names: &[&'static str] = match id {
-        FunctionId::Hoisted => &["hoisted"],
-        FunctionId::Phi => &["phi"],
-        FunctionId::PhiDot => &["phi_dot"],
-        FunctionId::PhiQ => &["entries"],
-        FunctionId::PhiT => &["phi_t"],
-        FunctionId::Gamma => &["gamma"],
-        FunctionId::BaumgarteRhs => &["rhs"],
-        FunctionId::Mass => &["mass"],
-        FunctionId::Forces => &["forces"],
-        FunctionId::KineticEnergy | FunctionId::PotentialEnergy => &[],
-        FunctionId::Stabilized => &["acceleration", "feedback"],
-        FunctionId::Constrained => &["acceleration"],
-        FunctionId::Reactions => &["acceleration", "multipliers"],
-        FunctionId::PositionCorrection | FunctionId::VelocityCorrection => &["correction"],
-        FunctionId::Outputs => &["outputs"],
-        FunctionId::Conditions => &["values"],
-        FunctionId::Start => &["q", "v"],
-        FunctionId::Pivots | FunctionId::StartPivots => &["growths"],
-        FunctionId::Points => &["places"],
+fn argument_of(argument: Argument) -> (String, &'static str) {
+    let (of, name) = match argument {
+        Argument::Time => return ("NAME_real ".to_owned(), "t"),
+        Argument::Positions => ("coordinates", "q"),
+        Argument::Velocities => ("coordinates", "v"),
+        Argument::Inputs => ("inputs", "inputs"),
+        Argument::Gains => ("gains", "gains"),
+        Argument::Feedback => ("constraints", "feedback"),
+        Argument::Reactions => ("reactions", "reactions"),
     };
-    id.results().iter().zip(names).map(|(&kind, &name)| Output { name, kind }).collect()
+    (format!("const struct NAME_{of} *"), name)
 }
 
-/// The members of the struct that results are written into; `None` of an array.
-fn members<'a>(target: &'a Target<'_>, kind: Results) -> Option<&'a [String]> {
-    match kind {
-        Results::Coordinates => Some(target.names.members(Vector::Positions)),
-        Results::Constraints => Some(target.names.members(Vector::Multipliers)),
-        Results::Outputs => Some(&target.names.outputs),
-        _ => None,
+impl Output {
+    /// The type of the argument that it is written to.
+    fn declared_as(&self, target: &Target<'_>) -> String {
+        let of = target.names.of_results(self.kind);
+        of.map_or_else(|| "NAME_real *".to_owned(), |of| format!("struct NAME_{} *", of.name))
+    }
+
+    /// A number of it.
+    fn element(&self, target: &Target<'_>, at: usize) -> String {
+        match target.names.of_results(self.kind) {
+            Some(of) => format!("{}->{}", self.name, of.members[at].name),
+            None => format!("{}[{at}]", self.name),
+        }
     }
 }
 
-/// An output as an array.
-fn array(target: &Target<'_>, output: &Output) -> String {
-    match members(target, output.kind) {
-        Some(_) => format!("{}_places({})", target.names.prefix, output.name),
-        None => output.name.to_owned(),
-    }
+/// What a function computes, and what that costs.
+fn documented(doc: &str, operations: &Operations, watch: u32, solves: bool) -> String {
+    let returns = if solves { "\nReturns the pivot growth." } else { "" };
+    let watch = if watch > 0 { format!(", and {watch} to watch pivots") } else { String::new() };
+    comment(&format!("{doc}{returns}\nCost: {operations}{watch}."), "")
 }
 
-/// A number of an output.
-fn member(target: &Target<'_>, output: &Output, at: usize) -> String {
-    match members(target, output.kind) {
-        Some(members) => format!("{}->{}", output.name, members[at]),
-        None => format!("{}[{at}]", output.name),
-    }
-}
-
-fn cost(operations: &Operations, watch: u32) -> String {
-    match watch {
-        0 => operations.to_string(),
-        watch => format!("{operations}, and {watch} to watch pivots"),
-    }
-}
-
-/// What a function computes.
-fn doc(id: FunctionId) -> &'static str {
+/// The names of what a function writes, one kind after the other.
+fn results(id: FunctionId) -> &'static [&'static str] {
     match id {
-        FunctionId::Hoisted => "What depends on parameters alone.",
-        FunctionId::Phi => "The constraints Φ(q, t): 0 where the mechanism is assembled.",
-        FunctionId::PhiDot => "The constraint violation in velocities, Φ̇ = Φ_q v + Φ_t.",
-        FunctionId::PhiQ => {
-            "The entries of the Jacobian Φ_q that are not 0, in the order of the table of places."
-        }
-        FunctionId::PhiT => "The partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.",
-        FunctionId::Gamma => "γ, so that accelerations satisfy Φ_q q̈ = γ.",
-        FunctionId::BaumgarteRhs => "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation.",
-        FunctionId::Mass => "The diagonal of the mass matrix M; its other entries are 0.",
-        FunctionId::Forces => "The generalized forces Q: gravity and applied loads.",
-        FunctionId::KineticEnergy => "The kinetic energy ½ vᵀMv in J.",
-        FunctionId::PotentialEnergy => "The potential energy of gravity and springs in J.",
-        FunctionId::Stabilized => {
-            "Accelerations with feedback of the state's own violation, and this feedback.\nReturns the pivot growth."
-        }
-        FunctionId::Constrained => "Accelerations with the given feedback.\nReturns the pivot growth.",
-        FunctionId::Reactions => {
-            "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ + feedback.\nReturns the pivot growth."
-        }
-        FunctionId::PositionCorrection => {
-            "The shortest Δq, measured by masses, with Φ_q Δq = feedback, a residual here; coordinates\n\
-             that the start prescribes do not move. Returns the pivot growth."
-        }
-        FunctionId::VelocityCorrection => "The same for velocities.\nReturns the pivot growth.",
-        FunctionId::Outputs => "The declared outputs.",
-        FunctionId::Conditions => "What the conditions of the parameters judge.",
-        FunctionId::Start => "The declared start, before guesses are corrected. Returns its time.",
-        FunctionId::Pivots => "The growth of every pivot that may vanish.",
-        FunctionId::StartPivots => "The growth of every pivot of the corrections.",
-        FunctionId::Points => "Where the points of the mechanism are in m: x and y of each in turn.",
+        FunctionId::Stabilized => &["acceleration", "feedback"],
+        FunctionId::Reactions => &["acceleration", "multipliers"],
+        FunctionId::Start => &["q", "v"],
+        FunctionId::KineticEnergy | FunctionId::PotentialEnergy => &[],
+        _ => &["result"],
     }
 }

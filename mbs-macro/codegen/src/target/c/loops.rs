@@ -4,110 +4,83 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use mbs_symbolic::layout::{Array, Column, Home, Kept as Storage, Loop, Part, Place, Read, Rule, Straight};
-use mbs_symbolic::{Inconsistency, Program, Repetition};
+use mbs_symbolic::layout::{
+    Array, Column, Home, Kept as Storage, Layout, Loop, Part, Place, Read, Rule, Straight,
+};
+use mbs_symbolic::{Program, Repetition};
 
 use super::Target;
 use super::instructions::{Kept, Printer, elements};
 use crate::compiled::Vector;
 
-/// What ends a loop whose steps do not fit together.
-const CARRIED: Inconsistency = Inconsistency { pass: "C", rule: "a loop carries results of its own" };
-
 const INSIDE: &str = "        ";
 const IN_LOOP: &str = "            ";
 
-/// The statements of a program that is laid out, up to its outputs.
-///
-/// # Errors
-/// A result is read that is not kept.
-pub fn parts(target: &Target<'_>, program: &Program, kept: Kept<'_>) -> Result<String, Inconsistency> {
+/// The statements of a program that is laid out, with results of these lengths; the output
+/// behind them may be returned.
+pub fn statements(
+    target: &Target<'_>,
+    program: &Program,
+    kept: Kept<'_>,
+    lengths: &[usize],
+    returns: bool,
+) -> String {
+    let Layout { slots, parts, given, outputs, .. } = kept.layout;
     // C has no arrays without elements
-    let mut text = format!("    real slots[{}];\n", kept.layout.slots.max(1));
-    for part in &kept.layout.parts {
+    let mut text = format!("    real slots[{}];\n", slots.max(&1));
+    for part in parts {
         let part = match part {
-            Part::Straight(part) => straight(target, program, kept, part)?,
-            Part::Loop(part) => repeated(target, program, kept, part)?,
+            Part::Straight(part) => straight(target, program, kept, part),
+            Part::Loop(part) => repeated(target, program, kept, part),
         };
         let _ = write!(text, "    {{\n{part}    }}\n");
     }
     let outside = Printer::new(target, program, 0..0, Some(kept), "");
-    for (operand, place) in &kept.layout.given {
-        let _ = writeln!(text, "    {} = {};", kept.element(*place)?, outside.operand(*operand)?);
+    for (operand, place) in given {
+        let _ = writeln!(text, "    {} = {};", kept.element(*place), outside.operand(*operand));
     }
-    Ok(text)
-}
-
-/// Statements that copy those of the outputs of a result that are not there yet.
-///
-/// # Errors
-/// There is no such result.
-pub fn gather(kept: Kept<'_>, result: usize, outputs: &[Place]) -> Result<String, Inconsistency> {
-    let to = kept.array(Array::Result(result))?;
-    let moves = outputs.iter().enumerate().filter(|(_, place)| place.array == Array::Slots);
-    let moves: Vec<String> = moves.map(|(to, from)| format!("{{{to}, {}}}", from.at)).collect();
-    if moves.is_empty() {
-        return Ok(String::new());
+    // those outputs that are not yet where they belong
+    let mut places = outputs.iter();
+    for (result, &length) in lengths.iter().enumerate() {
+        for (at, &place) in (0..length).zip(places.by_ref()) {
+            let to = Place { array: Array::Result(result), at };
+            if place != to {
+                let _ = writeln!(text, "    {} = {};", kept.element(to), kept.element(place));
+            }
+        }
     }
-    let (count, moves) = (moves.len(), lines(&moves, INSIDE));
-    Ok(format!(
-        "    {{\n{INSIDE}static const int places[{count}][2] = {{\n{moves}{INSIDE}}};\n\
-         {INSIDE}for (int at = 0; at < {count}; at++) {{\n\
-         {IN_LOOP}{to}[places[at][0]] = slots[places[at][1]];\n{INSIDE}}}\n    }}\n"
-    ))
+    if let (true, Some(&place)) = (returns, places.next()) {
+        let _ = writeln!(text, "    return {};", kept.element(place));
+    }
+    text
 }
 
 /// Instructions that run once.
-fn straight(
-    target: &Target<'_>,
-    program: &Program,
-    kept: Kept<'_>,
-    part: &Straight,
-) -> Result<String, Inconsistency> {
-    let mut printer = Printer::new(target, program, part.range.clone(), Some(kept), INSIDE);
-    for at in part.range.clone() {
-        printer.instruction(at, [None, None])?;
-    }
+fn straight(target: &Target<'_>, program: &Program, kept: Kept<'_>, part: &Straight) -> String {
+    let mut printer = Printer::new(target, program, part.range.clone(), Some(kept), INSIDE).instructions();
     for &(at, place) in &part.kept {
-        printer.line(&format!("{} = {};", kept.element(place)?, printer.name(at)));
+        printer.line(&format!("{} = {};", kept.element(place), printer.name(at)));
     }
-    Ok(printer.text)
+    printer.text
 }
 
 /// The copies of the same instructions, one after the other.
-fn repeated(
-    target: &Target<'_>,
-    program: &Program,
-    kept: Kept<'_>,
-    part: &Loop<Vector>,
-) -> Result<String, Inconsistency> {
+fn repeated(target: &Target<'_>, program: &Program, kept: Kept<'_>, part: &Loop<Vector>) -> String {
     let Repetition { start, length, count } = part.repetition;
     let mut printer = Printer::new(target, program, start..start + length, Some(kept), IN_LOOP);
     let mut columns = Columns { target, kept, part, tables: String::new(), known: BTreeSet::new() };
     let (mut before, mut after, mut next) = (String::new(), String::new(), String::new());
-    for (at, step) in part.steps.iter().enumerate() {
-        if step.partner.is_none() {
-            printer.set_apart(start + at);
-        }
-    }
     for (at, carried) in part.carried.iter().enumerate() {
-        let from = carried.from;
-        if from >= length {
-            return Err(CARRIED);
-        }
-        let _ = writeln!(before, "{INSIDE}real carried{at} = {};", printer.operand(carried.first)?);
-        let _ = writeln!(next, "{IN_LOOP}carried{at} = {};", printer.name(start + from));
+        let _ = writeln!(before, "{INSIDE}real carried{at} = {};", printer.operand(carried.first));
+        let _ = writeln!(next, "{IN_LOOP}carried{at} = {};", printer.name(start + carried.from));
     }
     let mut stored = BTreeSet::new();
     for (at, step) in part.steps.iter().enumerate() {
-        let mut operands = [None, None];
-        for (operand, read) in operands.iter_mut().zip(step.operands) {
-            *operand = columns.read(read, &mut printer)?;
-        }
-        printer.instruction(start + at, operands)?;
+        let operands = step.operands.map(|read| columns.read(read, &mut printer));
+        printer.instruction(start + at, operands, step.partner.map(|partner| start + partner));
         // a sine comes with its cosine
         for at in [Some(at), step.partner].into_iter().flatten() {
-            if !printer.is_printed(start + at) || !stored.insert(at) {
+            if !stored.insert(at) {
                 continue;
             }
             let value = printer.name(start + at);
@@ -115,21 +88,21 @@ fn repeated(
                 Storage::No => {}
                 Storage::Each(array, rule) => {
                     let place = columns.place(rule);
-                    printer.line(&format!("{}[{place}] = {value};", kept.array(array)?));
+                    printer.line(&format!("{}[{place}] = {value};", kept.array(array)));
                 }
                 Storage::Last(place) => {
                     let _ = writeln!(before, "{INSIDE}real last{at} = 0;");
                     printer.line(&format!("last{at} = {value};"));
-                    let _ = writeln!(after, "{INSIDE}{} = last{at};", kept.element(place)?);
+                    let _ = writeln!(after, "{INSIDE}{} = last{at};", kept.element(place));
                 }
             }
         }
     }
     let (tables, body) = (columns.tables(), printer.text);
-    Ok(format!(
+    format!(
         "{INSIDE}/* {length} instructions, {count} times */\n{tables}{before}\
          {INSIDE}for (int copy = 0; copy < {count}; copy++) {{\n{body}{next}{INSIDE}}}\n{after}"
-    ))
+    )
 }
 
 /// What differs from copy to copy of a loop.
@@ -144,45 +117,44 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// The operand in a copy; `None` if it reads as in straight instructions.
-    fn read(&mut self, read: Read, printer: &mut Printer<'_>) -> Result<Option<String>, Inconsistency> {
-        let start = self.part.repetition.start;
-        Ok(match read {
-            Read::Same(operand) => Some(printer.operand(operand)?),
-            Read::Own(at) => Some(printer.name(start + at)),
-            Read::Carried(at) => Some(format!("carried{at}")),
+    /// The operand in a copy.
+    fn read(&mut self, read: Read, printer: &mut Printer<'_>) -> Option<String> {
+        Some(match read {
+            Read::Same(operand) => printer.operand(operand),
+            Read::Own(at) => printer.name(self.part.repetition.start + at),
+            Read::Carried(at) => format!("carried{at}"),
             Read::Each(at) => {
                 if self.known.insert(at) {
-                    let element = self.element(at)?;
+                    let element = self.element(at);
                     printer.line(&format!("const real operand{at} = {element};"));
                 }
-                Some(format!("operand{at}"))
+                format!("operand{at}")
             }
         })
     }
 
     /// What a column has for a copy.
-    fn element(&mut self, at: usize) -> Result<String, Inconsistency> {
+    fn element(&mut self, at: usize) -> String {
         let (home, rule) = match &self.part.columns[at] {
             Column::Numbers(numbers) => {
                 let count = numbers.len();
                 let numbers: Vec<String> =
                     numbers.iter().map(|number| self.target.scalar.literal(number.to_f64())).collect();
-                let numbers = lines(&numbers, INSIDE);
+                let numbers = lines(&numbers, IN_LOOP);
                 let _ = write!(
                     self.tables,
                     "{INSIDE}static const real numbers{at}[{count}] = {{\n{numbers}{INSIDE}}};\n"
                 );
-                return Ok(format!("numbers{at}[copy]"));
+                return format!("numbers{at}[copy]");
             }
             Column::Elements(home, rule) => (*home, *rule),
         };
         let place = self.place(rule);
-        Ok(match home {
-            Home::Result(array) => format!("{}[{place}]", self.kept.array(array)?),
+        match home {
+            Home::Result(array) => format!("{}[{place}]", self.kept.array(array)),
             Home::Hoisted => format!("m->hoisted[{place}]"),
             Home::Vector(vector) => format!("{}[{place}]", elements(self.target, vector)),
-        })
+        }
     }
 
     /// The place that goes with a copy.
@@ -190,11 +162,8 @@ impl Columns<'_> {
         match rule {
             Rule::Line { first, step, is_down } => {
                 let distance = if step == 1 { "copy".to_owned() } else { format!("{step} * copy") };
-                match (first, is_down) {
-                    (0, false) => distance,
-                    (_, false) => format!("{first} + {distance}"),
-                    (_, true) => format!("{first} - {distance}"),
-                }
+                let sign = if is_down { "-" } else { "+" };
+                if first == 0 && !is_down { distance } else { format!("{first} {sign} {distance}") }
             }
             Rule::Table(table) => format!("places[copy][{table}]"),
         }
@@ -211,7 +180,7 @@ impl Columns<'_> {
             format!("{{{}}}", places.join(", "))
         };
         let rows: Vec<String> = (0..count).map(row).collect();
-        let (columns, rows) = (tables.len(), lines(&rows, INSIDE));
+        let (columns, rows) = (tables.len(), lines(&rows, IN_LOOP));
         format!(
             "{}{INSIDE}static const int places[{count}][{columns}] = {{\n{rows}{INSIDE}}};\n",
             self.tables
@@ -220,17 +189,18 @@ impl Columns<'_> {
 }
 
 /// Elements of a table, as many in a line as fit there.
-fn lines(elements: &[String], indent: &str) -> String {
+pub fn lines(elements: &[String], indent: &str) -> String {
     const WIDTH: usize = 90;
-    let mut text = String::new();
-    let mut line = String::new();
+    let mut text = String::from(indent);
+    let mut width = 0;
     for element in elements {
-        if !line.is_empty() && line.len() + element.len() > WIDTH {
-            let _ = writeln!(text, "{indent}   {line}");
-            line.clear();
+        if width > 0 && width + element.len() > WIDTH {
+            let _ = write!(text, "\n{indent}");
+            width = 0;
         }
-        let _ = write!(line, " {element},");
+        let space = if width > 0 { " " } else { "" };
+        let _ = write!(text, "{space}{element},");
+        width += element.len() + 2;
     }
-    let _ = writeln!(text, "{indent}   {line}");
-    text
+    text + "\n"
 }

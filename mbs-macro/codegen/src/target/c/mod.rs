@@ -70,13 +70,16 @@ struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, and
-    /// `SQRT` and `FABS` for functions. No name of a declaration may be in it.
+    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, `SCALAR`
+    /// for the type, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
     fn fill(&self, text: &str) -> String {
-        text.replace("NAME", &self.names.prefix)
-            .replace("CAPS", &self.names.capitals)
+        // names last, because they may be any word
+        text.replace("SCALAR", self.scalar.name())
+            .replace("SCHEME", self.compiled.choices.scheme.title)
             .replace("SQRT", &self.scalar.of_math("sqrt"))
             .replace("FABS", &self.scalar.of_math("fabs"))
+            .replace("NAME", &self.names.prefix)
+            .replace("CAPS", &self.names.capitals)
     }
 }
 
@@ -108,10 +111,11 @@ pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     let target = Target { compiled, names: &names, scalar };
     let kernels =
         kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let fused = kernels::fused(&target);
     let file = |name: String, text| File { name, text };
     Ok(CSources {
         header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),
-        source: file(format!("{}.c", names.prefix), source::source(&target, &kernels)),
+        source: file(format!("{}.c", names.prefix), source::source(&target, &kernels, &fused)),
         example: file("main.c".to_owned(), source::example(&target)),
         readme: file("README.md".to_owned(), docs::readme(&target)),
         prefix: names.prefix,

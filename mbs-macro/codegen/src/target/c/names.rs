@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::compiled::{Compiled, Vector};
+use super::docs::constraint;
+use crate::compiled::{Compiled, Quantity, Results, Vector};
+use crate::target::words::quantity;
 
 /// The names of a printed mechanism.
 pub struct Names {
@@ -10,42 +12,79 @@ pub struct Names {
     pub prefix: String,
     /// What every constant begins with: `SLIDER_CRANK`.
     pub capitals: String,
-    parameters: Vec<String>,
-    inputs: Vec<String>,
-    coordinates: Vec<String>,
-    constraints: Vec<String>,
-    /// The members of the outputs.
-    pub outputs: Vec<String>,
+    /// Those of parameters, inputs, coordinates, constraints and outputs.
+    pub structs: [Struct; 5],
+}
+
+/// A struct of numbers.
+pub struct Struct {
+    /// What the numbers are, in the plural.
+    pub name: &'static str,
+    pub doc: &'static str,
+    pub members: Vec<Member>,
+}
+
+/// A number with a name.
+pub struct Member {
+    /// As it is declared.
+    pub declared: String,
+    /// As C takes it.
+    pub name: String,
+    pub doc: String,
 }
 
 impl Names {
     pub fn new(compiled: &Compiled) -> Self {
         let prefix = mended(&snake_case(&compiled.name), &mut BTreeSet::new());
-        Self {
-            capitals: prefix.to_uppercase(),
-            prefix,
-            parameters: members(compiled.parameters.iter().map(|parameter| &parameter.quantity.name)),
-            inputs: members(compiled.inputs.iter().map(|input| &input.name)),
-            coordinates: members(compiled.coordinates.iter().map(|coordinate| &coordinate.name)),
-            constraints: members(compiled.constraints.iter().map(|constraint| &constraint.name)),
-            outputs: members(compiled.outputs.iter().map(|output| &output.name)),
+        let numbers = |list: &[Quantity]| members(list.iter().map(|it| (&it.name, quantity(it, None))));
+        let parameters = compiled.parameters.iter().map(|it| (&it.quantity, it.value));
+        let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
+        let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
+        let structs = [
+            ("parameters", "Numbers that are set once.", members(parameters)),
+            ("inputs", "Numbers that may change from step to step.", numbers(&compiled.inputs)),
+            ("coordinates", "The coordinates, or their rates per second.", numbers(&compiled.coordinates)),
+            ("constraints", ROWS, members(constraints)),
+            ("outputs", "What the declaration measures.", numbers(&compiled.outputs)),
+        ];
+        let structs = structs.map(|(name, doc, members)| Struct { name, doc, members });
+        Self { capitals: prefix.to_uppercase(), prefix, structs }
+    }
+
+    /// The struct that holds a vector.
+    pub fn of(&self, vector: Vector) -> &Struct {
+        let [parameters, inputs, coordinates, constraints, _] = &self.structs;
+        match vector {
+            Vector::Parameters => parameters,
+            Vector::Inputs => inputs,
+            Vector::Positions | Vector::Velocities | Vector::Accelerations => coordinates,
+            Vector::Multipliers | Vector::Feedback => constraints,
         }
     }
 
-    /// The members of the struct that holds a vector.
-    pub fn members(&self, vector: Vector) -> &[String] {
-        match vector {
-            Vector::Parameters => &self.parameters,
-            Vector::Inputs => &self.inputs,
-            Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.coordinates,
-            Vector::Multipliers | Vector::Feedback => &self.constraints,
+    /// The struct that holds results; `None` of an array.
+    pub fn of_results(&self, results: Results) -> Option<&Struct> {
+        let [.., coordinates, constraints, outputs] = &self.structs;
+        match results {
+            Results::Coordinates => Some(coordinates),
+            Results::Constraints => Some(constraints),
+            Results::Outputs => Some(outputs),
+            _ => None,
         }
     }
 }
 
-fn members<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+const ROWS: &str =
+    "One number per constraint: its violation, its multiplier, or an amount added to its right-hand side.";
+
+fn members<'a>(declared: impl Iterator<Item = (&'a String, String)>) -> Vec<Member> {
     let mut taken = BTreeSet::new();
-    names.map(|name| mended(name, &mut taken)).collect()
+    let member = |(name, doc): (&String, String)| Member {
+        declared: name.clone(),
+        name: mended(name, &mut taken),
+        doc,
+    };
+    declared.map(member).collect()
 }
 
 /// A name that C takes and nobody has yet.
@@ -86,17 +125,7 @@ fn snake_case(name: &str) -> String {
 
 /// Keywords of C and C++, macros of the headers that the code includes, and headers whose
 /// file a mechanism must not replace, nor that of the example.
-const RESERVED: &str = "\
-    auto break case char const continue default do double else enum extern float for goto if inline int long \
-    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
-    alignas alignof bool constexpr false nullptr static_assert thread_local true typeof typeof_unqual \
-    and and_eq asm bitand bitor catch char16_t char32_t char8_t class co_await co_return co_yield compl concept \
-    const_cast consteval constinit decltype delete dynamic_cast explicit export friend mutable namespace new \
-    noexcept not not_eq operator or or_eq private protected public reinterpret_cast requires static_cast template \
-    this throw try typeid typename using virtual wchar_t xor xor_eq \
-    NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL MATH_ERRNO MATH_ERREXCEPT math_errhandling NULL EOF I complex errno \
-    linux unix i386 arm assert ctype fenv inttypes iso646 limits locale math setjmp signal stdarg stdbool stddef \
-    stdint stdio stdlib string tgmath time wchar wctype main";
+const RESERVED: &str = include_str!("text/reserved.txt");
 
 fn is_reserved(name: &str) -> bool {
     // no macro of the headers ends like a mended name
@@ -127,8 +156,9 @@ mod tests {
 
     #[test]
     fn words_of_c_are_mended_and_no_name_is_given_twice() {
-        let names = ["int", "int_", "r#type", "θ", "u3b8", "x1", "M_PI"].map(str::to_owned);
-        let mended = members(names.iter());
+        let mut taken = BTreeSet::new();
+        let mended =
+            ["int", "int_", "r#type", "θ", "u3b8", "x1", "M_PI"].map(|name| mended(name, &mut taken));
         assert_eq!(mended, ["int_", "int__", "type", "u3b8", "u3b8_", "x1", "M_PI_"]);
         assert_eq!(super::mended("math", &mut BTreeSet::new()), "math_");
     }

@@ -2,34 +2,35 @@
 
 use std::fmt::Write;
 
+use mbs_schemes::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
 use super::docs::comment;
-use super::header::ERRORS;
+use super::header::errors;
 use super::kernels::Kernel;
+use super::loops::lines;
+use super::names::Struct;
 use super::{Scalar, Target};
-use crate::compiled::{Comparison, Compiled, GROWTH_LIMIT, Pivot, Vector};
+use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
 
-pub fn source(target: &Target<'_>, kernels: &[Kernel]) -> String {
-    let mut code = String::new();
-    for Kernel { doc, head, body, is_public } in kernels {
-        // that of a public function stands in the header
-        let doc = if *is_public { String::new() } else { comment(doc, "") };
-        let _ = write!(code, "{doc}{head}\n{{\n{body}}}\n\n");
-    }
-    let step = match target.compiled.fused_step {
-        Some(_) => include_str!("text/step_fused.c"),
-        None => include_str!("text/step_in_stages.c"),
+/// The text from the functions of the programs, and from a step that is one program.
+pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
+    let step = if fused.is_empty() {
+        "NAME_step_again(run, t_next)"
+    } else {
+        "run->is_held ? NAME_step_held(run, t_next) : NAME_step_per_stage(run, t_next)"
     };
-    code += &target.fill(include_str!("text/vectors.c"));
-    code += &construction(target);
-    for text in
-        [include_str!("text/start.c"), include_str!("text/step.c"), step, include_str!("text/results.c")]
-    {
-        code.push('\n');
-        code += &target.fill(text);
-    }
-    format!("{}{}{}{code}", head(target), tables(target), helpers(target, &code))
+    let code = [
+        kernels.iter().map(Kernel::text).collect(),
+        target.fill(include_str!("text/vectors.c")),
+        target.fill(include_str!("text/init.c")),
+        target.fill(include_str!("text/start.c")),
+        target.fill(include_str!("text/step.c")),
+        fused.iter().map(Kernel::text).collect(),
+        target.fill(&include_str!("text/results.c").replace("STEP", step)),
+    ];
+    let code = code.concat();
+    format!("{}{}{}{}{code}", head(target), tables(target), scheme(target), helpers(target, &code))
 }
 
 /// What stands before everything else.
@@ -38,82 +39,99 @@ fn head(target: &Target<'_>) -> String {
         Scalar::Double => [GROWTH_LIMIT, f64::EPSILON],
         Scalar::Float => [1.0 / (1024.0 * f64::from(f32::EPSILON)), f32::EPSILON.into()],
     };
-    let compiled = target.compiled;
     let mut text = target
         .fill(include_str!("text/head.c"))
         .replace("EPSILON", &target.scalar.literal(epsilon))
         .replace("LIMIT", &target.scalar.literal(limit));
-    let sizes = [
-        ("parameters", compiled.parameters.len()),
-        ("inputs", compiled.inputs.len()),
-        ("coordinates", compiled.coordinates.len()),
-        ("constraints", compiled.constraints.len()),
-        ("outputs", compiled.outputs.len()),
-    ];
-    let prefix = &target.names.prefix;
-    for (name, count) in sizes {
-        let count = count.max(1);
-        let _ = writeln!(
-            text,
-            "typedef char {prefix}_{name}_are_an_array[sizeof(struct {prefix}_{name}) == {count} * sizeof(real) ? 1 : -1];"
-        );
+    for Struct { name, members, .. } in &target.names.structs {
+        let (prefix, count) = (&target.names.prefix, members.len().max(1));
+        let size = format!("sizeof(struct {prefix}_{name}) == {count} * sizeof(real)");
+        let _ = writeln!(text, "typedef char {prefix}_{name}_are_an_array[{size} ? 1 : -1];");
     }
-    text.push('\n');
-    text
+    text + "\n"
 }
 
-/// Names, places, dimensions and splines.
-fn tables(target: &Target<'_>) -> String {
-    let (compiled, prefix) = (target.compiled, &target.names.prefix);
-    let name = |quantity: &crate::compiled::Quantity| quantity.name.clone();
-    let pivot = |pivot: &Pivot| match (pivot.constraint.as_str(), pivot.coordinate.as_str()) {
-        (name, "") | ("", name) => name.to_owned(),
-        (constraint, coordinate) => format!("{constraint} of {coordinate}"),
+/// What leads from the stages of a step to the one behind them, or to its end.
+fn scheme(target: &Target<'_>) -> String {
+    let tableau = target.compiled.choices.scheme;
+    let rows: Vec<&Row> = tableau.stages.iter().chain([&tableau.update]).collect();
+    let numbers = |numbers: &mut dyn Iterator<Item = f64>| {
+        let numbers: Vec<String> = numbers.map(|number| Scalar::Double.literal(number)).collect();
+        format!("{{{}}}", numbers.join(", "))
     };
-    let mut text = String::new();
-    let lists: [(&str, &str, Vec<String>); 8] = [
-        ("", "parameter_names", compiled.parameters.iter().map(|it| name(&it.quantity)).collect()),
-        ("", "input_names", compiled.inputs.iter().map(name).collect()),
-        ("", "coordinate_names", compiled.coordinates.iter().map(name).collect()),
-        ("", "constraint_names", compiled.constraints.iter().map(|it| it.name.clone()).collect()),
-        ("", "output_names", compiled.outputs.iter().map(name).collect()),
-        ("", "point_names", compiled.sketch.points.clone()),
-        ("static ", "pivot_names", compiled.pivots.iter().map(pivot).collect()),
-        ("static ", "start_pivot_names", compiled.start_pivots.iter().map(pivot).collect()),
+    let weights: Vec<String> = rows.iter().map(|row| numbers(&mut row.weights.iter().copied())).collect();
+    let deadbeat = Explicit { tableau, is_held: true }.deadbeat(1.0);
+    let tables = [
+        ("share[CAPS_STAGES]", numbers(&mut rows.iter().map(|row| row.share))),
+        ("node[CAPS_STAGES]", numbers(&mut rows.iter().map(|row| row.node()))),
+        ("weight[CAPS_STAGES][CAPS_STAGES]", format!("{{{}}}", weights.join(", "))),
+        ("deadbeat[2]", numbers(&mut deadbeat.into_iter())),
     ];
-    for (storage, list, names) in lists {
-        text += &strings(&format!("{storage}const char *const {prefix}_{list}"), &names);
+    let tables = tables.map(|(name, values)| format!("static const double NAME_{name} = {values};\n"));
+    target
+        .fill(&format!("/* The table of SCHEME, and its gains for a step of 1 s. */\n{}\n", tables.concat()))
+}
+
+/// Names, places, dimensions, what codes mean, and splines.
+fn tables(target: &Target<'_>) -> String {
+    let compiled = target.compiled;
+    let mut text = String::new();
+    let mut add = |declaration: &str, elements, last| text += &table(target, declaration, elements, last);
+    for Struct { name, members, .. } in &target.names.structs {
+        let names = members.iter().map(|member| quoted(&member.declared)).collect();
+        add(&format!("const char *const NAME_{}_names[]", name.trim_end_matches('s')), names, "0");
     }
-    let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}"));
-    text += &table(&format!("const int {prefix}_phi_q_places"), "[2]", places.collect(), "{0, 0}");
+    let points = compiled.sketch.points.iter().map(|name| quoted(name)).collect();
+    add("const char *const NAME_point_names[]", points, "0");
+    let pivots = |pivots: &[Pivot]| pivots.iter().map(|pivot| quoted(&pivot_name(pivot))).collect();
+    add("static const char *const NAME_pivot_names[]", pivots(&compiled.pivots), "0");
+    add("static const char *const NAME_start_pivot_names[]", pivots(&compiled.start_pivots), "0");
+    let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
+    add("const int NAME_phi_q_places[][2]", places, "{0, 0}");
     let redundant = compiled.redundant.iter().map(ToString::to_string).collect();
-    text += &table(&format!("static const int {prefix}_redundant"), "", redundant, "0");
-    let lengths = |dimensions: Vec<Dimension>| {
-        // a dimension with fractions is none of a constraint or a coordinate
-        let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length);
-        dimensions.into_iter().map(|dimension| length(dimension).to_string()).collect::<Vec<_>>()
-    };
-    let coordinates = lengths(compiled.coordinates.iter().map(|it| it.dimension).collect());
-    let constraints = lengths(compiled.constraints.iter().map(|it| it.dimension).collect());
-    text += "/* The power of a length in the dimension of each. */\n";
-    text += &table(&format!("static const int {prefix}_coordinate_length"), "", coordinates, "0");
-    text += &table(&format!("static const int {prefix}_constraint_length"), "", constraints, "0");
-    text.push('\n');
+    add("static const int NAME_redundant[]", redundant, "0");
+    // a dimension with fractions is none of a constraint or a coordinate
+    let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length).to_string();
+    let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
+    add(
+        "/* The power of a length in the dimension. */\nstatic const int NAME_coordinate_length[]",
+        lengths,
+        "0",
+    );
+    let lengths = compiled.constraints.iter().map(|it| length(it.dimension)).collect();
+    add("static const int NAME_constraint_length[]", lengths, "0");
+    let values = compiled.parameters.iter().map(|it| target.scalar.literal(it.value)).collect();
+    add("static const real NAME_declared[]", values, "0");
+    let judged = compiled.conditions.iter().map(judged).collect();
+    let declaration = "/* What is judged, its sign, and whether it must not be 0. */\nstatic const int";
+    add(&format!("{declaration} NAME_conditions[][3]"), judged, "{0, 0, 0}");
+    let words = |it: &Condition| quoted(&format!("{}: {}", it.name, it.requirement));
+    let conditions = compiled.conditions.iter().map(words).collect();
+    add("static const char *const NAME_condition_words[]", conditions, "0");
+    let errors = errors().map(|(_, words)| quoted(words)).collect();
+    add("static const char *const NAME_error_words[]", errors, "0");
     text + &splines(target)
 }
 
-/// A table of numbers, with one more at its end, because C has no arrays without elements.
-fn table(declaration: &str, columns: &str, mut elements: Vec<String>, last: &str) -> String {
-    elements.push(last.to_owned());
-    let lines: Vec<String> =
-        elements.chunks(12).map(|chunk| format!("    {},\n", chunk.join(", "))).collect();
-    format!("{declaration}[{}]{columns} = {{\n{}}};\n", elements.len(), lines.concat())
+fn judged(condition: &Condition) -> String {
+    let (sign, is_strict) = match condition.comparison {
+        Comparison::Less => (-1, 1),
+        Comparison::LessOrEqual => (-1, 0),
+        Comparison::Greater => (1, 1),
+        Comparison::GreaterOrEqual => (1, 0),
+    };
+    format!("{{{}, {sign}, {is_strict}}}", condition.difference)
 }
 
-/// A table of strings, and a null pointer.
-fn strings(declaration: &str, strings: &[String]) -> String {
-    let lines: Vec<String> = strings.iter().map(|string| format!("    {},\n", quoted(string))).collect();
-    format!("{declaration}[{}] = {{\n{}    0,\n}};\n\n", strings.len() + 1, lines.concat())
+fn pivot_name(Pivot { constraint, coordinate }: &Pivot) -> String {
+    let between = if constraint.is_empty() || coordinate.is_empty() { "" } else { " of " };
+    format!("{constraint}{between}{coordinate}")
+}
+
+/// A table with one element more at its end, because C has no arrays without elements.
+fn table(target: &Target<'_>, declaration: &str, mut elements: Vec<String>, last: &str) -> String {
+    elements.push(last.to_owned());
+    format!("{} = {{\n{}}};\n\n", target.fill(declaration), lines(&elements, "    "))
 }
 
 /// A string literal.
@@ -130,29 +148,25 @@ fn quoted(text: &str) -> String {
 }
 
 fn splines(target: &Target<'_>) -> String {
-    let (splines, prefix) = (&target.compiled.splines, &target.names.prefix);
-    let mut text = String::new();
-    if !splines.is_empty() {
-        text += &target.fill(include_str!("text/spline.c"));
+    let splines = &target.compiled.splines;
+    if splines.is_empty() {
+        return String::new();
     }
+    let mut text = target.fill(include_str!("text/spline.c"));
     // where an argument lies is decided in double precision
     let number = |value: f64| Scalar::Double.literal(value);
+    let mut rows = Vec::new();
     for (at, spline) in splines.iter().enumerate() {
-        let count = spline.segments.len();
-        let _ = writeln!(text, "static const struct {prefix}_segment {prefix}_segments_{at}[{count}] = {{");
-        for segment in &spline.segments {
-            let coefficients = segment.coefficients.map(number).join(", ");
-            let _ = writeln!(text, "    {{{}, {{{coefficients}}}}},", number(segment.from));
-        }
-        let (origin, period) = (number(spline.origin), number(spline.period));
-        let _ = write!(
-            text,
-            "}};\n\n{}static const struct {prefix}_spline {prefix}_spline_{at} = {{\n    \
-             {origin}, {period}, {count}, {prefix}_segments_{at},\n}};\n\n",
-            comment(&spline.name, "")
-        );
+        let segment = |coefficients: [f64; 4]| format!("{{{}}}", coefficients.map(number).join(", "));
+        let segments = spline.segments.iter();
+        let segments = segments.map(|it| format!("{{{}, {}}}", number(it.from), segment(it.coefficients)));
+        let declaration = format!("static const struct NAME_segment NAME_segments_{at}[]");
+        text += &comment(&spline.name, "");
+        text += &table(target, &declaration, segments.collect(), "{0, {0, 0, 0, 0}}");
+        let (origin, period, count) = (number(spline.origin), number(spline.period), spline.segments.len());
+        rows.push(format!("{{{origin}, {period}, {count}, {}_segments_{at}}}", target.names.prefix));
     }
-    text
+    text + &table(target, "static const struct NAME_spline NAME_splines[]", rows, "{0, 0, 0, 0}")
 }
 
 /// Those of the small functions that the code calls.
@@ -177,56 +191,14 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
     needed.into_iter().rev().map(|helper| format!("{helper}\n\n")).collect()
 }
 
-/// Declared parameters, their conditions, and what codes mean.
-fn construction(target: &Target<'_>) -> String {
-    let (compiled, prefix) = (target.compiled, &target.names.prefix);
-    let members = target.names.members(Vector::Parameters);
-    let mut text = target.fill("\nvoid NAME_default_parameters(struct NAME_parameters *parameters)\n{\n");
-    for (parameter, member) in compiled.parameters.iter().zip(members) {
-        let _ = writeln!(text, "    parameters->{member} = {};", target.scalar.literal(parameter.value));
-    }
-    if members.is_empty() {
-        text += "    parameters->none = 0;\n";
-    }
-    text += &target.fill(include_str!("text/init.c"));
-    for (at, condition) in compiled.conditions.iter().enumerate() {
-        let comparison = match condition.comparison {
-            Comparison::Less => "<",
-            Comparison::LessOrEqual => "<=",
-            Comparison::Greater => ">",
-            Comparison::GreaterOrEqual => ">=",
-        };
-        let (value, capitals) = (condition.difference, &target.names.capitals);
-        let _ = writeln!(
-            text,
-            "    if (!(values[{value}] {comparison} 0)) {{\n        return {capitals}_BAD_CONDITION + {at};\n    }}"
-        );
-    }
-    text += &target.fill("    NAME_compute_hoisted(m, m->hoisted);\n    return CAPS_OK;\n}\n\n");
-    let errors: Vec<String> = ERRORS.iter().map(|(_, words)| (*words).to_owned()).collect();
-    text += &strings(&format!("static const char *const {prefix}_error_words"), &errors);
-    text +=
-        &strings(&format!("static const char *const {prefix}_condition_words"), &condition_words(compiled));
-    text + &target.fill(include_str!("text/words.c"))
-}
-
-fn condition_words(compiled: &Compiled) -> Vec<String> {
-    let conditions = compiled.conditions.iter();
-    conditions.map(|condition| format!("{}: {}", condition.name, condition.requirement)).collect()
-}
-
 /// A program that runs the mechanism as it is declared.
 pub fn example(target: &Target<'_>) -> String {
     let choices = &target.compiled.choices;
     let step = choices.step.unwrap_or(1e-4);
-    let feedback = choices.feedback.as_ref().map_or_else(String::new, |feedback| {
-        let [alpha, beta] = [feedback.alpha, feedback.beta].map(|gain| Scalar::Double.literal(gain));
-        let is_held = u8::from(feedback.is_held);
-        format!(
-            "    if (code == CAPS_OK) {{\n        code = NAME_set_feedback(&run, {alpha}, {beta}, {is_held});\n    }}\n"
-        )
-    });
-    let text = include_str!("text/main.c");
-    let text = text.replace("STEP", &Scalar::Double.literal(step)).replace("FEEDBACK\n", &feedback);
-    target.fill(&text)
+    let [alpha, beta] = Explicit { tableau: choices.scheme, is_held: true }.deadbeat(step);
+    let deadbeat = Feedback { is_held: true, alpha, beta };
+    let Feedback { is_held, alpha, beta } = choices.feedback.unwrap_or(deadbeat);
+    let [step, alpha, beta] = [step, alpha, beta].map(|number| Scalar::Double.literal(number));
+    let feedback = format!("{alpha}, {beta}, {}", u8::from(is_held));
+    target.fill(&include_str!("text/main.c").replace("STEP", &step).replace("FEEDBACK", &feedback))
 }

@@ -65,19 +65,23 @@ int NAME_init(struct NAME *m, const struct NAME_parameters *parameters);
    step. The mechanism has to outlive the run. */
 int NAME_start(struct NAME_run *run, const struct NAME *m, double step);
 
-/* Starts at a state that is kept as it is, with the step, feedback and inputs of the run. */
+/* Starts at a state that is kept as it is, with the step, feedback and inputs of the run, or
+   refuses one that is not consistent. */
 int NAME_start_from(struct NAME_run *run, const struct NAME_state *state);
 
-/* Other gains in 1/s, held over each step or computed in both stages. Deadbeat gains of a step
-   h are 0.75/h and 1/h held, 1/h and sqrt(2)/h in both stages. */
+/* Other gains in 1/s, held over each step or computed in every stage. Deadbeat gains of a step
+   h are HELD held, STAGED in every stage. */
 int NAME_set_feedback(struct NAME_run *run, double alpha, double beta, int is_held);
 
-/* One step of Heun's method. After an error the state is that of the last good step. */
+/* One step of SCHEME. After an error the state is that of the last good step. */
 int NAME_step(struct NAME_run *run);
 
 /* Accelerations and multipliers of the present state, without feedback: the forces that the
    mechanism feels. */
 int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions);
+
+/* Both: accelerations and multipliers of the present state, then a step. */
+int NAME_step_with_reactions(struct NAME_run *run, struct NAME_reactions *reactions);
 
 /* The declared outputs in the present state. */
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs);
@@ -93,4 +97,6 @@ NAME_real NAME_velocity_violation(const struct NAME_run *run);
    to; empty where there is none. */
 const char *NAME_words(int code);
 const char *NAME_where(const struct NAME_run *run, int code);
+
+/* The equations. Results must not lie where arguments do. */
 

@@ -32,7 +32,9 @@ int main(void)
     if (code == CAPS_OK) {
         code = NAME_start(&run, &mechanism, step);
     }
-FEEDBACK
+    if (code == CAPS_OK) {
+        code = NAME_set_feedback(&run, FEEDBACK);
+    }
     printf("t");
     for (int at = 0; at < CAPS_COORDINATES; at++) {
         printf(",%s", NAME_coordinate_names[at]);

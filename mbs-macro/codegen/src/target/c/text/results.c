@@ -1,30 +1,39 @@
+int NAME_step(struct NAME_run *run)
+{
+    const real t_next = run->start_time + (real)(run->steps + 1) * run->step;
+    return STEP;
+}
+
 /* What a run gives. */
 
 int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
 {
     const struct NAME_state *const at = &run->state;
     const struct NAME_constraints no_feedback = {0};
-    int pivot;
+    struct NAME_coordinates *const acceleration = &reactions->acceleration;
     reactions->growth = NAME_compute_reactions(
-        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions->acceleration,
+        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, acceleration,
         &reactions->multipliers);
     const int row = NAME_first_non_finite(NAME_elements(&reactions->multipliers), CAPS_CONSTRAINTS);
-    const int coordinate = NAME_first_non_finite(NAME_elements(&reactions->acceleration), CAPS_COORDINATES);
-    if (row < 0 && coordinate < 0 && reactions->growth < NAME_growth_limit) {
+    const int is_good = reactions->growth < NAME_growth_limit
+        && NAME_is_finite(acceleration);
+    if (is_good && row < 0) {
         return CAPS_OK;
     }
     if (NAME_check_state(run, at) == CAPS_BAD_INPUT) {
         return CAPS_BAD_INPUT;
     }
-    if (coordinate < 0 && reactions->growth < NAME_growth_limit) {
+    if (is_good) {
         run->where = row;
         return CAPS_UNDEFINED_MULTIPLIER;
     }
-    const real worst = NAME_worst_pivot(run->mechanism, at->t, &at->q, &pivot);
-    const struct NAME_cause cause =
-        NAME_cause_of(&at->q, &reactions->acceleration, reactions->growth, NAME_growth_limit, pivot, worst);
-    run->where = cause.where;
-    return cause.code;
+    return NAME_cause_of(run, at->t, &at->q, acceleration, reactions->growth, NAME_growth_limit);
+}
+
+int NAME_step_with_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
+{
+    const int code = NAME_reactions(run, reactions);
+    return code == CAPS_OK ? NAME_step(run) : code;
 }
 
 int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)
@@ -51,14 +60,14 @@ NAME_real NAME_violation(const struct NAME_run *run)
 {
     struct NAME_constraints phi = {0};
     NAME_compute_phi(run->mechanism, run->state.t, &run->state.q, &phi);
-    return NAME_norm(NAME_elements(&phi), CAPS_CONSTRAINTS);
+    return NAME_norm(&phi);
 }
 
 NAME_real NAME_velocity_violation(const struct NAME_run *run)
 {
     struct NAME_constraints phi_dot = {0};
     NAME_compute_phi_dot(run->mechanism, run->state.t, &run->state.q, &run->state.v, &phi_dot);
-    return NAME_norm(NAME_elements(&phi_dot), CAPS_CONSTRAINTS);
+    return NAME_norm(&phi_dot);
 }
 
 const char *NAME_where(const struct NAME_run *run, int code)
@@ -71,6 +80,7 @@ const char *NAME_where(const struct NAME_run *run, int code)
     case CAPS_SINGULAR_START: return NAME_start_pivot_names[run->where];
     case CAPS_NOT_FINITE: return NAME_coordinate_names[run->where];
     case CAPS_NOT_ASSEMBLED:
+    case CAPS_INCONSISTENT:
     case CAPS_OUT_OF_REACH:
     case CAPS_UNDEFINED_MULTIPLIER: return NAME_constraint_names[run->where];
     case CAPS_UNDEFINED_OUTPUT: return NAME_output_names[run->where];

@@ -20,7 +20,8 @@ static inline void NAME_sin_cos(real x, real *sine, real *cosine)
         + w * (-2.5050760253406863e-8 + z * 1.58969099521155e-10)));
     const real half = 0.5 * z;
     const real whole = 1.0 - half;
-    const real c = whole + (((1.0 - whole) - half) + z * z * ((4.16666666666666e-2 + z * -1.388888888887411e-3)
+    const real c = whole + (((1.0 - whole) - half)
+        + z * z * ((4.16666666666666e-2 + z * -1.388888888887411e-3)
         + w * ((2.480158728947673e-5 + z * -2.755731435139066e-7)
         + w * (2.087572321298175e-9 + z * -1.1359647557788195e-11))));
     /* odd quarter turns exchange the two; the sine is negative in the second half of a

@@ -1,41 +1,50 @@
 /* A step. */
 
-/* Both stages of a step, and what they lead to. */
+/* The stages of a step, the first one at its start, and behind them its end. */
 struct NAME_trial {
-    struct NAME_state predicted, next;
-    struct NAME_coordinates here, there;
-    real growth_here, growth_there;
+    struct NAME_state at[CAPS_STAGES + 1];
+    struct NAME_coordinates solved[CAPS_STAGES];
+    real growth[CAPS_STAGES];
 };
 
-static void NAME_try(const struct NAME_run *run, real t_next, struct NAME_trial *trial)
+/* Leads to what stands behind some solved stages: x = x0 + (share h) (w_1 k_1 + w_2 k_2 + ...). */
+static void NAME_lead(struct NAME_trial *trial, int last, real h, real t_next)
+{
+    const struct NAME_state *const start = trial->at;
+    struct NAME_state *const to = &trial->at[last + 1];
+    const real factor = (real)NAME_share[last] * h;
+    to->t = NAME_node[last] < 1 ? start->t + (real)NAME_node[last] * h : t_next;
+    for (int j = 0; j < CAPS_COORDINATES; j++) {
+        real v = 0, a = 0;
+        for (int stage = 0; stage <= last; stage++) {
+            const real weight = (real)NAME_weight[last][stage];
+            v = v + weight * NAME_elements(&trial->at[stage].v)[j];
+            a = a + weight * NAME_elements(&trial->solved[stage])[j];
+        }
+        NAME_places(&to->q)[j] = NAME_elements(&start->q)[j] + factor * v;
+        NAME_places(&to->v)[j] = NAME_elements(&start->v)[j] + factor * a;
+    }
+}
+
+/* A step stage by stage; the growths of all, added. */
+static real NAME_try(const struct NAME_run *run, real t_next, struct NAME_trial *trial)
 {
     const struct NAME *const m = run->mechanism;
-    const struct NAME_state *const at = &run->state;
-    const real *const q = NAME_elements(&at->q), *const v = NAME_elements(&at->v);
-    real *const q_next = NAME_places(&trial->next.q), *const v_next = NAME_places(&trial->next.v);
-    const real h = run->step, half_h = (real)0.5 * h;
-    struct NAME_constraints feedback = {0};
-    trial->growth_here =
-        NAME_compute_stabilized(m, at->t, &at->q, &at->v, &run->inputs, &run->gains, &trial->here, &feedback);
-    const real *const a = NAME_elements(&trial->here), *const b = NAME_elements(&trial->there);
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
-        q_next[j] = q[j] + h * v[j];
-        v_next[j] = v[j] + h * a[j];
+    struct NAME_constraints feedback = {0}, unread = {0};
+    real growth = 0;
+    trial->at[0] = run->state;
+    for (int stage = 0; stage < CAPS_STAGES; stage++) {
+        const struct NAME_state *const at = &trial->at[stage];
+        trial->growth[stage] = stage > 0 && run->is_held
+            ? NAME_compute_constrained(
+                m, at->t, &at->q, &at->v, &run->inputs, &feedback, &trial->solved[stage])
+            : NAME_compute_stabilized(
+                m, at->t, &at->q, &at->v, &run->inputs, &run->gains, &trial->solved[stage],
+                stage > 0 ? &unread : &feedback);
+        growth = growth + trial->growth[stage];
+        NAME_lead(trial, stage, run->step, t_next);
     }
-    trial->next.t = t_next;
-    trial->predicted = trial->next;
-    const struct NAME_coordinates *const q_there = &trial->predicted.q, *const v_there = &trial->predicted.v;
-    if (run->is_held) {
-        trial->growth_there =
-            NAME_compute_constrained(m, t_next, q_there, v_there, &run->inputs, &feedback, &trial->there);
-    } else {
-        trial->growth_there = NAME_compute_stabilized(
-            m, t_next, q_there, v_there, &run->inputs, &run->gains, &trial->there, &feedback);
-    }
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
-        q_next[j] = q[j] + half_h * (v[j] + v_next[j]);
-        v_next[j] = v[j] + half_h * (a[j] + b[j]);
-    }
+    return growth;
 }
 
 /* Whether the constraints can be met near q: Newton's iteration comes to rest at rounding,
@@ -45,96 +54,66 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
     const struct NAME *const m = run->mechanism;
     const struct NAME_coordinates still = {0};
     const struct NAME_constraints no_feedback = {0};
-    struct NAME_coordinates q = *start, moved, unmoved;
-    struct NAME_constraints phi = {0}, best = {0}, feedback = {0};
     const real h = run->step;
-    int place;
+    struct NAME_coordinates q = *start, moved, unmoved;
+    struct NAME_constraints phi = {0}, best = {0};
     NAME_compute_phi(m, t, &q, &best);
     for (int iteration = 0; iteration < 30; iteration++) {
+        struct NAME_constraints feedback = {0};
         NAME_compute_phi(m, t, &q, &phi);
-        if (NAME_norm(NAME_elements(&phi), CAPS_CONSTRAINTS) < NAME_norm(NAME_elements(&best), CAPS_CONSTRAINTS)) {
+        if (NAME_norm(&phi) < NAME_norm(&best)) {
             best = phi;
         }
-        for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
-            NAME_places(&feedback)[row] = -(NAME_elements(&phi)[row] / (h * h));
-        }
+        NAME_add(NAME_places(&feedback), -1 / (h * h), NAME_elements(&phi), CAPS_CONSTRAINTS);
         const real growth = NAME_compute_constrained(m, t, &q, &still, &run->inputs, &feedback, &moved);
         NAME_compute_constrained(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved);
-        for (int j = 0; j < CAPS_COORDINATES; j++) {
-            NAME_places(&moved)[j] = h * h * (NAME_elements(&moved)[j] - NAME_elements(&unmoved)[j]);
-        }
-        const real length = NAME_largest(NAME_elements(&moved), CAPS_COORDINATES, &place);
-        const real size = 1 + NAME_largest(NAME_elements(&q), CAPS_COORDINATES, &place);
+        NAME_add(NAME_places(&moved), -1, NAME_elements(&unmoved), CAPS_COORDINATES);
+        const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_COORDINATES);
+        const real roundings = (64 + growth) * NAME_epsilon;
         /* without a first correction it is a drive that ends, and not a position */
-        if (length <= (64 + growth) * NAME_epsilon * size || (iteration == 0 && !isfinite(length))) {
+        if (length <= roundings * NAME_extent(&q) || (iteration == 0 && !isfinite(length))) {
             return CAPS_OK;
         }
         if (!isfinite(length)) {
             break;
         }
-        for (int j = 0; j < CAPS_COORDINATES; j++) {
-            NAME_places(&q)[j] += NAME_elements(&moved)[j];
-        }
+        NAME_add(NAME_places(&q), h * h, NAME_elements(&moved), CAPS_COORDINATES);
     }
-    (void)NAME_largest(NAME_elements(&best), CAPS_CONSTRAINTS, &run->where);
+    run->where = NAME_place(NAME_elements(&best), CAPS_CONSTRAINTS);
     return CAPS_OUT_OF_REACH;
 }
 
-/* Redundant constraints are watched: a thousandth of the size is allowed. */
-static int NAME_watch_redundant(struct NAME_run *run, const struct NAME_state *at)
+/* What the stages of a step that failed say of themselves. */
+static int NAME_cause_in_stages(struct NAME_run *run, const struct NAME_trial *trial)
 {
-    struct NAME_constraints phi = {0};
-    if (CAPS_REDUNDANT == 0) {
-        return CAPS_OK;
-    }
-    NAME_compute_phi(run->mechanism, at->t, &at->q, &phi);
-    for (int k = 0; k < CAPS_REDUNDANT; k++) {
-        const int row = NAME_redundant[k];
-        real allowed = (real)1e-3;
-        for (int power = 0; power < NAME_constraint_length[row]; power++) {
-            allowed = allowed * run->size;
-        }
-        if (!(FABS(NAME_elements(&phi)[row]) <= allowed)) {
-            run->where = row;
-            return CAPS_OUT_OF_REACH;
-        }
-    }
-    return CAPS_OK;
-}
-
-/* Why a step failed: an input, a position that cannot be reached from one that was good,
-   or what its stages say. */
-static int NAME_diagnose(struct NAME_run *run, const struct NAME_trial *trial)
-{
-    const struct NAME_state *const stages[2] = {&run->state, &trial->predicted};
-    const struct NAME_coordinates *const solved[2] = {&trial->here, &trial->there};
-    const real growths[2] = {trial->growth_here, trial->growth_there};
-    /* if only the sum of two growths is over the limit, the larger is over half */
-    const real limit = NAME_growth_limit / 2;
-    struct NAME_cause cause = {CAPS_NOT_FINITE, -1};
-    for (int stage = 0; stage < 2; stage++) {
-        const struct NAME_coordinates *const q = &stages[stage]->q;
-        int pivot, code = NAME_check_state(run, stages[stage]);
-        if (code == CAPS_BAD_INPUT) {
+    /* if only the sum of the growths is over the limit, the largest is over its share */
+    const real limit = NAME_growth_limit / CAPS_STAGES;
+    for (int stage = 0; stage < CAPS_STAGES; stage++) {
+        const struct NAME_state *const at = &trial->at[stage];
+        const struct NAME_coordinates *const solved = &trial->solved[stage];
+        const int code = NAME_check_state(run, at);
+        if (code != CAPS_OK) {
             return code;
         }
-        if (code != CAPS_OK) {
-            cause.where = run->where;
-            break;
-        }
-        if (!(growths[stage] < limit)
-            || NAME_first_non_finite(NAME_elements(solved[stage]), CAPS_COORDINATES) >= 0) {
-            const real worst = NAME_worst_pivot(run->mechanism, stages[stage]->t, q, &pivot);
-            cause = NAME_cause_of(q, solved[stage], growths[stage], limit, pivot, worst);
-            break;
+        if (!(trial->growth[stage] < limit) || !NAME_is_finite(solved)) {
+            return NAME_cause_of(run, at->t, &at->q, solved, trial->growth[stage], limit);
         }
     }
-    if (trial->growth_here < NAME_growth_limit && NAME_reach(run, run->state.t, &run->state.q) == CAPS_OK
-        && NAME_reach(run, trial->next.t, &run->state.q) != CAPS_OK) {
+    return CAPS_NOT_FINITE;
+}
+
+/* Why a step failed: a position that cannot be reached from one that was good, or what its
+   stages say. */
+static int NAME_diagnose(struct NAME_run *run, const struct NAME_trial *trial)
+{
+    const int code = NAME_cause_in_stages(run, trial), where = run->where;
+    if (code != CAPS_BAD_INPUT && trial->growth[0] < NAME_growth_limit
+        && NAME_reach(run, run->state.t, &run->state.q) == CAPS_OK
+        && NAME_reach(run, trial->at[CAPS_STAGES].t, &run->state.q) != CAPS_OK) {
         return CAPS_OUT_OF_REACH;
     }
-    run->where = cause.where;
-    return cause.code;
+    run->where = where;
+    return code;
 }
 
 /* A step is taken: its growth is compared with that of the next. */
@@ -146,18 +125,26 @@ static void NAME_note(struct NAME_run *run, real growth)
     run->steps++;
 }
 
+/* Takes a step that is calm: its growth has not risen, and redundant constraints are met. */
+static inline int NAME_take(struct NAME_run *run, const struct NAME_state *next, real growth)
+{
+    if (!(growth <= run->alarm) || !NAME_meets_redundant(run, next, (real)1e-3, run->size)) {
+        return 0;
+    }
+    run->state = *next;
+    NAME_note(run, growth);
+    return 1;
+}
+
 /* A step whose growth has risen: whether its constraints can still be met. A growth that has
    doubled since one was examined is examined again. */
 static int NAME_examine(struct NAME_run *run, const struct NAME_state *next, real growth)
 {
     const int is_first = run->worst_growth <= 0;
     const real before = (real)1.125 * run->alarm;
-    int code = NAME_reach(run, next->t, &next->q);
-    if (code == CAPS_OK) {
-        code = NAME_watch_redundant(run, next);
-    }
-    if (code != CAPS_OK) {
-        return code;
+    if (NAME_reach(run, next->t, &next->q) != CAPS_OK
+        || !NAME_meets_redundant(run, next, (real)1e-3, run->size)) {
+        return CAPS_OUT_OF_REACH;
     }
     if (growth > run->remembered_from) {
         run->remembered_from = 2 * growth < NAME_growth_limit ? 2 * growth : NAME_growth_limit;
@@ -173,18 +160,10 @@ static int NAME_examine(struct NAME_run *run, const struct NAME_state *next, rea
 static int NAME_step_again(struct NAME_run *run, real t_next)
 {
     struct NAME_trial trial;
-    NAME_try(run, t_next, &trial);
-    const real growth = trial.growth_here + trial.growth_there;
-    const int is_healthy = growth < NAME_growth_limit
-        && NAME_first_non_finite(NAME_elements(&trial.next.q), CAPS_COORDINATES) < 0
-        && NAME_first_non_finite(NAME_elements(&trial.next.v), CAPS_COORDINATES) < 0;
-    if (!is_healthy) {
+    const real growth = NAME_try(run, t_next, &trial);
+    const struct NAME_state *const next = &trial.at[CAPS_STAGES];
+    if (!(growth < NAME_growth_limit) || !NAME_is_finite(&next->q) || !NAME_is_finite(&next->v)) {
         return NAME_diagnose(run, &trial);
     }
-    if (!(growth <= run->alarm) || NAME_watch_redundant(run, &trial.next) != CAPS_OK) {
-        return NAME_examine(run, &trial.next, growth);
-    }
-    run->state = trial.next;
-    NAME_note(run, growth);
-    return CAPS_OK;
+    return NAME_take(run, next, growth) ? CAPS_OK : NAME_examine(run, next, growth);
 }

@@ -1,96 +1,57 @@
 /* Small functions on vectors. */
 
-static int NAME_first_non_finite(const real *x, int count)
+static real NAME_norm(const struct NAME_constraints *phi)
 {
-    for (int at = 0; at < count; at++) {
-        if (!isfinite(x[at])) {
-            return at;
-        }
-    }
-    return -1;
-}
-
-static real NAME_norm(const real *x, int count)
-{
+    const real *const x = NAME_elements(phi);
     real sum = 0;
-    for (int at = 0; at < count; at++) {
+    for (int at = 0; at < CAPS_CONSTRAINTS; at++) {
         sum = sum + x[at] * x[at];
     }
     return SQRT(sum);
 }
 
-/* The largest magnitude, and where it stands; what is not a number is largest. */
-static real NAME_largest(const real *x, int count, int *place)
+/* x + scale y, in the place of x. */
+static void NAME_add(real *x, real scale, const real *y, int count)
 {
-    real largest = 0;
-    *place = 0;
     for (int at = 0; at < count; at++) {
-        const real magnitude = FABS(x[at]);
-        if (magnitude > largest || magnitude != magnitude) {
-            largest = magnitude;
-            *place = at;
-        }
-        if (magnitude != magnitude) {
-            break;
-        }
+        x[at] = x[at] + scale * y[at];
     }
-    return largest;
 }
 
-/* The largest growth, and where it stands; one that is not finite is largest, and the
-   place is -1 where there is none. */
-static real NAME_worst(const real *growths, int count, int *place)
+/* Where the largest magnitude stands, or the first that is not finite; -1 where there is none. */
+static int NAME_place(const real *x, int count)
 {
-    real worst = 0;
-    *place = -1;
+    int place = -1;
     for (int at = 0; at < count; at++) {
-        if (!isfinite(growths[at])) {
-            *place = at;
-            return growths[at];
+        if (!isfinite(x[at])) {
+            return at;
         }
-        if (*place < 0 || growths[at] > worst) {
-            worst = growths[at];
-            *place = at;
-        }
+        place = place < 0 || FABS(x[at]) > FABS(x[place]) ? at : place;
     }
-    return worst;
+    return place;
 }
 
-static real NAME_worst_pivot(const struct NAME *m, real t, const struct NAME_coordinates *q, int *place)
+static real NAME_largest(const real *x, int count)
 {
-    real growths[CAPS_PIVOTS + 1] = {0};
-    NAME_compute_pivots(m, t, q, growths);
-    return NAME_worst(growths, CAPS_PIVOTS, place);
+    const int place = NAME_place(x, count);
+    return place < 0 ? 0 : FABS(x[place]);
 }
 
-static real NAME_worst_start_pivot(const struct NAME *m, real t, const struct NAME_coordinates *q, int *place)
+static int NAME_first_non_finite(const real *x, int count)
 {
-    real growths[CAPS_START_PIVOTS + 1] = {0};
-    NAME_compute_start_pivots(m, t, q, growths);
-    return NAME_worst(growths, CAPS_START_PIVOTS, place);
+    const int place = NAME_place(x, count);
+    return place < 0 || isfinite(x[place]) ? -1 : place;
 }
 
-/* What is wrong: an error, and the place that it belongs to. */
-struct NAME_cause {
-    int code, where;
-};
-
-/* Why a solution is no good: a position that is not finite, a pivot, or, with all pivots
-   healthy, a component that is not finite. */
-static struct NAME_cause NAME_cause_of(
-    const struct NAME_coordinates *q, const struct NAME_coordinates *value, real growth, real limit,
-    int pivot, real pivot_growth)
+static int NAME_is_finite(const struct NAME_coordinates *x)
 {
-    struct NAME_cause cause = {CAPS_NOT_FINITE, NAME_first_non_finite(NAME_elements(q), CAPS_COORDINATES)};
-    const real worst = pivot < 0 ? growth : pivot_growth;
-    if (cause.where < 0 && growth < limit && worst < limit) {
-        cause.where = NAME_first_non_finite(NAME_elements(value), CAPS_COORDINATES);
-    }
-    if (cause.where < 0) {
-        cause.code = CAPS_SINGULAR;
-        cause.where = pivot >= 0 && !(pivot_growth < limit / 64) ? pivot : -1;
-    }
-    return cause;
+    return NAME_first_non_finite(NAME_elements(x), CAPS_COORDINATES) < 0;
+}
+
+/* The size of coordinates that rounding is compared with. */
+static real NAME_extent(const struct NAME_coordinates *q)
+{
+    return 1 + NAME_largest(NAME_elements(q), CAPS_COORDINATES);
 }
 
 /* Refuses what is not finite: an input, a position or a velocity. */
@@ -106,3 +67,54 @@ static int NAME_check_state(struct NAME_run *run, const struct NAME_state *at)
     }
     return run->where < 0 ? CAPS_OK : CAPS_NOT_FINITE;
 }
+
+/* Why a solution with pivots of these growths is no good: a position that is not finite, a pivot,
+   or, with all pivots healthy, a component that is not finite. */
+static int NAME_cause(
+    struct NAME_run *run, const struct NAME_coordinates *q, const struct NAME_coordinates *solution,
+    real growth, real limit, const real *growths, int pivots)
+{
+    const int pivot = NAME_place(growths, pivots);
+    run->where = NAME_first_non_finite(NAME_elements(q), CAPS_COORDINATES);
+    if (run->where < 0 && growth < limit && (pivot < 0 || growths[pivot] < limit)) {
+        run->where = NAME_first_non_finite(NAME_elements(solution), CAPS_COORDINATES);
+    }
+    if (run->where >= 0) {
+        return CAPS_NOT_FINITE;
+    }
+    run->where = pivot >= 0 && !(growths[pivot] < limit / 64) ? pivot : -1;
+    return CAPS_SINGULAR;
+}
+
+/* The same of accelerations. */
+static int NAME_cause_of(
+    struct NAME_run *run, real t, const struct NAME_coordinates *q,
+    const struct NAME_coordinates *acceleration, real growth, real limit)
+{
+    real growths[CAPS_PIVOTS + 1] = {0};
+    NAME_compute_pivots(run->mechanism, t, q, growths);
+    return NAME_cause(run, q, acceleration, growth, limit, growths, CAPS_PIVOTS);
+}
+
+/* Redundant constraints take no part in starts and steps: with parameters for which they do not
+   fit they would be violated. They may be by a share of the size, to the power of a length. */
+static int NAME_meets_redundant(struct NAME_run *run, const struct NAME_state *at, real share, real size)
+{
+    struct NAME_constraints phi = {0};
+    if (CAPS_REDUNDANT > 0) {
+        NAME_compute_phi(run->mechanism, at->t, &at->q, &phi);
+    }
+    for (int k = 0; k < CAPS_REDUNDANT; k++) {
+        const int row = NAME_redundant[k];
+        real allowed = share;
+        for (int power = 0; power < NAME_constraint_length[row]; power++) {
+            allowed = allowed * size;
+        }
+        if (!(FABS(NAME_elements(&phi)[row]) <= allowed)) {
+            run->where = row;
+            return 0;
+        }
+    }
+    return 1;
+}
+
