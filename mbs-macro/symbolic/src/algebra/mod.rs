@@ -211,6 +211,11 @@ impl<'a> Scalar<'a> {
         self.algebra.make((self.expr, direction), |arena, (x, direction)| arena.derivative(x, direction))
     }
 
+    /// The same with values in the place of symbols.
+    pub fn substitute(self, values: &HashMap<Symbol, Expr>) -> Self {
+        self.algebra.make((self.expr, values), |arena, (x, values)| arena.substitute(x, values))
+    }
+
     fn call(self, function: Function) -> Self {
         self.algebra.make((function, self.expr), |arena, (function, x)| arena.call(function, x))
     }
