@@ -32,7 +32,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use mbs_symbolic::{Expr, Factorization, Function, Node, Number, Symbol, Unknown};
+use mbs_symbolic::{Algebra, Expr, Factorization, Node, Number, Scalar, Symbol, Unknown};
 
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
@@ -73,20 +73,21 @@ pub fn forces(
     let without = reactions_without(model, equations, factorization);
     let responses: Vec<_> =
         (0..model.reactive_loads.len()).map(|at| response(model, factorization, at)).collect();
-    let mut system = System { model, without, responses };
-    let mut solution = vec![system.model.arena.zero(); system.responses.len()];
-    let mut least = system.model.arena.one();
-    for _ in 0..system.steps() {
+    let steps = steps(model, &responses);
+    let algebra = &Algebra::new(&mut model.arena);
+    let laws = model.reactive_loads.iter().map(|load| algebra.scalar(load.work.force)).collect();
+    let system = System { algebra, laws, without, responses };
+    let mut solution = vec![algebra.number(0); system.laws.len()];
+    let mut least = algebra.number(1);
+    for _ in 0..steps {
         solution = system.step(&solution, &mut least)?;
     }
     let solved = system.is_solved(&solution);
-    let positive = model.arena.call2(Function::Max, least, model.arena.zero());
-    let positive = model.arena.mul(positive, solved);
-    let growth = model.arena.powi(positive, -1);
-    for (at, force) in solution.into_iter().enumerate() {
-        for (coordinate, slope) in model.reactive_loads[at].work.along.clone() {
-            let value = model.arena.mul(force, slope);
-            values[coordinate] = model.arena.add(values[coordinate], value);
+    let growth = (least.max(algebra.number(0)) * solved).powi(-1).expr();
+    for (load, force) in model.reactive_loads.iter().zip(solution) {
+        for &(coordinate, slope) in &load.work.along {
+            let value = force * algebra.scalar(slope);
+            values[coordinate] = (algebra.scalar(values[coordinate]) + value).expr();
         }
     }
     Ok(Forces { values, growth })
@@ -95,144 +96,128 @@ pub fn forces(
 /// Every multiplier that a load depends on, with its value.
 type Multipliers = BTreeMap<Symbol, Expr>;
 
-struct System<'m> {
-    model: &'m mut Model,
+/// As many steps as the loads can need.
+fn steps(model: &mut Model, responses: &[Multipliers]) -> usize {
+    let ([load], [response]) = (model.reactive_loads.as_slice(), responses) else { return STEPS };
+    let (law, arena) = (load.work.force, &mut model.arena);
+    let direction = along(response);
+    let slope = arena.derivative(law, &direction);
+    let curvature = arena.derivative(slope, &direction);
+    if !arena.is_zero(curvature) {
+        return STEPS;
+    }
+    let has_kink = |node: &Expr| {
+        let is_kinked = match arena.node(*node) {
+            Node::Call(function, _) | Node::Call2(function, ..) => function.row().is_piecewise,
+            _ => false,
+        };
+        is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))
+    };
+    let kinks = arena.reachable(&[law]).iter().filter(|node| has_kink(node)).count();
+    STEPS.min(1 + kinks)
+}
+
+/// The direction in which multipliers respond.
+fn along(response: &Multipliers) -> HashMap<Symbol, Expr> {
+    response.iter().map(|(&symbol, &expr)| (symbol, expr)).collect()
+}
+
+struct System<'a> {
+    algebra: &'a Algebra<'a>,
+    /// fᵢ(λ)
+    laws: Vec<Scalar<'a>>,
     /// λ₀
     without: Multipliers,
     /// G Dᵢ
     responses: Vec<Multipliers>,
 }
 
-impl System<'_> {
-    /// As many steps as the loads can need.
-    fn steps(&mut self) -> usize {
-        let ([load], [response]) = (self.model.reactive_loads.as_slice(), self.responses.as_slice()) else {
-            return STEPS;
-        };
-        let force = load.work.force;
-        let arena = &mut self.model.arena;
-        let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
-        let slope = arena.derivative(force, &direction);
-        let curvature = arena.derivative(slope, &direction);
-        if !arena.is_zero(curvature) {
-            return STEPS;
-        }
-        let has_kink = |node: &Expr| {
-            let is_kinked = match arena.node(*node) {
-                Node::Call(function, _) | Node::Call2(function, ..) => function.row().is_piecewise,
-                _ => false,
-            };
-            is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))
-        };
-        let kinks = arena.reachable(&[force]).iter().filter(|node| has_kink(node)).count();
-        STEPS.min(1 + kinks)
-    }
-
+impl<'a> System<'a> {
     /// One step of Newton's method for r(f) = f − f(λ₀ + G f) = 0; `least` is
     /// the smallest pivot so far.
-    fn step(&mut self, at: &[Expr], least: &mut Expr) -> Result<Vec<Expr>, Circular> {
-        let count = at.len();
+    fn step(&self, at: &[Scalar<'a>], least: &mut Scalar<'a>) -> Result<Vec<Scalar<'a>>, Circular> {
         let multipliers = self.multipliers(at);
         let mut rows = Vec::new();
-        for row in 0..count {
-            let load = self.model.reactive_loads[row].work.force;
-            let arena = &mut self.model.arena;
+        for (row, law) in self.laws.iter().enumerate() {
             // (1 − f′ G) f⁺ = f(λ) − f′ G f, with λ and f of before the step
-            let mut right = vec![(arena.substitute(load, &multipliers), Number::ONE)];
+            let mut right = vec![law.substitute(&multipliers)];
             let mut entries = Vec::new();
             for (column, (response, &force)) in self.responses.iter().zip(at).enumerate() {
-                let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
-                let slope = arena.derivative(load, &direction);
-                let slope = arena.substitute(slope, &multipliers);
-                let slope = arena.share(slope);
-                right.push((arena.mul(slope, force), Number::MINUS_ONE));
-                let identity = if row == column { arena.one() } else { arena.zero() };
-                entries.push(arena.sub(identity, slope));
+                let slope = law.derivative(&along(response)).substitute(&multipliers).shared();
+                right.push(-(slope * force));
+                entries.push(i64::from(row == column) - slope);
             }
-            entries.push(arena.sum(&right));
+            entries.push(self.algebra.sum(right));
             rows.push(entries);
         }
-        self.eliminate(rows, least)
+        eliminate(rows, least)
     }
 
     /// 1 if every load is what its law says of the reactions that it leaves, else 0.
-    fn is_solved(&mut self, solution: &[Expr]) -> Expr {
+    fn is_solved(&self, solution: &[Scalar<'a>]) -> Scalar<'a> {
         let multipliers = self.multipliers(solution);
-        let mut solved = self.model.arena.one();
-        for (row, &force) in solution.iter().enumerate() {
-            let law = self.model.reactive_loads[row].work.force;
-            let arena = &mut self.model.arena;
-            let lawful = arena.substitute(law, &multipliers);
-            let rest = arena.sub(force, lawful);
-            if arena.is_zero(rest) {
+        let mut solved = self.algebra.number(1);
+        for (law, &force) in self.laws.iter().zip(solution) {
+            let lawful = law.substitute(&multipliers);
+            let rest = force - lawful;
+            if rest.is_zero() {
                 continue;
             }
             // |fᵢ| + Σ |f′ Gⱼ fⱼ|: at a reaction that vanishes the terms that cancel
-            let mut terms = vec![(arena.call(Function::Abs, force), Number::ONE)];
-            terms.push((arena.call(Function::Abs, lawful), Number::ONE));
+            let mut terms = vec![force.abs(), lawful.abs()];
             for (response, &other) in self.responses.iter().zip(solution) {
-                let direction = response.iter().map(|(&s, &e)| (s, e)).collect();
-                let slope = arena.derivative(law, &direction);
-                let slope = arena.substitute(slope, &multipliers);
-                let change = arena.mul(slope, other);
-                terms.push((arena.call(Function::Abs, change), Number::ONE));
+                let slope = law.derivative(&along(response)).substitute(&multipliers);
+                terms.push((slope * other).abs());
             }
-            let size = arena.sum(&terms);
-            let tolerance = arena.number(Number::ratio(TOLERANCE.0, TOLERANCE.1));
-            let allowed = arena.mul(tolerance, size);
-            let rest = arena.call(Function::Abs, rest);
-            let is_off = arena.call2(Function::Greater, rest, allowed);
-            let one = arena.one();
-            let is_met = arena.sub(one, is_off);
-            solved = arena.mul(solved, is_met);
+            let size = self.algebra.sum(terms);
+            let allowed = Number::ratio(TOLERANCE.0, TOLERANCE.1) * size;
+            let is_off = rest.abs().greater(allowed);
+            solved = solved * (1 - is_off);
         }
         solved
     }
 
     /// λ₀ + Σ Gⱼ fⱼ
-    fn multipliers(&mut self, at: &[Expr]) -> HashMap<Symbol, Expr> {
-        let arena = &mut self.model.arena;
+    fn multipliers(&self, at: &[Scalar<'a>]) -> HashMap<Symbol, Expr> {
+        let algebra = self.algebra;
         let mut multipliers = HashMap::new();
         for (&symbol, &without) in &self.without {
-            let mut terms = vec![(without, Number::ONE)];
+            let mut terms = vec![algebra.scalar(without)];
             for (response, &force) in self.responses.iter().zip(at) {
-                terms.push((arena.mul(response[&symbol], force), Number::ONE));
+                terms.push(algebra.scalar(response[&symbol]) * force);
             }
-            let value = arena.sum(&terms);
-            multipliers.insert(symbol, arena.share(value));
+            multipliers.insert(symbol, algebra.sum(terms).shared().expr());
         }
         multipliers
     }
+}
 
-    /// Gauss–Jordan on rows with their right sides, in the order in which they
-    /// stand: diagonally dominant rows need no other.
-    fn eliminate(&mut self, mut rows: Vec<Vec<Expr>>, least: &mut Expr) -> Result<Vec<Expr>, Circular> {
-        let count = rows.len();
-        let arena = &mut self.model.arena;
-        for at in 0..count {
-            let pivot = arena.share(rows[at][at]);
-            if arena.as_number(pivot).is_some_and(|pivot| pivot.is_zero() || pivot.is_negative()) {
-                return Err(Circular(at));
-            }
-            *least = arena.call2(Function::Min, *least, pivot);
-            let inverse = arena.powi(pivot, -1);
-            let inverse = arena.share(inverse);
-            for entry in &mut rows[at][at..] {
-                let scaled = arena.mul(*entry, inverse);
-                *entry = arena.share(scaled);
-            }
-            let scaled = rows[at].clone();
-            for row in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row) {
-                let factor = row[at];
-                for (entry, &scaled) in row.iter_mut().zip(&scaled).skip(at) {
-                    let product = arena.mul(factor, scaled);
-                    let updated = arena.sub(*entry, product);
-                    *entry = arena.share(updated);
-                }
+/// Gauss–Jordan on rows with their right sides, in the order in which they
+/// stand: diagonally dominant rows need no other.
+fn eliminate<'a>(
+    mut rows: Vec<Vec<Scalar<'a>>>,
+    least: &mut Scalar<'a>,
+) -> Result<Vec<Scalar<'a>>, Circular> {
+    let count = rows.len();
+    for at in 0..count {
+        let pivot = rows[at][at].shared();
+        if pivot.number().is_some_and(|pivot| pivot.is_zero() || pivot.is_negative()) {
+            return Err(Circular(at));
+        }
+        *least = least.min(pivot);
+        let inverse = pivot.powi(-1).shared();
+        for entry in &mut rows[at][at..] {
+            *entry = (*entry * inverse).shared();
+        }
+        let scaled = rows[at].clone();
+        for row in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row) {
+            let factor = row[at];
+            for (entry, &scaled) in row.iter_mut().zip(&scaled).skip(at) {
+                *entry = (*entry - factor * scaled).shared();
             }
         }
-        Ok(rows.iter().map(|row| row[count]).collect())
     }
+    Ok(rows.iter().map(|row| row[count]).collect())
 }
 
 /// λ₀: the multipliers without the loads that depend on them.

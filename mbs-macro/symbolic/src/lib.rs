@@ -4,7 +4,8 @@
 //!
 //! 1. An [`Arena`] holds [`Expr`]essions, each once, in a canonical form that
 //!    its constructors keep: exact constants, like terms collected, sines and
-//!    cosines squared and added.
+//!    cosines squared and added. An [`Algebra`] writes them with the signs of
+//!    mathematics, vectors of the plane among them.
 //! 2. [`Arena::derivative`] differentiates along a direction: partial
 //!    derivatives and total time derivatives are both of that kind.
 //! 3. [`factor`] eliminates a constrained system ([`Kkt`]) by pivots that are

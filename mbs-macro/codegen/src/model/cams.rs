@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Expr, Number, Symbol};
+use mbs_symbolic::{Algebra, Expr, Number, Symbol};
 
 use super::names::{Local, Place, Typed};
 use super::resolver::Resolver;
@@ -94,17 +94,14 @@ impl Resolver<'_> {
         let ends = [Number::PI, -Number::PI].map(|angle| self.scope.arena.number(angle));
         let to = self.profile_at(joint, formula, ends[0])?;
         let from = self.profile_at(joint, formula, ends[1])?;
-        let arena = &mut self.scope.arena;
-        let jump = arena.sub(to, from);
-        let sizes = [(jump, Number::ONE), (to, Number::from(JUMP))];
-        let squares = sizes.map(|(size, factor)| {
-            let size = arena.scale(size, factor);
-            arena.powi(size, 2)
-        });
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let [to, from] = [to, from].map(|radius| algebra.scalar(radius));
+        let jump = to - from;
+        let allowed = Number::from(JUMP) * to;
         self.requirements.push(Requirement {
             name: format!("jump of the radius of {}", joint.name),
-            value: jump,
-            difference: arena.sub(squares[0], squares[1]),
+            value: jump.expr(),
+            difference: (jump.squared() - allowed.squared()).expr(),
             comparison: Comparison::LessOrEqual,
             text: "the profile of a cam has to be the same at -180 deg and at 180 deg".to_owned(),
             span: formula.span,

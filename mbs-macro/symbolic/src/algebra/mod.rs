@@ -72,13 +72,6 @@ impl<'a> Algebra<'a> {
         self.make(terms, |arena, terms| arena.sum(&terms))
     }
 
-    /// The product, which is 1 of no factors: made at once, without the products of the
-    /// first few.
-    pub fn product(&'a self, factors: impl IntoIterator<Item = Scalar<'a>>) -> Scalar<'a> {
-        let factors: Vec<_> = factors.into_iter().map(|factor| (factor.expr, 1)).collect();
-        self.make(factors, |arena, factors| arena.product(&factors))
-    }
-
     /// The one place where the arena is changed. What changes it captures nothing, so it
     /// cannot come back here.
     fn make<T>(&'a self, operands: T, make: fn(&mut Arena, T) -> Expr) -> Scalar<'a> {
@@ -209,6 +202,11 @@ impl<'a> Scalar<'a> {
     /// Σ ∂x/∂s · direction(s); see [`Arena::derivative`].
     pub fn derivative(self, direction: &HashMap<Symbol, Expr>) -> Self {
         self.algebra.make((self.expr, direction), |arena, (x, direction)| arena.derivative(x, direction))
+    }
+
+    /// The same with values in the place of symbols.
+    pub fn substitute(self, values: &HashMap<Symbol, Expr>) -> Self {
+        self.algebra.make((self.expr, values), |arena, (x, values)| arena.substitute(x, values))
     }
 
     fn call(self, function: Function) -> Self {
