@@ -86,9 +86,9 @@ declared! { FOURTH_ORDER_CHAIN;
         const N = 40;
         gravity = (0, -9.81) [m/s^2];
         for i in 1..=N {
-            body bob[i] (x[i], y[i], angle[i]) { mass = 1 [kg]; inertia = 1/12 [kg*m^2]; }
-            point top on bob[i] = (0, 1/2 [m]);
-            point end on bob[i] = (0, -1/2 [m]);
+            body bob[i] (x[i], y[i], angle[i]) { mass = 1 [kg]; inertia = (1/12) [kg*m^2]; }
+            point top on bob[i] = (0, 0.5 [m]);
+            point end on bob[i] = (0, -0.5 [m]);
             if i == 1 {
                 revolute pin[i] (ground, bob[i].top);
             } else {

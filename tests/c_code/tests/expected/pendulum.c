@@ -95,6 +95,12 @@ static const char *const pendulum_error_words[] = {
     "the given state violates a constraint, or its rate, too much to be kept as it is", 0,
 };
 
+/* The table of Heun's method, and its gains for a step of 1 s. */
+static const double pendulum_share[PENDULUM_STAGES] = {1.0, 0.5};
+static const double pendulum_node[PENDULUM_STAGES] = {1.0, 1.0};
+static const double pendulum_weight[PENDULUM_STAGES][PENDULUM_STAGES] = {{1.0}, {1.0, 1.0}};
+static const double pendulum_deadbeat[2] = {0.75, 1.0};
+
 /* What depends on parameters alone.
    Cost: 1 mul + 0 add + 0 div + 0 sincos. */
 static void pendulum_compute_hoisted(
@@ -787,11 +793,26 @@ int pendulum_set_feedback(struct pendulum_run *run, double alpha, double beta, i
     const double h = (double)run->step;
     const double a = 2.0 * alpha * h;
     const double b = beta * h * (beta * h);
-    const double trace = is_held ? 2.0 - a - b / 2.0 : 2.0 - a + a * a / 2.0 - b;
-    const double determinant =
-        is_held ? 1.0 - a + b / 2.0 : 1.0 - a + a * a / 2.0 - a * b / 2.0 + b * b / 4.0;
+    /* what a step makes of (e, h e') = (1, 0) and (0, 1) where e'' + 2 alpha e' + beta^2 e = 0 */
+    double e[2][PENDULUM_STAGES + 1] = {{1.0}, {0.0}}, v[2][PENDULUM_STAGES + 1] = {{0.0}, {1.0}};
+    for (int start = 0; start < 2; start++) {
+        for (int last = 0; last < PENDULUM_STAGES; last++) {
+            double e_sum = 0.0, v_sum = 0.0;
+            for (int stage = 0; stage <= last; stage++) {
+                const int from = is_held ? 0 : stage;
+                const double weight = pendulum_share[last] * pendulum_weight[last][stage];
+                e_sum += weight * v[start][stage];
+                v_sum -= weight * (a * v[start][from] + b * e[start][from]);
+            }
+            e[start][last + 1] = e[start][0] + e_sum;
+            v[start][last + 1] = v[start][0] + v_sum;
+        }
+    }
+    const int end = PENDULUM_STAGES;
+    const double trace = e[0][end] + v[1][end];
+    const double determinant = e[0][end] * v[1][end] - e[1][end] * v[0][end];
     /* both eigenvalues of the map from step to step lie in the unit disc, up to rounding */
-    const double slack = 8.0 * 2.220446049250313e-16 * (1.0 + a * a + b * b);
+    const double slack = 16.0 * 2.220446049250313e-16 * (1.0 + a + b) * (1.0 + a + b);
     const int is_stable = fabs(trace) <= 1.0 + determinant + slack && determinant <= 1.0 + slack;
     if (!(alpha >= 0.0 && beta >= 0.0 && is_stable)) {
         return PENDULUM_BAD_GAINS;
@@ -871,7 +892,7 @@ int pendulum_start(struct pendulum_run *run, const struct pendulum *m, double st
     if (!(run->step > 0 && isfinite(run->step) && 4 * pendulum_epsilon * fabs(run->state.t) <= run->step)) {
         return PENDULUM_BAD_STEP;
     }
-    int code = pendulum_set_feedback(run, 0.75 / step, 1.0 / step, 1);
+    int code = pendulum_set_feedback(run, pendulum_deadbeat[0] / step, pendulum_deadbeat[1] / step, 1);
     code = code == PENDULUM_OK ? pendulum_assemble(run) : code;
     code = code == PENDULUM_OK ? pendulum_project_velocities(run) : code;
     code = code == PENDULUM_OK ? pendulum_check_state(run, &run->state) : code;
@@ -881,42 +902,51 @@ int pendulum_start(struct pendulum_run *run, const struct pendulum *m, double st
 
 /* A step. */
 
-/* Both stages of a step, and what they lead to. */
+/* The stages of a step, the first one at its start, and behind them its end. */
 struct pendulum_trial {
-    struct pendulum_state predicted, next;
-    struct pendulum_coordinates here, there;
-    real growth_here, growth_there;
+    struct pendulum_state at[PENDULUM_STAGES + 1];
+    struct pendulum_coordinates solved[PENDULUM_STAGES];
+    real growth[PENDULUM_STAGES];
 };
 
-static void pendulum_try(const struct pendulum_run *run, real t_next, struct pendulum_trial *trial)
+/* Leads to what stands behind some solved stages: x = x0 + (share h) (w_1 k_1 + w_2 k_2 + ...). */
+static void pendulum_lead(struct pendulum_trial *trial, int last, real h, real t_next)
+{
+    const struct pendulum_state *const start = trial->at;
+    struct pendulum_state *const to = &trial->at[last + 1];
+    const real factor = (real)pendulum_share[last] * h;
+    to->t = pendulum_node[last] < 1 ? start->t + (real)pendulum_node[last] * h : t_next;
+    for (int j = 0; j < PENDULUM_COORDINATES; j++) {
+        real v = 0, a = 0;
+        for (int stage = 0; stage <= last; stage++) {
+            const real weight = (real)pendulum_weight[last][stage];
+            v = v + weight * pendulum_elements(&trial->at[stage].v)[j];
+            a = a + weight * pendulum_elements(&trial->solved[stage])[j];
+        }
+        pendulum_places(&to->q)[j] = pendulum_elements(&start->q)[j] + factor * v;
+        pendulum_places(&to->v)[j] = pendulum_elements(&start->v)[j] + factor * a;
+    }
+}
+
+/* A step stage by stage; the growths of all, added. */
+static real pendulum_try(const struct pendulum_run *run, real t_next, struct pendulum_trial *trial)
 {
     const struct pendulum *const m = run->mechanism;
-    const struct pendulum_state *const at = &run->state;
-    const real *const q = pendulum_elements(&at->q), *const v = pendulum_elements(&at->v);
-    real *const q_next = pendulum_places(&trial->next.q), *const v_next = pendulum_places(&trial->next.v);
-    const real h = run->step, half_h = (real)0.5 * h;
-    struct pendulum_constraints feedback = {0};
-    trial->growth_here =
-        pendulum_compute_stabilized(m, at->t, &at->q, &at->v, &run->inputs, &run->gains, &trial->here, &feedback);
-    const real *const a = pendulum_elements(&trial->here), *const b = pendulum_elements(&trial->there);
-    for (int j = 0; j < PENDULUM_COORDINATES; j++) {
-        q_next[j] = q[j] + h * v[j];
-        v_next[j] = v[j] + h * a[j];
+    struct pendulum_constraints feedback = {0}, unread = {0};
+    real growth = 0;
+    trial->at[0] = run->state;
+    for (int stage = 0; stage < PENDULUM_STAGES; stage++) {
+        const struct pendulum_state *const at = &trial->at[stage];
+        trial->growth[stage] = stage > 0 && run->is_held
+            ? pendulum_compute_constrained(
+                m, at->t, &at->q, &at->v, &run->inputs, &feedback, &trial->solved[stage])
+            : pendulum_compute_stabilized(
+                m, at->t, &at->q, &at->v, &run->inputs, &run->gains, &trial->solved[stage],
+                stage > 0 ? &unread : &feedback);
+        growth = growth + trial->growth[stage];
+        pendulum_lead(trial, stage, run->step, t_next);
     }
-    trial->next.t = t_next;
-    trial->predicted = trial->next;
-    const struct pendulum_coordinates *const q_there = &trial->predicted.q, *const v_there = &trial->predicted.v;
-    if (run->is_held) {
-        trial->growth_there =
-            pendulum_compute_constrained(m, t_next, q_there, v_there, &run->inputs, &feedback, &trial->there);
-    } else {
-        trial->growth_there = pendulum_compute_stabilized(
-            m, t_next, q_there, v_there, &run->inputs, &run->gains, &trial->there, &feedback);
-    }
-    for (int j = 0; j < PENDULUM_COORDINATES; j++) {
-        q_next[j] = q[j] + half_h * (v[j] + v_next[j]);
-        v_next[j] = v[j] + half_h * (a[j] + b[j]);
-    }
+    return growth;
 }
 
 /* Whether the constraints can be met near q: Newton's iteration comes to rest at rounding,
@@ -958,20 +988,17 @@ static int pendulum_reach(struct pendulum_run *run, real t, const struct pendulu
 /* What the stages of a step that failed say of themselves. */
 static int pendulum_cause_in_stages(struct pendulum_run *run, const struct pendulum_trial *trial)
 {
-    const struct pendulum_state *const stages[2] = {&run->state, &trial->predicted};
-    const struct pendulum_coordinates *const solved[2] = {&trial->here, &trial->there};
-    const real growths[2] = {trial->growth_here, trial->growth_there};
-    /* if only the sum of two growths is over the limit, the larger is over half */
-    const real limit = pendulum_growth_limit / 2;
-    for (int stage = 0; stage < 2; stage++) {
-        const struct pendulum_state *const at = stages[stage];
+    /* if only the sum of the growths is over the limit, the largest is over its share */
+    const real limit = pendulum_growth_limit / PENDULUM_STAGES;
+    for (int stage = 0; stage < PENDULUM_STAGES; stage++) {
+        const struct pendulum_state *const at = &trial->at[stage];
+        const struct pendulum_coordinates *const solved = &trial->solved[stage];
         const int code = pendulum_check_state(run, at);
         if (code != PENDULUM_OK) {
             return code;
         }
-        if (!(growths[stage] < limit)
-            || !pendulum_is_finite(solved[stage])) {
-            return pendulum_cause_of(run, at->t, &at->q, solved[stage], growths[stage], limit);
+        if (!(trial->growth[stage] < limit) || !pendulum_is_finite(solved)) {
+            return pendulum_cause_of(run, at->t, &at->q, solved, trial->growth[stage], limit);
         }
     }
     return PENDULUM_NOT_FINITE;
@@ -982,9 +1009,9 @@ static int pendulum_cause_in_stages(struct pendulum_run *run, const struct pendu
 static int pendulum_diagnose(struct pendulum_run *run, const struct pendulum_trial *trial)
 {
     const int code = pendulum_cause_in_stages(run, trial), where = run->where;
-    if (code != PENDULUM_BAD_INPUT && trial->growth_here < pendulum_growth_limit
+    if (code != PENDULUM_BAD_INPUT && trial->growth[0] < pendulum_growth_limit
         && pendulum_reach(run, run->state.t, &run->state.q) == PENDULUM_OK
-        && pendulum_reach(run, trial->next.t, &run->state.q) != PENDULUM_OK) {
+        && pendulum_reach(run, trial->at[PENDULUM_STAGES].t, &run->state.q) != PENDULUM_OK) {
         return PENDULUM_OUT_OF_REACH;
     }
     run->where = where;
@@ -1035,17 +1062,14 @@ static int pendulum_examine(struct pendulum_run *run, const struct pendulum_stat
 static int pendulum_step_again(struct pendulum_run *run, real t_next)
 {
     struct pendulum_trial trial;
-    pendulum_try(run, t_next, &trial);
-    const real growth = trial.growth_here + trial.growth_there;
-    if (!(growth < pendulum_growth_limit)
-        || !pendulum_is_finite(&trial.next.q)
-        || !pendulum_is_finite(&trial.next.v)) {
+    const real growth = pendulum_try(run, t_next, &trial);
+    const struct pendulum_state *const next = &trial.at[PENDULUM_STAGES];
+    if (!(growth < pendulum_growth_limit) || !pendulum_is_finite(&next->q) || !pendulum_is_finite(&next->v)) {
         return pendulum_diagnose(run, &trial);
     }
-    return pendulum_take(run, &trial.next, growth) ? PENDULUM_OK : pendulum_examine(run, &trial.next, growth);
+    return pendulum_take(run, next, growth) ? PENDULUM_OK : pendulum_examine(run, next, growth);
 }
-
-/* A step with the feedback held over it, both stages in one.
+/* A step with the feedback held over it, all stages in one.
    Cost: 43 mul + 30 add + 2 div + 0 sincos. */
 static int pendulum_step_held(struct pendulum_run *run, real t_next)
 {
@@ -1149,7 +1173,7 @@ static int pendulum_step_held(struct pendulum_run *run, real t_next)
     return is_taken ? PENDULUM_OK : pendulum_step_again(run, t_next);
 }
 
-/* A step with the feedback in both stages, both stages in one.
+/* A step with the feedback in every stage, all stages in one.
    Cost: 49 mul + 34 add + 2 div + 0 sincos. */
 static int pendulum_step_per_stage(struct pendulum_run *run, real t_next)
 {

@@ -27,6 +27,7 @@ enum {
     PENDULUM_CONDITIONS = 1,
     PENDULUM_CONDITION_VALUES = 2,
     PENDULUM_HOISTED = 1,
+    PENDULUM_STAGES = 2,
 };
 
 /* What functions return that may fail. */
@@ -164,8 +165,8 @@ int pendulum_start(struct pendulum_run *run, const struct pendulum *m, double st
    refuses one that is not consistent. */
 int pendulum_start_from(struct pendulum_run *run, const struct pendulum_state *state);
 
-/* Other gains in 1/s, held over each step or computed in both stages. Deadbeat gains of a step
-   h are 0.75/h and 1/h held, 1/h and sqrt(2)/h in both stages. */
+/* Other gains in 1/s, held over each step or computed in every stage. Deadbeat gains of a step
+   h are 0.75/h and 1/h held, 1/h and 1.4142135623730951/h in every stage. */
 int pendulum_set_feedback(struct pendulum_run *run, double alpha, double beta, int is_held);
 
 /* One step of Heun's method. After an error the state is that of the last good step. */
