@@ -7,7 +7,7 @@ use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Progr
 
 use crate::model::{Coordinate, Meaning, Model};
 
-/// Longer steps are left in two stages: rustc nests a scope per statement, and its
+/// Longer steps are left in stages: rustc nests a scope per statement, and its
 /// stack ends at about twice as many.
 const LONGEST: usize = 3072;
 

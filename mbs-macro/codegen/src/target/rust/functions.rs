@@ -36,7 +36,7 @@ impl Fields {
 
 /// Whether what runs at every step is forced into it.
 ///
-/// There, what the step does not use disappears, and both stages are scheduled
+/// There, what the step does not use disappears, and all stages are scheduled
 /// together; and it is compiled for the vector instructions that an ensemble's
 /// step is compiled for. Large systems are left to the compiler.
 fn inlining(compiled: &Compiled) -> TokenStream {
