@@ -1,12 +1,13 @@
 //! Equations of motion: bodies, forces and names are gone, only expressions
 //! are left.
 
+use crate::inputs::Inputs;
 pub use crate::mechanics::Equations;
 use crate::mechanics::{Mechanism, derive as derived};
 use crate::model::Model;
 
 /// Derives the equations. Cannot fail.
-pub fn derive(model: &mut Model) -> Equations {
+pub fn derive(model: &mut Model, inputs: &Inputs) -> Equations {
     let mechanism = Mechanism {
         inertias: &model.inertias,
         phi: model.constraints.iter().map(|constraint| constraint.phi).collect(),
@@ -14,9 +15,9 @@ pub fn derive(model: &mut Model) -> Equations {
         reactive_loads: model.reactive_loads.iter().map(|load| &load.work).collect(),
         potentials: &model.potentials,
         motion: &model.motion,
-        time: model.symbols.time,
-        minus_two_alpha: model.symbols.minus_two_alpha,
-        minus_beta_squared: model.symbols.minus_beta_squared,
+        time: inputs.time,
+        minus_two_alpha: inputs.minus_two_alpha,
+        minus_beta_squared: inputs.minus_beta_squared,
     };
     derived(&mut model.arena, &mechanism)
 }

@@ -8,6 +8,7 @@
 //! | `syntax` | `Declaration`, a span on every node | shapes are right, names unresolved |
 //! | `compose` | `Declaration` | sub-assemblies are gone, only plain statements are left |
 //! | `model` | `Model` | names are symbols, dimensions agree |
+//! | `inputs` | `Inputs` | what a method adds to the symbols of a declaration (step, gains, feedback) has symbols |
 //! | `derive` | `Equations` | what follows computes with expressions; bodies, joints and forces are left for words |
 //! | `independence` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
@@ -27,6 +28,7 @@ mod compose;
 mod derive;
 mod diagnostics;
 mod independence;
+mod inputs;
 mod mechanics;
 mod model;
 mod plan;
@@ -65,10 +67,11 @@ pub fn analyse(declaration: TokenStream) -> Result<Compiled, Diagnostics> {
     let declaration = syntax::parse(declaration)?;
     let declaration = compose::compose(declaration)?;
     let mut model = model::resolve(&declaration)?;
-    let equations = derive::derive(&mut model);
-    let samples = independence::Samples::new(&model);
+    let inputs = inputs::Inputs::new(&mut model);
+    let equations = derive::derive(&mut model, &inputs);
+    let samples = independence::Samples::new(&model, &inputs);
     let rows = independence::check_equations(&model, &equations, &samples)?;
-    let plan = plan::plan(&mut model, &equations, &rows, &samples)
+    let plan = plan::plan(&mut model, &equations, &rows, &samples, inputs)
         .map_err(|error| validate::unsolvable(&model, &error))?;
     validate::check_closure(&model, &equations, &plan)?;
     validate::check_limit(&model, &plan)?;

@@ -2,7 +2,6 @@
 //! alone is hoisted, and every function has its instructions.
 
 mod correction;
-mod input;
 mod minimum_norm;
 mod step;
 
@@ -15,10 +14,10 @@ use mbs_symbolic::{
 
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
+use crate::inputs::Inputs;
 use crate::model::{Direction, Model};
 use crate::reactive::{self, Circular, Forces};
 use correction::correction;
-pub use input::Input;
 pub use step::{FusedStep, Kinds};
 
 /// An order that changes more entries than this per unknown fills the matrix of a
@@ -27,6 +26,8 @@ const LARGEST_FILL: usize = 24;
 
 /// The programs of all generated functions.
 pub struct Plan {
+    /// What the symbols of its programs stand for.
+    pub inputs: Inputs,
     pub strategy: Strategy,
     /// The steps of the elimination, in order.
     pub order: Vec<Elimination>,
@@ -129,6 +130,7 @@ pub fn plan(
     equations: &Equations,
     rows: &Rows,
     samples: &Samples,
+    inputs: Inputs,
 ) -> Result<Plan, Unsolvable> {
     if rows.basis.len() < equations.phi.len() && !model.reactive_loads.is_empty() {
         return Err(Unsolvable::Shared);
@@ -140,8 +142,9 @@ pub fn plan(
     }
     label(model, equations);
     let Solver { strategy, factorization, forces } = cheapest(model, equations, rows)?;
-    let (positions, mut start_pivots) = correction(model, equations, rows, strategy, samples, false)?;
-    let (velocities, more) = correction(model, equations, rows, strategy, samples, true)?;
+    let (positions, mut start_pivots) =
+        correction(model, equations, rows, strategy, (samples, &inputs), false)?;
+    let (velocities, more) = correction(model, equations, rows, strategy, (samples, &inputs), true)?;
     start_pivots.extend(
         more.into_iter()
             .filter(|new| start_pivots.iter().all(|old| old.growth != new.growth))
@@ -160,7 +163,8 @@ pub fn plan(
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
     let stabilized = stabilized(model, equations, rows, &forces, &factorization);
-    let (constrained, reactions) = with_given_feedback(model, equations, rows, &forces, &factorization);
+    let (constrained, reactions) =
+        with_given_feedback(model, equations, rows, (&forces, &inputs), &factorization);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -168,6 +172,7 @@ pub fn plan(
     let unrolled = model.solver.unrolled();
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
     let plan = Plan {
+        inputs,
         strategy,
         order: factorization.order.clone(),
         rows: rows.clone(),
@@ -208,7 +213,7 @@ pub fn plan(
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
-        fused_step: step::fused(model, stages)?,
+        fused_step: step::fused(model, &plan.inputs, stages)?,
         prepare: lower_whole(&mut model.arena, hoisted.values(), unrolled)?,
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements, unrolled)?,
@@ -351,7 +356,7 @@ fn with_given_feedback(
     model: &mut Model,
     equations: &Equations,
     rows: &Rows,
-    forces: &Forces,
+    (forces, inputs): (&Forces, &Inputs),
     factorization: &Factorization,
 ) -> (Vec<Expr>, Vec<Expr>) {
     let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
@@ -359,7 +364,7 @@ fn with_given_feedback(
         rhs.insert(Unknown::Coordinate(at), force);
     }
     for &at in &rows.basis {
-        let feedback = model.arena.variable(model.symbols.feedback[at]);
+        let feedback = model.arena.variable(inputs.feedback[at]);
         rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);

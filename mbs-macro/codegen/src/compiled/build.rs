@@ -9,15 +9,15 @@ use super::{
 };
 use crate::derive::Equations;
 use crate::model::{self, Direction, Model};
-use crate::plan::{Input, Plan};
+use crate::plan::Plan;
 use crate::quantity::Comparison;
 
 impl Compiled {
     /// The results of all stages.
     pub(crate) fn new(model: Model, equations: &Equations, plan: Plan) -> Self {
-        let symbols = model.meanings.iter().enumerate().map(|(at, &meaning)| {
+        let symbols = plan.inputs.iter().enumerate().map(|(at, input)| {
             let name = model.arena.symbol_at(at).map_or("", |symbol| model.arena.name(symbol));
-            (name.to_owned(), Input::from(meaning))
+            (name.to_owned(), input)
         });
         let symbols = symbols.collect();
         let programs = FunctionId::all().map(|function| program(&plan, function).clone()).collect();

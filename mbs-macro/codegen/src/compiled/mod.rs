@@ -53,7 +53,8 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
-pub use crate::plan::{FusedStep, Input, Kinds};
+pub use crate::inputs::Input;
+pub use crate::plan::{FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};

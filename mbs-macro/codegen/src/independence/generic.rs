@@ -244,17 +244,19 @@ mod tests {
     use super::judge;
     use crate::derive::{Equations, derive};
     use crate::independence::Samples;
+    use crate::inputs::Inputs;
     use crate::model::Model;
 
-    fn equations(declaration: &str) -> (Model, Equations) {
+    fn equations(declaration: &str) -> (Model, Inputs, Equations) {
         let tokens = declaration.parse().expect("tokens");
         let declaration = crate::syntax::parse(tokens).expect("the right shape");
         let mut model = crate::model::resolve(&declaration).expect("resolvable");
-        let equations = derive(&mut model);
-        (model, equations)
+        let inputs = Inputs::new(&mut model);
+        let equations = derive(&mut model, &inputs);
+        (model, inputs, equations)
     }
 
-    fn mechanism(constraints: &str) -> (Model, Equations) {
+    fn mechanism(constraints: &str) -> (Model, Inputs, Equations) {
         equations(&format!(
             "Test {{ dof = 0; param l = 1 [m]; param e = 0.3 [m];
                 body a (x1, y1, p) {{ mass = 1 [kg]; inertia = 1 [kg*m^2]; }}
@@ -264,7 +266,7 @@ mod tests {
     }
 
     fn dependent(constraints: &str) -> (Vec<(usize, Vec<usize>)>, bool) {
-        let (model, equations) = mechanism(constraints);
+        let (model, _, equations) = mechanism(constraints);
         let verdict = judge(&model.arena, &equations).expect("no zero was hit");
         (verdict.dependent, verdict.is_exact)
     }
@@ -317,10 +319,10 @@ mod tests {
         #[test]
         fn exact_and_sampled_ranks_agree(rows in prop::collection::vec((0_u8..6, 1_i8..3), 1..7)) {
             let text: String = rows.iter().enumerate().map(|(at, &(kind, c))| row(kind, at, c)).collect();
-            let (model, equations) = mechanism(&text);
+            let (model, inputs, equations) = mechanism(&text);
             let verdict = judge(&model.arena, &equations).expect("no zero was hit");
             prop_assert!(verdict.is_exact);
-            let samples = Samples::new(&model);
+            let samples = Samples::new(&model, &inputs);
             let sampled = samples.positions().map(|at| samples.echelon(&model, &equations, at));
             let sampled = sampled.max_by_key(|echelon| echelon.rank()).expect("some position");
             prop_assert_eq!(verdict.dependent, sampled.dependent, "{}", text);

@@ -10,6 +10,7 @@ use super::echelon::{Echelon, row_echelon};
 use super::size::sizes;
 use super::sparse::{SparseRow, scale};
 use crate::derive::Equations;
+use crate::inputs::{Input, Inputs};
 use crate::model::{Meaning, Model};
 
 /// How many positions are looked at.
@@ -27,19 +28,18 @@ pub struct Samples {
 
 impl Samples {
     /// Random coordinates, velocities and times; declared parameters.
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &Model, inputs: &Inputs) -> Self {
         let mut generator = Generator::new();
         let units = units(model);
         let values = (0..POSITIONS)
             .map(|_| {
-                model
-                    .meanings
+                inputs
                     .iter()
-                    .map(|&meaning| match meaning {
-                        Meaning::Parameter(at) => model.parameters[at].value,
+                    .map(|input| match input {
+                        Input::Parameter(at) => model.parameters[at].value,
                         // angles all around; rates, times and the rest of order 1
-                        Meaning::Coordinate(at) if is_angle(model, at) => 3.0 * generator.symmetric(),
-                        Meaning::Coordinate(at) => units[at] * generator.symmetric(),
+                        Input::Position(at) if is_angle(model, at) => 3.0 * generator.symmetric(),
+                        Input::Position(at) => units[at] * generator.symmetric(),
                         _ => generator.symmetric(),
                     })
                     .collect()
@@ -51,7 +51,7 @@ impl Samples {
     /// Coordinates and time of the declared start.
     pub fn start_position(&self, model: &Model) -> Position {
         let q = model.coordinates.iter().map(|coordinate| self.start[coordinate.position.index()]).collect();
-        Position { q, t: self.start[model.symbols.time.index()] }
+        Position { q, t: self.start[model.time.index()] }
     }
 
     /// The value of a symbol at one of the positions.

@@ -41,7 +41,7 @@ pub struct Model {
     pub arena: Arena,
     /// What each symbol of the arena stands for, by its index.
     pub meanings: Vec<Meaning>,
-    pub symbols: Symbols,
+    pub time: Symbol,
     pub doc: String,
     pub visibility: TokenStream,
     pub name: proc_macro2::Ident,
@@ -88,26 +88,6 @@ pub enum Meaning {
     Velocity(usize),
     Acceleration(usize),
     Multiplier(usize),
-    /// An amount added to γ, or a residual, per constraint.
-    Feedback(usize),
-    MinusTwoAlpha,
-    MinusBetaSquared,
-    /// h, h/2 and t + h of a step.
-    Step,
-    HalfStep,
-    NextTime,
-}
-
-/// The symbols, by meaning.
-pub struct Symbols {
-    pub time: Symbol,
-    pub minus_two_alpha: Symbol,
-    pub minus_beta_squared: Symbol,
-    /// Per constraint.
-    pub feedback: Vec<Symbol>,
-    pub step: Symbol,
-    pub half_step: Symbol,
-    pub next_time: Symbol,
 }
 
 pub struct Parameter {

@@ -2,15 +2,15 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use mbs_symbolic::{Expr, Stage};
+use mbs_symbolic::Expr;
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Direction, Gap, Meaning, Model, Output, Parameter,
-    ReactiveLoad, Requirement, Solver, Start, Symbols,
+    Body, Check, Closes, Constraint, Coordinate, Direction, Gap, Model, Output, Parameter, ReactiveLoad,
+    Requirement, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::{Inertia, Load};
@@ -191,9 +191,8 @@ impl<'a> Resolver<'a> {
         }
         let sketch = self.sketch(declaration);
         let zero = self.scope.arena.zero();
-        let symbols = self.generated_symbols();
         let model = Model {
-            symbols,
+            time: self.scope.time,
             inertias: self.inertias(),
             motion: self.scope.motion,
             meanings: self.scope.meanings,
@@ -224,27 +223,5 @@ impl<'a> Resolver<'a> {
             sketch,
         };
         self.errors.finish(model)
-    }
-
-    /// The symbols that the equations need beside the declared ones.
-    fn generated_symbols(&mut self) -> Symbols {
-        let mut rows: Vec<_> =
-            self.scope.rows.iter().map(|(name, row)| (row.position, name.clone())).collect();
-        rows.sort_unstable();
-        let feedback = rows
-            .iter()
-            .map(|(position, name)| {
-                self.scope.symbol(&format!("feedback({name})"), Stage::Variable, Meaning::Feedback(*position))
-            })
-            .collect();
-        Symbols {
-            time: self.scope.time,
-            minus_two_alpha: self.scope.symbol("(-2*alpha)", Stage::Variable, Meaning::MinusTwoAlpha),
-            minus_beta_squared: self.scope.symbol("(-beta^2)", Stage::Variable, Meaning::MinusBetaSquared),
-            feedback,
-            step: self.scope.symbol("(h)", Stage::Variable, Meaning::Step),
-            half_step: self.scope.symbol("(h/2)", Stage::Variable, Meaning::HalfStep),
-            next_time: self.scope.symbol("(t+h)", Stage::Variable, Meaning::NextTime),
-        }
     }
 }

@@ -7,6 +7,7 @@ use mbs_symbolic::{Expr, Strategy, Undetermined, Unknown, WatchedPivot, factor};
 use super::system;
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
+use crate::inputs::Inputs;
 use crate::model::Model;
 
 /// Δ and growth of a correction that keeps what `start` prescribes, as far as
@@ -16,7 +17,7 @@ pub(super) fn correction(
     equations: &Equations,
     rows: &Rows,
     strategy: Strategy,
-    samples: &Samples,
+    (samples, inputs): (&Samples, &Inputs),
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
     let held = held(model, equations, rows, samples, of_velocities);
@@ -32,7 +33,7 @@ pub(super) fn correction(
     };
     let mut rhs = BTreeMap::new();
     for &at in &rows.basis {
-        rhs.insert(Unknown::Row(at), model.arena.variable(model.symbols.feedback[at]));
+        rhs.insert(Unknown::Row(at), model.arena.variable(inputs.feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
     let mut roots: Vec<Expr> = (0..model.coordinates.len())

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use mbs_schemes::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
-use crate::model::{Coordinate, Meaning, Model};
+use crate::inputs::{Input, Inputs};
+use crate::model::{Coordinate, Model};
 
 /// Longer steps are left in stages: rustc nests a scope per statement, and its
 /// stack ends at about twice as many.
@@ -40,13 +41,14 @@ pub struct Stages<'a> {
 ///
 /// # Errors
 /// A step that does not compute what its stages do.
-pub fn fused(model: &Model, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
-    let Some(alone) = kinds(model, stages, None)? else { return Ok(None) };
-    Ok(Some(FusedStep { alone, with_reactions: kinds(model, stages, Some(stages.reactions))? }))
+pub fn fused(model: &Model, inputs: &Inputs, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
+    let Some(alone) = kinds(model, inputs, stages, None)? else { return Ok(None) };
+    Ok(Some(FusedStep { alone, with_reactions: kinds(model, inputs, stages, Some(stages.reactions))? }))
 }
 
 fn kinds(
     model: &Model,
+    inputs: &Inputs,
     stages: Stages<'_>,
     reactions: Option<&Program>,
 ) -> Result<Option<Kinds>, Inconsistency> {
@@ -55,12 +57,12 @@ fn kinds(
         return Ok(None);
     }
     let [held, per_stage] =
-        [constrained, stabilized].map(|second| step(model, stabilized, second, reactions));
+        [constrained, stabilized].map(|second| step(model, inputs, stabilized, second, reactions));
     if held.instructions.len().max(per_stage.instructions.len()) > LONGEST {
         return Ok(None);
     }
-    check(model, [stabilized, constrained], reactions, &held)?;
-    check(model, [stabilized, stabilized], reactions, &per_stage)?;
+    check(model, inputs, [stabilized, constrained], reactions, &held)?;
+    check(model, inputs, [stabilized, stabilized], reactions, &per_stage)?;
     Ok(Some(Kinds { held, per_stage }))
 }
 
@@ -69,12 +71,13 @@ fn kinds(
 /// tells nothing: there a step is made again in stages.
 fn check(
     model: &Model,
+    inputs: &Inputs,
     [first, second]: [&Program; 2],
     reactions: Option<&Program>,
     step: &Program,
 ) -> Result<(), Inconsistency> {
     for point in 0..probe::POINTS {
-        let expected = in_stages(model, [first, second], reactions, point);
+        let expected = in_stages(model, inputs, [first, second], reactions, point);
         let found = step.evaluate_with(&probe::symbol(point), &probe::hoisted(point));
         let is_same = |(x, y): (&f64, &f64)| !x.is_finite() || x == y;
         if found.len() != expected.len() || !expected.iter().zip(&found).all(is_same) {
@@ -92,15 +95,14 @@ fn in_steps(share: f64, h: f64, half_h: f64) -> f64 {
 /// The results of [`step`], from the programs of the stages.
 fn in_stages(
     model: &Model,
+    inputs: &Inputs,
     [first, second]: [&Program; 2],
     reactions: Option<&Program>,
     point: u64,
 ) -> Vec<f64> {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let (given, hoisted) = (probe::symbol(point), probe::hoisted(point));
-    let [t, h, half_h, t_next] =
-        [model.symbols.time, model.symbols.step, model.symbols.half_step, model.symbols.next_time]
-            .map(&given);
+    let [t, h, half_h, t_next] = [inputs.time, inputs.step, inputs.half_step, inputs.next_time].map(&given);
     let [q, v] = [|c: &Coordinate| c.position, |c: &Coordinate| c.velocity]
         .map(|symbol| model.coordinates.iter().map(|c| given(symbol(c))).collect::<Vec<f64>>());
     // x₀ + (share · h) Σ w k, as the runtime computes it
@@ -115,19 +117,19 @@ fn in_stages(
         let node = row.node();
         let time = if node == 1.0 { t_next } else { t + in_steps(node, h, half_h) };
         let predicted: Vec<f64> = (0..n).map(|at| combine(row, v[at], &|stage| solved[stage][at])).collect();
-        let there = |symbol: Symbol| match model.meanings.get(symbol.index()) {
-            Some(&Meaning::Coordinate(at)) => combine(row, q[at], &|stage| velocities[stage][at]),
-            Some(&Meaning::Velocity(at)) => predicted[at],
-            Some(Meaning::Time) => time,
-            Some(&Meaning::Feedback(row)) => solved[0][n + row],
+        let there = |symbol: Symbol| match inputs.of(symbol) {
+            Some(Input::Position(at)) => combine(row, q[at], &|stage| velocities[stage][at]),
+            Some(Input::Velocity(at)) => predicted[at],
+            Some(Input::Time) => time,
+            Some(Input::Feedback(row)) => solved[0][n + row],
             _ => given(symbol),
         };
         let next = second.evaluate_with(&there, &hoisted);
         velocities.push(predicted);
         solved.push(next);
     }
-    let without_feedback = |symbol: Symbol| match model.meanings.get(symbol.index()) {
-        Some(Meaning::Feedback(_)) => 0.0,
+    let without_feedback = |symbol: Symbol| match inputs.of(symbol) {
+        Some(Input::Feedback(_)) => 0.0,
         _ => given(symbol),
     };
     let clean = reactions.map(|reactions| reactions.evaluate_with(&without_feedback, &hoisted));
@@ -144,7 +146,13 @@ fn in_stages(
 /// q⁺, v⁺ and the growth, with stages behind the first one that are given its feedback, or
 /// compute their own. With reactions: q⁺, v⁺, q̈, λ, the growth, and that of
 /// the reactions.
-fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Program>) -> Program {
+fn step(
+    model: &Model,
+    inputs: &Inputs,
+    first: &Program,
+    second: &Program,
+    reactions: Option<&Program>,
+) -> Program {
     let (n, m) = (model.coordinates.len(), model.constraints.len());
     let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
     let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
@@ -153,32 +161,32 @@ fn step(model: &Model, first: &Program, second: &Program, reactions: Option<&Pro
     let mut velocities = vec![v.clone()];
     let mut solved = vec![steps.append(first, &HashMap::new())];
     let held: HashMap<Symbol, Operand> =
-        model.symbols.feedback.iter().copied().zip(solved[0][n..n + m].iter().copied()).collect();
+        inputs.feedback.iter().copied().zip(solved[0][n..n + m].iter().copied()).collect();
     for row in scheme.stages {
         let mut stage = held.clone();
         let mut predicted = Vec::new();
         for (at, coordinate) in model.coordinates.iter().enumerate() {
-            let position = steps.combine(model, row, q[at], &|stage| velocities[stage][at]);
-            let velocity = steps.combine(model, row, v[at], &|stage| solved[stage][at]);
+            let position = steps.combine(inputs, row, q[at], &|stage| velocities[stage][at]);
+            let velocity = steps.combine(inputs, row, v[at], &|stage| solved[stage][at]);
             stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
             predicted.push(velocity);
         }
-        stage.insert(model.symbols.time, steps.time(model, row.node()));
+        stage.insert(inputs.time, steps.time(inputs, row.node()));
         let there = steps.append(second, &stage);
         velocities.push(predicted);
         solved.push(there);
     }
     // Without feedback; what agrees with the first stage is there already.
     let zero = Operand::Number(Number::ZERO);
-    let none = model.symbols.feedback.iter().map(|&symbol| (symbol, zero)).collect();
+    let none = inputs.feedback.iter().map(|&symbol| (symbol, zero)).collect();
     let clean = reactions.map(|reactions| steps.append(reactions, &none));
 
     let mut outputs = Vec::new();
     for at in 0..n {
-        outputs.push(steps.combine(model, &scheme.update, q[at], &|stage| velocities[stage][at]));
+        outputs.push(steps.combine(inputs, &scheme.update, q[at], &|stage| velocities[stage][at]));
     }
     for at in 0..n {
-        outputs.push(steps.combine(model, &scheme.update, v[at], &|stage| solved[stage][at]));
+        outputs.push(steps.combine(inputs, &scheme.update, v[at], &|stage| solved[stage][at]));
     }
     outputs.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
     let growths = solved.iter().filter_map(|stage| stage.last().copied());
@@ -227,7 +235,7 @@ impl Fusion {
     /// x + (share · h) Σ w k
     fn combine(
         &mut self,
-        model: &Model,
+        inputs: &Inputs,
         row: &Row,
         x: Operand,
         slopes: &dyn Fn(usize) -> Operand,
@@ -243,14 +251,14 @@ impl Fusion {
             });
         }
         let Some(sum) = sum else { return x };
-        let factor = self.in_steps(model, row.share);
+        let factor = self.in_steps(inputs, row.share);
         let product = self.push(Operation::Mul, factor, sum, None);
         self.push(Operation::Add, x, product, None)
     }
 
     /// A share of the step.
-    fn in_steps(&mut self, model: &Model, share: f64) -> Operand {
-        let [h, half_h] = [model.symbols.step, model.symbols.half_step].map(Operand::Symbol);
+    fn in_steps(&mut self, inputs: &Inputs, share: f64) -> Operand {
+        let [h, half_h] = [inputs.step, inputs.half_step].map(Operand::Symbol);
         match share {
             1.0 => h,
             0.5 => half_h,
@@ -259,12 +267,12 @@ impl Fusion {
     }
 
     /// The time of a stage, a share `node` of the step behind the start.
-    fn time(&mut self, model: &Model, node: f64) -> Operand {
+    fn time(&mut self, inputs: &Inputs, node: f64) -> Operand {
         if node == 1.0 {
-            return Operand::Symbol(model.symbols.next_time);
+            return Operand::Symbol(inputs.next_time);
         }
-        let behind = self.in_steps(model, node);
-        self.push(Operation::Add, Operand::Symbol(model.symbols.time), behind, None)
+        let behind = self.in_steps(inputs, node);
+        self.push(Operation::Add, Operand::Symbol(inputs.time), behind, None)
     }
 
     /// Appends a program with these values for its symbols; its outputs.
@@ -296,8 +304,9 @@ mod tests {
         let first = &plan.stabilized;
         for second in [&plan.constrained, &plan.stabilized] {
             for reactions in [None, Some(&plan.reactions)] {
-                let right = step(model, first, second, reactions);
-                let is_accepted = |step: &Program| check(model, [first, second], reactions, step).is_ok();
+                let right = step(model, &plan.inputs, first, second, reactions);
+                let is_accepted =
+                    |step: &Program| check(model, &plan.inputs, [first, second], reactions, step).is_ok();
                 assert!(is_accepted(&right));
                 let mut tried = 0;
                 for at in needed(&right, true) {

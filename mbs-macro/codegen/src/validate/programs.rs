@@ -4,7 +4,8 @@ use crate::compiled::GROWTH_LIMIT;
 use crate::derive::Equations;
 use crate::independence::assembly::{Assembly, Position};
 use crate::independence::samples::units;
-use crate::model::{Meaning, Model};
+use crate::inputs::Input;
+use crate::model::Model;
 use crate::plan::Plan;
 
 const ITERATIONS: usize = 50;
@@ -56,7 +57,9 @@ impl<'a> Programs<'a> {
     }
 
     fn phi(&self, at: &Position) -> Vec<f64> {
-        self.plan.phi.evaluate(&self.model.values(|meaning| known(meaning, at, &[], &[])), &self.hoisted)
+        self.plan
+            .phi
+            .evaluate(&self.plan.inputs.values(self.model, |input| known(input, at, &[], &[])), &self.hoisted)
     }
 
     /// Positions on Φ = 0 near `start`, by the iteration that the runtime makes.
@@ -104,7 +107,7 @@ impl<'a> Programs<'a> {
     /// Δq; `None` where its elimination is singular.
     fn position_correction(&self, at: &Position, phi: &[f64]) -> Option<Vec<f64>> {
         let residual: Vec<f64> = phi.iter().map(|x| -x).collect();
-        let values = self.model.values(|meaning| known(meaning, at, &[], &residual));
+        let values = self.plan.inputs.values(self.model, |input| known(input, at, &[], &residual));
         regular(self.plan.position_correction.evaluate(&values, &self.hoisted))
     }
 
@@ -121,17 +124,17 @@ impl<'a> Programs<'a> {
 
     /// Δv; `None` where its elimination is singular.
     fn velocity_correction(&self, at: &Position, v: &[f64]) -> Option<Vec<f64>> {
-        let values = self.model.values(|meaning| known(meaning, at, v, &[]));
+        let values = self.plan.inputs.values(self.model, |input| known(input, at, v, &[]));
         let phi_dot = self.plan.phi_dot.evaluate(&values, &self.hoisted);
         let residual: Vec<f64> = phi_dot.iter().map(|x| -x).collect();
-        let values = self.model.values(|meaning| known(meaning, at, v, &residual));
+        let values = self.plan.inputs.values(self.model, |input| known(input, at, v, &residual));
         regular(self.plan.velocity_correction.evaluate(&values, &self.hoisted))
     }
 
     /// The constraint and the coordinate of the pivot that the equations of motion
     /// lose at a position, if they lose any.
     pub fn lost_pivot(&self, at: &Position) -> Option<(Option<usize>, Option<usize>)> {
-        let values = self.model.values(|meaning| known(meaning, at, &[], &[]));
+        let values = self.plan.inputs.values(self.model, |input| known(input, at, &[], &[]));
         let growths = self.plan.pivots.evaluate(&values, &self.hoisted);
         let (worst, growth) = largest(&growths);
         let is_lost = growth >= GROWTH_LIMIT;
@@ -145,12 +148,12 @@ fn regular(mut solution: Vec<f64>) -> Option<Vec<f64>> {
     (growth < GROWTH_LIMIT && solution.iter().all(|x| x.is_finite())).then_some(solution)
 }
 
-fn known(meaning: Meaning, position: &Position, velocities: &[f64], residual: &[f64]) -> f64 {
-    let known = match meaning {
-        Meaning::Time => Some(position.t),
-        Meaning::Coordinate(at) => position.q.get(at).copied(),
-        Meaning::Velocity(at) => velocities.get(at).copied(),
-        Meaning::Feedback(at) => residual.get(at).copied(),
+fn known(input: Input, position: &Position, velocities: &[f64], residual: &[f64]) -> f64 {
+    let known = match input {
+        Input::Time => Some(position.t),
+        Input::Position(at) => position.q.get(at).copied(),
+        Input::Velocity(at) => velocities.get(at).copied(),
+        Input::Feedback(at) => residual.get(at).copied(),
         _ => None,
     };
     known.unwrap_or(f64::NAN)

@@ -107,15 +107,11 @@ impl Point<'_> {
         evaluate(self.model, &[expr], self.symbol).first().copied().unwrap_or_default()
     }
 
-    fn gain(&self, meaning: Meaning) -> Rounded {
-        let at = self.model.meanings.iter().position(|&known| known == meaning);
-        let symbol = at.and_then(|at| self.model.arena.symbol_at(at));
-        Rounded::exact(symbol.map_or(f64::NAN, self.symbol))
-    }
-
     /// −2αΦ̇ − β²Φ
     fn feedback(&self, motion: &[Jet]) -> Vec<Rounded> {
-        let (damping, stiffness) = (self.gain(Meaning::MinusTwoAlpha), self.gain(Meaning::MinusBetaSquared));
+        let inputs = &self.plan.inputs;
+        let gains = [inputs.minus_two_alpha, inputs.minus_beta_squared];
+        let [damping, stiffness] = gains.map(|gain| Rounded::exact((self.symbol)(gain)));
         motion.iter().map(|row| damping * row.first + stiffness * row.value).collect()
     }
 

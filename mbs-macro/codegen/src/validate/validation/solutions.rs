@@ -11,6 +11,7 @@ use mbs_symbolic::{Program, Symbol};
 
 use super::super::rounding::Rounded;
 use super::{Check, DIRECTIONS, Point};
+use crate::inputs::Input;
 use crate::model::Meaning;
 
 const LARGEST_GROWTH: f64 = 1e3;
@@ -54,8 +55,7 @@ impl Point<'_> {
         }
         let (n, plan) = (self.model.coordinates.len(), self.plan);
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
-        let given: Vec<f64> =
-            self.model.symbols.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
+        let given: Vec<f64> = self.plan.inputs.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
         let own: Vec<f64> = self.feedback(&motion).iter().map(|feedback| feedback.value).collect();
         let reactions = self.solved(&plan.reactions, &given);
         if let Some(values) = &reactions {
@@ -95,8 +95,8 @@ impl Point<'_> {
     /// not grown too much to tell anything.
     fn solved(&self, program: &Program, feedback: &[f64]) -> Option<Vec<f64>> {
         let hoisted: Vec<f64> = self.hoisted.iter().map(|hoisted| hoisted.value).collect();
-        let symbol = |symbol: Symbol| match self.model.meanings.get(symbol.index()) {
-            Some(Meaning::Feedback(row)) => feedback[*row],
+        let symbol = |symbol: Symbol| match self.plan.inputs.of(symbol) {
+            Some(Input::Feedback(row)) => feedback[row],
             _ => (self.symbol)(symbol),
         };
         let values = program.evaluate(&symbol, &hoisted);

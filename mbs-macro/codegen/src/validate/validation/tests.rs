@@ -4,6 +4,7 @@ use mbs_symbolic::{Operand, Operation, Program};
 
 use super::check_programs;
 use crate::independence::{Samples, check_equations};
+use crate::inputs::Inputs;
 use crate::plan::{Plan, plan};
 use crate::{derive, model, syntax};
 
@@ -37,10 +38,11 @@ impl Planned {
     pub fn new(declaration: &str) -> Self {
         let declaration = syntax::parse(declaration.parse().expect("tokens")).expect("the right shape");
         let mut model = model::resolve(&declaration).expect("resolvable");
-        let equations = derive::derive(&mut model);
-        let samples = Samples::new(&model);
+        let inputs = Inputs::new(&mut model);
+        let equations = derive::derive(&mut model, &inputs);
+        let samples = Samples::new(&model, &inputs);
         let rows = check_equations(&model, &equations, &samples).expect("regular");
-        let plan = plan(&mut model, &equations, &rows, &samples).expect("determined");
+        let plan = plan(&mut model, &equations, &rows, &samples, inputs).expect("determined");
         Self { model, equations, samples, plan }
     }
 

@@ -1,0 +1,110 @@
+//! What the symbols of programs stand for: those of a declaration, and those that a method of
+//! integration adds, which no declaration names.
+
+use mbs_symbolic::{Stage, Symbol};
+
+use crate::model::{Meaning, Model};
+
+/// What a symbol of a program stands for: a number, or a component of a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// t in s
+    Time,
+    /// A parameter.
+    Parameter(usize),
+    /// An input.
+    Input(usize),
+    /// A component of q,
+    Position(usize),
+    /// of v,
+    Velocity(usize),
+    /// of q̈,
+    Acceleration(usize),
+    /// or of λ.
+    Multiplier(usize),
+    /// An amount added to γ of a constraint; of corrections, its residual.
+    Feedback(usize),
+    /// −2α
+    MinusTwoAlpha,
+    /// −β²
+    MinusBetaSquared,
+    /// h of a step,
+    Step,
+    /// h/2,
+    HalfStep,
+    /// and t + h.
+    NextTime,
+}
+
+/// All inputs of programs, and the symbols of those that a method adds.
+pub struct Inputs {
+    /// In the order of the symbols.
+    all: Vec<Input>,
+    pub time: Symbol,
+    pub minus_two_alpha: Symbol,
+    pub minus_beta_squared: Symbol,
+    /// Per constraint.
+    pub feedback: Vec<Symbol>,
+    pub step: Symbol,
+    pub half_step: Symbol,
+    pub next_time: Symbol,
+}
+
+impl Inputs {
+    /// The symbols of a model, and new ones for a method.
+    pub fn new(model: &mut Model) -> Self {
+        let mut all: Vec<Input> = model.meanings.iter().copied().map(Input::from).collect();
+        let arena = &mut model.arena;
+        let mut add = |name: &str, input| {
+            all.push(input);
+            arena.symbol(name, Stage::Variable)
+        };
+        let names = model.constraints.iter().enumerate();
+        let feedback = names.map(|(row, it)| add(&format!("feedback({})", it.name), Input::Feedback(row)));
+        let feedback = feedback.collect();
+        let minus_two_alpha = add("(-2*alpha)", Input::MinusTwoAlpha);
+        let minus_beta_squared = add("(-beta^2)", Input::MinusBetaSquared);
+        let step = add("(h)", Input::Step);
+        let half_step = add("(h/2)", Input::HalfStep);
+        let next_time = add("(t+h)", Input::NextTime);
+        let time = model.time;
+        Self { all, time, minus_two_alpha, minus_beta_squared, feedback, step, half_step, next_time }
+    }
+
+    /// What a symbol stands for.
+    pub fn of(&self, symbol: Symbol) -> Option<Input> {
+        self.all.get(symbol.index()).copied()
+    }
+
+    /// In the order of the symbols.
+    pub fn iter(&self) -> impl Iterator<Item = Input> {
+        self.all.iter().copied()
+    }
+
+    /// Values of symbols: declared parameters, and `other` for the rest.
+    pub fn values<'a>(
+        &'a self,
+        model: &'a Model,
+        other: impl Fn(Input) -> f64 + 'a,
+    ) -> impl Fn(Symbol) -> f64 + 'a {
+        move |symbol| match self.of(symbol) {
+            Some(Input::Parameter(at)) => model.parameters[at].value,
+            Some(input) => other(input),
+            None => f64::NAN,
+        }
+    }
+}
+
+impl From<Meaning> for Input {
+    fn from(meaning: Meaning) -> Self {
+        match meaning {
+            Meaning::Time => Self::Time,
+            Meaning::Parameter(at) => Self::Parameter(at),
+            Meaning::Input(at) => Self::Input(at),
+            Meaning::Coordinate(at) => Self::Position(at),
+            Meaning::Velocity(at) => Self::Velocity(at),
+            Meaning::Acceleration(at) => Self::Acceleration(at),
+            Meaning::Multiplier(at) => Self::Multiplier(at),
+        }
+    }
+}
