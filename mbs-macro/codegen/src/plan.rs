@@ -4,25 +4,23 @@
 mod correction;
 mod minimum_norm;
 mod step;
+mod system;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::HashMap;
 
 use mbs_symbolic::{
-    Elimination, Expr, Factorization, Hoisted, Inconsistency, Kkt, Program, Strategy, Undetermined, Unknown,
-    WatchedPivot, factor_within, lower, lower_whole,
+    Elimination, Expr, Hoisted, Inconsistency, Program, Strategy, Undetermined, Unknown, WatchedPivot, lower,
+    lower_whole,
 };
 
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
 use crate::inputs::Inputs;
-use crate::model::{Direction, Model};
-use crate::reactive::{self, Circular, Forces};
+use crate::model::Model;
+use crate::reactive::Circular;
 use correction::correction;
 pub use step::{FusedStep, Kinds};
-
-/// An order that changes more entries than this per unknown fills the matrix of a
-/// chain, and is given up.
-const LARGEST_FILL: usize = 24;
+use system::cheapest;
 
 /// The programs of all generated functions.
 pub struct Plan {
@@ -141,7 +139,8 @@ pub fn plan(
         return Err(Undetermined { unknowns }.into());
     }
     label(model, equations);
-    let Solver { strategy, factorization, forces } = cheapest(model, equations, rows)?;
+    let solver = cheapest(model, equations, rows)?;
+    let strategy = solver.strategy;
     let (positions, mut start_pivots) =
         correction(model, equations, rows, strategy, (samples, &inputs), false)?;
     let (velocities, more) = correction(model, equations, rows, strategy, (samples, &inputs), true)?;
@@ -162,9 +161,8 @@ pub fn plan(
         .zip(&equations.feedback)
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
-    let stabilized = stabilized(model, equations, rows, &forces, &factorization);
-    let (constrained, reactions) =
-        with_given_feedback(model, equations, rows, (&forces, &inputs), &factorization);
+    let stabilized = solver.stabilized(model, equations, rows);
+    let (constrained, reactions) = solver.with_given_feedback(model, equations, rows, &inputs);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -174,7 +172,7 @@ pub fn plan(
     let plan = Plan {
         inputs,
         strategy,
-        order: factorization.order.clone(),
+        order: solver.factorization.order.clone(),
         rows: rows.clone(),
         phi: program(&equations.phi)?,
         phi_dot: program(&equations.phi_dot)?,
@@ -184,7 +182,7 @@ pub fn plan(
         gamma: program(&equations.gamma)?,
         baumgarte_rhs: program(&rhs)?,
         mass: program(&equations.mass)?,
-        forces: program(&forces.values)?,
+        forces: program(&solver.forces.values)?,
         kinetic_energy: program(&[equations.kinetic_energy])?,
         potential_energy: program(&[equations.potential_energy])?,
         stabilized: program(&stabilized)?,
@@ -192,7 +190,7 @@ pub fn plan(
         reactions: program(&reactions)?,
         position_correction: program(&positions)?,
         velocity_correction: program(&velocities)?,
-        pivots: program(&growths(&factorization.pivots))?,
+        pivots: program(&growths(&solver.factorization.pivots))?,
         start_pivots: program(&growths(&start_pivots))?,
         outputs: program(&outputs)?,
         hoisted: Vec::new(),
@@ -201,7 +199,7 @@ pub fn plan(
         start: Program::default(),
         points: Program::default(),
         fused_step: None,
-        pivot_names: names(&factorization.pivots),
+        pivot_names: names(&solver.factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
     let stages = step::Stages {
@@ -240,155 +238,6 @@ fn label(model: &mut Model, equations: &Equations) {
             model.arena.label(entry, &format!("phi_q_{}_{coordinate}", constraint.name));
         }
     }
-}
-
-/// The constrained system with the coordinates in `held` left out.
-fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
-    let mut kkt = Kkt::new();
-    for (at, &mass) in equations.mass.iter().enumerate() {
-        if held.contains(&at) {
-            continue;
-        }
-        let unknown = Unknown::Coordinate(at);
-        kkt.add_unknown(unknown);
-        kkt.set(&model.arena, unknown, unknown, mass);
-        if !model.arena.is_zero(mass) {
-            kkt.mark_massive(at);
-        }
-        if model.coordinates[at].direction == Direction::Angle {
-            kkt.mark_angle(at);
-        }
-    }
-    for &at in &rows.basis {
-        kkt.add_unknown(Unknown::Row(at));
-        for (&column, &entry) in equations.phi_q[at].iter().filter(|(column, _)| !held.contains(column)) {
-            kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
-        }
-    }
-    if let Some(unit) = extreme_mass(model, equations) {
-        kkt.set_mass_unit(unit.into());
-    }
-    kkt
-}
-
-/// Elimination multiplies up to four masses or their reciprocals: within these powers
-/// of ten the products are doubles.
-const LARGEST_MASS_EXPONENT: f64 = 60.0;
-
-/// A power of two near the geometric mean of the declared masses and inertias, if that
-/// is so large or so small that their products would leave the range of a double.
-fn extreme_mass(model: &Model, equations: &Equations) -> Option<f64> {
-    let masses = model.arena.evaluate(&equations.mass, &model.values(|_| f64::NAN));
-    let exponents: Vec<f64> =
-        masses.into_iter().filter(|mass| *mass > 0.0 && mass.is_finite()).map(f64::log10).collect();
-    let mean = exponents.iter().sum::<f64>() / exponents.len() as f64;
-    (mean.abs() > LARGEST_MASS_EXPONENT).then(|| (mean / 2_f64.log10()).round().exp2())
-}
-
-/// An eliminated system, and the forces that it is solved for.
-struct Solver {
-    strategy: Strategy,
-    factorization: Factorization,
-    forces: Forces,
-}
-
-/// The elimination that costs least in the function that runs most.
-fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result<Solver, Unsolvable> {
-    let kkt = system(model, equations, rows, &BTreeSet::new());
-    let unknowns = model.coordinates.len() + model.constraints.len();
-    let mut best: Option<(u32, Solver)> = None;
-    let last = Strategy::ALL.len() - 1;
-    for (at, strategy) in Strategy::ALL.into_iter().enumerate() {
-        let most = match strategy {
-            Strategy::NullSpace => LARGEST_FILL * unknowns,
-            Strategy::Cheapest => usize::MAX,
-        };
-        let factorization = factor_within(&mut model.arena, &kkt, strategy, most)?;
-        let Some(factorization) = factorization else { continue };
-        let forces = reactive::forces(model, equations, &factorization)?;
-        let solver = Solver { strategy, factorization, forces };
-        if best.is_none() && at == last {
-            // nothing to compare with
-            return Ok(solver);
-        }
-        let roots = stabilized(model, equations, rows, &solver.forces, &solver.factorization);
-        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
-        let cost = program.operations_for(roots.len() - 1).total();
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, solver));
-        }
-    }
-    best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
-}
-
-/// q̈, the feedback and the growth, with feedback from the state.
-fn stabilized(
-    model: &mut Model,
-    equations: &Equations,
-    rows: &Rows,
-    forces: &Forces,
-    factorization: &Factorization,
-) -> Vec<Expr> {
-    // Shared, so that the function can hand out the very value it used.
-    let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
-    let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
-    for (at, &force) in forces.values.iter().enumerate() {
-        rhs.insert(Unknown::Coordinate(at), force);
-    }
-    for &at in &rows.basis {
-        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
-    }
-    let solution = factorization.solve(&mut model.arena, &rhs);
-    let mut roots = accelerations(model, &solution);
-    roots.extend(feedback);
-    roots.push(growth(model, forces, factorization));
-    roots
-}
-
-/// The growth of the elimination, and of what solves for the forces.
-fn growth(model: &mut Model, forces: &Forces, factorization: &Factorization) -> Expr {
-    let growth = factorization.growth(&mut model.arena);
-    model.arena.add(growth, forces.growth)
-}
-
-/// The roots of `constrained` and of `reactions`, where the feedback is given.
-fn with_given_feedback(
-    model: &mut Model,
-    equations: &Equations,
-    rows: &Rows,
-    (forces, inputs): (&Forces, &Inputs),
-    factorization: &Factorization,
-) -> (Vec<Expr>, Vec<Expr>) {
-    let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
-    for (at, &force) in forces.values.iter().enumerate() {
-        rhs.insert(Unknown::Coordinate(at), force);
-    }
-    for &at in &rows.basis {
-        let feedback = model.arena.variable(inputs.feedback[at]);
-        rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback));
-    }
-    let solution = factorization.solve(&mut model.arena, &rhs);
-    let growth = growth(model, forces, factorization);
-    let mut constrained = accelerations(model, &solution);
-    let mut reactions = constrained.clone();
-    constrained.push(growth);
-    let multipliers = minimum_norm::multipliers(&mut model.arena, equations, rows, factorization, &solution);
-    for (constraint, multiplier) in model.constraints.iter().zip(multipliers) {
-        model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
-        reactions.push(multiplier);
-    }
-    reactions.push(growth);
-    (constrained, reactions)
-}
-
-fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<Expr> {
-    let mut roots = Vec::new();
-    for (at, coordinate) in model.coordinates.iter().enumerate() {
-        let acceleration = solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero());
-        model.arena.label(acceleration, &format!("acc_{}", coordinate.quantity.name));
-        roots.push(acceleration);
-    }
-    roots
 }
 
 fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{Expr, Strategy, Undetermined, Unknown, WatchedPivot, factor};
 
-use super::system;
+use super::system::system;
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
 use crate::inputs::Inputs;

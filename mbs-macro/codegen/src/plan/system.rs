@@ -1,0 +1,169 @@
+//! The constrained system, eliminated, and the solutions that functions give.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mbs_symbolic::{
+    Expr, Factorization, Hoisted, Kkt, Strategy, Undetermined, Unknown, factor_within, lower,
+};
+
+use super::{Unsolvable, minimum_norm};
+use crate::derive::Equations;
+use crate::independence::Rows;
+use crate::inputs::Inputs;
+use crate::model::{Direction, Model};
+use crate::reactive::{self, Forces};
+
+/// The constrained system with the coordinates in `held` left out.
+pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
+    let mut kkt = Kkt::new();
+    for (at, &mass) in equations.mass.iter().enumerate() {
+        if held.contains(&at) {
+            continue;
+        }
+        let unknown = Unknown::Coordinate(at);
+        kkt.add_unknown(unknown);
+        kkt.set(&model.arena, unknown, unknown, mass);
+        if !model.arena.is_zero(mass) {
+            kkt.mark_massive(at);
+        }
+        if model.coordinates[at].direction == Direction::Angle {
+            kkt.mark_angle(at);
+        }
+    }
+    for &at in &rows.basis {
+        kkt.add_unknown(Unknown::Row(at));
+        for (&column, &entry) in equations.phi_q[at].iter().filter(|(column, _)| !held.contains(column)) {
+            kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
+        }
+    }
+    if let Some(unit) = extreme_mass(model, equations) {
+        kkt.set_mass_unit(unit.into());
+    }
+    kkt
+}
+
+/// Elimination multiplies up to four masses or their reciprocals: within these powers
+/// of ten the products are doubles.
+const LARGEST_MASS_EXPONENT: f64 = 60.0;
+
+/// A power of two near the geometric mean of the declared masses and inertias, if that
+/// is so large or so small that their products would leave the range of a double.
+fn extreme_mass(model: &Model, equations: &Equations) -> Option<f64> {
+    let masses = model.arena.evaluate(&equations.mass, &model.values(|_| f64::NAN));
+    let exponents: Vec<f64> =
+        masses.into_iter().filter(|mass| *mass > 0.0 && mass.is_finite()).map(f64::log10).collect();
+    let mean = exponents.iter().sum::<f64>() / exponents.len() as f64;
+    (mean.abs() > LARGEST_MASS_EXPONENT).then(|| (mean / 2_f64.log10()).round().exp2())
+}
+
+/// An eliminated system, and the forces that it is solved for.
+pub struct Solver {
+    pub strategy: Strategy,
+    pub factorization: Factorization,
+    pub forces: Forces,
+}
+
+/// An order that changes more entries than this per unknown fills the matrix of a
+/// chain, and is given up.
+const LARGEST_FILL: usize = 24;
+
+/// The elimination that costs least in the function that runs most.
+pub fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result<Solver, Unsolvable> {
+    let kkt = system(model, equations, rows, &BTreeSet::new());
+    let unknowns = model.coordinates.len() + model.constraints.len();
+    let mut best: Option<(u32, Solver)> = None;
+    let last = Strategy::ALL.len() - 1;
+    for (at, strategy) in Strategy::ALL.into_iter().enumerate() {
+        let most = match strategy {
+            Strategy::NullSpace => LARGEST_FILL * unknowns,
+            Strategy::Cheapest => usize::MAX,
+        };
+        let factorization = factor_within(&mut model.arena, &kkt, strategy, most)?;
+        let Some(factorization) = factorization else { continue };
+        let forces = reactive::forces(model, equations, &factorization)?;
+        let solver = Solver { strategy, factorization, forces };
+        if best.is_none() && at == last {
+            // nothing to compare with
+            return Ok(solver);
+        }
+        let roots = solver.stabilized(model, equations, rows);
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
+        let cost = program.operations_for(roots.len() - 1).total();
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, solver));
+        }
+    }
+    best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
+}
+
+impl Solver {
+    /// q̈, the feedback and the growth, with feedback from the state.
+    pub fn stabilized(&self, model: &mut Model, equations: &Equations, rows: &Rows) -> Vec<Expr> {
+        // Shared, so that the function can hand out the very value it used.
+        let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
+        let solution = self.solution(model, equations, rows, &feedback);
+        let mut roots = accelerations(model, &solution);
+        roots.extend(feedback);
+        roots.push(self.growth(model));
+        roots
+    }
+
+    /// The roots of `constrained` and of `reactions`, where the feedback is given.
+    pub fn with_given_feedback(
+        &self,
+        model: &mut Model,
+        equations: &Equations,
+        rows: &Rows,
+        inputs: &Inputs,
+    ) -> (Vec<Expr>, Vec<Expr>) {
+        let feedback: Vec<Expr> = inputs.feedback.iter().map(|&row| model.arena.variable(row)).collect();
+        let solution = self.solution(model, equations, rows, &feedback);
+        let growth = self.growth(model);
+        let mut constrained = accelerations(model, &solution);
+        let mut reactions = constrained.clone();
+        constrained.push(growth);
+        let factorization = &self.factorization;
+        let multipliers =
+            minimum_norm::multipliers(&mut model.arena, equations, rows, factorization, &solution);
+        for (constraint, multiplier) in model.constraints.iter().zip(multipliers) {
+            model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
+            reactions.push(multiplier);
+        }
+        reactions.push(growth);
+        (constrained, reactions)
+    }
+
+    /// q̈ and λ with Q above and γ + `feedback` below.
+    fn solution(
+        &self,
+        model: &mut Model,
+        equations: &Equations,
+        rows: &Rows,
+        feedback: &[Expr],
+    ) -> BTreeMap<Unknown, Expr> {
+        let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
+        for (at, &force) in self.forces.values.iter().enumerate() {
+            rhs.insert(Unknown::Coordinate(at), force);
+        }
+        for &at in &rows.basis {
+            rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
+        }
+        self.factorization.solve(&mut model.arena, &rhs)
+    }
+
+    /// The growth of the elimination, and of what solves for the forces.
+    fn growth(&self, model: &mut Model) -> Expr {
+        let growth = self.factorization.growth(&mut model.arena);
+        model.arena.add(growth, self.forces.growth)
+    }
+}
+
+fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<Expr> {
+    let mut roots = Vec::new();
+    for (at, coordinate) in model.coordinates.iter().enumerate() {
+        let acceleration = solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero());
+        model.arena.label(acceleration, &format!("acc_{}", coordinate.quantity.name));
+        roots.push(acceleration);
+    }
+    roots
+}
