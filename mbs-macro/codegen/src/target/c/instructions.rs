@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::ops::Range;
 
 use mbs_symbolic::layout::{Array, Component, Layout, Place};
-use mbs_symbolic::{Function, Operand, Operation, Program, SinCos};
+use mbs_symbolic::{Function, Inconsistency, Operand, Operation, Program, SinCos};
 
 use super::Target;
 use super::names::plain;
@@ -136,8 +136,11 @@ impl<'a> Printer<'a> {
             Operand::Value(at) if self.is_printed(at) => self.name(at),
             Operand::Value(at) => {
                 let kept = self.kept.and_then(|kept| Some(kept.element(kept.layout.place(at)?)));
-                // a mistake of the compiler, which no C compiler takes
-                kept.unwrap_or_else(|| "a_result_that_is_not_kept".to_owned())
+                kept.unwrap_or_else(|| {
+                    let rule = "what is read behind a block is kept";
+                    self.target.faults.borrow_mut().push(Inconsistency { pass: "C", rule });
+                    String::new()
+                })
             }
         }
     }

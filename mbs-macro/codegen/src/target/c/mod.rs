@@ -18,6 +18,10 @@ mod loops;
 mod names;
 mod source;
 
+use std::cell::RefCell;
+
+use mbs_symbolic::Inconsistency;
+
 use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use names::Names;
@@ -67,6 +71,8 @@ struct Target<'a> {
     compiled: &'a Compiled,
     names: &'a Names,
     scalar: Scalar,
+    /// Programs that were not written as they were checked.
+    faults: RefCell<Vec<Inconsistency>>,
 }
 
 impl Target<'_> {
@@ -108,10 +114,13 @@ impl Target<'_> {
 /// of the compiler.
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     let names = Names::new(compiled);
-    let target = Target { compiled, names: &names, scalar };
-    let kernels =
-        kernels::all(&target).map_err(|fault| Diagnostic::internal(compiled.written.name.span(), fault))?;
+    let target = Target { compiled, names: &names, scalar, faults: RefCell::default() };
+    let internal = |fault: &Inconsistency| Diagnostic::internal(compiled.written.name.span(), fault);
+    let kernels = kernels::all(&target).map_err(|fault| internal(&fault))?;
     let fused = kernels::fused(&target);
+    if let Some(fault) = target.faults.borrow().first() {
+        return Err(internal(fault).into());
+    }
     let file = |name: String, text| File { name, text };
     Ok(CSources {
         header: file(format!("{}.h", names.prefix), header::header(&target, &kernels)),
