@@ -1,10 +1,8 @@
 //! Ensembles: every member as its simulation alone, to the last bit, with failing
-//! neighbours, on any number of threads; progress and cancelling.
+//! neighbours, on any number of threads.
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-use mbs_ensemble::{Cancelled, Ensemble, Extremes, Run, Samples, Violation};
+use mbs_ensemble::{Ensemble, Extremes, Run, Samples, Violation};
 use mbs_runtime::{Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Simulation, mechanism};
 use models::{DoublePendulum, FourBar, SliderCrank, SliderCrankFree, SliderCrankParameters};
 use models::{NFourBar2, NFourBar2Parameters, SliderCrankFreeInputs, SliderCrankFreeParameters};
@@ -378,26 +376,4 @@ fn the_number_of_threads_changes_nothing() {
     // as text: NaN is not equal to itself, and digits are printed until they are unique
     assert!(format!("{one:?}") == format!("{two:?}"));
     assert_eq!(one.len(), 3000);
-}
-
-#[test]
-fn progress_and_cancelling() {
-    let (flag, calls, handed_over) = (AtomicBool::new(false), AtomicUsize::new(0), AtomicUsize::new(0));
-    let report = |done: usize, all: usize| {
-        assert!(done <= all && all == 5000);
-        calls.fetch_add(1, Ordering::Relaxed);
-    };
-    let ensemble = Ensemble::new(0.01).cancelled_by(&flag).progress(&report);
-    let member = |index: usize| Simulation::new(SliderCrank::new(driven(index % 19))?, H);
-    let count = |index: usize, _| assert_eq!(handed_over.fetch_add(1, Ordering::Relaxed), index);
-    assert_eq!(ensemble.for_each(5000, member, &(), count), Ok(()));
-    assert_eq!((calls.load(Ordering::Relaxed), handed_over.load(Ordering::Relaxed)), (625, 5000));
-
-    let stops = |index: usize, _| flag.store(index >= 1000, Ordering::Relaxed);
-    let Err(Cancelled { finished }) = ensemble.for_each(5000, member, &(), stops) else {
-        panic!("it went on");
-    };
-    assert!((1000..5000).contains(&finished), "{finished}");
-    // within a block too, however long it is
-    assert_eq!(Ensemble::new(1e9).cancelled_by(&flag).run(1, member, &()), Err(Cancelled { finished: 0 }));
 }
