@@ -2,7 +2,9 @@
 //! compute: the stages of these mechanisms are given arrays and return arrays, and a
 //! step converts its state once.
 
-use crate::explicit::{self, Slopes, Span};
+use mbs_schemes::Stabilization;
+
+use crate::explicit::{self, Slopes, Span, correct, project};
 use crate::{Accelerations, Components, Gains, Mechanism, Method, Real, Scheme, Stabilized, State};
 
 /// The coordinates of a mechanism as an array.
@@ -104,15 +106,25 @@ pub fn step<M: OnArrays, X: Method>(
     state.v.copy_to(velocities.as_mut().first_mut()?);
     let span = Span { t: state.t, h, t_next };
     let slopes = Slopes { velocities: velocities.as_mut(), accelerations: accelerations.as_mut() };
-    let growth =
+    let mut growth =
         explicit::step(X::Scheme::TABLEAU, &span, &mut q, slopes, &mut there, |stage, t, q, v, a| {
-            if X::EXPLICIT.is_held && stage > 0 {
-                mechanism.constrained_on_arrays(t, q, v, inputs, &feedback, a, &mut slots)
-            } else {
-                mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
+            match X::EXPLICIT.stabilization {
+                Stabilization::Held if stage == 0 => {
+                    mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
+                }
+                Stabilization::PerStage => {
+                    mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
+                }
+                Stabilization::Held | Stabilization::Projection => {
+                    mechanism.constrained_on_arrays(t, q, v, inputs, &feedback, a, &mut slots)
+                }
             }
         });
-    let v = velocities.as_ref().first()?;
+    let v = velocities.as_mut().first_mut()?;
+    if X::EXPLICIT.is_projected() {
+        let projected = project(&mut q, v, &mut there, |at, delta| correct(mechanism, t_next, &at, delta));
+        growth = growth + projected;
+    }
     let is_finite = |array: &[M::Real]| array.iter().fold(true, |finite, x| finite & x.is_finite());
     // written so that a NaN fails the test
     let is_good = growth <= alarm && is_finite(q.as_ref()) & is_finite(v.as_ref());

@@ -39,13 +39,20 @@ impl<X: Method> Baumgarte<X> {
     /// Feedback with gains α, β in 1/s.
     ///
     /// # Errors
-    /// [`Error::Gain`] if one is negative or not finite.
+    /// [`Error::Gain`] if one is negative or not finite, [`Error::NoUseOfGain`] for one that is
+    /// not 0 with [`Projected`](crate::Projected).
     pub const fn new(alpha: f64, beta: f64) -> Result<Self, Error> {
         if !(alpha >= 0.0 && alpha.is_finite()) {
             return Err(Error::Gain { name: "alpha", value: alpha });
         }
         if !(beta >= 0.0 && beta.is_finite()) {
             return Err(Error::Gain { name: "beta", value: beta });
+        }
+        if X::EXPLICIT.is_projected() && alpha != 0.0 {
+            return Err(Error::NoUseOfGain { name: "alpha", value: alpha });
+        }
+        if X::EXPLICIT.is_projected() && beta != 0.0 {
+            return Err(Error::NoUseOfGain { name: "beta", value: beta });
         }
         Ok(Self::from_gains(alpha, beta))
     }

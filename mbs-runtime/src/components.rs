@@ -10,7 +10,7 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
     /// The scalar of every component.
     type Real: Real;
     /// `[Self::Real; N]`.
-    type Array: Copy + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
+    type Array: Copy + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
     /// The names of the components, in order.
     const NAMES: &'static [&'static str];
 

@@ -7,6 +7,7 @@
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
 //! [`Info`]. SI units, angles in rad.
 
+pub use crate::described::Described;
 pub use crate::reach::reach;
 pub use crate::room::Room;
 pub use crate::run::{Run, check_outputs};
@@ -66,6 +67,9 @@ pub trait Equations<T: Real> {
     /// The smallest Δv, in the norm of the mass matrix, with Φ_q Δv = `residual` and
     /// Δv = 0 for velocities that the start prescribes.
     fn velocity_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T;
+
+    /// The smallest Δ, in the norm of the mass matrix, with Φ_q Δ = `violation`.
+    fn projection(&self, t: T, q: &[T], violation: &[T], correction: &mut [T]) -> T;
 
     /// Index into [`Info::pivots`] of the pivot with the largest growth, and that growth,
     /// if the elimination has any pivot that can vanish.
@@ -137,6 +141,18 @@ impl<M: Mechanism> Equations<M::Real> for M {
         correction: &mut [M::Real],
     ) -> M::Real {
         let solved = Mechanism::velocity_correction(self, t, &read(q), &read(residual));
+        write(solved.acceleration, correction);
+        solved.growth
+    }
+
+    fn projection(
+        &self,
+        t: M::Real,
+        q: &[M::Real],
+        violation: &[M::Real],
+        correction: &mut [M::Real],
+    ) -> M::Real {
+        let solved = Mechanism::projection(self, t, &read(q), &read(violation));
         write(solved.acceleration, correction);
         solved.growth
     }

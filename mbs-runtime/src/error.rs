@@ -50,6 +50,34 @@ pub enum Error {
         /// Its value in 1/s.
         value: f64,
     },
+    /// A tolerance that is not positive and finite, or smaller than rounding permits.
+    Tolerance {
+        /// `rtol` or `atol`.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest value that can be asked for.
+        least: f64,
+    },
+    /// A scheme that cannot tell the error of its steps, for a run to a tolerance.
+    NoEstimate {
+        /// Its word.
+        scheme: &'static str,
+    },
+    /// No step is short enough for the tolerance.
+    StepTooShort {
+        /// When, in s.
+        t: f64,
+        /// The step in s that would have been tried next.
+        step: f64,
+    },
+    /// A gain of feedback where the constraints are kept by projection.
+    NoUseOfGain {
+        /// `alpha` or `beta`.
+        name: &'static str,
+        /// Its value in 1/s.
+        value: f64,
+    },
     /// A scheme that this program cannot run.
     Scheme {
         /// Its word.
@@ -165,6 +193,26 @@ impl fmt::Display for Error {
             Self::Gain { name, value } => {
                 write!(f, "the gain {name} is {value} 1/s, but it has to be finite and not negative")
             }
+            Self::Tolerance { name, value, least } => write!(
+                f,
+                "the tolerance {name} is {value:e}, but it has to be finite and at least {least:.1e}; \
+                 the defaults are 1e-6 (rtol) and 1e-9 (atol)"
+            ),
+            Self::NoEstimate { scheme } => write!(
+                f,
+                "the scheme `{scheme}` cannot tell the error of its steps, which a run to a tolerance needs; \
+                 take `bs3`, `dopri5` or `dop853`"
+            ),
+            Self::StepTooShort { t, step } => write!(
+                f,
+                "the tolerance cannot be met at t = {t} s: the next step would be {step:.1e} s long; the motion \
+                 has a jump there, or the tolerance is below the rounding of the forces"
+            ),
+            Self::NoUseOfGain { name, value } => write!(
+                f,
+                "the gain {name} is {value} 1/s, but projection needs no gains; they belong to held or \
+                 per-stage feedback"
+            ),
             Self::Scheme { name } => {
                 write!(f, "the scheme `{name}` has no type here; run the declaration as a text")
             }

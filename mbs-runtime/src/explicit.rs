@@ -1,7 +1,8 @@
 //! An explicit step on the first-order form (q, v)˙ = (v, q̈), for any tableau.
 
-use mbs_schemes::{Row, Tableau};
+use mbs_schemes::{Row, Stabilization, Tableau};
 
+use crate::arrays::Coordinates;
 use crate::{Components, Gains, Mechanism, Method, Real, Scheme, State};
 
 /// What vectors of a step are made of: a scalar, or a column of them.
@@ -11,6 +12,9 @@ pub trait Element: Copy {
     /// The sum.
     #[must_use]
     fn plus(self, other: Self) -> Self;
+    /// The difference.
+    #[must_use]
+    fn minus(self, other: Self) -> Self;
     /// The product, lane by lane.
     #[must_use]
     fn times(self, other: Self) -> Self;
@@ -28,6 +32,11 @@ impl<T: Real> Element for T {
     }
 
     #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self - other
+    }
+
+    #[inline(always)]
     fn times(self, other: Self) -> Self {
         self * other
     }
@@ -42,6 +51,11 @@ impl<T: Real, const C: usize> Element for [T; C] {
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
         core::array::from_fn(|lane| self[lane] + other[lane])
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        core::array::from_fn(|lane| self[lane] - other[lane])
     }
 
     #[inline(always)]
@@ -122,46 +136,144 @@ fn checked<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
     Some(growth)
 }
 
+/// What [`project`] wants to know of a state: the correction of its positions, or of the
+/// velocities `v`.
+#[derive(Debug)]
+pub struct Beside<'a, V> {
+    /// q
+    pub q: &'a V,
+    /// v, where it is their correction that is asked for.
+    pub v: Option<&'a V>,
+}
+
+/// Moves positions and then velocities onto the constraints, each by one correction: x ← x − Δ.
+/// The growths of both, added.
+///
+/// `correct` writes the Δ of [`projection`](crate::Mechanism::projection) for the violation of
+/// the positions, or of the velocities there, and returns its growth; `delta` is room for it.
+#[inline(always)]
+pub fn project<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
+    q: &mut V,
+    v: &mut V,
+    delta: &mut V,
+    mut correct: impl FnMut(Beside<'_, V>, &mut V) -> E,
+) -> E {
+    let of_positions = correct(Beside { q, v: None }, delta);
+    subtract(q, delta);
+    let of_velocities = correct(Beside { q, v: Some(v) }, delta);
+    subtract(v, delta);
+    of_positions.plus(of_velocities)
+}
+
+#[inline(always)]
+pub(crate) fn subtract<E: Element, V: AsRef<[E]> + AsMut<[E]>>(x: &mut V, delta: &V) {
+    for (x, delta) in x.as_mut().iter_mut().zip(delta.as_ref()) {
+        *x = x.minus(*delta);
+    }
+}
+
 /// x = x₀ + (share · h) Σ w k
 #[inline(always)]
 fn lead<E: Element, V: AsRef<[E]> + AsMut<[E]>>(row: &Row, h: E, slopes: &[V], from: &V, to: &mut V) {
-    let factor = factor(row, h);
-    for (at, (to, from)) in to.as_mut().iter_mut().zip(from.as_ref()).enumerate() {
-        *to = from.plus(factor.times(sum(row, slopes, at)));
-    }
+    let (factor, from, to) = (factor(row, h), from.as_ref(), to.as_mut());
+    sums(row, slopes, to.len().min(from.len()), |at, sum| {
+        if let (Some(to), Some(from)) = (to.get_mut(at), from.get(at)) {
+            *to = from.plus(factor.times(sum));
+        }
+    });
 }
 
 /// The same where x₀ stands.
 #[inline(always)]
 fn advance<E: Element, V: AsRef<[E]> + AsMut<[E]>>(row: &Row, h: E, slopes: &[V], x: &mut V) {
-    let factor = factor(row, h);
-    for (at, x) in x.as_mut().iter_mut().enumerate() {
-        *x = x.plus(factor.times(sum(row, slopes, at)));
-    }
+    let (factor, x) = (factor(row, h), x.as_mut());
+    sums(row, slopes, x.len(), |at, sum| {
+        if let Some(x) = x.get_mut(at) {
+            *x = x.plus(factor.times(sum));
+        }
+    });
 }
 
 /// share · h
 #[inline(always)]
-fn factor<E: Element>(row: &Row, h: E) -> E {
+pub(crate) fn factor<E: Element>(row: &Row, h: E) -> E {
     if row.share == 1.0 { h } else { E::constant(row.share).times(h) }
 }
 
-/// Σ w k of one component, from the first slope to the last; no number without slopes.
+/// Σ w k of the first `count` components, each from the first slope to the last; no number
+/// without slopes. Several components are summed side by side, so that their sums stay in
+/// registers.
 #[inline(always)]
-fn sum<E: Element, V: AsRef<[E]>>(row: &Row, slopes: &[V], at: usize) -> E {
-    let mut sum = None;
-    for (&weight, slope) in row.weights.iter().zip(slopes) {
-        let Some(&slope) = slope.as_ref().get(at) else { continue };
-        if weight == 0.0 {
-            continue;
+pub(crate) fn sums<E: Element, V: AsRef<[E]>>(
+    row: &Row,
+    slopes: &[V],
+    count: usize,
+    mut put: impl FnMut(usize, E),
+) {
+    let mut at = 0;
+    // columns of numbers are wide enough by themselves
+    if size_of::<E>() <= size_of::<f64>() {
+        while at + 8 <= count {
+            block::<8, E, V>(row, slopes, at, &mut put);
+            at += 8;
         }
-        let term = if weight == 1.0 { slope } else { E::constant(weight).times(slope) };
-        sum = Some(match sum {
-            None => term,
-            Some(sum) => E::plus(sum, term),
-        });
+        if at + 4 <= count {
+            block::<4, E, V>(row, slopes, at, &mut put);
+            at += 4;
+        }
+        if at + 2 <= count {
+            block::<2, E, V>(row, slopes, at, &mut put);
+            at += 2;
+        }
     }
-    sum.unwrap_or(E::constant(f64::NAN))
+    while at < count {
+        block::<1, E, V>(row, slopes, at, &mut put);
+        at += 1;
+    }
+}
+
+/// The sums of `N` components from the one at `at` on.
+#[inline(always)]
+fn block<const N: usize, E: Element, V: AsRef<[E]>>(
+    row: &Row,
+    slopes: &[V],
+    at: usize,
+    put: &mut impl FnMut(usize, E),
+) {
+    let mut terms = row.weights.iter().zip(slopes).filter_map(|(&weight, slope)| {
+        let slope = slope.as_ref().get(at..)?.first_chunk::<N>()?;
+        (weight != 0.0).then_some((E::constant(weight), slope))
+    });
+    let mut sums = [E::constant(f64::NAN); N];
+    if let Some((weight, slope)) = terms.next() {
+        sums = slope.map(|slope| weight.times(slope));
+    }
+    for (weight, slope) in terms {
+        for (sum, slope) in sums.iter_mut().zip(slope) {
+            *sum = sum.plus(weight.times(*slope));
+        }
+    }
+    for (offset, sum) in sums.into_iter().enumerate() {
+        put(at + offset, sum);
+    }
+}
+
+/// The correction of a mechanism, for [`project`].
+#[inline(always)]
+pub(crate) fn correct<M: Mechanism>(
+    mechanism: &M,
+    t: M::Real,
+    at: &Beside<'_, Coordinates<M>>,
+    delta: &mut Coordinates<M>,
+) -> M::Real {
+    let q = Components::from_array(*at.q);
+    let violation = match at.v {
+        None => mechanism.phi(t, &q),
+        Some(v) => mechanism.phi_dot(&State { t, q, v: Components::from_array(*v) }),
+    };
+    let solved = mechanism.projection(t, &q, &violation);
+    *delta = solved.acceleration.into_array();
+    solved.growth
 }
 
 /// A step of a mechanism whose health has not been tested.
@@ -186,12 +298,15 @@ pub(crate) fn trial<M: Mechanism, X: Method>(
     let (mut velocities, mut accelerations) = (X::Scheme::stages(v), X::Scheme::stages(v));
     let slopes = Slopes { velocities: velocities.as_mut(), accelerations: accelerations.as_mut() };
     let (mut there, mut feedback) = (q, None);
-    let growth = step(X::Scheme::TABLEAU, span, &mut q, slopes, &mut there, |_, t, q, v, a| {
+    let mut growth = step(X::Scheme::TABLEAU, span, &mut q, slopes, &mut there, |_, t, q, v, a| {
         let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
-        if let Some(held) = &feedback
-            && X::EXPLICIT.is_held
-        {
-            let solved = mechanism.constrained(&at, inputs, held);
+        let given = match X::EXPLICIT.stabilization {
+            Stabilization::Held => feedback,
+            Stabilization::PerStage => None,
+            Stabilization::Projection => Some(Components::splat(M::Real::default())),
+        };
+        if let Some(given) = &given {
+            let solved = mechanism.constrained(&at, inputs, given);
             *a = solved.acceleration.into_array();
             solved.growth
         } else {
@@ -200,7 +315,11 @@ pub(crate) fn trial<M: Mechanism, X: Method>(
             solved.growth
         }
     });
-    let [v, ..] = velocities.as_ref() else { return Trial { next: *at, growth } };
+    let [v, ..] = velocities.as_mut() else { return Trial { next: *at, growth } };
+    if X::EXPLICIT.is_projected() {
+        growth =
+            growth + project(&mut q, v, &mut there, |at, delta| correct(mechanism, span.t_next, &at, delta));
+    }
     let (q, v) = (Components::from_array(q), Components::from_array(*v));
     Trial { next: State { t: span.t_next, q, v }, growth }
 }

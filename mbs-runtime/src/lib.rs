@@ -3,8 +3,8 @@
 //! [`mechanism!`] takes bodies, constraints and forces, differentiates the
 //! constraints symbolically at compile time, checks them, eliminates the
 //! constrained system, and emits straight-line Rust. This crate integrates the
-//! result with Heun's method or one of higher order and Baumgarte feedback, on the
-//! stack: no heap, no panic, no `unsafe`, `no_std`.
+//! result with Heun's method or one of higher order, with Baumgarte feedback or projection,
+//! in constant steps or to a tolerance, on the stack: no heap, no panic, no `unsafe`, `no_std`.
 //!
 //! # Example
 //!
@@ -37,7 +37,9 @@
 //! Where to go from here:
 //!
 //! * [`language`]: what can be declared, and what is generated;
-//! * [`Simulation`]: integration in time; [`Builder`] has the choices;
+//! * [`methods`]: schemes, what keeps the constraints, runs to a tolerance;
+//! * [`Simulation`]: integration in time with a constant step; [`Builder`] has the choices;
+//! * [`Adaptive`]: integration to a tolerance;
 //! * [`Baumgarte`]: feedback, its gains and when they are stable;
 //! * [`Kinematics`]: the motion of a fully driven mechanism, without integration;
 //! * [`System`]: a run as tools see it, on slices, of any mechanism;
@@ -68,8 +70,8 @@
 //! # Method and limits
 //!
 //! Schemes are explicit: the step has to resolve the fastest motion, and stiff springs need
-//! small ones. [`Heun`]'s method, the default, is of second order, [`Rk4`] of fourth; see
-//! [`Builder::method`]. The feedback keeps the constraint violation small, proportional to the
+//! small ones. [`Heun`]'s method, the default, is of second order, others are of up to eighth;
+//! see [`methods`]. The feedback keeps the constraint violation small, proportional to the
 //! error of a step (h³ with Heun's method), it does not remove it; the
 //! [`Builder::baumgarte`] gains must be [stable](Baumgarte::is_stable) for the
 //! step. In singular positions, where constraints depend on each other, the
@@ -108,11 +110,13 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod adaptive;
 #[doc(hidden)]
 pub mod arrays;
 mod baumgarte;
 mod components;
 mod derivation;
+mod described;
 mod diagnosis;
 pub mod equations;
 mod error;
@@ -120,6 +124,8 @@ pub mod explicit;
 mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
+#[doc = include_str!("methods.md")]
+pub mod methods {}
 mod kinematics;
 pub mod lanes;
 mod mechanism;
@@ -141,6 +147,7 @@ mod system;
 mod vectors;
 mod watch;
 
+pub use adaptive::{Adaptive, AdaptiveBuilder, Dynamics, Effort, Sampled, Tolerances};
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use derivation::{Derivation, Elimination, Formula};
@@ -150,9 +157,11 @@ pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 #[cfg(feature = "macro")]
 pub use mbs_macro::mechanism;
-pub use mbs_schemes::{Explicit, HEUN, RK4, SCHEMES, Tableau};
+pub use mbs_schemes::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, SCHEMES, Stabilization, Tableau};
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
-pub use method::{Held, Heun, Method, MethodVisitor, PerStage, Rk4, Scheme, with_type};
+pub use method::{
+    Bs3, Dop853, Dopri5, Held, Heun, Method, MethodVisitor, PerStage, Projected, Rk4, Scheme, with_type,
+};
 pub use pack::Pack;
 pub use pair::{Pair, Single, Two};
 pub use real::Real;

@@ -234,6 +234,23 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         residual: &Self::Constraints,
     ) -> Accelerations<Self::Coordinates>;
 
+    /// The smallest Δ, in the norm of the mass matrix, with Φ_q Δ = `violation`:
+    ///
+    /// ```text
+    /// ⎡ M   Φ_qᵀ ⎤ ⎡ Δ ⎤   ⎡ 0         ⎤
+    /// ⎣ Φ_q  0   ⎦ ⎣ μ ⎦ = ⎣ violation ⎦
+    /// ```
+    ///
+    /// It is the elimination of [`constrained`](Self::constrained) with another right-hand
+    /// side. q − Δ of Φ is a step of Newton's method to the constraints, v − Δ of Φ̇ is on
+    /// their tangent.
+    fn projection(
+        &self,
+        t: Self::Real,
+        q: &Self::Coordinates,
+        violation: &Self::Constraints,
+    ) -> Accelerations<Self::Coordinates>;
+
     /// Index into [`Info::pivots`] of the pivot with the largest growth, and
     /// that growth, if the elimination has any pivot that can vanish. For
     /// diagnosis: slow.
@@ -263,10 +280,11 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn points(&self, t: Self::Real, q: &Self::Coordinates) -> Self::Points;
 }
 
-/// Whether the fused step of a mechanism is one of this method.
+/// Whether the fused step of a mechanism is one of this method: that of its scheme, with
+/// feedback.
 #[inline(always)]
 pub(crate) fn is_fused_for<M: Mechanism, X: Method>() -> bool {
-    const { M::Scheme::TABLEAU.is(X::Scheme::TABLEAU) }
+    const { M::Scheme::TABLEAU.is(X::Scheme::TABLEAU) && !X::EXPLICIT.is_projected() }
 }
 
 /// The pivot growth from which on a position counts as singular: 1/(1024 ε),

@@ -3,26 +3,27 @@
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use mbs_schemes::{Explicit, HEUN, RK4, Tableau};
+use mbs_schemes::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, Stabilization, Tableau};
 
 mod sealed {
     pub trait Sealed {}
     impl<S> Sealed for super::Held<S> {}
     impl<S> Sealed for super::PerStage<S> {}
+    impl<S> Sealed for super::Projected<S> {}
 }
 
-/// An explicit Runge–Kutta scheme: [`Heun`] or [`Rk4`].
+/// An explicit Runge–Kutta scheme: [`Heun`], [`Bs3`], [`Rk4`], [`Dopri5`] or [`Dop853`].
 pub trait Scheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     /// Its coefficients.
     const TABLEAU: &'static Tableau;
 
     /// One of something for each stage.
     #[doc(hidden)]
-    type Stages<X: Copy>: Copy + AsRef<[X]> + AsMut<[X]>;
+    type Stages<X: Clone + Send>: Clone + Send + AsRef<[X]> + AsMut<[X]>;
 
     /// The same for all stages.
     #[doc(hidden)]
-    fn stages<X: Copy>(x: X) -> Self::Stages<X>;
+    fn stages<X: Clone + Send>(x: X) -> Self::Stages<X>;
 }
 
 /// The types of schemes.
@@ -36,23 +37,23 @@ macro_rules! schemes {
 
         impl Scheme for $name {
             const TABLEAU: &'static Tableau = &$tableau;
-            type Stages<X: Copy> = [X; $tableau.stage_count()];
+            type Stages<X: Clone + Send> = [X; $tableau.stage_count()];
 
             #[inline(always)]
-            fn stages<X: Copy>(x: X) -> Self::Stages<X> {
-                [x; $tableau.stage_count()]
+            fn stages<X: Clone + Send>(x: X) -> Self::Stages<X> {
+                core::array::from_fn(|_| x.clone())
             }
         })*
 
         /// What is to be done with the type of a method that was chosen at run time; nothing
         /// where no type has its scheme.
         pub fn with_type<V: MethodVisitor>(method: Explicit, visitor: V) -> Option<V::Result> {
-            let Explicit { tableau, is_held } = method;
+            let Explicit { tableau, stabilization } = method;
             $(if $tableau.is(tableau) {
-                return Some(if is_held {
-                    visitor.visit::<Held<$name>>()
-                } else {
-                    visitor.visit::<PerStage<$name>>()
+                return Some(match stabilization {
+                    Stabilization::Held => visitor.visit::<Held<$name>>(),
+                    Stabilization::PerStage => visitor.visit::<PerStage<$name>>(),
+                    Stabilization::Projection => visitor.visit::<Projected<$name>>(),
                 });
             })*
             None
@@ -64,12 +65,22 @@ schemes! {
     /// Heun's method: second order, two evaluations of the right-hand side per step. The
     /// scheme of a mechanism that declares none.
     Heun = HEUN;
+    /// The pair 3(2) of Bogacki and Shampine: third order, three evaluations per step. For
+    /// coarse tolerances.
+    Bs3 = BS3;
     /// The classical Runge–Kutta method: fourth order, four evaluations per step.
     Rk4 = RK4;
+    /// The pair 5(4) of Dormand and Prince: fifth order, six evaluations per step. The scheme
+    /// of runs to a tolerance that ask for no other.
+    Dopri5 = DOPRI5;
+    /// The scheme 8(5,3) of Dormand and Prince: eighth order, twelve evaluations per step. For
+    /// fine tolerances.
+    Dop853 = DOP853;
 }
 
-/// A method of integration: a [`Scheme`] with Baumgarte's feedback of the constraint
-/// violation, [`Held`] over a step or [`PerStage`].
+/// A method of integration: a [`Scheme`] with what keeps the constraints. That is Baumgarte's
+/// feedback of their violation, [`Held`] over a step or [`PerStage`], or a projection
+/// ([`Projected`]).
 pub trait Method: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     /// The scheme.
     type Scheme: Scheme;
@@ -101,12 +112,35 @@ pub struct Held<S = Heun>(PhantomData<S>);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerStage<S = Heun>(PhantomData<S>);
 
+/// No feedback: the state at the end of each step is projected onto the constraints, first its
+/// positions and then its velocities,
+///
+/// ```text
+/// ⎡ M   Φ_qᵀ ⎤ ⎡ Δ ⎤   ⎡ 0      ⎤              ⎡ M   Φ_qᵀ ⎤ ⎡ Δ ⎤   ⎡ 0      ⎤
+/// ⎣ Φ_q  0   ⎦ ⎣ μ ⎦ = ⎣ Φ(q)   ⎦,  q ← q − Δ   ⎣ Φ_q  0   ⎦ ⎣ μ ⎦ = ⎣ Φ̇(q, v) ⎦,  v ← v − Δ
+/// ```
+///
+/// each by one step of Newton's method, whose correction is the smallest in the norm of the mass
+/// matrix. The scheme keeps its order, accelerations and multipliers are free of corrections, and
+/// the step may change its length. It takes about one and a half evaluations more per step.
+///
+/// # Source
+/// E. Eich, Convergence results for a coordinate projection method applied to mechanical systems
+/// with algebraic constraints, SIAM J. Numer. Anal. 30 (1993) 1467-1482.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected<S = Heun>(PhantomData<S>);
+
 impl<S: Scheme> Method for Held<S> {
     type Scheme = S;
-    const EXPLICIT: Explicit = Explicit { tableau: S::TABLEAU, is_held: true };
+    const EXPLICIT: Explicit = Explicit::held(S::TABLEAU);
 }
 
 impl<S: Scheme> Method for PerStage<S> {
     type Scheme = S;
-    const EXPLICIT: Explicit = Explicit { tableau: S::TABLEAU, is_held: false };
+    const EXPLICIT: Explicit = Explicit::per_stage(S::TABLEAU);
+}
+
+impl<S: Scheme> Method for Projected<S> {
+    type Scheme = S;
+    const EXPLICIT: Explicit = Explicit::projected(S::TABLEAU);
 }

@@ -1,11 +1,11 @@
 //! A run on slices: a step stage by stage, and what is done where a step or a result is not
 //! healthy, finding out whether anything went wrong, and what.
 
-use mbs_schemes::{Explicit, MOST_STAGES};
+use mbs_schemes::{Explicit, Stabilization};
 
 use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, stage_error};
 use crate::equations::{At, Equations};
-use crate::explicit::{self, Slopes, Span};
+use crate::explicit::{self, Beside, Slopes, Span};
 use crate::mechanism::growth_limit;
 use crate::reach::reach;
 use crate::room::Room;
@@ -26,7 +26,7 @@ pub struct Run<'a, T> {
     pub gains: Gains<T>,
     /// The step in s.
     pub step: T,
-    /// The scheme, and whether all stages of a step are given the feedback of the first.
+    /// The scheme, and what keeps the constraints.
     pub method: Explicit,
     /// Whether violations of the constraints are meant to decay.
     pub keeps_constraints: bool,
@@ -110,24 +110,44 @@ impl<T: Real> Run<'_, T> {
         let Self { equations, at, inputs, gains, step: h, method, .. } = self;
         let [mut q_next, v_next] = next;
         vectors::copy(q_next, at.q);
-        vectors::copy(v_next, at.v);
-        let count = method.tableau.stage_count();
         let [feedback, unread, ..] = &mut room.constraints;
-        let [a, b, c, d, e, f, g, there] = room.coordinates.each_mut().map(|vector| &mut **vector);
-        let mut vectors = [v_next, a, b, c, d, e, f, g];
-        let (velocities, accelerations) = vectors.split_at_mut(count.min(MOST_STAGES));
-        let (slopes, mut there) = (Slopes { velocities, accelerations }, there);
+        let [there, ..] = room.coordinates.each_mut();
+        let mut there = &mut **there;
+        let [velocities, accelerations] = room.slopes.each_mut();
+        let [mut velocities, mut accelerations] =
+            [velocities, accelerations].map(|stages| stages.each_mut().map(|vector| &mut **vector));
+        let [v_first, ..] = &mut velocities;
+        vectors::copy(v_first, at.v);
         let span = Span { t: at.t, h: *h, t_next };
-        explicit::step(method.tableau, &span, &mut q_next, slopes, &mut there, |stage, t, q, v, a| {
-            let at = At { t, q, v };
-            let growth = match (stage, method.is_held) {
-                (0, _) => equations.stabilized(at, inputs, gains, a, feedback),
-                (_, true) => equations.constrained(at, inputs, feedback, a),
-                (_, false) => equations.stabilized(at, inputs, gains, a, unread),
-            };
-            look(at, a, growth);
-            growth
-        })
+        let slopes = Slopes { velocities: &mut velocities, accelerations: &mut accelerations };
+        vectors::fill(feedback, T::default());
+        let growth =
+            explicit::step(method.tableau, &span, &mut q_next, slopes, &mut there, |stage, t, q, v, a| {
+                let at = At { t, q, v };
+                let growth = match (stage, method.stabilization) {
+                    (0, Stabilization::Held) => equations.stabilized(at, inputs, gains, a, feedback),
+                    (_, Stabilization::PerStage) => equations.stabilized(at, inputs, gains, a, unread),
+                    (_, Stabilization::Held | Stabilization::Projection) => {
+                        equations.constrained(at, inputs, feedback, a)
+                    }
+                };
+                look(at, a, growth);
+                growth
+            });
+        let [v_last, ..] = &velocities;
+        vectors::copy(v_next, v_last);
+        if !method.is_projected() {
+            return growth;
+        }
+        let mut v_next = v_next;
+        let projected = explicit::project(&mut q_next, &mut v_next, &mut there, |Beside { q, v }, delta| {
+            match v {
+                None => equations.phi(t_next, q, feedback),
+                Some(v) => equations.phi_dot(At { t: t_next, q, v }, feedback),
+            }
+            equations.projection(t_next, q, feedback, delta)
+        });
+        growth + projected
     }
 
     /// Examines a step to `next` after which the growth has risen: whether its constraints
@@ -143,18 +163,14 @@ impl<T: Real> Run<'_, T> {
         watch: &mut Watch<T>,
         room: &mut Room<'_, T>,
     ) -> Result<(), Error> {
-        let Self { equations, at: At { t, q, .. }, inputs, step, .. } = *self;
+        let Self { equations, inputs, step, .. } = *self;
         if self.keeps_constraints {
             reach(equations, next.t, next.q, inputs, step, room)?;
         }
         let [phi, ..] = &mut room.constraints;
         spare::check(equations, next.t, next.q, watch.length, phi)?;
         self.keeps_digits(next, growth, room)?;
-        if watch.is_new(growth) {
-            let share = T::from_f64(0.125) * growth;
-            let worst = equations.worst_pivot(t, q).filter(|(_, growth)| *growth > share);
-            watch.remember(growth, t, worst.map(|(at, _)| at));
-        }
+        remember(equations, self.at, growth, watch);
         Ok(())
     }
 
@@ -227,6 +243,38 @@ impl<T: Real> Run<'_, T> {
             // an input that is not finite is the cause of whatever failed after it
             .map_err(|error| check_inputs(info, inputs).err().unwrap_or(error))
     }
+}
+
+/// Tells the watch of a growth, and of its pivot if it is worth a name.
+fn remember<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, growth: T, watch: &mut Watch<T>) {
+    if watch.is_new(growth) {
+        let share = T::from_f64(0.125) * growth;
+        let worst = equations.worst_pivot(at.t, at.q).filter(|(_, growth)| *growth > share);
+        watch.remember(growth, at.t, worst.map(|(at, _)| at));
+    }
+}
+
+/// Tells the watch of a step that was not calm, or of a mechanism whose redundant constraints
+/// have to be looked at.
+///
+/// # Errors
+/// [`Error::OutOfReach`] of a redundant constraint.
+pub(crate) fn note_risen<T: Real>(
+    equations: &dyn Equations<T>,
+    [from, to]: [At<'_, T>; 2],
+    growth: T,
+    watch: &mut Watch<T>,
+    room: &mut Room<'_, T>,
+) -> Result<(), Error> {
+    let [phi, ..] = &mut room.constraints;
+    spare::check(equations, to.t, to.q, watch.length, phi)?;
+    if growth > watch.alarm {
+        remember(equations, from, growth, watch);
+        watch.note_examined(growth);
+    } else {
+        watch.note(growth);
+    }
+    Ok(())
 }
 
 /// `Ok` if outputs are finite, at the time `t`.

@@ -7,6 +7,7 @@ mod on_slices;
 pub use self::builder::Builder;
 
 use crate::components::sum_of;
+use crate::explicit::{Span, Trial, trial};
 use crate::mechanism::{growth_limit, is_fused_for};
 use crate::run::check_outputs;
 use crate::watch::{Watch, WorstPlace};
@@ -98,7 +99,27 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
             self.watch.note(growth);
             return Ok(());
         }
+        if !is_fused_for::<M, X>() && self.step_unfused(t_next) {
+            return Ok(());
+        }
         self.step_in_stages()
+    }
+
+    /// The step of a method that has no program of its own, if it is calm.
+    #[inline]
+    fn step_unfused(&mut self, t_next: M::Real) -> bool {
+        let Self { mechanism, state, inputs, gains, step, watch, .. } = &*self;
+        let span = Span { t: state.t, h: *step, t_next };
+        let Trial { next, growth } = trial::<M, X>(mechanism, state, inputs, gains, &span);
+        let is_calm = growth <= watch.alarm
+            && (sum_of(next.q) + sum_of(next.v)).is_finite()
+            && self.keeps_redundant(&next);
+        if is_calm {
+            self.state = next;
+            self.steps += 1;
+            self.watch.note(growth);
+        }
+        is_calm
     }
 
     /// Advances by one step, and gives the [`reactions`](Self::reactions) at its start:

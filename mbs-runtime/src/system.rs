@@ -1,8 +1,9 @@
 //! A mechanism in motion, whatever it was made from.
 
-use crate::equations::{At, Equations, read, write};
+use crate::equations::{At, Described, Equations, read, write};
+use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Error, Mechanism, Method, Reactions, Simulation, Sketch};
+use crate::{Derivation, Effort, Error, Mechanism, Method, Reactions, Simulation, Sketch};
 
 /// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
 /// knew, or a run of a mechanism that was read from a text.
@@ -113,6 +114,12 @@ pub trait System: Send {
     /// other.
     fn points(&self, t: f64, q: &[f64], points: &mut [f64]);
 
+    /// The steps of a run to a tolerance, of which [`steps`](Self::steps) counts the samples;
+    /// nothing of one with a constant step.
+    fn effort(&self) -> Option<Effort> {
+        None
+    }
+
     /// The largest pivot growth so far; see [`Simulation::worst_growth`].
     fn worst_growth(&self) -> f64;
 
@@ -137,7 +144,7 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
     }
 
     fn parameters(&self, parameters: &mut [f64]) {
-        write(*self.mechanism().parameters(), parameters);
+        Described::parameters(self.mechanism(), parameters);
     }
 
     fn time(&self) -> f64 {
@@ -169,10 +176,9 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         self.steps_to(end)
     }
 
-    // Feedback in every stage, which few ask for, is spared the code of a fused step: its
-    // stages give the same numbers.
+    // What few ask for is spared code of its own: stages on slices give the same numbers.
     fn step(&mut self) -> Result<(), Error> {
-        if X::EXPLICIT.is_held { self.step() } else { self.step_in_stages() }
+        if is_fused_for::<M, X>() && X::EXPLICIT.is_held() { self.step() } else { self.step_in_stages() }
     }
 
     fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
@@ -196,15 +202,11 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
     }
 
     fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
-        let state = at.state();
-        [self.mechanism().kinetic_energy(&state), self.mechanism().potential_energy(&state)]
+        [Equations::kinetic_energy(self.mechanism(), at), Described::potential_energy(self.mechanism(), at)]
     }
 
     fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
-        let places = self.mechanism().points(t, &read(q));
-        for (point, place) in points.chunks_exact_mut(2).zip(places.as_ref()) {
-            point.copy_from_slice(place);
-        }
+        Described::points(self.mechanism(), t, q, points);
     }
 
     fn worst_growth(&self) -> f64 {

@@ -71,7 +71,7 @@ impl Pendulums {
 
     fn room(&self) -> Vec<f64> {
         let n = self.lengths.len();
-        vec![f64::NAN; Room::<f64>::len(2 * n, n)]
+        vec![f64::NAN; Room::<f64>::len(2 * n, n, 4)]
     }
 
     /// Φ_qᵀ (Φ_q Φ_qᵀ)⁻¹ (r − Φ_q f) + f of each, and the growth.
@@ -133,6 +133,9 @@ impl Equations<f64> for Pendulums {
     }
     fn velocity_correction(&self, _: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64 {
         self.solve(q, |i| residual[i], [0.0; 2], correction)
+    }
+    fn projection(&self, _: f64, q: &[f64], violation: &[f64], correction: &mut [f64]) -> f64 {
+        self.solve(q, |i| violation[i], [0.0; 2], correction)
     }
     fn worst_pivot(&self, _: f64, q: &[f64]) -> Option<(usize, f64)> {
         self.worst(q)

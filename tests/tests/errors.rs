@@ -3,7 +3,8 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 use mbs_runtime::{
-    Baumgarte, Components, Error, Held, Kinematics, Mechanism, PerStage, Simulation, State, mechanism, start,
+    Baumgarte, Components, Error, Held, Kinematics, Mechanism, PerStage, Projected, Simulation, State,
+    mechanism, start,
 };
 use models::slider_crank::{SliderCrank, SliderCrankParameters};
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs};
@@ -79,6 +80,14 @@ fn bad_gains_are_refused_by_name() {
         let of_beta = Baumgarte::<PerStage>::new(1.0, bad).expect_err("a bad gain");
         assert!(matches!(of_beta, Error::Gain { name: "beta", .. }), "{of_beta:?}");
     }
+}
+
+#[test]
+fn gains_of_projection_are_refused() {
+    let error = Baumgarte::<Projected>::new(0.0, 2000.0).expect_err("no use");
+    assert_eq!(error, Error::NoUseOfGain { name: "beta", value: 2000.0 });
+    assert!(Baumgarte::<Projected>::new(0.0, 0.0).is_ok());
+    assert_eq!(Baumgarte::<Projected>::deadbeat(H), Baumgarte::NONE);
 }
 
 #[test]
@@ -282,6 +291,10 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         (Error::UnstableGains { alpha: 5.0, beta: 6.0, step: 7.0, feedback: "held" }, "deadbeat(7)"),
         (Error::NonFinite { t: 8.0, coordinate: "x" }, "`x`"),
         (Error::NotDriven { dof: 9 }, "9"),
+        (Error::NoUseOfGain { name: "alpha", value: 7.0 }, "7 1/s"),
+        (Error::NoEstimate { scheme: "rk4" }, "dopri5"),
+        (Error::Tolerance { name: "rtol", value: 0.0, least: 1e-14 }, "1.0e-14"),
+        (Error::StepTooShort { t: 0.25, step: 1e-18 }, "0.25"),
         (Error::Input { name: "torque", value: f64::NAN }, "NaN"),
         (Error::NotAssembled { t: 0.0, constraint: "pin", violation: 0.5 }, "`pin`"),
     ];

@@ -32,7 +32,7 @@ fn compare<M: Mechanism, X: Method>(
     inputs: &M::Inputs,
     what: &str,
 ) -> State<M::Coordinates> {
-    let what = format!("{what} of {} with {} feedback", M::INFO.name, X::EXPLICIT.feedback_name());
+    let what = format!("{what} of {} with {} feedback", M::INFO.name, X::EXPLICIT.stabilization.word());
     let number = M::Real::from_f64;
     let (h, half_h) = (number(H), number(0.5) * number(H));
     let t_next = at.t + h;
@@ -45,7 +45,7 @@ fn compare<M: Mechanism, X: Method>(
         q: at.q.zip_map(at.v, |q, v| q + h * v),
         v: at.v.zip_map(here.acceleration, |v, a| v + h * a),
     };
-    let (there, growth) = if X::EXPLICIT.is_held {
+    let (there, growth) = if X::EXPLICIT.is_held() {
         let there = mechanism.constrained(&predicted, inputs, &here.feedback);
         (there.acceleration, there.growth)
     } else {

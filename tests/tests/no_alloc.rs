@@ -5,7 +5,10 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use mbs_runtime::{Baumgarte, Held, Kinematics, Mechanism, Method, PerStage, Simulation, start};
+use mbs_runtime::{
+    Adaptive, Baumgarte, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rk4, Sampled, Simulation,
+    System as _, start,
+};
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::SliderCrankFree;
 
@@ -69,6 +72,20 @@ fn steps_do_not_allocate() {
     assert_eq!(count_steps(SliderCrank::declared(), Baumgarte::<PerStage>::deadbeat(H)), 0);
     assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<Held>::deadbeat(H)), 0);
     assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<PerStage>::deadbeat(H)), 0);
+    assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<Projected<Rk4>>::NONE), 0);
+}
+
+#[test]
+fn runs_to_a_tolerance_do_not_allocate() {
+    let allocated = allocations(|| {
+        let mut run = Adaptive::builder(SliderCrankFree::declared()).build().expect("a start");
+        let mut samples = Sampled::new(run.clone(), 1e-3).expect("an interval");
+        run.advance_to(10.0).expect("a regular motion");
+        samples.advance(1000).expect("a regular motion");
+        run.inputs_mut().crank_torque = f64::NAN;
+        assert!(run.step().is_err());
+    });
+    assert_eq!(allocated, 0);
 }
 
 #[test]

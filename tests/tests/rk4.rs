@@ -67,7 +67,7 @@ fn by_the_book<M: Mechanism, X: Method>(
     let first = mechanism.stabilized(at, inputs, gains);
     let solve = |t, q, v| {
         let at = State { t, q, v };
-        if X::EXPLICIT.is_held {
+        if X::EXPLICIT.is_held() {
             let solved = mechanism.constrained(&at, inputs, &first.feedback);
             (solved.acceleration, solved.growth)
         } else {

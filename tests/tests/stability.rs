@@ -23,7 +23,7 @@ fn step<X: Method>([e, v]: [f64; 2], alpha: f64, beta: f64, h: f64) -> [f64; 2] 
     let pull = |e: f64, v: f64| -2.0 * alpha * v - beta * beta * e;
     let here = pull(e, v);
     let predicted = [e + h * v, v + h * here];
-    let there = if X::EXPLICIT.is_held { here } else { pull(predicted[0], predicted[1]) };
+    let there = if X::EXPLICIT.is_held() { here } else { pull(predicted[0], predicted[1]) };
     [e + h / 2.0 * (v + predicted[1]), v + h / 2.0 * (here + there)]
 }
 
@@ -56,13 +56,13 @@ fn check_random_gains<X: Method>() {
             claim,
             radius < 1.0,
             "{}: αh = {}, βh = {}: {radius}",
-            X::EXPLICIT.feedback_name(),
+            X::EXPLICIT.stabilization.word(),
             alpha * h,
             beta * h
         );
         if claim { stable += 1 } else { unstable += 1 }
     }
-    println!("{}: {stable} stable, {unstable} unstable", X::EXPLICIT.feedback_name());
+    println!("{}: {stable} stable, {unstable} unstable", X::EXPLICIT.stabilization.word());
     assert!(stable > 1000 && unstable > 1000, "{stable} {unstable}");
 }
 
@@ -92,9 +92,13 @@ fn deadbeat_gains_end_a_violation_in_two_steps() {
             let best = Baumgarte::<X>::deadbeat(h);
             let map = map::<X>(best.alpha(), best.beta(), h);
             let square = map * map;
-            assert!(square.amax() <= 16.0 * f64::EPSILON, "{} {h}: {square}", X::EXPLICIT.feedback_name());
+            assert!(
+                square.amax() <= 16.0 * f64::EPSILON,
+                "{} {h}: {square}",
+                X::EXPLICIT.stabilization.word()
+            );
             let other = self::map::<X>(1.01 * best.alpha(), best.beta(), h);
-            assert!((other * other).amax() > 1e-5, "{} {h}: {other}", X::EXPLICIT.feedback_name());
+            assert!((other * other).amax() > 1e-5, "{} {h}: {other}", X::EXPLICIT.stabilization.word());
         }
     }
     check::<PerStage>();

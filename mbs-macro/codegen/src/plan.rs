@@ -63,6 +63,8 @@ pub struct Plan {
     pub position_correction: Program,
     /// Δv, growth
     pub velocity_correction: Program,
+    /// Δ, growth
+    pub projection: Program,
     /// A whole step, of a mechanism that is small enough.
     pub fused_step: Option<FusedStep>,
     /// Growth of every watched pivot.
@@ -163,6 +165,7 @@ pub fn plan(
         .collect();
     let stabilized = solver.stabilized(model, equations, rows);
     let (constrained, reactions) = solver.with_given_feedback(model, equations, rows, &inputs);
+    let projection = solver.projection(model, rows, &inputs);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -190,6 +193,7 @@ pub fn plan(
         reactions: program(&reactions)?,
         position_correction: program(&positions)?,
         velocity_correction: program(&velocities)?,
+        projection: program(&projection)?,
         pivots: program(&growths(&solver.factorization.pivots))?,
         start_pivots: program(&growths(&start_pivots))?,
         outputs: program(&outputs)?,

@@ -17,7 +17,7 @@
 //! the step where c = 1.
 //!
 //! # A new scheme
-//! A new scheme is a constant in `tableau.rs` and its entry in [`SCHEMES`]; stability and
+//! A new scheme is a constant in `schemes.rs` and its entry in [`SCHEMES`]; stability and
 //! gains follow from it.
 //!
 //! # Example
@@ -26,7 +26,7 @@
 //!
 //! assert_eq!((HEUN.order, RK4.order), (2, 4));
 //! // the gains that remove a violation within two steps of 1 ms
-//! let held = Explicit { tableau: &RK4, is_held: true };
+//! let held = Explicit::held(&RK4);
 //! assert_eq!(held.deadbeat(1e-3), [750.0, 1000.0]);
 //! assert!(held.is_stable([750.0, 1000.0], 1e-3) && !held.is_stable([3000.0, 1000.0], 1e-3));
 //! ```
@@ -34,8 +34,12 @@
 #![forbid(unsafe_code)]
 
 mod explicit;
+mod response;
 mod roots;
+mod schemes;
 mod tableau;
 
-pub use explicit::Explicit;
-pub use tableau::{HEUN, MOST_STAGES, RK4, Row, SCHEMES, Tableau};
+pub use explicit::{Explicit, Stabilization};
+pub use response::Response;
+pub use schemes::{BS3, DOP853, DOPRI5, HEUN, MOST_STAGES, RK4, SCHEMES};
+pub use tableau::{Estimate, Row, Tableau};

@@ -2,8 +2,8 @@
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::worst;
-use mbs_runtime::equations::{At, Equations};
-use mbs_runtime::{Gains, Info};
+use mbs_runtime::equations::{At, Described, Equations};
+use mbs_runtime::{Derivation, Gains, Info, Sketch};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -56,6 +56,11 @@ impl Equations<f64> for Live {
         self.solve(|growth| self.call(FunctionId::VelocityCorrection, &arguments, [correction, growth]))
     }
 
+    fn projection(&self, t: f64, q: &[f64], violation: &[f64], correction: &mut [f64]) -> f64 {
+        let arguments = Arguments { feedback: single(violation), ..position(t, q) };
+        self.solve(|growth| self.call(FunctionId::Projection, &arguments, [correction, growth]))
+    }
+
     fn worst_pivot(&self, t: f64, q: &[f64]) -> Option<(usize, f64)> {
         self.worst_of(FunctionId::Pivots, t, q)
     }
@@ -68,6 +73,54 @@ impl Equations<f64> for Live {
         let mut energy = [f64::NAN];
         self.call(FunctionId::KineticEnergy, &state(at), [&mut energy]);
         energy[0]
+    }
+}
+
+impl Described<f64> for Live {
+    fn reactions(
+        &self,
+        at: At<'_, f64>,
+        inputs: &[f64],
+        acceleration: &mut [f64],
+        multipliers: &mut [f64],
+    ) -> f64 {
+        let no_feedback = vec![0.0; self.declared_info().constraints.len()];
+        let given = Arguments { inputs: single(inputs), feedback: single(&no_feedback), ..state(at) };
+        self.solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]))
+    }
+
+    fn outputs(
+        &self,
+        at: At<'_, f64>,
+        inputs: &[f64],
+        [acceleration, multipliers]: [&[f64]; 2],
+        outputs: &mut [f64],
+    ) {
+        let [acceleration, multipliers] = [acceleration, multipliers].map(single);
+        let given = Arguments { inputs: single(inputs), acceleration, multipliers, ..state(at) };
+        self.call(FunctionId::Outputs, &given, [outputs]);
+    }
+
+    fn potential_energy(&self, at: At<'_, f64>) -> f64 {
+        let mut energy = [f64::NAN];
+        self.call(FunctionId::PotentialEnergy, &state(at), [&mut energy]);
+        energy[0]
+    }
+
+    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+        self.call(FunctionId::Points, &position(t, q), [points]);
+    }
+
+    fn parameters(&self, parameters: &mut [f64]) {
+        parameters.iter_mut().zip(Self::parameters(self)).for_each(|(to, from)| *to = *from);
+    }
+
+    fn derivation(&self) -> &Derivation {
+        Self::derivation(self)
+    }
+
+    fn sketch(&self) -> &Sketch {
+        Self::sketch(self)
     }
 }
 

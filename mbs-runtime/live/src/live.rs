@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
-use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Tableau};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, Tableau};
 use mbs_symbolic::Inconsistency;
 
 use crate::arguments::Arguments;
@@ -93,7 +93,11 @@ impl Programs {
     /// The code of a whole step of a method, if there is one.
     pub fn step(&self, method: Explicit) -> Option<&Arc<Code>> {
         let [held, per_stage] = self.steps.as_ref().filter(|_| self.scheme.is(method.tableau))?;
-        Some(if method.is_held { held } else { per_stage })
+        match method.stabilization {
+            Stabilization::Held => Some(held),
+            Stabilization::PerStage => Some(per_stage),
+            Stabilization::Projection => None,
+        }
     }
 }
 

@@ -5,12 +5,17 @@ mod pack;
 pub use pack::Pack;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, check_outputs};
-use mbs_runtime::{Baumgarte, Derivation, Error, Explicit, Gains, Held, Method, Sketch, System, WorstPlace};
+use mbs_runtime::equations::{
+    self, At, Described, Equations, Preparation, Room, Start, Watch, check_outputs,
+};
+use mbs_runtime::{
+    Adaptive, AdaptiveBuilder, Baumgarte, Derivation, Error, Explicit, Gains, Held, Method, Projected,
+    Sketch, System, WorstPlace,
+};
 
 use crate::arguments::Arguments;
-use crate::equations::{position, single, state};
-use crate::{Live, Stepper};
+use crate::equations::{single, state};
+use crate::{Live, Prepared, Stepper};
 
 /// A live mechanism being integrated in time; what one does with it is [`System`].
 ///
@@ -88,7 +93,7 @@ impl Run {
     /// steps of `step` seconds of the declared scheme, deadbeat feedback held over each step,
     /// inputs at 0.
     pub fn builder(mechanism: &Live, step: f64) -> Builder {
-        let method = Explicit { tableau: mechanism.declared_scheme(), is_held: true };
+        let method = Explicit::held(mechanism.declared_scheme());
         Builder {
             mechanism: mechanism.clone(),
             step,
@@ -99,6 +104,34 @@ impl Run {
             start: Start::Declared,
             allow_unstable: false,
         }
+    }
+
+    /// Choices to make before a run to a tolerance starts, whose steps are as long as their error
+    /// permits.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::{Dop853, Sampled, System, Tolerances};
+    ///
+    /// let text = "Oscillator {
+    ///     dof = 1;
+    ///     body mass (x) { mass = 1 [kg]; }
+    ///     force spring on x = -4 [N/m]*x;
+    ///     start { x = 1 [m]; }
+    /// }";
+    /// let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() };
+    /// let run = Run::adaptive(&oscillator).scheme::<Dop853>().tolerances(tolerances).build()?;
+    /// let mut samples = Sampled::new(run, 0.1)?;
+    /// samples.advance(10)?;
+    /// let (mut x, mut v) = ([0.0], [0.0]);
+    /// samples.state(&mut x, &mut v);
+    /// assert!((x[0] - 2.0_f64.cos()).abs() < 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn adaptive(mechanism: &Live) -> AdaptiveBuilder<Prepared> {
+        Adaptive::builder(Prepared::new(mechanism))
     }
 
     fn at(&self) -> At<'_, f64> {
@@ -131,12 +164,6 @@ impl Run {
             [&mut *acceleration, &mut *multipliers, &mut growth],
         );
         on_slices!(self).examine(acceleration, multipliers, growth[0])
-    }
-
-    fn energy(&self, of: FunctionId, at: At<'_, f64>) -> f64 {
-        let mut energy = [f64::NAN];
-        self.mechanism.call(of, &state(at), [&mut energy]);
-        energy[0]
     }
 }
 
@@ -212,10 +239,7 @@ impl System for Run {
     }
 
     fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
-        let (acceleration, multipliers) = (single(acceleration), single(multipliers));
-        let inputs = single(&self.inputs);
-        let arguments = Arguments { inputs, acceleration, multipliers, ..state(self.at()) };
-        self.mechanism.call(FunctionId::Outputs, &arguments, [outputs]);
+        Described::outputs(&self.mechanism, self.at(), &self.inputs, [acceleration, multipliers], outputs);
         check_outputs(self.mechanism.declared_info(), self.t, outputs)
     }
 
@@ -228,11 +252,11 @@ impl System for Run {
     }
 
     fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
-        [FunctionId::KineticEnergy, FunctionId::PotentialEnergy].map(|of| self.energy(of, at))
+        [self.mechanism.kinetic_energy(at), self.mechanism.potential_energy(at)]
     }
 
     fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
-        self.mechanism.call(FunctionId::Points, &position(t, q), [points]);
+        self.mechanism.points(t, q, points);
     }
 
     fn worst_growth(&self) -> f64 {
@@ -320,16 +344,19 @@ impl Builder {
         let [alpha, beta] = gains;
         // what a gain may be does not depend on the method
         let baumgarte = Baumgarte::<Held>::new(alpha, beta)?;
+        if method.is_projected() {
+            Baumgarte::<Projected>::new(alpha, beta)?;
+        }
         let keeps_constraints = method.is_stable(gains, step);
         if !allow_unstable && !keeps_constraints {
-            return Err(Error::UnstableGains { alpha, beta, step, feedback: method.feedback_name() });
+            return Err(Error::UnstableGains { alpha, beta, step, feedback: method.stabilization.word() });
         }
         let info = mechanism.declared_info();
         let (n, m) = (info.coordinates.len(), info.constraints.len());
         let (t, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
         q.resize(n, f64::NAN);
         v.resize(n, f64::NAN);
-        let mut numbers = vec![0.0; Room::<f64>::len(n, m)];
+        let mut numbers = vec![0.0; Room::<f64>::len(n, m, method.tableau.stage_count())];
         let mut room = Room::within(&mut numbers, n, m);
         let preparation = Preparation { start, inputs: &inputs, step, keeps_constraints };
         let length = preparation.prepare(&mechanism, t, &mut q, &mut v, &mut room)?;

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::Spline;
-use mbs_runtime::explicit::{self, Slopes, Span};
-use mbs_runtime::{Explicit, Real};
+use mbs_runtime::explicit::Element;
+use mbs_runtime::explicit::{self, Beside, Slopes, Span};
+use mbs_runtime::{Explicit, Real, Stabilization};
 
 use crate::arguments::Arguments;
 use crate::code::{Code, Fixed};
@@ -35,7 +36,7 @@ pub struct Steps<T, const C: usize> {
 enum Memory<T, const C: usize> {
     /// The whole step is one program.
     Fused(Arc<Code>, Columns<T, C>),
-    Staged(Stages<T, C>),
+    Staged(Box<Stages<T, C>>),
 }
 
 struct Stages<T, const C: usize> {
@@ -43,6 +44,8 @@ struct Stages<T, const C: usize> {
     /// The slots of the first stage, and those of the others.
     first: Columns<T, C>,
     others: Columns<T, C>,
+    /// The slots of the functions that project, where the method does.
+    projection: Option<[Columns<T, C>; 3]>,
     /// v and q̈ of every stage.
     velocities: Vec<Columns<T, C>>,
     accelerations: Vec<Columns<T, C>>,
@@ -65,16 +68,19 @@ impl<T: Real, const C: usize> Steps<T, C> {
         let (n, m) = (info.coordinates.len(), info.constraints.len());
         let memory = match programs.step(method) {
             Some(code) => Memory::Fused(Arc::clone(code), code.memory(number)),
-            None => Memory::Staged(Stages {
+            None => Memory::Staged(Box::new(Stages {
                 method,
-                first: programs.function(FunctionId::Stabilized).memory(&number),
+                first: programs.function(first(method)).memory(&number),
                 others: programs.function(others(method)).memory(&number),
+                projection: method
+                    .is_projected()
+                    .then(|| PROJECTION.map(|function| programs.function(function).memory(&number))),
                 velocities: vec![column(n); method.tableau.stage_count()],
                 accelerations: vec![column(n); method.tableau.stage_count()],
                 there: column(n),
                 feedback: column(m),
                 unread: column(m),
-            }),
+            })),
         };
         let (q, v) = (column(n), column(n));
         let programs = Arc::clone(programs);
@@ -100,9 +106,23 @@ impl<T: Real, const C: usize> Steps<T, C> {
     }
 }
 
+/// The functions with which positions and velocities are projected.
+const PROJECTION: [FunctionId; 3] = [FunctionId::Phi, FunctionId::PhiDot, FunctionId::Projection];
+
+/// The function of the first stage.
+fn first(method: Explicit) -> FunctionId {
+    match method.stabilization {
+        Stabilization::Held | Stabilization::PerStage => FunctionId::Stabilized,
+        Stabilization::Projection => FunctionId::Constrained,
+    }
+}
+
 /// The function of the stages behind the first one.
 fn others(method: Explicit) -> FunctionId {
-    if method.is_held { FunctionId::Constrained } else { FunctionId::Stabilized }
+    match method.stabilization {
+        Stabilization::PerStage => FunctionId::Stabilized,
+        Stabilization::Held | Stabilization::Projection => FunctionId::Constrained,
+    }
 }
 
 impl<T: Real, const C: usize> Stages<T, C> {
@@ -115,33 +135,72 @@ impl<T: Real, const C: usize> Stages<T, C> {
         q: &mut Columns<T, C>,
         v: &mut Columns<T, C>,
     ) -> [T; C] {
-        let Self { method, first, others: slots, velocities, accelerations, there, feedback, unread } = self;
+        let Self { method, first: of_first, others: of_others, velocities, accelerations, there, .. } = self;
+        let Self { feedback, unread, projection, .. } = self;
         q.copy_from_slice(at.q);
         if let Some(start) = velocities.first_mut() {
             start.copy_from_slice(at.v);
         }
         let span = Span { t: at.t, h: at.step, t_next: at.t_next };
         let slopes = Slopes { velocities, accelerations };
-        let growth = explicit::step(method.tableau, &span, q, slopes, there, |stage, t, q, v, a| {
+        let mut growth = explicit::step(method.tableau, &span, q, slopes, there, |stage, t, q, v, a| {
             let mut growth = [T::default(); C];
             let (function, slots) = match stage {
-                0 => (FunctionId::Stabilized, &mut *first),
-                _ => (others(*method), &mut *slots),
+                0 => (first(*method), &mut *of_first),
+                _ => (others(*method), &mut *of_others),
             };
             let code = programs.function(function);
             code.load(slots, &Arguments { t, q, v, feedback, ..*at });
             execute(&code.instructions, programs.tables.splines, slots);
             let end = std::slice::from_mut(&mut growth);
             match (stage, function) {
-                (0, _) => code.store(slots, &mut [a, feedback, end]),
                 (_, FunctionId::Constrained) => code.store(slots, &mut [a, end]),
+                (0, _) => code.store(slots, &mut [a, feedback, end]),
                 _ => code.store(slots, &mut [a, unread, end]),
             }
             growth
         });
+        if let (Some(slots), Some(v)) = (projection, velocities.first_mut()) {
+            let at = Arguments { t: at.t_next, ..*at };
+            let projected = explicit::project(q, v, there, |beside, delta| {
+                correct(programs, execute, &at, slots, &beside, feedback, delta)
+            });
+            growth = growth.plus(projected);
+            // the stages of the next step are given no feedback
+            feedback.fill([T::default(); C]);
+        }
         if let Some(end) = velocities.first() {
             v.copy_from_slice(end);
         }
         growth
     }
+}
+
+/// The correction of positions or velocities at a time, and its growth; `violation` is room.
+fn correct<T: Real, const C: usize>(
+    programs: &Programs,
+    execute: Execute<T, C>,
+    at: &Arguments<'_, T, C>,
+    [of_phi, of_phi_dot, of_projection]: &mut [Columns<T, C>; 3],
+    beside: &Beside<'_, Columns<T, C>>,
+    violation: &mut Columns<T, C>,
+    delta: &mut Columns<T, C>,
+) -> [T; C] {
+    let (function, slots, v) = match beside.v {
+        None => (FunctionId::Phi, of_phi, &[][..]),
+        Some(v) => (FunctionId::PhiDot, of_phi_dot, v.as_slice()),
+    };
+    let run =
+        |function, slots: &mut Columns<T, C>, at: &Arguments<'_, T, C>, results: &mut [&mut [[T; C]]]| {
+            let code = programs.function(function);
+            code.load(slots, at);
+            execute(&code.instructions, programs.tables.splines, slots);
+            code.store(slots, results);
+        };
+    let at = Arguments { q: beside.q, v, ..*at };
+    run(function, slots, &at, &mut [violation]);
+    let mut growth = [T::default(); C];
+    let given = Arguments { feedback: violation, ..at };
+    run(FunctionId::Projection, of_projection, &given, &mut [delta, std::slice::from_mut(&mut growth)]);
+    growth
 }

@@ -165,7 +165,12 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
         }
         if !self.allow_unstable && !self.baumgarte.is_stable(step) {
             let (alpha, beta) = (self.baumgarte.alpha(), self.baumgarte.beta());
-            return Err(Error::UnstableGains { alpha, beta, step, feedback: X::EXPLICIT.feedback_name() });
+            return Err(Error::UnstableGains {
+                alpha,
+                beta,
+                step,
+                feedback: X::EXPLICIT.stabilization.word(),
+            });
         }
         let inputs = self.inputs.into_array();
         let Arrays { t, mut q, mut v } = Arrays::of(&self.state);

@@ -5,7 +5,7 @@ use super::Simulation;
 use crate::equations::Arrays;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
-use crate::{Components, Error, Mechanism, Method, Real, State, spare};
+use crate::{Components, Error, Mechanism, Method, Real, Scheme, State, spare};
 
 /// What is done with a run.
 type Do<'a, T> = dyn FnMut(&Run<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
@@ -24,7 +24,8 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
             method: X::EXPLICIT,
             keeps_constraints: self.baumgarte.is_stable(self.step.to_f64()),
         };
-        what(&run, &mut OnStack::<M>::new().room())
+        let mut stages = X::Scheme::stages([state.q; 2]);
+        what(&run, &mut OnStack::<M>::new().room_for_steps::<X::Scheme>(&mut stages))
     }
 
     /// The step of mechanisms that have no other, and of those whose step was not calm:

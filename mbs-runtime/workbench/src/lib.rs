@@ -37,6 +37,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod adaptive;
 mod app;
 mod command;
 mod console;
@@ -75,7 +76,7 @@ pub use models::Models;
 pub use picture::{Motion, Picture};
 pub use recording::{Column, Recording, Summary, write_csv};
 pub use run::StartValue;
-pub use settings::{FeedbackKind, Settings, Start, StartKind};
+pub use settings::{Settings, Start, StartKind};
 pub use signals::Signals;
 pub use table::Table;
 pub use unit::Unit;

@@ -8,14 +8,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use mbs_ensemble::Cancelled;
-use mbs_live::{LANES, Live, Pack, Run};
-use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, System, Tableau};
+use mbs_live::{LANES, Live, Pack, Prepared, Run};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, Tableau};
 use rayon::prelude::*;
 
-use crate::Model;
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
-use crate::settings::{FeedbackKind, Settings, Start, StartKind};
+use crate::settings::{Settings, Start, StartKind};
+use crate::{Model, adaptive};
 
 /// A file may come from a stranger: compiling it ends after this time.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -73,9 +73,9 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
 fn declared(live: &Live, settings: Settings) -> Settings {
     let step = live.declared_step().unwrap_or(settings.step);
     let Some(feedback) = live.declared_feedback() else { return Settings { step, ..settings } };
-    let kind = if feedback.is_held { FeedbackKind::Held } else { FeedbackKind::PerStage };
+    let stabilization = if feedback.is_held { Stabilization::Held } else { Stabilization::PerStage };
     let (alpha, beta) = (Some(feedback.alpha), Some(feedback.beta));
-    Settings { step, feedback: kind, alpha, beta, ..settings }
+    Settings { step, stabilization: Some(stabilization), alpha, beta, ..settings }
 }
 
 /// An error with its source, in colours on a terminal.
@@ -113,7 +113,11 @@ impl Model for FromText {
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
-        Ok(Box::new(run(&self.with(start)?, start)?))
+        let live = self.with(start)?;
+        if let Some(tolerances) = start.tolerances {
+            return adaptive::start(Prepared::new(&live), tolerances, start);
+        }
+        Ok(Box::new(run(&live, start)?))
     }
 
     fn text(&self) -> Option<&mbs_live::Text> {

@@ -84,9 +84,10 @@ impl dyn Model + '_ {
                 |extents: Vec<Extent>| extents.iter().zip(&units).map(|(x, unit)| x.shown_in(unit)).collect();
             take(index, observed.map(shown));
         };
-        // In lanes, inputs are held.
+        // In lanes, inputs are held, and all take the same step.
         let lanes = self.in_lanes().filter(|lanes| lanes.can_take(declared.method));
-        if let Some(lanes) = lanes.filter(|_| settings.signals.is_none()) {
+        let is_alike = settings.signals.is_none() && settings.tolerances.is_none();
+        if let Some(lanes) = lanes.filter(|_| is_alike) {
             return in_batches(count, lanes.width() * rayon::current_num_threads(), |members| {
                 let first = members.start;
                 let progress: &(dyn Fn(usize) + Sync) = &|done| progress(first + done);

@@ -7,6 +7,7 @@ use mbs_runtime::{
     Sketch, System, Tableau, with_type,
 };
 
+use crate::adaptive::{self, Erased};
 use crate::members::lanes::InLanes;
 use crate::settings::{Settings, Start, StartKind};
 
@@ -106,6 +107,10 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
+        if let Some(tolerances) = start.tolerances {
+            let mechanism = M::new(components(&start.parameters))?;
+            return adaptive::start(Erased::new(mechanism), tolerances, start);
+        }
         let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
     }

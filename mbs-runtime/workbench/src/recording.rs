@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 
-use mbs_runtime::{Dimension, Info};
+use mbs_runtime::{Dimension, Effort, Info};
 
 use crate::doubt::Doubt;
 use crate::files::Output;
@@ -35,8 +35,10 @@ impl Column {
 /// The figures of a run that one looks at first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// Steps taken.
+    /// Steps taken; samples of a run to a tolerance.
     pub steps: u64,
+    /// The steps of a run to a tolerance.
+    pub effort: Option<Effort>,
     /// Time of the last good state in s.
     pub end: f64,
     /// Largest ‖Φ‖ over all steps.

@@ -266,7 +266,12 @@ impl Recorder {
     /// The recording of a run that has ended, with the reason if it did too early.
     fn finish(mut self, run: &dyn System, ended: Option<mbs_runtime::Error>) -> Recording {
         self.now.see(run);
-        let summary = Summary { end: run.time(), energy_end: energy(run, &self.now), ..self.summary };
+        let summary = Summary {
+            end: run.time(),
+            energy_end: energy(run, &self.now),
+            effort: run.effort(),
+            ..self.summary
+        };
         let mut doubts = self.watch.doubts(&self.columns);
         doubts.extend(few_digits(run.digits_left(), run.worst_place()));
         let coordinates = self.info.coordinates.len();

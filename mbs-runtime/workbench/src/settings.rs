@@ -1,18 +1,8 @@
 //! What a run is asked to do.
 
-use mbs_runtime::{Explicit, Quantity, Tableau};
+use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Tolerances};
 
 use crate::{Error, Model, Signals};
-
-/// When the feedback is evaluated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FeedbackKind {
-    /// Once a step ([`mbs_runtime::Held`]).
-    #[default]
-    Held,
-    /// In every stage of a step ([`mbs_runtime::PerStage`]).
-    PerStage,
-}
 
 /// Where a run starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,8 +35,13 @@ pub struct Settings {
     pub beta: Option<f64>,
     /// The scheme of the steps; `None` for the one that the mechanism declares.
     pub scheme: Option<&'static Tableau>,
-    /// When the feedback is evaluated.
-    pub feedback: FeedbackKind,
+    /// What keeps the constraints.
+    /// `None` for projection of a run to a tolerance, and for held feedback of one with a
+    /// constant step.
+    pub stabilization: Option<Stabilization>,
+    /// For a run to a tolerance: its steps are as long as their error permits, and `step` is the
+    /// time between two samples of it.
+    pub tolerances: Option<Tolerances>,
     /// Where the run starts.
     pub start: StartKind,
     /// Accept gains under which violations grow.
@@ -66,7 +61,8 @@ impl Default for Settings {
             alpha: None,
             beta: None,
             scheme: None,
-            feedback: FeedbackKind::default(),
+            stabilization: None,
+            tolerances: None,
             start: StartKind::default(),
             allow_unstable: false,
         }
@@ -80,14 +76,16 @@ pub struct Start {
     pub parameters: Vec<f64>,
     /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs).
     pub inputs: Vec<f64>,
-    /// The scheme, and when the feedback is evaluated.
+    /// The scheme, and what keeps the constraints.
     pub method: Explicit,
     /// α in 1/s.
     pub alpha: f64,
     /// β in 1/s.
     pub beta: f64,
-    /// Step in s.
+    /// Step in s; of a run to a tolerance, the time between two samples of it.
     pub step: f64,
+    /// The tolerances of a run that keeps such.
+    pub tolerances: Option<Tolerances>,
     /// Where the run starts.
     pub kind: StartKind,
     /// Accept gains under which violations grow.
@@ -98,17 +96,15 @@ impl Start {
     /// What these settings mean for a mechanism.
     ///
     /// # Errors
-    /// A step that is not positive, a name that the mechanism does not have.
+    /// A step that is not positive, a name that the mechanism does not have, feedback or gains
+    /// where the constraints are kept by projection.
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let info = model.info();
         let step = settings.step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(mbs_runtime::Error::Step { step }.into());
         }
-        let method = Explicit {
-            tableau: settings.scheme.unwrap_or(model.scheme()),
-            is_held: settings.feedback == FeedbackKind::Held,
-        };
+        let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
         Ok(Self {
             parameters: assigned("parameter", info.parameters, &settings.parameters)?,
@@ -117,10 +113,36 @@ impl Start {
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
+            tolerances: settings.tolerances,
             kind: settings.start,
             allow_unstable: settings.allow_unstable,
         })
     }
+}
+
+/// The method that settings ask for, of a mechanism with this scheme.
+fn method(declared: &'static Tableau, settings: &Settings) -> Result<Explicit, Error> {
+    let Settings { scheme, stabilization, alpha, beta, .. } = settings;
+    let is_adaptive = settings.tolerances.is_some();
+    let (tableau, stabilization) = match (is_adaptive, stabilization) {
+        (true, Some(Stabilization::Held | Stabilization::PerStage)) => {
+            let reason = "a run to a tolerance keeps the constraints by projection; leave the feedback out, \
+                          or the tolerances for a constant step";
+            return Err(Error::Name { name: "feedback".into(), reason: reason.into() });
+        }
+        (true, _) => {
+            let declared = if declared.is_adaptive() { declared } else { &DOPRI5 };
+            (scheme.unwrap_or(declared), Stabilization::Projection)
+        }
+        (false, stabilization) => (scheme.unwrap_or(declared), stabilization.unwrap_or_default()),
+    };
+    let method = Explicit { tableau, stabilization };
+    for (name, gain) in [("alpha", alpha), ("beta", beta)] {
+        if let (true, Some(value)) = (method.is_projected(), *gain) {
+            return Err(mbs_runtime::Error::NoUseOfGain { name, value }.into());
+        }
+    }
+    Ok(method)
 }
 
 /// The declared values with those that are set.

@@ -1,10 +1,10 @@
 //! A mechanism of the library, compiled by rustc and run from its text.
 
-use mbs_runtime::{Mechanism, RK4};
-use mbs_workbench::{FeedbackKind, Settings, model};
+use mbs_runtime::{DOPRI5, Mechanism, RK4, Stabilization, Tableau, Tolerances};
+use mbs_workbench::{Settings, model};
 
-/// Info, equations, sketch, start and 1,000 steps are the same, with held feedback and with
-/// feedback in each stage, and with another scheme.
+/// Info, equations, sketch, start and 1,000 steps are the same, with held feedback, with
+/// feedback in each stage, with projection and with other schemes, and to a tolerance.
 pub fn same<M: Mechanism<Real = f64>>(name: &str) {
     let entry = mbs::library().iter().find(|entry| entry.mechanism == name).unwrap();
     let text = model::from_text(&entry.text(), entry.defaults()).unwrap_or_else(|error| panic!("{error}"));
@@ -13,11 +13,19 @@ pub fn same<M: Mechanism<Real = f64>>(name: &str) {
     assert_eq!(text.derivation(), typed.derivation(), "{name}");
     assert_eq!(text.sketch(), typed.sketch(), "{name}");
     assert_eq!(text.start_values().unwrap(), typed.start_values().unwrap(), "{name}");
-    for (feedback, scheme) in
-        [(FeedbackKind::Held, None), (FeedbackKind::PerStage, None), (FeedbackKind::Held, Some(&RK4))]
-    {
-        let Settings { step, .. } = entry.defaults();
-        let settings = Settings { end: 1000.0 * step, every: 10, feedback, scheme, ..entry.defaults() };
+    let Settings { step, .. } = entry.defaults();
+    let run_as = |stabilization, scheme: Option<&'static Tableau>| {
+        let stabilization = Some(stabilization);
+        Settings { end: 1000.0 * step, every: 10, stabilization, scheme, ..entry.defaults() }
+    };
+    let settings = [
+        run_as(Stabilization::Held, None),
+        run_as(Stabilization::PerStage, None),
+        run_as(Stabilization::Held, Some(&RK4)),
+        run_as(Stabilization::Projection, Some(&DOPRI5)),
+        Settings { tolerances: Some(Tolerances::default()), ..run_as(Stabilization::Projection, None) },
+    ];
+    for settings in settings {
         let run = |model: &dyn mbs_workbench::Model| model.simulate(&settings, &mut |_, _| ()).unwrap();
         let (text, typed) = (run(&*text), run(&*typed));
         assert_eq!(text.ended, typed.ended, "{name}");

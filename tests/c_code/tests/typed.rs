@@ -164,7 +164,7 @@ where
         .inputs(M::Inputs::from_array(array))
         .build()
         .expect("it starts");
-    let feedback = Some((baumgarte.alpha(), baumgarte.beta(), X::EXPLICIT.is_held));
+    let feedback = Some((baumgarte.alpha(), baumgarte.beta(), X::EXPLICIT.is_held()));
     let choice = Choice { step, steps: STEPS, every: 1, feedback, inputs, start: None };
     let lines = built.run(&choice).unwrap_or_else(|fault| panic!("{}: {fault}", M::INFO.name));
     assert_eq!(lines.len(), STEPS + 1);

@@ -5,7 +5,10 @@
 
 use core::panic::PanicInfo;
 
-use mbs_runtime::{Baumgarte, Held, Kinematics, Mechanism, PerStage, Real, Simulation, mechanism};
+use mbs_runtime::{
+    Adaptive, Baumgarte, Held, Kinematics, Mechanism, PerStage, Projected, Real, Rk4, Simulation,
+    Tolerances, mechanism,
+};
 
 mechanism! {
     /// Slider-crank with a motor.
@@ -97,5 +100,16 @@ fn run<T: Real>(value: &dyn Fn(usize) -> f64) -> Option<f64> {
     let sum =
         reactions.multipliers.guide + raw.multipliers.guide + force + motion.acceleration.x + known[(0, 0)];
     let energies = held.energy() + per_stage.violation() + crank.declared_start().q.theta1;
-    Some((sum + energies).to_f64())
+    Some((sum + energies + to_a_tolerance(crank, value)?).to_f64())
+}
+
+/// With projection, and steps that follow from a tolerance.
+fn to_a_tolerance<T: Real>(crank: Crank<T>, value: &dyn Fn(usize) -> f64) -> Option<T> {
+    let mut projected = Simulation::builder(crank, value(2)).method::<Projected<Rk4>>().build().ok()?;
+    projected.advance_to(value(6)).ok()?;
+    let tolerances = Tolerances { rtol: value(8), atol: value(9), ..Tolerances::default() };
+    let mut adaptive = Adaptive::builder(crank).tolerances(tolerances).build().ok()?;
+    adaptive.advance_to(value(6)).ok()?;
+    let middle = adaptive.at(value(7)).ok()?;
+    Some(projected.violation() + middle.q.theta1 + adaptive.state().v.theta1)
 }

@@ -39,6 +39,7 @@ Operations per call:
 | `reactions` | 13 | 6 | 1 | 0 | 0 | 0 |
 | `position_correction` | 1 | 0 | 1 | 0 | 0 | 0 |
 | `velocity_correction` | 6 | 1 | 1 | 0 | 0 | 0 |
+| `projection` | 6 | 1 | 1 | 0 | 0 | 0 |
 | `outputs` | 4 | 2 | 0 | 0 | 2 | 0 |
 */
 #[derive(
@@ -1360,6 +1361,19 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 loops: 0u32,
             },
             ::mbs_runtime::Function {
+                name: "projection",
+                operations: ::mbs_runtime::Operations {
+                    mul: 6u32,
+                    add: 1u32,
+                    div: 1u32,
+                    sin_cos: 0u32,
+                    other: 0u32,
+                    watch: 0u32,
+                },
+                written: 8u32,
+                loops: 0u32,
+            },
+            ::mbs_runtime::Function {
                 name: "outputs",
                 operations: ::mbs_runtime::Operations {
                     mul: 4u32,
@@ -1706,6 +1720,29 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         }
     }
     #[inline(always)]
+    fn projection(
+        &self,
+        t: T,
+        q: &PendulumCoordinates<T>,
+        feedback: &PendulumConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {
+        let phi_q_rod_x = self.hoisted[2] * q.x;
+        let v1 = phi_q_rod_x * phi_q_rod_x;
+        let phi_q_rod_y = q.y * self.hoisted[2];
+        let v3 = phi_q_rod_y * phi_q_rod_y;
+        let v4 = v3 + v1;
+        let v5 = feedback.rod / v4;
+        let v6 = phi_q_rod_x * v5;
+        let v7 = phi_q_rod_y * v5;
+        ::mbs_runtime::Accelerations {
+            acceleration: PendulumCoordinates {
+                x: v6,
+                y: v7,
+            },
+            growth: T::from_f64(0.0),
+        }
+    }
+    #[inline(always)]
     fn fused_step<X: ::mbs_runtime::Method>(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
@@ -1715,7 +1752,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         t_next: T,
     ) -> ::core::option::Option<::mbs_runtime::Stepped<PendulumCoordinates<T>>> {
         ::core::option::Option::Some(
-            if X::EXPLICIT.is_held {
+            if X::EXPLICIT.is_held() {
                 self.step_held(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage(at, inputs, gains, h, t_next)
@@ -1737,7 +1774,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         ),
     > {
         ::core::option::Option::Some(
-            if X::EXPLICIT.is_held {
+            if X::EXPLICIT.is_held() {
                 self.step_held_with_reactions(at, inputs, gains, h, t_next)
             } else {
                 self.step_per_stage_with_reactions(at, inputs, gains, h, t_next)

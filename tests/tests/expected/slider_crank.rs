@@ -49,6 +49,7 @@ Operations per call:
 | `reactions` | 48 | 34 | 1 | 2 | 0 | 2 |
 | `position_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
 | `velocity_correction` | 12 | 9 | 1 | 2 | 0 | 2 |
+| `projection` | 12 | 9 | 1 | 2 | 0 | 2 |
 | `outputs` | 0 | 1 | 0 | 0 | 0 | 0 |
 */
 #[derive(
@@ -583,6 +584,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {}
     fn velocity_correction(
+        &self,
+        t: T,
+        q: &SliderCrankCoordinates<T>,
+        feedback: &SliderCrankConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {}
+    #[inline(always)]
+    fn projection(
         &self,
         t: T,
         q: &SliderCrankCoordinates<T>,

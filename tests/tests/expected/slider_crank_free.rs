@@ -47,6 +47,7 @@ Operations per call:
 | `reactions` | 76 | 49 | 2 | 2 | 0 | 3 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
+| `projection` | 54 | 26 | 2 | 2 | 0 | 3 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
 */
 #[derive(
@@ -634,6 +635,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {}
     fn velocity_correction(
+        &self,
+        t: T,
+        q: &SliderCrankFreeCoordinates<T>,
+        feedback: &SliderCrankFreeConstraints<T>,
+    ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {}
+    #[inline(always)]
+    fn projection(
         &self,
         t: T,
         q: &SliderCrankFreeCoordinates<T>,

@@ -68,6 +68,7 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::Reactions => &plan.reactions,
         FunctionId::PositionCorrection => &plan.position_correction,
         FunctionId::VelocityCorrection => &plan.velocity_correction,
+        FunctionId::Projection => &plan.projection,
         FunctionId::Outputs => &plan.outputs,
         FunctionId::Conditions => &plan.requirements,
         FunctionId::Start => &plan.start,

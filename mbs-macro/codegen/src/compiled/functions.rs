@@ -39,6 +39,8 @@ pub enum FunctionId {
     PositionCorrection,
     /// The shortest Δv with Φ_q Δv = the given residual.
     VelocityCorrection,
+    /// The same Δ with no coordinate held: what leads back to the constraints within a run.
+    Projection,
     /// What the declaration measures.
     Outputs,
     /// What [`Compiled::conditions`] judge.
@@ -105,7 +107,7 @@ struct Row(FunctionId, &'static str, &'static [Argument], &'static [Results]);
 use Argument::{Feedback, Gains, Inputs, Positions, Reactions, Time, Velocities};
 use Results::{Constraints, Coordinates, Growth, Scalar};
 
-const TABLE: [Row; 22] = [
+const TABLE: [Row; 23] = [
     Row(FunctionId::Hoisted, "new", &[], &[Results::Hoisted]),
     Row(FunctionId::Phi, "phi", &[Time, Positions], &[Constraints]),
     Row(FunctionId::PhiDot, "phi_dot", &[Time, Positions, Velocities], &[Constraints]),
@@ -147,6 +149,7 @@ const TABLE: [Row; 22] = [
         &[Time, Positions, Feedback],
         &[Coordinates, Growth],
     ),
+    Row(FunctionId::Projection, "projection", &[Time, Positions, Feedback], &[Coordinates, Growth]),
     Row(
         FunctionId::Outputs,
         "outputs",
@@ -161,7 +164,7 @@ const TABLE: [Row; 22] = [
 ];
 
 /// The functions that people are told the cost of.
-const COUNTED: usize = 17;
+const COUNTED: usize = 18;
 
 impl FunctionId {
     /// All functions.

@@ -133,6 +133,21 @@ impl Solver {
         (constrained, reactions)
     }
 
+    /// The roots of `projection`: what leads back to the constraints, with nothing above and the
+    /// given violation below.
+    pub fn projection(&self, model: &mut Model, rows: &Rows, inputs: &Inputs) -> Vec<Expr> {
+        let mut rhs = BTreeMap::new();
+        for &at in &rows.basis {
+            rhs.insert(Unknown::Row(at), model.arena.variable(inputs.feedback[at]));
+        }
+        let solution = self.factorization.solve(&mut model.arena, &rhs);
+        let zero = model.arena.zero();
+        let component = |at| solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(zero);
+        let mut roots: Vec<Expr> = (0..model.coordinates.len()).map(component).collect();
+        roots.push(self.factorization.growth(&mut model.arena));
+        roots
+    }
+
     /// q̈ and λ with Q above and γ + `feedback` below.
     fn solution(
         &self,

@@ -65,9 +65,8 @@ pub fn closes(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
 
 pub fn method(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
-    let words: Vec<_> =
-        SCHEMES.iter().map(|scheme| format!("`{}` ({})", scheme.word, scheme.title)).collect();
-    let expected = format!("a scheme is expected here: {}", listing(words.iter().map(String::as_str)));
+    let words = listing(SCHEMES.iter().map(|scheme| scheme.word));
+    let expected = format!("a scheme is expected here, one of {words}");
     let word = Ident::parse_any(input).map_err(|error| Error::new(error.span(), &expected))?;
     let Some(scheme) = Tableau::find(&word.to_string()) else {
         return Err(Error::new(word.span(), expected));

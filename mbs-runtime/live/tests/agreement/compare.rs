@@ -1,10 +1,13 @@
 //! A compiled mechanism and one from the same text, side by side.
 
 use crate::packs::packs_agree;
-use crate::runs::runs_agree;
+use crate::runs::{runs_agree, tolerances_agree};
 use mbs_live::{Live, Stepper, Text};
 use mbs_runtime::equations::{At, Equations, Room, consistent};
-use mbs_runtime::{Baumgarte, Components, Gains, Held, Mechanism, Method, PerStage, Rk4, Simulation, State};
+use mbs_runtime::{
+    Baumgarte, Components, Dop853, Gains, Held, Mechanism, Method, PerStage, Projected, Rk4, Simulation,
+    State,
+};
 
 const STEPS: usize = 1000;
 
@@ -23,6 +26,9 @@ where
     steps_agree::<M, PerStage>(&live, mechanism, inputs, Baumgarte::<PerStage>::deadbeat(h), h);
     steps_agree::<M, Held<Rk4>>(&live, mechanism, inputs, Baumgarte::deadbeat(h), h);
     steps_agree::<M, PerStage<Rk4>>(&live, mechanism, inputs, Baumgarte::deadbeat(h), h);
+    steps_agree::<M, Projected>(&live, mechanism, inputs, Baumgarte::NONE, h);
+    steps_agree::<M, Projected<Dop853>>(&live, mechanism, inputs, Baumgarte::NONE, h);
+    tolerances_agree(&live, mechanism, inputs, h);
     runs_agree(&live, mechanism, inputs, h);
     packs_agree(&live, inputs, h);
 }
@@ -100,6 +106,11 @@ fn functions_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, inputs:
         same("velocity_correction", &found, &numbers(solved.acceleration));
         same("growth", &[growth], &[solved.growth]);
 
+        let growth = live.projection(t, &q, &feedback, &mut found);
+        let solved = mechanism.projection(t, &state.q, &of(&feedback));
+        same("projection", &found, &numbers(solved.acceleration));
+        same("growth", &[growth], &[solved.growth]);
+
         assert_eq!(live.worst_pivot(t, &q), mechanism.worst_pivot(t, &state.q));
         assert_eq!(live.worst_start_pivot(t, &q), mechanism.worst_start_pivot(t, &state.q));
         same("energy", &[live.kinetic_energy(at)], &[mechanism.kinetic_energy(&state)]);
@@ -111,7 +122,7 @@ fn start_agrees<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, h: f64) {
     let declared = mechanism.declared_start();
     let (mut q, mut v) = (numbers(declared.q), numbers(declared.v));
     let (n, m) = (q.len(), M::INFO.constraints.len());
-    let mut vectors = vec![0.0; Room::<f64>::len(n, m)];
+    let mut vectors = vec![0.0; Room::<f64>::len(n, m, 0)];
     let mut room = Room::within(&mut vectors, n, m);
     consistent(live, declared.t, &mut q, &mut v, &mut room).expect("a start");
     let start = *Simulation::new(*mechanism, h).expect("a start").state();

@@ -16,7 +16,8 @@ pub fn packs_agree(live: &Live, inputs: &[f64], h: f64) {
         let inputs: Vec<f64> = inputs.iter().map(|input| input * factor).collect();
         Run::builder(&mechanism, h).method(method).inputs(&inputs).build().expect("a start")
     };
-    let methods = SCHEMES.map(|tableau| [true, false].map(|is_held| Explicit { tableau, is_held }));
+    let methods = SCHEMES
+        .map(|tableau| [Explicit::held(tableau), Explicit::per_stage(tableau), Explicit::projected(tableau)]);
     for method in methods.into_iter().flatten() {
         let mut alone: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, method)).collect();
         let together: Vec<Run> = (0..LANES - 1).map(|lane| start(lane, method)).collect();

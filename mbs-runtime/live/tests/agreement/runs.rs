@@ -2,7 +2,9 @@
 
 use mbs_live::{Live, Run};
 use mbs_runtime::equations::At;
-use mbs_runtime::{Baumgarte, Error, Held, Mechanism, PerStage, Simulation, State, System};
+use mbs_runtime::{
+    Adaptive, Baumgarte, Error, Held, Mechanism, PerStage, Sampled, Simulation, State, System, Tolerances,
+};
 
 use crate::compare::{numbers, of, same};
 use crate::declarations::{FREE, Free};
@@ -12,7 +14,20 @@ pub fn runs_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: M, inputs: &
     let typed = Simulation::builder(mechanism, h).inputs(of(inputs)).build().expect("a start");
     let run = Run::builder(live, h).inputs(inputs).build().expect("a start");
     assert!(run.derivation() == M::DERIVATION && run.sketch() == M::SKETCH);
-    let (mut typed, mut run): (Box<dyn System>, Box<dyn System>) = (Box::new(typed), Box::new(run));
+    side_by_side(Box::new(typed), Box::new(run), inputs);
+}
+
+/// The same of runs to a tolerance, whose steps are the same too.
+pub fn tolerances_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: M, inputs: &[f64], h: f64) {
+    let tolerances = Tolerances { rtol: 1e-7, ..Tolerances::default() };
+    let typed = Adaptive::builder(mechanism).tolerances(tolerances).inputs(of(inputs)).build();
+    let typed = Sampled::new(typed.expect("a start"), h).expect("an interval");
+    let run = Run::adaptive(live).tolerances(tolerances).inputs(inputs.to_vec()).build();
+    let run = Sampled::new(run.expect("a start"), h).expect("an interval");
+    side_by_side(Box::new(typed), Box::new(run), inputs);
+}
+
+fn side_by_side(mut typed: Box<dyn System>, mut run: Box<dyn System>, inputs: &[f64]) {
     for steps in [0, 1, 7, 92] {
         typed.advance(steps).expect("steps");
         run.advance(steps).expect("steps");
@@ -22,6 +37,7 @@ pub fn runs_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: M, inputs: &
         assert_eq!(run.steps_to(-1.0), typed.steps_to(-1.0));
         same("what a run tells", &told(&*run), &told(&*typed));
         assert_eq!(run.worst_place(), typed.worst_place());
+        assert_eq!(run.effort(), typed.effort());
         let pushed: Vec<f64> = inputs.iter().map(|input| 1.5 * input).collect();
         typed.set_inputs(&pushed);
         run.set_inputs(&pushed);

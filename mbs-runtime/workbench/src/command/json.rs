@@ -31,6 +31,10 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
         "mechanism": request.name,
         "given": given,
         "steps": summary.steps,
+        "effort": summary.effort.map(|effort| json!({
+            "steps": effort.steps, "rejected": effort.rejected,
+            "shortest_s": number(effort.shortest), "longest_s": number(effort.longest),
+        })),
         "end_s": number(summary.end),
         "max_phi": number(summary.max_phi),
         "max_phi_dot": number(summary.max_phi_dot),

@@ -4,11 +4,12 @@ use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Tableau};
+use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{Error, FeedbackKind, Model, Settings, Signals, StartKind, Unit, quantity};
+use crate::{Error, Model, Settings, Signals, StartKind, Unit, quantity};
 
+const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
 
 /// An option with a value, which may begin with a minus sign.
@@ -34,7 +35,8 @@ pub(super) fn of_a_run() -> Vec<Arg> {
         option(
             "step",
             "TIME",
-            "Step in s, or with a unit [default: as declared, 0.5ms, or what a fast mechanism asks for]",
+            "Step in s, or with a unit; with --rtol or --atol the time between samples \
+             [default: as declared, 0.5ms, or what a fast mechanism asks for]",
         ),
         option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
         option(
@@ -47,10 +49,26 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "RATE",
             "Feedback of the position violation in 1/s [default: as declared, or deadbeat]",
         ),
-        option("method", "SCHEME", "The scheme of the steps [default: as declared, or heun]")
-            .value_parser(PossibleValuesParser::new(SCHEMES.map(|scheme| scheme.word))),
-        option("feedback", "WHEN", "When the violation is fed back [default: as declared, or held]")
-            .value_parser(PossibleValuesParser::new(["held", "per-stage"])),
+        option(
+            "method",
+            "SCHEME",
+            "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]",
+        )
+        .value_parser(PossibleValuesParser::new(SCHEMES.map(|scheme| scheme.word))),
+        option(
+            "rtol",
+            "NUMBER",
+            "Steps as long as this relative error of a step permits, with projection [default: 1e-6]",
+        ),
+        option("atol", "NUMBER", "The same for its absolute error, in SI units [default: 1e-9]"),
+        option("max-step", "TIME", "The longest step of a run to a tolerance"),
+        option(
+            "feedback",
+            "KIND",
+            "What keeps the constraints: the violation is fed back, or the state projected \
+             [default: as declared, or held]",
+        )
+        .value_parser(PossibleValuesParser::new(Stabilization::ALL.map(Stabilization::word))),
         option("start", "WHERE", "The declared start, made consistent or as it is")
             .value_parser(PossibleValuesParser::new(["consistent", "declared"]))
             .default_value("consistent"),
@@ -71,6 +89,12 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
     let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
     let inputs = assignments("input", info.inputs, texts("input").filter(|text| !text.starts_with('@')))?;
+    let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances);
+    // a run to a tolerance has no use for the feedback that is declared, nor has projection
+    let declared = defaults.stabilization.filter(|_| tolerances.is_none());
+    let stabilization = Stabilization::find(choice("feedback")).or(declared);
+    let has_gains = tolerances.is_none() && stabilization != Some(Stabilization::Projection);
+    let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
     Ok(Settings {
         parameters: assignments("parameter", info.parameters, texts("set"))?,
         signals: signals(info, texts("input").filter_map(|text| text.strip_prefix('@')), &inputs)?,
@@ -78,17 +102,35 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         step: value("step", TIME)?.unwrap_or(defaults.step),
         end: value("end", TIME)?.unwrap_or(defaults.end),
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
-        alpha: value("alpha", RATE)?.or(defaults.alpha),
-        beta: value("beta", RATE)?.or(defaults.beta),
+        alpha: value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
+        beta: value("beta", RATE)?.or(declared_gain(defaults.beta)),
         scheme: Tableau::find(choice("method")).or(defaults.scheme),
-        feedback: match choice("feedback") {
-            "per-stage" => FeedbackKind::PerStage,
-            "held" => FeedbackKind::Held,
-            _ => defaults.feedback,
-        },
+        stabilization,
+        tolerances,
         start: if choice("start") == "declared" { StartKind::Declared } else { StartKind::Consistent },
         allow_unstable: matches.get_flag("allow-unstable"),
     })
+}
+
+/// The tolerances, if any option asks for a run to such.
+fn tolerances(matches: &ArgMatches, max_step: Option<f64>) -> Result<Option<Tolerances>, Error> {
+    let number = |name: &str| match matches.get_one::<String>(name) {
+        Some(text) => quantity::parse(name, text, NUMBER).map(Some),
+        None => Ok(None),
+    };
+    let (rtol, atol) = (number("rtol")?, number("atol")?);
+    if rtol.is_none() && atol.is_none() && max_step.is_none() {
+        return Ok(None);
+    }
+    let defaults = Tolerances::default();
+    let tolerances = Tolerances {
+        rtol: rtol.unwrap_or(defaults.rtol),
+        atol: atol.unwrap_or(defaults.atol),
+        max_step: max_step.unwrap_or(defaults.max_step),
+        ..defaults
+    };
+    tolerances.check::<f64>()?;
+    Ok(Some(tolerances))
 }
 
 fn assignments<'a>(

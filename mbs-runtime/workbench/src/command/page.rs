@@ -81,7 +81,16 @@ pub(super) fn summary(name: &str, given: &[Given], recording: &Recording, shown:
     for (name, value, unit) in given {
         row(&format!("{name}, as set"), significant(unit.shown(*value), 7), unit.name());
     }
-    row("steps", summary.steps.to_string(), "");
+    match summary.effort {
+        None => row("steps", summary.steps.to_string(), ""),
+        Some(effort) => {
+            row("samples", summary.steps.to_string(), "");
+            row("steps to the tolerance", effort.steps.to_string(), "");
+            row("rejected steps", effort.rejected.to_string(), "");
+            row("shortest step", significant(1e3 * effort.shortest, 3), "ms");
+            row("longest step", significant(1e3 * effort.longest, 3), "ms");
+        }
+    }
     row("constraint violation, max ‖Φ‖", significant(summary.max_phi, 4), "");
     row("its rate, max ‖dΦ/dt‖", significant(summary.max_phi_dot, 4), "1/s");
     row("energy change", significant(summary.energy_end - summary.energy_start, 6), "J");

@@ -8,9 +8,9 @@ use super::setup::{Setup, TURN};
 use crate::library;
 
 /// Feedback evaluated in both stages of Heun's method, as the paper has it.
-pub const PER_STAGE: Explicit = Explicit { tableau: &HEUN, is_held: false };
+pub const PER_STAGE: Explicit = Explicit::per_stage(&HEUN);
 /// Feedback held over each step.
-pub const HELD: Explicit = Explicit { tableau: &HEUN, is_held: true };
+pub const HELD: Explicit = Explicit::held(&HEUN);
 
 /// The mechanism, compiled.
 pub struct Crank {

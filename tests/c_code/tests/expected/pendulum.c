@@ -433,6 +433,29 @@ pendulum_real pendulum_compute_velocity_correction(
     return 0.0;
 }
 
+pendulum_real pendulum_compute_projection(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_constraints *feedback,
+    struct pendulum_coordinates *result)
+{
+    (void)m; (void)t; (void)q; (void)feedback; (void)result;
+    const real phi_q_rod_x_0 = 2.0 * q->x;
+    const real v1 = 0.5 * phi_q_rod_x_0;
+    const real v2 = phi_q_rod_x_0 * v1;
+    const real phi_q_rod_y_3 = q->y * 2.0;
+    const real v4 = 0.5 * phi_q_rod_y_3;
+    const real v5 = phi_q_rod_y_3 * v4;
+    const real v6 = v5 + v2;
+    const real v7 = feedback->rod / v6;
+    const real v8 = v1 * v7;
+    const real v9 = v4 * v7;
+    result->x = v8;
+    result->y = v9;
+    return 0.0;
+}
+
 void pendulum_compute_outputs(
     const struct pendulum *m,
     pendulum_real t,

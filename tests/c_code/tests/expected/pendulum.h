@@ -340,6 +340,16 @@ pendulum_real pendulum_compute_velocity_correction(
     const struct pendulum_constraints *feedback,
     struct pendulum_coordinates *result);
 
+/* The same Δq or Δv with no coordinate prescribed.
+   Returns the pivot growth.
+   Cost: 8 mul + 1 add + 1 div + 0 sincos. */
+pendulum_real pendulum_compute_projection(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_constraints *feedback,
+    struct pendulum_coordinates *result);
+
 /* The declared outputs.
    Cost: 0 mul + 0 add + 0 div + 0 sincos. */
 void pendulum_compute_outputs(

@@ -18,6 +18,7 @@ pub fn errors() -> impl Iterator<Item = (&'static str, &'static str)> {
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     let structs = &target.names.structs;
+    let scheme = target.compiled.choices.scheme;
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -26,8 +27,8 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
         structs.iter().map(|it| structure(target, it)).collect(),
         target.fill(
             &include_str!("text/header.h")
-                .replace("HELD", &deadbeat(target, true))
-                .replace("STAGED", &deadbeat(target, false)),
+                .replace("HELD", &deadbeat(Explicit::held(scheme)))
+                .replace("STAGED", &deadbeat(Explicit::per_stage(scheme))),
         ),
         kernels.iter().map(Kernel::declaration).collect(),
         "#ifdef __cplusplus\n}\n#endif\n\n#endif\n".to_owned(),
@@ -39,8 +40,8 @@ const HEAD: &str =
     "Printed from its declaration; changes here are lost. All numbers are in SI units, angles in rad.";
 
 /// The gains that remove a violation fastest, for a step h.
-fn deadbeat(target: &Target<'_>, is_held: bool) -> String {
-    let [alpha, beta] = Explicit { tableau: target.compiled.choices.scheme, is_held }.deadbeat(1.0);
+fn deadbeat(method: Explicit) -> String {
+    let [alpha, beta] = method.deadbeat(1.0);
     format!("{alpha}/h and {beta}/h")
 }
 

@@ -60,7 +60,7 @@ fn scheme(target: &Target<'_>) -> String {
         format!("{{{}}}", numbers.join(", "))
     };
     let weights: Vec<String> = rows.iter().map(|row| numbers(&mut row.weights.iter().copied())).collect();
-    let deadbeat = Explicit { tableau, is_held: true }.deadbeat(1.0);
+    let deadbeat = Explicit::held(tableau).deadbeat(1.0);
     let tables = [
         ("share[CAPS_STAGES]", numbers(&mut rows.iter().map(|row| row.share))),
         ("node[CAPS_STAGES]", numbers(&mut rows.iter().map(|row| row.node()))),
@@ -195,7 +195,7 @@ fn helpers(target: &Target<'_>, code: &str) -> String {
 pub fn example(target: &Target<'_>) -> String {
     let choices = &target.compiled.choices;
     let step = choices.step.unwrap_or(1e-4);
-    let [alpha, beta] = Explicit { tableau: choices.scheme, is_held: true }.deadbeat(step);
+    let [alpha, beta] = Explicit::held(choices.scheme).deadbeat(step);
     let deadbeat = Feedback { is_held: true, alpha, beta };
     let Feedback { is_held, alpha, beta } = choices.feedback.unwrap_or(deadbeat);
     let [step, alpha, beta] = [step, alpha, beta].map(|number| Scalar::Double.literal(number));

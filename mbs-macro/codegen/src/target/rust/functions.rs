@@ -240,6 +240,7 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
     };
     let position_correction = accelerations(FunctionId::PositionCorrection, Access::of_position());
     let velocity_correction = accelerations(FunctionId::VelocityCorrection, Access::of_position());
+    let projection = accelerations(FunctionId::Projection, Access::of_position());
     let reactions_body = {
         let body = body(compiled, names, FunctionId::Reactions, &Access::of_state());
         let (statements, growth) = (&body.statements, body.outputs.last());
@@ -257,6 +258,8 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
         fn reactions(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #reactions { #reactions_body }
         fn position_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #position_correction }
         fn velocity_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #velocity_correction }
+        #inline
+        fn projection(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #projection }
     }
 }
 

@@ -81,6 +81,7 @@ impl Point<'_> {
         for (name, program) in [
             ("position_correction", &plan.position_correction),
             ("velocity_correction", &plan.velocity_correction),
+            ("projection", &plan.projection),
         ] {
             if let Some(values) = self.solved(program, &given) {
                 let along = self.phi(&|at| values[at], &|_| 0.0, 0.0);

@@ -123,8 +123,11 @@ fn every_wrong_instruction_is_caught() {
 #[test]
 fn corrections_that_miss_the_constraints_are_caught() {
     let mut planned = Planned::new(DECLARATION);
-    let (tried, missed) = missed(&mut planned, |plan| &mut plan.position_correction, true);
-    assert!(missed * 4 < tried, "{missed} of {tried}");
+    let corrections: [Choose; 2] = [|plan| &mut plan.position_correction, |plan| &mut plan.projection];
+    for correction in corrections {
+        let (tried, missed) = missed(&mut planned, correction, true);
+        assert!(missed * 4 < tried, "{missed} of {tried}");
+    }
 }
 
 /// Second derivatives of every function, in constraints and forces, agree.

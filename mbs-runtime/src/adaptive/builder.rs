@@ -1,0 +1,181 @@
+//! The choices before a run to a tolerance starts.
+
+use core::marker::PhantomData;
+
+use super::attempt::{Attempt, copy, is_healthy};
+use super::{Adaptive, Control, Dynamics, Effort, Moment, Tolerances};
+use crate::equations::{Preparation, Start};
+use crate::watch::Watch;
+use crate::{Components, Dopri5, Error, Mechanism, Real, Scheme, State};
+
+/// Given states are checked as those of runs with this step, in s.
+const NOMINAL_STEP: f64 = 1e-3;
+
+/// The choices before a run to a tolerance starts; see [`Adaptive::builder`].
+#[derive(Clone)]
+pub struct AdaptiveBuilder<D: Dynamics, S: Scheme = Dopri5> {
+    dynamics: D,
+    tolerances: Tolerances,
+    inputs: D::Inputs,
+    state: (D::Real, D::Coordinates, D::Coordinates),
+    start: Start,
+    scheme: PhantomData<S>,
+}
+
+impl<D: Dynamics> Adaptive<D> {
+    /// Choices to make before the start. Without any: the declared start, made consistent, the
+    /// pair 5(4) of Dormand and Prince, the default [`Tolerances`] and inputs.
+    pub fn builder(mechanism: D) -> AdaptiveBuilder<D> {
+        AdaptiveBuilder {
+            tolerances: Tolerances::default(),
+            inputs: mechanism.default_inputs(),
+            state: mechanism.declared_start(),
+            start: Start::Declared,
+            scheme: PhantomData,
+            dynamics: mechanism,
+        }
+    }
+}
+
+impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
+    /// The scheme, one with an estimate of its error: [`Bs3`](crate::Bs3) for coarse tolerances,
+    /// [`Dopri5`] or [`Dop853`](crate::Dop853) for fine ones, from about 10⁻⁸ on.
+    #[must_use]
+    pub fn scheme<R: Scheme>(self) -> AdaptiveBuilder<D, R> {
+        let Self { dynamics, tolerances, inputs, state, start, .. } = self;
+        AdaptiveBuilder { dynamics, tolerances, inputs, state, start, scheme: PhantomData }
+    }
+
+    /// The tolerances.
+    #[must_use]
+    pub fn tolerances(self, tolerances: Tolerances) -> Self {
+        Self { tolerances, ..self }
+    }
+
+    /// The inputs of the first step.
+    #[must_use]
+    pub fn inputs(self, inputs: D::Inputs) -> Self {
+        Self { inputs, ..self }
+    }
+
+    /// Starts at `t` from positions and velocities that have to be consistent.
+    #[must_use]
+    pub fn from_vectors(self, t: D::Real, q: D::Coordinates, v: D::Coordinates) -> Self {
+        Self { state: (t, q, v), start: Start::Given, ..self }
+    }
+
+    /// Keeps the start as it is, consistent or not; the first step leads to the constraints.
+    #[must_use]
+    pub fn as_declared(self) -> Self {
+        Self { start: Start::Unchecked, ..self }
+    }
+
+    /// Starts.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`], [`Error::Step`], [`Error::NoEstimate`] for a scheme that cannot tell
+    /// its error, and those of the start of a [`Simulation`](crate::Simulation).
+    pub fn build(self) -> Result<Adaptive<D, S>, Error> {
+        let scheme = S::TABLEAU.word;
+        let estimate = S::TABLEAU.estimate.ok_or(Error::NoEstimate { scheme })?;
+        self.tolerances.check::<D::Real>()?;
+        let Self { dynamics, tolerances, mut inputs, state: (t, mut q, mut v), start, .. } = self;
+        let mut length = D::Real::default();
+        dynamics.with_inputs(&mut inputs, |inputs| {
+            let step = D::Real::from_f64(NOMINAL_STEP);
+            let preparation = Preparation { start, inputs, step, keeps_constraints: true };
+            dynamics.with_room::<S>(|room| {
+                length = preparation.prepare(dynamics.equations(), t, q.as_mut(), v.as_mut(), room)?;
+                Ok(())
+            })
+        })?;
+        let moment = Moment { t, a: q.clone(), q, v };
+        let stages = S::stages(moment.q.clone());
+        let mut run = Adaptive {
+            control: Control::new(tolerances.first_step.unwrap_or(0.0)),
+            before: moment.clone(),
+            next: moment.clone(),
+            attempt: Attempt { there: moment.q.clone(), velocities: stages.clone(), accelerations: stages },
+            now: moment,
+            dynamics,
+            inputs,
+            tolerances,
+            estimate,
+            is_solved: false,
+            watch: Watch::new(length),
+            effort: Effort::default(),
+        };
+        run.solve()?;
+        run.before = run.now.clone();
+        if run.tolerances.first_step.is_none() {
+            run.control.next = run.first_step();
+        }
+        Ok(run)
+    }
+}
+
+impl<M: Mechanism, S: Scheme> AdaptiveBuilder<M, S> {
+    /// Starts from a state that has to be [`check`](crate::start::check)ed for consistency.
+    #[must_use]
+    pub fn from_state(self, state: State<M::Coordinates>) -> Self {
+        self.from_vectors(state.t, state.q.into_array(), state.v.into_array())
+    }
+}
+
+impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+    /// The first step that the motion suggests: one in which Euler's method changes the state by
+    /// a hundredth of what is allowed, and in which the second derivative, from a difference,
+    /// lets the scheme add a hundredth of the allowed error.
+    ///
+    /// # Source
+    /// Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4, with squares
+    /// added up as in their code.
+    fn first_step(&mut self) -> f64 {
+        const SMALLEST: f64 = 1e-6;
+        let Self { dynamics, inputs, tolerances, now, next, attempt, estimate, .. } = self;
+        let size = |of: [&D::Coordinates; 2]| tolerances.size([&now.q, &now.v], of);
+        let (of_state, of_slope) = (size([&now.q, &now.v]), size([&now.v, &now.a]));
+        let is_still = of_state < 1e-5 || of_slope < 1e-5;
+        let first = if is_still { SMALLEST } else { 0.01 * of_state / of_slope };
+        let first = first.min(tolerances.max_step);
+        let h = D::Real::from_f64(first);
+        copy(&mut next.q, &now.q);
+        copy(&mut next.v, &now.v);
+        crate::vectors::add_scaled(next.q.as_mut(), h, now.v.as_ref());
+        crate::vectors::add_scaled(next.v.as_mut(), h, now.a.as_ref());
+        next.t = now.t + h;
+        let growth = dynamics.acceleration(next.t, &next.q, &next.v, inputs, &mut next.a);
+        if !is_healthy(growth, next) {
+            return first.min(SMALLEST);
+        }
+        // the changes of both slopes
+        let of_velocities = &mut attempt.there;
+        copy(of_velocities, &next.v);
+        crate::vectors::add_scaled(of_velocities.as_mut(), D::Real::from_f64(-1.0), now.v.as_ref());
+        crate::vectors::add_scaled(next.a.as_mut(), D::Real::from_f64(-1.0), now.a.as_ref());
+        let change = tolerances.size([&now.q, &now.v], [of_velocities, &next.a]) / first;
+        let largest = of_slope.max(change);
+        let second = if largest < 1e-15 {
+            SMALLEST.max(1e-3 * first)
+        } else {
+            Real::pow(0.01 / largest, 1.0 / f64::from(estimate.power))
+        };
+        second.min(100.0 * first).min(tolerances.max_step)
+    }
+}
+
+impl Tolerances {
+    /// The root mean square of vectors, measured by what is allowed at a state.
+    fn size<T: Real, V: AsRef<[T]>>(&self, state: [&V; 2], vectors: [&V; 2]) -> f64 {
+        let [rtol, atol] = [self.rtol, self.atol].map(T::from_f64);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (state, vector) in state.into_iter().zip(vectors) {
+            for (state, component) in state.as_ref().iter().zip(vector.as_ref()) {
+                let ratio = (*component / (atol + rtol * state.abs())).to_f64();
+                sum += ratio * ratio;
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { Real::sqrt(sum / count) } else { 0.0 }
+    }
+}

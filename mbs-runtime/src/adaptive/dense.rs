@@ -1,0 +1,82 @@
+//! The motion within a step, from what is known at both of its ends.
+
+use crate::Real;
+
+/// Time, q, v and q̈ at an end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<T, V> {
+    /// Time in s.
+    pub t: T,
+    /// Positions,
+    pub q: V,
+    /// velocities,
+    pub v: V,
+    /// and accelerations.
+    pub a: V,
+}
+
+impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
+    /// Writes positions and velocities at a time between this moment and `end`: the quintic that
+    /// has q, v and q̈ of both, and its derivative.
+    ///
+    /// With s = (t − t₀)/h and c = s − 1,
+    ///
+    /// ```text
+    /// q(s) = q₀ + h v₀ s + ½h²q̈₀ s² + s³ (d₃ + d₄ c + d₅ c²)
+    /// d₃ = q₁ − q₀ − h v₀ − ½h²q̈₀
+    /// d₄ = h (v₁ − v₀) − h²q̈₀ − 3 d₃
+    /// d₅ = ½h²(q̈₁ − q̈₀) − 3 (h (v₁ − v₀) − h²q̈₀) + 6 d₃
+    /// ```
+    ///
+    /// Positions are off by O(h⁶), velocities by O(h⁵).
+    pub fn interpolate(&self, end: &Self, t: T, q: &mut V, v: &mut V) {
+        let number = T::from_f64;
+        let h = end.t - self.t;
+        let s = (t - self.t) / h;
+        let c = s - number(1.0);
+        let (half, three) = (number(0.5), number(3.0));
+        let targets = q.as_mut().iter_mut().zip(v.as_mut());
+        for (([q0, v0, a0], [q1, v1, a1]), (q, v)) in self.scaled(h).zip(end.scaled(h)).zip(targets) {
+            let (dq, dv, da) = (q1 - q0 - v0 - half * a0, v1 - v0 - a0, a1 - a0);
+            let d3 = dq;
+            let d4 = dv - three * dq;
+            let d5 = half * da - three * dv + number(6.0) * dq;
+            let cubic = d3 + c * (d4 + c * d5);
+            let slope = d4 + number(2.0) * c * d5;
+            *q = q0 + s * (v0 + s * (half * a0 + s * cubic));
+            *v = (v0 + s * (a0 + s * (three * cubic + s * slope))) / h;
+        }
+    }
+    /// q, hv and h²q̈ of every coordinate.
+    fn scaled(&self, h: T) -> impl Iterator<Item = [T; 3]> {
+        let [q, v, a] = [&self.q, &self.v, &self.a].map(|vector| vector.as_ref().iter().copied());
+        q.zip(v).zip(a).map(move |((q, v), a)| [q, h * v, h * h * a])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A polynomial of fifth degree is its own interpolant, to a few roundings of its terms.
+    #[test]
+    fn quintics_are_met_and_velocities_are_derivatives() {
+        let coefficients = [0.3, -1.2, 0.7, 2.0, -0.4, 1.1];
+        let at = |t: f64| {
+            let sum = |derivative: i32| -> f64 {
+                let terms = coefficients.iter().zip(0..).filter(|(_, power)| *power >= derivative);
+                let factor = |power: i32| (0..derivative).map(|k| f64::from(power - k)).product::<f64>();
+                terms.map(|(c, power)| c * factor(power) * t.powi(power - derivative)).sum()
+            };
+            Moment { t, q: [sum(0)], v: [sum(1)], a: [sum(2)] }
+        };
+        let (start, end) = (at(0.4), at(1.3));
+        for step in 0..=20 {
+            let t = 0.4 + 0.045 * f64::from(step);
+            let (mut q, mut v) = ([0.0], [0.0]);
+            start.interpolate(&end, t, &mut q, &mut v);
+            let expected = at(t);
+            assert!((q[0] - expected.q[0]).abs() < 1e-14 && (v[0] - expected.v[0]).abs() < 1e-13, "{t}");
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! A mechanism as runs to a tolerance see it.
+
+use crate::equations::{Described, Equations};
+use crate::explicit::{Beside, correct};
+use crate::room::{OnStack, Room};
+use crate::{Accelerations, Components, Error, Mechanism, Real, Scheme, State, arrays};
+
+/// A mechanism that runs to a tolerance can integrate: every [`Mechanism`], whose vectors are
+/// arrays, and mechanisms that were read from a text, whose vectors are on the heap.
+///
+/// Functions that solve a system return the pivot growth; see [`Mechanism`].
+pub trait Dynamics: Clone + Send {
+    /// The scalar of the computation.
+    type Real: Real;
+    /// A vector with a component per coordinate.
+    type Coordinates: Clone + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
+    /// A vector with a component per constraint.
+    type Constraints: Clone + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
+    /// The inputs.
+    type Inputs: Clone + Send;
+
+    /// Its equations on slices.
+    fn equations(&self) -> &dyn Equations<Self::Real>;
+
+    /// What else there is to know of it.
+    fn described(&self) -> &dyn Described<Self::Real>;
+
+    /// The declared start, nothing made consistent.
+    fn declared_start(&self) -> (Self::Real, Self::Coordinates, Self::Coordinates);
+
+    /// A zero per constraint.
+    fn no_feedback(&self) -> Self::Constraints;
+
+    /// The default inputs.
+    fn default_inputs(&self) -> Self::Inputs;
+
+    /// Does something with inputs as a slice, which may change them.
+    fn with_inputs<R>(&self, inputs: &mut Self::Inputs, what: impl FnOnce(&mut [Self::Real]) -> R) -> R;
+
+    /// Does something with vectors to compute with.
+    ///
+    /// # Errors
+    /// Those of what is done.
+    fn with_room<S: Scheme>(
+        &self,
+        what: impl FnOnce(&mut Room<'_, Self::Real>) -> Result<(), Error>,
+    ) -> Result<(), Error>;
+
+    /// q̈ without feedback terms.
+    fn acceleration(
+        &self,
+        t: Self::Real,
+        q: &Self::Coordinates,
+        v: &Self::Coordinates,
+        inputs: &Self::Inputs,
+        acceleration: &mut Self::Coordinates,
+    ) -> Self::Real;
+
+    /// The correction of positions or velocities that leads to the constraints;
+    /// see [`explicit::project`](crate::explicit::project).
+    fn correction(
+        &self,
+        t: Self::Real,
+        at: &Beside<'_, Self::Coordinates>,
+        delta: &mut Self::Coordinates,
+    ) -> Self::Real;
+}
+
+impl<M: Mechanism> Dynamics for M {
+    type Real = M::Real;
+    type Coordinates = arrays::Coordinates<M>;
+    type Constraints = arrays::Constraints<M>;
+    type Inputs = M::Inputs;
+
+    fn equations(&self) -> &dyn Equations<M::Real> {
+        self
+    }
+
+    fn described(&self) -> &dyn Described<M::Real> {
+        self
+    }
+
+    fn declared_start(&self) -> (M::Real, Self::Coordinates, Self::Coordinates) {
+        let State { t, q, v } = Mechanism::declared_start(self);
+        (t, q.into_array(), v.into_array())
+    }
+
+    fn no_feedback(&self) -> Self::Constraints {
+        M::Constraints::splat(M::Real::default()).into_array()
+    }
+
+    fn default_inputs(&self) -> M::Inputs {
+        M::Inputs::default()
+    }
+
+    fn with_inputs<R>(&self, inputs: &mut M::Inputs, what: impl FnOnce(&mut [M::Real]) -> R) -> R {
+        let mut array = inputs.into_array();
+        let result = what(array.as_mut());
+        *inputs = Components::from_array(array);
+        result
+    }
+
+    fn with_room<S: Scheme>(
+        &self,
+        what: impl FnOnce(&mut Room<'_, M::Real>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let zero = M::Coordinates::splat(M::Real::default()).into_array();
+        what(&mut OnStack::<M>::new().room_for_steps::<S>(&mut S::stages([zero; 2])))
+    }
+
+    #[inline(always)]
+    fn acceleration(
+        &self,
+        t: M::Real,
+        q: &Self::Coordinates,
+        v: &Self::Coordinates,
+        inputs: &M::Inputs,
+        acceleration: &mut Self::Coordinates,
+    ) -> M::Real {
+        let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
+        let none = M::Constraints::splat(M::Real::default());
+        let Accelerations { acceleration: solved, growth } = self.constrained(&at, inputs, &none);
+        *acceleration = solved.into_array();
+        growth
+    }
+
+    #[inline(always)]
+    fn correction(
+        &self,
+        t: M::Real,
+        at: &Beside<'_, Self::Coordinates>,
+        delta: &mut Self::Coordinates,
+    ) -> M::Real {
+        correct(self, t, at, delta)
+    }
+}

@@ -1,0 +1,392 @@
+//! Runs to a tolerance: steps as long as an estimate of their error permits.
+
+mod attempt;
+mod builder;
+mod control;
+mod dense;
+mod dynamics;
+mod sampled;
+
+use attempt::{Attempt, copy, is_healthy};
+pub use builder::AdaptiveBuilder;
+use control::Control;
+pub use control::Tolerances;
+use dense::Moment;
+pub use dynamics::Dynamics;
+pub use sampled::Sampled;
+
+use core::fmt;
+
+use mbs_schemes::{Estimate, Explicit, Tableau};
+
+use crate::diagnosis::check_inputs;
+use crate::equations::At;
+use crate::explicit::{Beside, subtract};
+use crate::run::{Run, note_risen};
+use crate::watch::{Watch, WorstPlace};
+use crate::{Components, Dopri5, Error, Gains, Mechanism, Real, Scheme, State};
+
+/// So many lengths of a step are tried, one after the other.
+const TRIALS: usize = 40;
+/// The error that ends a run is looked for in steps up to this many seconds.
+const LONGEST: f64 = 1.0;
+
+/// A mechanism being integrated to a tolerance.
+///
+/// An explicit pair of Runge–Kutta schemes, Dormand and Prince's 5(4) unless another one is asked
+/// for, takes steps as long as the estimate of their error permits. The end of each step is
+/// projected onto the constraints, positions and then velocities, so that there is neither drift
+/// nor feedback. Between the ends of a step the motion is a polynomial of fifth degree through
+/// positions, velocities and accelerations of both.
+///
+/// Take it where the accuracy is given and not the step, and a [`Simulation`](crate::Simulation)
+/// where every step must take the same time. Explicit schemes are inefficient where a stiff
+/// spring or damper forces short steps on a slow motion.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Adaptive, Dop853, Tolerances, mechanism};
+///
+/// mechanism! {
+///     pub Pendulum {
+///         dof = 1;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         constraint rod: x^2 + y^2 = length^2;
+///         start { x = length; guess y = 0; }
+///     }
+/// }
+///
+/// // released from the side, it is at the bottom after K(1/√2)·√(l/g)
+/// let bottom = 1.854074677301372 / 9.81_f64.sqrt();
+/// let mut swing = Adaptive::builder(Pendulum::declared())
+///     .scheme::<Dop853>()
+///     .tolerances(Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() })
+///     .build()?;
+/// swing.advance_to(bottom)?;
+/// assert!(swing.state().q.x.abs() < 1e-9 && swing.effort().steps < 20);
+/// // the motion within the last step
+/// let before = swing.at(bottom - 1e-3)?;
+/// assert!((before.q.x / before.v.x + 1e-3).abs() < 1e-8);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+///
+/// # Source
+/// Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4 and II.5; Eich 1993
+/// (see [`Projected`](crate::Projected)).
+#[derive(Clone)]
+pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
+    dynamics: D,
+    inputs: D::Inputs,
+    tolerances: Tolerances,
+    estimate: Estimate,
+    control: Control,
+    /// The start of the last step, and its end.
+    before: Moment<D::Real, D::Coordinates>,
+    now: Moment<D::Real, D::Coordinates>,
+    /// The end of the step that is tried.
+    next: Moment<D::Real, D::Coordinates>,
+    attempt: Attempt<D::Coordinates, S::Stages<D::Coordinates>>,
+    /// Whether the acceleration of the present state is that of the present inputs.
+    is_solved: bool,
+    watch: Watch<D::Real>,
+    effort: Effort,
+}
+
+/// What a run to a tolerance has taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were tried and not taken, because their error was too large.
+    pub rejected: u64,
+    /// The shortest step in s; 0 before the first one.
+    pub shortest: f64,
+    /// The longest one in s.
+    pub longest: f64,
+}
+
+impl Effort {
+    /// Counts a step.
+    fn count(&mut self, h: f64) {
+        self.shortest = if self.steps == 0 { h } else { self.shortest.min(h) };
+        self.longest = self.longest.max(h);
+        self.steps += 1;
+    }
+}
+
+impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+    const TABLEAU: &'static Tableau = S::TABLEAU;
+
+    /// Takes a step as long as the tolerance permits.
+    ///
+    /// # Errors
+    /// [`Error::StepTooShort`] where no step meets the tolerance, [`Error::Singular`],
+    /// [`Error::OutOfReach`], [`Error::NonFinite`], [`Error::Input`]. The state stays that of the
+    /// last good step.
+    pub fn step(&mut self) -> Result<(), Error> {
+        self.step_within(D::Real::from_f64(f64::INFINITY))
+    }
+
+    /// Takes steps until `end` seconds, the last one of which ends there. It does not change how
+    /// long the steps behind it are.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), and [`Error::EndTime`] for a time that is past.
+    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
+        let last = D::Real::from_f64(end);
+        if !(end.is_finite() && last >= self.now.t) {
+            return Err(Error::EndTime { end, now: self.now.t.to_f64() });
+        }
+        while self.now.t < last {
+            self.step_to(last)?;
+        }
+        Ok(())
+    }
+
+    /// A step that ends at `limit` at the latest. Where it is cut short, the next one is not.
+    fn step_to(&mut self, limit: D::Real) -> Result<(), Error> {
+        let (next, rejected) = (self.control.next, self.effort.rejected);
+        self.step_within(limit)?;
+        let is_cut = self.now.t >= limit && self.effort.rejected == rejected;
+        if is_cut && self.control.next < next {
+            self.control.next = next;
+        }
+        Ok(())
+    }
+
+    /// Takes steps until the last one covers `t` seconds.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), and [`Error::EndTime`] for a time before the last step.
+    pub fn cover(&mut self, t: f64) -> Result<(), Error> {
+        let at = D::Real::from_f64(t);
+        if !(t.is_finite() && at >= self.before.t) {
+            return Err(Error::EndTime { end: t, now: self.before.t.to_f64() });
+        }
+        while self.now.t < at {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// A step that ends at `limit` at the latest.
+    fn step_within(&mut self, limit: D::Real) -> Result<(), Error> {
+        self.solve()?;
+        let t = self.now.t;
+        for _ in 0..TRIALS {
+            let h = D::Real::from_f64(self.next_step());
+            let left = limit - t;
+            // a little longer rather than a tiny step behind it
+            let t_next = if D::Real::from_f64(1.01) * h >= left { limit } else { t + h };
+            let h = (t_next - t).to_f64();
+            let is_ahead = t_next > t && h >= 4.0 * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            if !is_ahead {
+                break;
+            }
+            let Self { dynamics, inputs, now, next, attempt, .. } = self;
+            let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, now, t_next, next);
+            let growth = growth.filter(|growth| is_healthy(*growth, next));
+            let ratio = match growth {
+                Some(_) => attempt.error(&self.estimate, &self.tolerances, now, next),
+                None => f64::NAN,
+            };
+            let is_good = self.control.judge(h, ratio, &self.estimate);
+            if let (Some(growth), true) = (growth, is_good) {
+                return self.accept(growth);
+            }
+            self.effort.rejected += 1;
+        }
+        Err(self.cause())
+    }
+
+    /// Makes the step that was tried the last one.
+    fn accept(&mut self, growth: D::Real) -> Result<(), Error> {
+        let Self { dynamics, before, now, next, watch, .. } = self;
+        if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
+            let (from, to) = (now.at(), next.at());
+            dynamics
+                .with_room::<S>(|room| note_risen(dynamics.equations(), [from, to], growth, watch, room))?;
+        } else {
+            watch.note(growth);
+        }
+        core::mem::swap(before, now);
+        core::mem::swap(now, next);
+        self.effort.count((self.now.t - self.before.t).to_f64());
+        Ok(())
+    }
+
+    /// Sees to it that the acceleration of the present state is known.
+    fn solve(&mut self) -> Result<(), Error> {
+        if self.is_solved {
+            return Ok(());
+        }
+        let Self { dynamics, inputs, now, .. } = self;
+        dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.equations().info(), inputs))?;
+        let Moment { t, q, v, a } = now;
+        let growth = dynamics.acceleration(*t, q, v, inputs, a);
+        if !is_healthy(growth, now) {
+            return Err(self.cause());
+        }
+        self.is_solved = true;
+        Ok(())
+    }
+
+    /// Why there is no step from the present state: the error of the shortest step that has
+    /// one, and that the tolerance cannot be met if none has.
+    fn cause(&mut self) -> Error {
+        let Self { dynamics, inputs, now, next, control, watch, .. } = self;
+        let t = now.t.to_f64();
+        let nothing = D::Real::default();
+        let found = dynamics.with_inputs(inputs, |inputs| {
+            dynamics.with_room::<S>(|room| {
+                let mut h = 16.0 * D::Real::EPSILON.to_f64() * (1.0 + t.abs());
+                while h < LONGEST {
+                    let step = D::Real::from_f64(h);
+                    let run = Run {
+                        equations: dynamics.equations(),
+                        at: now.at(),
+                        inputs,
+                        gains: Gains { minus_two_alpha: nothing, minus_beta_squared: nothing },
+                        step,
+                        method: Explicit::projected(Self::TABLEAU),
+                        keeps_constraints: true,
+                    };
+                    run.step(now.t + step, [next.q.as_mut(), next.v.as_mut()], &mut *watch, room)?;
+                    h *= 4.0;
+                }
+                Ok(())
+            })
+        });
+        found.err().unwrap_or(Error::StepTooShort { t, step: control.next })
+    }
+
+    /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
+    /// onto the constraints.
+    fn interpolate(&self, t: D::Real) -> Result<(D::Coordinates, D::Coordinates), Error> {
+        let Self { before, now, dynamics, .. } = self;
+        if !(t >= before.t && t <= now.t) {
+            return Err(Error::EndTime { end: t.to_f64(), now: before.t.to_f64() });
+        }
+        let (mut q, mut v) = (now.q.clone(), now.v.clone());
+        if t < now.t {
+            before.interpolate(now, t, &mut q, &mut v);
+            let mut delta = before.q.clone();
+            dynamics.correction(t, &Beside { q: &q, v: None }, &mut delta);
+            subtract(&mut q, &delta);
+            dynamics.correction(t, &Beside { q: &q, v: Some(&v) }, &mut delta);
+            subtract(&mut v, &delta);
+        }
+        Ok((q, v))
+    }
+
+    /// Goes back to `t` seconds, within the last step, and forgets what lies behind.
+    ///
+    /// # Errors
+    /// [`Error::EndTime`] for a time outside of the last step.
+    pub fn rewind_to(&mut self, t: f64) -> Result<(), Error> {
+        let at = D::Real::from_f64(t);
+        let (q, v) = self.interpolate(at)?;
+        copy(&mut self.now.q, &q);
+        copy(&mut self.now.v, &v);
+        self.now.t = at;
+        self.is_solved = false;
+        self.before = self.now.clone();
+        Ok(())
+    }
+
+    /// The present time in s: the end of the last step.
+    pub fn time(&self) -> D::Real {
+        self.now.t
+    }
+
+    /// The steps that it took so far.
+    pub fn effort(&self) -> &Effort {
+        &self.effort
+    }
+
+    /// How long the next step is tried to be, in s.
+    pub fn next_step(&self) -> f64 {
+        self.control.next.min(self.tolerances.max_step)
+    }
+
+    /// What it was asked for.
+    pub fn tolerances(&self) -> &Tolerances {
+        &self.tolerances
+    }
+
+    /// The inputs.
+    pub fn inputs(&self) -> &D::Inputs {
+        &self.inputs
+    }
+
+    /// The inputs, to be changed for the steps that follow.
+    pub fn inputs_mut(&mut self) -> &mut D::Inputs {
+        self.is_solved = false;
+        &mut self.inputs
+    }
+
+    /// The largest pivot growth of a step so far; see
+    /// [`Simulation::worst_growth`](crate::Simulation::worst_growth).
+    pub fn worst_growth(&self) -> D::Real {
+        self.watch.worst
+    }
+
+    /// Where it was.
+    pub fn worst_place(&self) -> Option<WorstPlace> {
+        self.watch.worst_place(self.dynamics.equations().info())
+    }
+
+    /// The digits that it left.
+    pub fn digits_left(&self) -> f64 {
+        self.watch.digits_left()
+    }
+}
+
+impl<D: Dynamics, S: Scheme> fmt::Debug for Adaptive<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { now, tolerances, effort, .. } = self;
+        let scheme = Self::TABLEAU.word;
+        let mut shown = f.debug_struct("Adaptive");
+        shown.field("scheme", &scheme).field("t", &now.t).field("tolerances", tolerances);
+        shown.field("effort", effort).finish_non_exhaustive()
+    }
+}
+
+impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
+    /// The mechanism.
+    pub fn mechanism(&self) -> &M {
+        &self.dynamics
+    }
+
+    /// The present state: that at the end of the last step.
+    pub fn state(&self) -> State<M::Coordinates> {
+        let Moment { t, q, v, .. } = self.now;
+        State { t, q: Components::from_array(q), v: Components::from_array(v) }
+    }
+
+    /// The state at `t` seconds, within the last step: positions are those of the polynomial of
+    /// fifth degree that has q, v and q̈ of both ends, projected onto the constraints. It is off
+    /// by O(h⁶) and its velocities by O(h⁵), beside the errors of the ends.
+    ///
+    /// # Errors
+    /// [`Error::EndTime`] for a time outside of the last step; [`cover`](Self::cover) takes steps
+    /// until it is inside.
+    pub fn at(&self, t: f64) -> Result<State<M::Coordinates>, Error> {
+        let t = M::Real::from_f64(t);
+        let (q, v) = self.interpolate(t)?;
+        Ok(State { t, q: Components::from_array(q), v: Components::from_array(v) })
+    }
+
+    /// ‖Φ‖ of the present state.
+    pub fn violation(&self) -> M::Real {
+        self.dynamics.phi(self.now.t, &self.state().q).norm()
+    }
+}
+
+impl<T: Real, V: AsRef<[T]>> Moment<T, V> {
+    fn at(&self) -> At<'_, T> {
+        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+}

@@ -1,0 +1,211 @@
+//! Runs to a tolerance as a [`System`].
+
+use core::fmt;
+
+use super::{Adaptive, Dynamics, Effort};
+use crate::diagnosis::{Solution, check_defined, check_solution};
+use crate::equations::{At, Equations, check_outputs};
+use crate::simulation::clock;
+use crate::watch::WorstPlace;
+use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
+
+/// A run to a tolerance whose state is looked at on a grid of times: a [`System`] whose `step`
+/// leads to the next of these times.
+///
+/// Steps of the run are as long as they would be without anyone looking: what is seen is
+/// interpolated, and projected onto the constraints. Where inputs change, the run starts anew
+/// from there.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Adaptive, Error, Sampled, System, mechanism};
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #     }
+/// # }
+/// let swing = Adaptive::builder(Pendulum::declared()).build()?;
+/// let mut samples = Sampled::new(swing, 0.01)?;
+/// let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+/// for _ in 0..100 {
+///     samples.step()?;
+///     samples.state(&mut q, &mut v);
+///     assert!((q[0].hypot(q[1]) - 1.0).abs() < 1e-12);
+/// }
+/// // a second in a hundred samples, and in fewer steps
+/// assert!(samples.time() == 1.0 && samples.run().effort().steps < 40);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Sampled<D: Dynamics<Real = f64>, S: Scheme> {
+    run: Adaptive<D, S>,
+    interval: f64,
+    start_time: f64,
+    samples: u64,
+    t: f64,
+    q: D::Coordinates,
+    v: D::Coordinates,
+}
+
+impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
+    /// A run looked at every `interval` seconds, from where it is.
+    ///
+    /// # Errors
+    /// [`Error::Step`] for an interval that is not positive and finite.
+    pub fn new(run: Adaptive<D, S>, interval: f64) -> Result<Self, Error> {
+        if !(interval > 0.0 && interval.is_finite()) {
+            return Err(Error::Step { step: interval });
+        }
+        let (t, q, v) = (run.now.t, run.now.q.clone(), run.now.v.clone());
+        Ok(Self { run, interval, start_time: t, samples: 0, t, q, v })
+    }
+
+    /// The run, which may be ahead of what is seen by a part of a step.
+    pub fn run(&self) -> &Adaptive<D, S> {
+        &self.run
+    }
+
+    fn with_inputs<R>(&self, what: impl FnOnce(&[f64]) -> R) -> R {
+        let mut inputs = self.run.inputs.clone();
+        self.run.dynamics.with_inputs(&mut inputs, |inputs| what(inputs))
+    }
+
+    fn at(&self) -> At<'_, f64> {
+        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+}
+
+impl<D: Dynamics<Real = f64>, S: Scheme> fmt::Debug for Sampled<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { run, interval, t, .. } = self;
+        f.debug_struct("Sampled")
+            .field("run", run)
+            .field("interval", interval)
+            .field("t", t)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
+    fn equations(&self) -> &dyn Equations<f64> {
+        self.run.dynamics.equations()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.run.dynamics.described().derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.run.dynamics.described().sketch()
+    }
+
+    fn parameters(&self, parameters: &mut [f64]) {
+        self.run.dynamics.described().parameters(parameters);
+    }
+
+    fn time(&self) -> f64 {
+        self.t
+    }
+
+    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+        vectors::copy(q, self.q.as_ref());
+        vectors::copy(v, self.v.as_ref());
+    }
+
+    fn inputs(&self, inputs: &mut [f64]) {
+        self.with_inputs(|own| vectors::copy(inputs, own));
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) {
+        let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
+        let is_new = dynamics.with_inputs(own, |own| {
+            let is_new = own.iter().zip(inputs).any(|(own, input)| own != input);
+            vectors::copy(own, inputs);
+            is_new
+        });
+        if is_new {
+            // what lies behind this moment was computed with others; the moment is within the
+            // last step, so that there is no error
+            let _ = self.run.rewind_to(self.t);
+            self.run.is_solved = false;
+        }
+    }
+
+    fn step_size(&self) -> f64 {
+        self.interval
+    }
+
+    fn steps(&self) -> u64 {
+        self.samples
+    }
+
+    fn steps_to(&self, end: f64) -> Result<u64, Error> {
+        clock::steps_to::<f64>(self.start_time, self.interval, self.samples, end)
+    }
+
+    fn step(&mut self) -> Result<(), Error> {
+        let t = self.start_time + (self.samples + 1) as f64 * self.interval;
+        self.run.cover(t)?;
+        (self.q, self.v) = self.run.interpolate(t)?;
+        self.t = t;
+        self.samples += 1;
+        Ok(())
+    }
+
+    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+        let At { t, q, .. } = self.at();
+        let mechanism = self.run.dynamics.described();
+        let growth =
+            self.with_inputs(|inputs| mechanism.reactions(self.at(), inputs, acceleration, multipliers));
+        let info = mechanism.info();
+        let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
+        let name = |row| info.constraint_name(row);
+        check_solution(&solution, || mechanism.worst_pivot(t, q))?;
+        check_defined(t, "the multiplier of constraint", multipliers, name)
+    }
+
+    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
+        let mechanism = self.run.dynamics.described();
+        self.with_inputs(|inputs| mechanism.outputs(self.at(), inputs, [acceleration, multipliers], outputs));
+        check_outputs(mechanism.info(), self.t, outputs)
+    }
+
+    fn violations(&self) -> [f64; 2] {
+        let mut rows = self.run.dynamics.no_feedback();
+        let equations = self.run.dynamics.equations();
+        equations.phi(self.t, self.q.as_ref(), rows.as_mut());
+        let violation = vectors::norm(rows.as_ref());
+        equations.phi_dot(self.at(), rows.as_mut());
+        [violation, vectors::norm(rows.as_ref())]
+    }
+
+    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+        let mechanism = self.run.dynamics.described();
+        [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
+    }
+
+    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+        self.run.dynamics.described().points(t, q, points);
+    }
+
+    fn effort(&self) -> Option<Effort> {
+        Some(*self.run.effort())
+    }
+
+    fn worst_growth(&self) -> f64 {
+        self.run.worst_growth()
+    }
+
+    fn worst_place(&self) -> Option<WorstPlace> {
+        self.run.worst_place()
+    }
+
+    fn digits_left(&self) -> f64 {
+        self.run.digits_left()
+    }
+}

@@ -1,0 +1,81 @@
+//! What there is to know of a mechanism beside its equations.
+
+use crate::equations::{At, Equations, read, write};
+use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch};
+
+/// What a mechanism measures and shows, on slices as [`Equations`]. It is apart from them, so
+/// that a program that only integrates does not carry texts and pictures.
+pub trait Described<T: Real>: Equations<T> {
+    /// q̈ and λ without feedback terms; their pivot growth.
+    fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T;
+
+    /// What the declaration measures, given q̈ and λ.
+    fn outputs(&self, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2], outputs: &mut [T]);
+
+    /// Potential energy of gravity and springs in J.
+    fn potential_energy(&self, at: At<'_, T>) -> T;
+
+    /// x and y of every point of the [sketch](Self::sketch) in m, one after the other.
+    fn points(&self, t: T, q: &[T], points: &mut [T]);
+
+    /// Writes the parameters.
+    fn parameters(&self, parameters: &mut [T]);
+
+    /// The equations and their elimination, for people to read.
+    fn derivation(&self) -> &Derivation;
+
+    /// What a picture of it shows.
+    fn sketch(&self) -> &Sketch;
+}
+
+impl<M: Mechanism> Described<M::Real> for M {
+    fn reactions(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        acceleration: &mut [M::Real],
+        multipliers: &mut [M::Real],
+    ) -> M::Real {
+        let none = M::Constraints::splat(M::Real::default());
+        let solved = Mechanism::reactions(self, &at.state(), &read(inputs), &none);
+        write(solved.acceleration, acceleration);
+        write(solved.multipliers, multipliers);
+        solved.growth
+    }
+
+    fn outputs(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        [acceleration, multipliers]: [&[M::Real]; 2],
+        outputs: &mut [M::Real],
+    ) {
+        let growth = M::Real::default();
+        let reactions =
+            Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
+        write(Mechanism::outputs(self, &at.state(), &read(inputs), &reactions), outputs);
+    }
+
+    fn potential_energy(&self, at: At<'_, M::Real>) -> M::Real {
+        Mechanism::potential_energy(self, &at.state())
+    }
+
+    fn points(&self, t: M::Real, q: &[M::Real], points: &mut [M::Real]) {
+        let places = Mechanism::points(self, t, &read(q));
+        for (point, place) in points.chunks_exact_mut(2).zip(places.as_ref()) {
+            point.copy_from_slice(place);
+        }
+    }
+
+    fn parameters(&self, parameters: &mut [M::Real]) {
+        write(*Mechanism::parameters(self), parameters);
+    }
+
+    fn derivation(&self) -> &Derivation {
+        M::DERIVATION
+    }
+
+    fn sketch(&self) -> &Sketch {
+        M::SKETCH
+    }
+}

@@ -1,0 +1,130 @@
+//! Runs to a tolerance, of mechanisms whose type is no longer known.
+
+use std::sync::Arc;
+
+use mbs_runtime::equations::{At, Described, Equations, Room};
+use mbs_runtime::explicit::Beside;
+use mbs_runtime::{
+    Adaptive, Components, Dynamics, Error, Mechanism, Method, MethodVisitor, Sampled, Scheme, State, System,
+    Tolerances, with_type,
+};
+
+use crate::settings::{Start, StartKind};
+
+/// Starts a run with the scheme that is asked for, looked at in steps of the given length.
+pub(crate) fn start<D>(dynamics: D, tolerances: Tolerances, start: &Start) -> Result<Box<dyn System>, Error>
+where
+    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+{
+    let name = start.method.tableau.word;
+    with_type(start.method, Started { dynamics, tolerances, start }).unwrap_or(Err(Error::Scheme { name }))
+}
+
+struct Started<'a, D> {
+    dynamics: D,
+    tolerances: Tolerances,
+    start: &'a Start,
+}
+
+impl<D> MethodVisitor for Started<'_, D>
+where
+    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+{
+    type Result = Result<Box<dyn System>, Error>;
+
+    fn visit<X: Method>(self) -> Self::Result {
+        let Self { dynamics, tolerances, start } = self;
+        let mut builder = Adaptive::builder(dynamics)
+            .scheme::<X::Scheme>()
+            .tolerances(tolerances)
+            .inputs(start.inputs.clone());
+        if start.kind == StartKind::Declared {
+            builder = builder.as_declared();
+        }
+        Ok(Box::new(Sampled::new(builder.build()?, start.step)?))
+    }
+}
+
+/// A mechanism behind its equations on slices, so that runs to a tolerance are compiled once for
+/// all of them.
+#[derive(Clone)]
+pub(crate) struct Erased {
+    mechanism: Arc<dyn Described<f64> + Send + Sync>,
+    start: (f64, Vec<f64>, Vec<f64>),
+    inputs: Vec<f64>,
+    no_feedback: Vec<f64>,
+}
+
+impl Erased {
+    /// The same mechanism, its type forgotten.
+    pub fn new<M: Mechanism<Real = f64>>(mechanism: M) -> Self {
+        let numbers = |array: &dyn AsRef<[f64]>| array.as_ref().to_vec();
+        let State { t, q, v } = mechanism.declared_start();
+        Self {
+            start: (t, numbers(&q.into_array()), numbers(&v.into_array())),
+            inputs: numbers(&M::Inputs::default().into_array()),
+            no_feedback: vec![0.0; M::INFO.constraints.len()],
+            mechanism: Arc::new(mechanism),
+        }
+    }
+}
+
+impl Dynamics for Erased {
+    type Real = f64;
+    type Coordinates = Vec<f64>;
+    type Constraints = Vec<f64>;
+    type Inputs = Vec<f64>;
+
+    fn equations(&self) -> &dyn Equations<f64> {
+        &*self.mechanism
+    }
+
+    fn described(&self) -> &dyn Described<f64> {
+        &*self.mechanism
+    }
+
+    fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
+        self.start.clone()
+    }
+
+    fn no_feedback(&self) -> Vec<f64> {
+        self.no_feedback.clone()
+    }
+
+    fn default_inputs(&self) -> Vec<f64> {
+        self.inputs.clone()
+    }
+
+    fn with_inputs<R>(&self, inputs: &mut Vec<f64>, what: impl FnOnce(&mut [f64]) -> R) -> R {
+        what(inputs)
+    }
+
+    fn with_room<S: Scheme>(
+        &self,
+        what: impl FnOnce(&mut Room<'_, f64>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (n, m) = (self.start.1.len(), self.no_feedback.len());
+        let mut numbers = vec![0.0; Room::<f64>::len(n, m, S::TABLEAU.stage_count())];
+        what(&mut Room::within(&mut numbers, n, m))
+    }
+
+    fn acceleration(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        inputs: &Vec<f64>,
+        acceleration: &mut Vec<f64>,
+    ) -> f64 {
+        self.mechanism.constrained(At { t, q, v }, inputs, &self.no_feedback, acceleration)
+    }
+
+    fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {
+        let mut violation = self.no_feedback.clone();
+        match at.v {
+            None => self.mechanism.phi(t, at.q, &mut violation),
+            Some(v) => self.mechanism.phi_dot(At { t, q: at.q, v }, &mut violation),
+        }
+        self.mechanism.projection(t, at.q, &violation, delta)
+    }
+}
