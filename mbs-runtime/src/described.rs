@@ -1,7 +1,7 @@
 //! What there is to know of a mechanism beside its equations.
 
 use crate::equations::{At, Equations, read, write};
-use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch};
+use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
 
 /// What a mechanism measures and shows, on slices as [`Equations`]. It is apart from them, so
 /// that a program that only integrates does not carry texts and pictures.
@@ -11,6 +11,9 @@ pub trait Described<T: Real>: Equations<T> {
 
     /// What the declaration measures, given q̈ and λ.
     fn outputs(&self, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2], outputs: &mut [T]);
+
+    /// Writes the values whose changes of sign are the declared events.
+    fn events(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]);
 
     /// Potential energy of gravity and springs in J.
     fn potential_energy(&self, at: At<'_, T>) -> T;
@@ -54,6 +57,10 @@ impl<M: Mechanism> Described<M::Real> for M {
         let reactions =
             Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
         write(Mechanism::outputs(self, &at.state(), &read(inputs), &reactions), outputs);
+    }
+
+    fn events(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
+        vectors::copy(values, Mechanism::events(self, &at.state(), &read(inputs)).as_ref());
     }
 
     fn potential_energy(&self, at: At<'_, M::Real>) -> M::Real {

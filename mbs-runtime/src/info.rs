@@ -1,5 +1,7 @@
 //! What tools need to know about a mechanism: names, units, equations, counts.
 
+use crate::Direction;
+
 /// A mechanism described for people and tools.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -18,6 +20,8 @@ pub struct Info {
     pub coordinates: &'static [Quantity],
     /// The outputs.
     pub outputs: &'static [Quantity],
+    /// The moments that runs to a tolerance find.
+    pub events: &'static [DeclaredEvent],
     /// The constraints, drives included, in the order of λ.
     pub constraints: &'static [Constraint],
     /// Which constraints repeat others, as indices: they are not solved for, but
@@ -46,6 +50,19 @@ pub struct Quantity {
     pub dimension: Dimension,
     /// Declared value in SI units; 0 where none was declared.
     pub default: f64,
+}
+
+/// A declared change of sign of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredEvent {
+    /// Its name.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// Dimension of the value.
+    pub dimension: Dimension,
+    /// Which changes of sign it is.
+    pub direction: Direction,
 }
 
 /// Exponents of the base units.
@@ -138,6 +155,7 @@ impl Info {
         inputs: &'static [Quantity],
         coordinates: &'static [Quantity],
         outputs: &'static [Quantity],
+        events: &'static [DeclaredEvent],
         constraints: &'static [Constraint],
         redundant: &'static [usize],
         pivots: &'static [Pivot],
@@ -152,6 +170,7 @@ impl Info {
             inputs,
             coordinates,
             outputs,
+            events,
             constraints,
             redundant,
             pivots,

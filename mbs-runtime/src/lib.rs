@@ -147,12 +147,15 @@ mod system;
 mod vectors;
 mod watch;
 
-pub use adaptive::{Adaptive, AdaptiveBuilder, Dynamics, Effort, Sampled, Tolerances};
+pub use adaptive::{
+    Adaptive, AdaptiveBuilder, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured, Sampled, Threshold,
+    Tolerances,
+};
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use error::Error;
-pub use info::{Constraint, Dimension, Function, Info, Operations, Pivot, Quantity};
+pub use info::{Constraint, DeclaredEvent, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 #[cfg(feature = "macro")]

@@ -103,6 +103,8 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Outputs: Components<Real = Self::Real>;
     /// An array of places (x, y), one per point of the sketch.
     type Points: Copy + AsRef<[[Self::Real; 2]]>;
+    /// An array of numbers, one per declared event.
+    type Events: Copy + AsRef<[Self::Real]>;
 
     /// Names, units, equations and operation counts.
     const INFO: &'static Info;
@@ -274,6 +276,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         inputs: &Self::Inputs,
         reactions: &Reactions<Self::Coordinates, Self::Constraints>,
     ) -> Self::Outputs;
+
+    /// The values whose changes of sign are the declared events, left − right of each.
+    fn events(&self, at: &State<Self::Coordinates>, inputs: &Self::Inputs) -> Self::Events;
 
     /// Where every point of the [sketch](Self::SKETCH) is, in m in the ground
     /// frame. For pictures: nothing of it takes part in a step.

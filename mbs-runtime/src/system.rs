@@ -3,7 +3,7 @@
 use crate::equations::{At, Described, Equations, read, write};
 use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Effort, Error, Mechanism, Method, Reactions, Simulation, Sketch};
+use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Simulation, Sketch};
 
 /// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
 /// knew, or a run of a mechanism that was read from a text.
@@ -45,6 +45,9 @@ pub trait System: Send {
     /// Names, dimensions and the equations of the mechanism.
     fn equations(&self) -> &dyn Equations<f64>;
 
+    /// What the mechanism measures and shows, of any state.
+    fn described(&self) -> &dyn Described<f64>;
+
     /// The equations and their elimination, for people to read.
     fn derivation(&self) -> &Derivation;
 
@@ -83,6 +86,15 @@ pub trait System: Send {
     /// # Errors
     /// As [`Simulation::step`]; the state stays that of the last good step.
     fn step(&mut self) -> Result<(), Error>;
+
+    /// Advances to the next event if there is one before the end of the step, and by a step
+    /// otherwise. Runs with a constant step find no events.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn step_to_event(&mut self) -> Result<Option<Event>, Error> {
+        self.step().map(|()| None)
+    }
 
     /// Advances by some steps.
     ///
@@ -132,6 +144,10 @@ pub trait System: Send {
 
 impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
     fn equations(&self) -> &dyn Equations<f64> {
+        self.mechanism()
+    }
+
+    fn described(&self) -> &dyn Described<f64> {
         self.mechanism()
     }
 

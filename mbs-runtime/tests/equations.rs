@@ -60,6 +60,7 @@ impl Pendulums {
             &[],
             coordinates,
             &[],
+            &[],
             constraints,
             &[],
             pivots,

@@ -72,6 +72,8 @@ pub struct Plan {
     /// The same of the corrections of a start.
     pub start_pivots: Program,
     pub outputs: Program,
+    /// The values whose changes of sign are events.
+    pub events: Program,
     /// x and y of every point of the sketch.
     pub points: Program,
     /// (constraint, coordinate) of every watched pivot.
@@ -169,6 +171,7 @@ pub fn plan(
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
+    let events: Vec<Expr> = model.events.iter().map(|event| event.value).collect();
 
     let unrolled = model.solver.unrolled();
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
@@ -197,6 +200,7 @@ pub fn plan(
         pivots: program(&growths(&solver.factorization.pivots))?,
         start_pivots: program(&growths(&start_pivots))?,
         outputs: program(&outputs)?,
+        events: program(&events)?,
         hoisted: Vec::new(),
         prepare: Program::default(),
         requirements: Program::default(),

@@ -18,6 +18,17 @@ pub struct Quantity {
     pub dimension: Dimension,
 }
 
+/// Which changes of sign are an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Either,
+}
+
 /// How a number compares with another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {

@@ -101,6 +101,11 @@ impl Described<f64> for Live {
         self.call(FunctionId::Outputs, &given, [outputs]);
     }
 
+    fn events(&self, at: At<'_, f64>, inputs: &[f64], values: &mut [f64]) {
+        let given = Arguments { inputs: single(inputs), ..state(at) };
+        self.call(FunctionId::Events, &given, [values]);
+    }
+
     fn potential_energy(&self, at: At<'_, f64>) -> f64 {
         let mut energy = [f64::NAN];
         self.call(FunctionId::PotentialEnergy, &state(at), [&mut energy]);

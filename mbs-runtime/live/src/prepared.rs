@@ -110,6 +110,10 @@ impl Dynamics for Prepared {
         what(&mut Room::within(&mut numbers, n, m))
     }
 
+    fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
+        self.live.events(at, inputs, values);
+    }
+
     fn acceleration(
         &self,
         t: f64,

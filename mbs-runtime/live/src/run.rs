@@ -172,6 +172,10 @@ impl System for Run {
         &self.mechanism
     }
 
+    fn described(&self) -> &dyn Described<f64> {
+        &self.mechanism
+    }
+
     fn derivation(&self) -> &Derivation {
         self.mechanism.derivation()
     }

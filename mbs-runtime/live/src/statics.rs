@@ -9,9 +9,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use mbs_codegen::Compiled;
-use mbs_codegen::compiled::{self, Count};
+use mbs_codegen::compiled::{self, Count, Crossing};
 use mbs_runtime::__private::{Segment, Spline};
-use mbs_runtime::{Constraint, Derivation, Dimension, Function, Info, Operations, Pivot, Quantity, Sketch};
+use mbs_runtime::{
+    Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Operations, Pivot, Quantity,
+    Sketch,
+};
 use mbs_symbolic::{Block, units};
 
 use crate::words;
@@ -84,6 +87,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.inputs.iter().map(|input| quantity(input, 0.0))),
         leak(compiled.coordinates.iter().zip(&compiled.start).map(|(it, &start)| quantity(it, start))),
         leak(compiled.outputs.iter().map(|output| quantity(output, 0.0))),
+        leak(compiled.events.iter().map(event)),
         leak(compiled.constraints.iter().map(constraint)),
         leak(compiled.redundant.iter().copied()),
         leak(compiled.pivots.iter().map(pivot)),
@@ -96,6 +100,16 @@ fn quantity(quantity: &compiled::Quantity, default: f64) -> Quantity {
     let compiled::Quantity { name, doc, unit, scale, dimension: of } = quantity;
     let dimension = dimension(*of);
     Quantity { name: text(name), doc: text(doc), unit: text(unit), scale: *scale, dimension, default }
+}
+
+fn event(event: &compiled::Event) -> DeclaredEvent {
+    let compiled::Quantity { name, doc, dimension: of, .. } = &event.quantity;
+    let direction = match event.crossing {
+        Crossing::Rising => Direction::Rising,
+        Crossing::Falling => Direction::Falling,
+        Crossing::Either => Direction::Either,
+    };
+    DeclaredEvent { name: text(name), doc: text(doc), dimension: dimension(*of), direction }
 }
 
 /// Fractional exponents, which only outputs can have, are given as 0, as `mechanism!` does.

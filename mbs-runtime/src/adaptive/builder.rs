@@ -104,6 +104,8 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
             is_solved: false,
             watch: Watch::new(length),
             effort: Effort::default(),
+            due: 0,
+            due_rising: 0,
         };
         run.solve()?;
         run.before = run.now.clone();

@@ -1,9 +1,9 @@
 //! A mechanism as runs to a tolerance see it.
 
-use crate::equations::{Described, Equations};
+use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};
 use crate::room::{OnStack, Room};
-use crate::{Accelerations, Components, Error, Mechanism, Real, Scheme, State, arrays};
+use crate::{Accelerations, Components, Error, Mechanism, Real, Scheme, State, arrays, vectors};
 
 /// A mechanism that runs to a tolerance can integrate: every [`Mechanism`], whose vectors are
 /// arrays, and mechanisms that were read from a text, whose vectors are on the heap.
@@ -45,6 +45,9 @@ pub trait Dynamics: Clone + Send {
         &self,
         what: impl FnOnce(&mut Room<'_, Self::Real>) -> Result<(), Error>,
     ) -> Result<(), Error>;
+
+    /// Writes the values whose changes of sign are the declared events.
+    fn events(&self, at: At<'_, Self::Real>, inputs: &Self::Inputs, values: &mut [Self::Real]);
 
     /// q̈ without feedback terms.
     fn acceleration(
@@ -106,6 +109,10 @@ impl<M: Mechanism> Dynamics for M {
     ) -> Result<(), Error> {
         let zero = M::Coordinates::splat(M::Real::default()).into_array();
         what(&mut OnStack::<M>::new().room_for_steps::<S>(&mut S::stages([zero; 2])))
+    }
+
+    fn events(&self, at: At<'_, M::Real>, inputs: &M::Inputs, values: &mut [M::Real]) {
+        vectors::copy(values, Mechanism::events(self, &at.state(), inputs).as_ref());
     }
 
     #[inline(always)]

@@ -2,9 +2,11 @@
 
 mod attempt;
 mod builder;
+mod change;
 mod control;
 mod dense;
 mod dynamics;
+mod events;
 mod sampled;
 
 use attempt::{Attempt, copy, is_healthy};
@@ -13,7 +15,8 @@ use control::Control;
 pub use control::Tolerances;
 use dense::Moment;
 pub use dynamics::Dynamics;
-pub use sampled::Sampled;
+pub use events::{Direction, Event, MOST_EVENTS};
+pub use sampled::{Measured, Sampled, Threshold};
 
 use core::fmt;
 
@@ -92,6 +95,10 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     is_solved: bool,
     watch: Watch<D::Real>,
     effort: Effort,
+    /// The events at the present time that were not told yet, a bit each, and those of them that
+    /// rise.
+    due: u64,
+    due_rising: u64,
 }
 
 /// What a run to a tolerance has taken.

@@ -2,9 +2,10 @@
 
 use core::fmt;
 
-use super::{Adaptive, Dynamics, Effort};
+use super::events::Watched;
+use super::{Adaptive, Direction, Dynamics, Effort, Event, MOST_EVENTS};
 use crate::diagnosis::{Solution, check_defined, check_solution};
-use crate::equations::{At, Equations, check_outputs};
+use crate::equations::{At, Described, Equations, check_outputs};
 use crate::simulation::clock;
 use crate::watch::WorstPlace;
 use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
@@ -13,8 +14,8 @@ use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
 /// leads to the next of these times.
 ///
 /// Steps of the run are as long as they would be without anyone looking: what is seen is
-/// interpolated, and projected onto the constraints. Where inputs change, the run starts anew
-/// from there.
+/// interpolated, and projected onto the constraints. Where inputs change, and behind events, the
+/// run starts anew from there.
 ///
 /// # Example
 /// ```
@@ -50,6 +51,56 @@ pub struct Sampled<D: Dynamics<Real = f64>, S: Scheme> {
     t: f64,
     q: D::Coordinates,
     v: D::Coordinates,
+    /// The event at which the run is, while what is seen is before it.
+    ahead: Option<Event>,
+    threshold: Option<Threshold>,
+}
+
+/// A value that a run watches beside its declared events.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Threshold {
+    /// What is compared,
+    pub measured: Measured,
+    /// with what, in SI units.
+    pub value: f64,
+    /// Which changes of sign of the difference count.
+    pub direction: Direction,
+}
+
+/// A quantity of a state, by its place in [`Info`](crate::Info).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measured {
+    /// A coordinate.
+    Position(usize),
+    /// The rate of a coordinate.
+    Velocity(usize),
+    /// An output, one of the first [`MOST_EVENTS`].
+    Output(usize),
+}
+
+impl Threshold {
+    /// The difference of a state from it; no number for a quantity that does not exist.
+    fn difference<D: Dynamics<Real = f64>>(&self, dynamics: &D, inputs: &D::Inputs, at: At<'_, f64>) -> f64 {
+        let found = match self.measured {
+            Measured::Position(index) => at.q.get(index).copied(),
+            Measured::Velocity(index) => at.v.get(index).copied(),
+            Measured::Output(index) => {
+                let (mut a, mut multipliers) = (dynamics.declared_start().1, dynamics.no_feedback());
+                let mut outputs = [f64::NAN; MOST_EVENTS];
+                let (a, multipliers) = (a.as_mut(), multipliers.as_mut());
+                let mechanism = dynamics.described();
+                dynamics.with_inputs(&mut inputs.clone(), |inputs| {
+                    mechanism.reactions(at, inputs, a, multipliers);
+                    let count = mechanism.info().outputs.len().min(MOST_EVENTS);
+                    if let Some(outputs) = outputs.get_mut(..count) {
+                        mechanism.outputs(at, inputs, [a, multipliers], outputs);
+                    }
+                });
+                outputs.get(index).copied()
+            }
+        };
+        found.unwrap_or(f64::NAN) - self.value
+    }
 }
 
 impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
@@ -62,7 +113,37 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
             return Err(Error::Step { step: interval });
         }
         let (t, q, v) = (run.now.t, run.now.q.clone(), run.now.v.clone());
-        Ok(Self { run, interval, start_time: t, samples: 0, t, q, v })
+        Ok(Self { run, interval, start_time: t, samples: 0, t, q, v, ahead: None, threshold: None })
+    }
+
+    /// The same run with one value more that it watches: its event has the index behind those of
+    /// the declared ones.
+    #[must_use]
+    pub fn watching(self, threshold: Threshold) -> Self {
+        Self { threshold: Some(threshold), ..self }
+    }
+
+    /// A step of the run, which ends at its first event.
+    fn run_on(&mut self) -> Result<Option<Event>, Error> {
+        let Self { run, threshold, .. } = self;
+        let events = run.dynamics.equations().info().events;
+        let extra = threshold.filter(|_| events.len() < MOST_EVENTS);
+        let direction = |index: usize| {
+            let declared = events.get(index).map(|event| event.direction);
+            declared.or(extra.filter(|_| index == events.len()).map(|extra| extra.direction))
+        };
+        let mut watched = Watched {
+            count: events.len() + usize::from(extra.is_some()),
+            direction: &direction,
+            values: &mut |dynamics: &D, inputs: &D::Inputs, at, found| {
+                dynamics.events(at, inputs, found);
+                if let (Some(extra), Some(found)) = (extra, found.get_mut(events.len())) {
+                    *found = extra.difference(dynamics, inputs, at);
+                }
+            },
+            room: &mut [f64::NAN; MOST_EVENTS],
+        };
+        run.step_or_event(&mut watched)
     }
 
     /// The run, which may be ahead of what is seen by a part of a step.
@@ -94,6 +175,10 @@ impl<D: Dynamics<Real = f64>, S: Scheme> fmt::Debug for Sampled<D, S> {
 impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
     fn equations(&self) -> &dyn Equations<f64> {
         self.run.dynamics.equations()
+    }
+
+    fn described(&self) -> &dyn Described<f64> {
+        self.run.dynamics.described()
     }
 
     fn derivation(&self) -> &Derivation {
@@ -133,6 +218,7 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
             // last step, so that there is no error
             let _ = self.run.rewind_to(self.t);
             self.run.is_solved = false;
+            (self.ahead, self.run.due) = (None, 0);
         }
     }
 
@@ -149,12 +235,26 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
     }
 
     fn step(&mut self) -> Result<(), Error> {
-        let t = self.start_time + (self.samples + 1) as f64 * self.interval;
-        self.run.cover(t)?;
-        (self.q, self.v) = self.run.interpolate(t)?;
-        self.t = t;
-        self.samples += 1;
+        while self.step_to_event()?.is_some() {}
         Ok(())
+    }
+
+    fn step_to_event(&mut self) -> Result<Option<Event>, Error> {
+        let t = self.start_time + (self.samples + 1) as f64 * self.interval;
+        loop {
+            if let Some(event) = self.ahead.filter(|event| event.t <= t) {
+                self.ahead = None;
+                (self.t, self.q, self.v) = (self.run.now.t, self.run.now.q.clone(), self.run.now.v.clone());
+                return Ok(Some(event));
+            }
+            if self.run.now.t >= t {
+                (self.q, self.v) = self.run.interpolate(t)?;
+                self.t = t;
+                self.samples += 1;
+                return Ok(None);
+            }
+            self.ahead = self.run_on()?;
+        }
     }
 
     fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {

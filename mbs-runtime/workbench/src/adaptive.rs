@@ -41,7 +41,11 @@ where
         if start.kind == StartKind::Declared {
             builder = builder.as_declared();
         }
-        Ok(Box::new(Sampled::new(builder.build()?, start.step)?))
+        let run = Sampled::new(builder.build()?, start.step)?;
+        Ok(Box::new(match start.threshold {
+            Some(threshold) => run.watching(threshold),
+            None => run,
+        }))
     }
 }
 
@@ -106,6 +110,10 @@ impl Dynamics for Erased {
         let (n, m) = (self.start.1.len(), self.no_feedback.len());
         let mut numbers = vec![0.0; Room::<f64>::len(n, m, S::TABLEAU.stage_count())];
         what(&mut Room::within(&mut numbers, n, m))
+    }
+
+    fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
+        self.mechanism.events(at, inputs, values);
     }
 
     fn acceleration(

@@ -64,6 +64,7 @@ pub mod sweep;
 mod table;
 mod template;
 mod unit;
+mod until;
 #[cfg(feature = "live")]
 mod watch;
 
@@ -74,9 +75,10 @@ pub use error::Error;
 pub use model::Model;
 pub use models::Models;
 pub use picture::{Motion, Picture};
-pub use recording::{Column, Recording, Summary, write_csv};
+pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary, write_csv};
 pub use run::StartValue;
 pub use settings::{Settings, Start, StartKind};
 pub use signals::Signals;
 pub use table::Table;
 pub use unit::Unit;
+pub use until::{Occurrence, Unmet, Until};

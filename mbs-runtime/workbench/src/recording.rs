@@ -3,11 +3,12 @@
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 
-use mbs_runtime::{Dimension, Effort, Info};
+use mbs_runtime::{Constraint, Effort, Info};
 
 use crate::doubt::Doubt;
 use crate::files::Output;
-use crate::{Error, Unit, names, quantity, unit};
+use crate::until::Unmet;
+use crate::{Error, Occurrence, Unit, names, unit};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +52,9 @@ pub struct Summary {
     pub energy_end: f64,
 }
 
+/// More events than this are not kept.
+pub const MOST_OCCURRENCES: usize = 100_000;
+
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
@@ -60,6 +64,10 @@ pub struct Recording {
     pub coordinates: usize,
     /// The summary.
     pub summary: Summary,
+    /// The events that it came to, in their order; at most [`MOST_OCCURRENCES`].
+    pub occurrences: Vec<Occurrence>,
+    /// The condition that was to end the run and did not.
+    pub unmet: Option<Unmet>,
     /// Why the run ended before its end time, if it did.
     pub ended: Option<mbs_runtime::Error>,
     /// Why its numbers should not be trusted, although it did not fail.
@@ -73,6 +81,8 @@ impl Recording {
             columns: columns(info),
             coordinates: info.coordinates.len(),
             summary: Summary::default(),
+            occurrences: Vec::new(),
+            unmet: None,
             ended: None,
             doubts: Vec::new(),
         }
@@ -122,16 +132,10 @@ pub(crate) fn columns(info: &Info) -> Vec<Column> {
     columns.extend(
         positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
     );
-    columns.extend(info.constraints.iter().map(|c| {
-        // λ does work on Φ: its unit is that of energy over Φ.
-        let Dimension { mass, length, time } = c.dimension;
-        let dimension = Dimension {
-            mass: 1_i8.saturating_sub(mass),
-            length: 2_i8.saturating_sub(length),
-            time: (-2_i8).saturating_sub(time),
-        };
-        Column::new(format!("lambda({})", c.name), quantity::si_unit(dimension))
-    }));
+    let multiplier = |row: &Constraint| {
+        Column::new(format!("lambda({})", row.name), Unit::of_multiplier(row.dimension).name())
+    };
+    columns.extend(info.constraints.iter().map(multiplier));
     columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
     columns.push(Column::new("violation", "SI"));
     columns

@@ -5,10 +5,11 @@ use mbs_runtime::{Info, System};
 
 use crate::doubt::{Watch, few_digits, size};
 use crate::model::Model;
-use crate::recording::{Column, Recording, Summary, columns};
+use crate::recording::{Column, MOST_OCCURRENCES, Recording, Summary, columns};
 use crate::settings::{Settings, Start, StartKind};
 use crate::signals::Player;
-use crate::{Error, Motion, Unit, picture};
+use crate::until::Unmet;
+use crate::{Error, Motion, Occurrence, Unit, Until, picture};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;
@@ -81,7 +82,7 @@ impl dyn Model + '_ {
         if steps / every > MAX_ROWS {
             return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
         }
-        let mut recorder = Recorder::new(self, &*run);
+        let mut recorder = Recorder::new(self, &*run, settings.until.as_ref());
         let ended = recorder.follow(&mut *run, player, [steps, every], progress).err();
         Ok(recorder.finish(&*run, ended))
     }
@@ -164,18 +165,24 @@ struct Recorder {
     watch: Watch,
     now: Instant,
     phi: Vec<f64>,
+    /// The condition that ends the run, and whether it is true at the start.
+    until: Option<Until>,
+    holds_at_start: bool,
+    occurrences: Vec<Occurrence>,
 }
 
 impl Recorder {
     /// Of a run that begins.
-    fn new(model: &dyn Model, run: &dyn System) -> Self {
+    fn new(model: &dyn Model, run: &dyn System, until: Option<&Until>) -> Self {
         let info = model.info();
         let mut now = Instant::new(info);
         now.see(run);
         let size = size(model.sketch(), &places(run, run.time(), &now.q));
         let summary = Summary { energy_start: energy(run, &now), ..Summary::default() };
         let watch = Watch::new(info, model.derivation(), size);
-        Self { info, columns: columns(info), summary, watch, now, phi: vec![0.0; info.constraints.len()] }
+        let phi = vec![0.0; info.constraints.len()];
+        let (columns, until, occurrences) = (columns(info), until.cloned(), Vec::new());
+        Self { info, columns, summary, watch, now, phi, until, holds_at_start: false, occurrences }
     }
 
     /// Advances by so many steps and records every so many.
@@ -202,8 +209,14 @@ impl Recorder {
             if taken % every == 0 || taken == steps {
                 self.append_row(run)?;
             }
+            if taken == 0 {
+                self.holds_at_start = self.until.as_ref().is_some_and(|until| until.holds(&self.now));
+            }
             if taken < steps {
-                run.step()?;
+                if self.step(run)? {
+                    progress(steps, steps);
+                    return Ok(());
+                }
                 self.summary.steps = taken + 1;
                 if (taken + 1) % 1024 == 0 || taken + 1 == steps {
                     progress(taken + 1, steps);
@@ -211,6 +224,25 @@ impl Recorder {
             }
         }
         Ok(())
+    }
+
+    /// Advances by a step and notes the events on the way; whether one of them ends the run.
+    fn step(&mut self, run: &mut dyn System) -> Result<bool, mbs_runtime::Error> {
+        while let Some(event) = run.step_to_event()? {
+            let declared = self.info.events.get(event.index).map(|event| event.name.to_owned());
+            let is_end = declared.is_none();
+            let condition = || self.until.as_ref().map(|until| until.text.clone());
+            let name = declared.or_else(condition).unwrap_or_default();
+            if self.occurrences.len() < MOST_OCCURRENCES {
+                self.occurrences.push(Occurrence { name, t: event.t, is_rising: event.is_rising });
+            }
+            if is_end {
+                self.see(run);
+                self.append_row(run)?;
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// What is looked at in every step.
@@ -275,7 +307,14 @@ impl Recorder {
         let mut doubts = self.watch.doubts(&self.columns);
         doubts.extend(few_digits(run.digits_left(), run.worst_place()));
         let coordinates = self.info.coordinates.len();
-        Recording { columns: self.columns, coordinates, summary, ended, doubts }
+        let is_met = |until: &Until| self.occurrences.iter().any(|event| event.name == until.text);
+        let unmet = self
+            .until
+            .as_ref()
+            .filter(|until| !is_met(until))
+            .map(|until| Unmet { condition: until.text.clone(), holds_at_start: self.holds_at_start });
+        let Self { columns, occurrences, .. } = self;
+        Recording { columns, coordinates, summary, occurrences, unmet, ended, doubts }
     }
 }
 

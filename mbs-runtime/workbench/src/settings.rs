@@ -1,8 +1,8 @@
 //! What a run is asked to do.
 
-use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Tolerances};
+use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances};
 
-use crate::{Error, Model, Signals};
+use crate::{Error, Model, Signals, Until};
 
 /// Where a run starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +42,8 @@ pub struct Settings {
     /// For a run to a tolerance: its steps are as long as their error permits, and `step` is the
     /// time between two samples of it.
     pub tolerances: Option<Tolerances>,
+    /// The condition at which it ends, of a run to a tolerance.
+    pub until: Option<Until>,
     /// Where the run starts.
     pub start: StartKind,
     /// Accept gains under which violations grow.
@@ -63,6 +65,7 @@ impl Default for Settings {
             scheme: None,
             stabilization: None,
             tolerances: None,
+            until: None,
             start: StartKind::default(),
             allow_unstable: false,
         }
@@ -86,6 +89,8 @@ pub struct Start {
     pub step: f64,
     /// The tolerances of a run that keeps such.
     pub tolerances: Option<Tolerances>,
+    /// What it watches beside its declared events.
+    pub threshold: Option<Threshold>,
     /// Where the run starts.
     pub kind: StartKind,
     /// Accept gains under which violations grow.
@@ -113,7 +118,12 @@ impl Start {
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
-            tolerances: settings.tolerances,
+            // a longer step would leave the run
+            tolerances: settings.tolerances.map(|tolerances| Tolerances {
+                max_step: tolerances.max_step.min(settings.end.max(step)),
+                ..tolerances
+            }),
+            threshold: settings.until.as_ref().map(|until| until.threshold),
             kind: settings.start,
             allow_unstable: settings.allow_unstable,
         })

@@ -31,6 +31,17 @@ impl Unit {
         Self { name: if name.is_empty() { "rad".into() } else { name }, scale }
     }
 
+    /// The SI unit of the multiplier λ of a constraint with this dimension of Φ: λ does work on Φ,
+    /// so it is that of energy over Φ.
+    pub fn of_multiplier(phi: Dimension) -> Self {
+        let Dimension { mass, length, time } = phi;
+        Self::si(Dimension {
+            mass: 1_i8.saturating_sub(mass),
+            length: 2_i8.saturating_sub(length),
+            time: (-2_i8).saturating_sub(time),
+        })
+    }
+
     /// The SI unit of a dimension.
     pub fn si(dimension: Dimension) -> Self {
         Self { name: si_unit(dimension), scale: 1.0 }

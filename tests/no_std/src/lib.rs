@@ -6,8 +6,8 @@
 use core::panic::PanicInfo;
 
 use mbs_runtime::{
-    Adaptive, Baumgarte, Held, Kinematics, Mechanism, PerStage, Projected, Real, Rk4, Simulation,
-    Tolerances, mechanism,
+    Adaptive, Baumgarte, Direction, Held, Kinematics, Mechanism, PerStage, Projected, Real, Rk4, Simulation,
+    State, Tolerances, mechanism,
 };
 
 mechanism! {
@@ -111,5 +111,9 @@ fn to_a_tolerance<T: Real>(crank: Crank<T>, value: &dyn Fn(usize) -> f64) -> Opt
     let mut adaptive = Adaptive::builder(crank).tolerances(tolerances).build().ok()?;
     adaptive.advance_to(value(6)).ok()?;
     let middle = adaptive.at(value(7)).ok()?;
-    Some(projected.violation() + middle.q.theta1 + adaptive.state().v.theta1)
+    let turned = |at: &State<CrankCoordinates<T>>| [at.q.theta1, at.v.theta1];
+    let directions = [Direction::Rising, Direction::Falling];
+    let event = adaptive.advance_until(value(10), directions, turned).ok()?;
+    let t = T::from_f64(event.map_or(0.0, |event| event.t));
+    Some(projected.violation() + middle.q.theta1 + adaptive.state().v.theta1 + t)
 }

@@ -234,6 +234,10 @@ fn statement(random: &mut Random, depth: usize) -> String {
             number(r),
             formula(r, 1)
         ),
+        16 if r.below(3) == 0 => {
+            let how = r.of(&["", "rising", "falling", "up"]);
+            format!("event {name}: {} = {} {how};", formula(r, 2), formula(r, 2))
+        }
         16 => format!("output {name} [{}] = {};", r.of(UNITS), formula(r, 0)),
         17 => format!("require {} {} {};", formula(r, 1), comparison(r), formula(r, 1)),
         18 => joint(r, &name),

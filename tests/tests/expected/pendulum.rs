@@ -1038,6 +1038,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Constraints = PendulumConstraints<T>;
     type Outputs = PendulumOutputs<T>;
     type Points = [[T; 2]; 2];
+    type Events = [T; 0];
     const INFO: &'static ::mbs_runtime::Info = &::mbs_runtime::Info::from_parts(
         "Pendulum",
         "A point mass on a massless rod.",
@@ -1121,6 +1122,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 default: 0f64,
             },
         ],
+        &[],
         &[
             ::mbs_runtime::Constraint {
                 name: "rod",
@@ -1842,6 +1844,14 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             tension: v5,
             angle: v7,
         }
+    }
+    #[inline(always)]
+    fn events(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> [T; 0] {
+        []
     }
     fn points(&self, t: T, q: &PendulumCoordinates<T>) -> [[T; 2]; 2] {
         [[q.x, q.y], [T::from_f64(0.0), T::from_f64(0.0)]]

@@ -531,6 +531,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Constraints = SliderCrankConstraints<T>;
     type Outputs = SliderCrankOutputs<T>;
     type Points = [[T; 2]; 9];
+    type Events = [T; 0];
     const INFO: &'static ::mbs_runtime::Info = ..;
     const DERIVATION: &'static ::mbs_runtime::Derivation = ..;
     const SKETCH: &'static ::mbs_runtime::Sketch = ..;
@@ -649,5 +650,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
             SliderCrankConstraints<T>,
         >,
     ) -> SliderCrankOutputs<T> {}
+    #[inline(always)]
+    fn events(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> [T; 0] {}
     fn points(&self, t: T, q: &SliderCrankCoordinates<T>) -> [[T; 2]; 9] {}
 }

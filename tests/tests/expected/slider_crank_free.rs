@@ -575,6 +575,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Constraints = SliderCrankFreeConstraints<T>;
     type Outputs = SliderCrankFreeOutputs<T>;
     type Points = [[T; 2]; 9];
+    type Events = [T; 0];
     const INFO: &'static ::mbs_runtime::Info = ..;
     const DERIVATION: &'static ::mbs_runtime::Derivation = ..;
     const SKETCH: &'static ::mbs_runtime::Sketch = ..;
@@ -703,5 +704,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
             SliderCrankFreeConstraints<T>,
         >,
     ) -> SliderCrankFreeOutputs<T> {}
+    #[inline(always)]
+    fn events(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+        inputs: &SliderCrankFreeInputs<T>,
+    ) -> [T; 0] {}
     fn points(&self, t: T, q: &SliderCrankFreeCoordinates<T>) -> [[T; 2]; 9] {}
 }

@@ -4,8 +4,8 @@ use mbs_symbolic::Program;
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Feedback, FunctionId, Link, Parameter, Pivot,
-    Sketch, Written,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Link, Parameter,
+    Pivot, Sketch, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Direction, Model};
@@ -46,6 +46,7 @@ impl Compiled {
             inputs: model.inputs,
             coordinates: model.coordinates.into_iter().map(|coordinate| coordinate.quantity).collect(),
             outputs: model.outputs.into_iter().map(|output| output.quantity).collect(),
+            events: model.events.into_iter().map(Event::from).collect(),
         }
     }
 }
@@ -70,6 +71,7 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::VelocityCorrection => &plan.velocity_correction,
         FunctionId::Projection => &plan.projection,
         FunctionId::Outputs => &plan.outputs,
+        FunctionId::Events => &plan.events,
         FunctionId::Conditions => &plan.requirements,
         FunctionId::Start => &plan.start,
         FunctionId::Pivots => &plan.pivots,
@@ -90,6 +92,12 @@ fn places(model: &Model) -> Vec<usize> {
 impl From<model::Parameter> for Parameter {
     fn from(model::Parameter { quantity, value }: model::Parameter) -> Self {
         Self { quantity, value }
+    }
+}
+
+impl From<model::Event> for Event {
+    fn from(model::Event { quantity, crossing, .. }: model::Event) -> Self {
+        Self { quantity, crossing }
     }
 }
 

@@ -43,6 +43,8 @@ pub enum FunctionId {
     Projection,
     /// What the declaration measures.
     Outputs,
+    /// The values whose changes of sign are events.
+    Events,
     /// What [`Compiled::conditions`] judge.
     Conditions,
     /// Declared q, v and t of the start.
@@ -93,6 +95,8 @@ pub enum Results {
     StartPivots,
     /// One number per output.
     Outputs,
+    /// One number per event.
+    Events,
     /// Two numbers per point.
     Points,
     /// One number.
@@ -107,7 +111,7 @@ struct Row(FunctionId, &'static str, &'static [Argument], &'static [Results]);
 use Argument::{Feedback, Gains, Inputs, Positions, Reactions, Time, Velocities};
 use Results::{Constraints, Coordinates, Growth, Scalar};
 
-const TABLE: [Row; 23] = [
+const TABLE: [Row; 24] = [
     Row(FunctionId::Hoisted, "new", &[], &[Results::Hoisted]),
     Row(FunctionId::Phi, "phi", &[Time, Positions], &[Constraints]),
     Row(FunctionId::PhiDot, "phi_dot", &[Time, Positions, Velocities], &[Constraints]),
@@ -156,6 +160,7 @@ const TABLE: [Row; 23] = [
         &[Time, Positions, Velocities, Inputs, Reactions],
         &[Results::Outputs],
     ),
+    Row(FunctionId::Events, "events", &[Time, Positions, Velocities, Inputs], &[Results::Events]),
     Row(FunctionId::Conditions, "conditions", &[], &[Results::Conditions]),
     Row(FunctionId::Start, "declared_start", &[], &[Coordinates, Coordinates, Scalar]),
     Row(FunctionId::Pivots, "pivots", &[Time, Positions], &[Results::Pivots]),

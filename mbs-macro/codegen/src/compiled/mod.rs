@@ -55,7 +55,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use crate::inputs::Input;
 pub use crate::plan::{FusedStep, Kinds};
-pub use crate::quantity::{Comparison, Quantity};
+pub use crate::quantity::{Comparison, Crossing, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
 pub use vectors::Vector;
@@ -84,6 +84,8 @@ pub struct Compiled {
     pub constraints: Vec<Constraint>,
     /// What the declaration measures.
     pub outputs: Vec<Quantity>,
+    /// Moments that runs find.
+    pub events: Vec<Event>,
     /// Coordinates less independent constraints.
     pub degrees_of_freedom: i32,
     /// Constraints that repeat what others say, by position; they share the multipliers
@@ -148,6 +150,14 @@ pub struct Constraint {
     pub is_drive: bool,
     /// The dimension of Φ.
     pub dimension: Dimension,
+}
+
+/// A change of sign of a value that [`FunctionId::Events`] gives.
+pub struct Event {
+    /// Its name, documentation and unit.
+    pub quantity: Quantity,
+    /// Which changes of sign it is.
+    pub crossing: Crossing,
 }
 
 /// A watched pivot of the elimination: the names of its row and its column, empty
@@ -275,6 +285,7 @@ impl Compiled {
             Results::Pivots => self.pivots.len(),
             Results::StartPivots => self.start_pivots.len(),
             Results::Outputs => self.outputs.len(),
+            Results::Events => self.events.len(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,
         }

@@ -36,6 +36,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Binding { name, .. }
         | ItemKind::Constraint { name, .. }
         | ItemKind::Force { name, .. }
+        | ItemKind::Event { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
         ItemKind::Profile(profile) => vec![format!("{}()", profile.name), profile.name.to_string()],
@@ -104,7 +105,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             coordinates.iter_mut().for_each(|coordinate| visit(Mention::Name(&mut coordinate.name)));
             properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
         }
-        ItemKind::Constraint { name, left, right, .. } => {
+        ItemKind::Constraint { name, left, right, .. } | ItemKind::Event { name, left, right, .. } => {
             visit(Mention::Name(name));
             in_formula(left, visit);
             in_formula(right, visit);

@@ -9,6 +9,7 @@ mod connections;
 mod declare;
 mod definitions;
 mod elements;
+mod events;
 mod formula;
 mod functions;
 mod hints;
@@ -34,7 +35,7 @@ pub use sketch::{Link, Sketch};
 pub use solver::Solver;
 
 use crate::mechanics::{Inertia, Load, Motion, Work};
-use crate::quantity::{Comparison, Quantity};
+use crate::quantity::{Comparison, Crossing, Quantity};
 
 /// A resolved mechanism.
 pub struct Model {
@@ -75,6 +76,7 @@ pub struct Model {
     pub start_time: Expr,
     pub closes: Option<Closes>,
     pub outputs: Vec<Output>,
+    pub events: Vec<Event>,
     pub sketch: Sketch,
 }
 
@@ -210,6 +212,13 @@ pub struct Closes {
 pub struct Output {
     pub quantity: Quantity,
     pub value: Expr,
+}
+
+/// A change of sign of a value.
+pub struct Event {
+    pub quantity: Quantity,
+    pub value: Expr,
+    pub crossing: Crossing,
 }
 
 impl Model {

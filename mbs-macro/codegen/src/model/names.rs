@@ -61,6 +61,7 @@ pub enum Place {
     Property,
     Constraint,
     Load,
+    Event,
     Anywhere,
 }
 
@@ -69,11 +70,12 @@ impl Place {
         match meaning {
             Meaning::Parameter(_) => self != Self::Constant,
             Meaning::Time | Meaning::Coordinate(_) => {
-                matches!(self, Self::Constraint | Self::Load | Self::Anywhere)
+                matches!(self, Self::Constraint | Self::Load | Self::Event | Self::Anywhere)
             }
-            Meaning::Velocity(_) | Meaning::Input(_) | Meaning::Multiplier(_) => {
-                matches!(self, Self::Load | Self::Anywhere)
+            Meaning::Velocity(_) | Meaning::Input(_) => {
+                matches!(self, Self::Load | Self::Event | Self::Anywhere)
             }
+            Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Anywhere),
             _ => self == Self::Anywhere,
         }
     }
@@ -89,6 +91,7 @@ impl Place {
             Self::Load => {
                 "a force may depend on positions, velocities, reactions, time, inputs and parameters"
             }
+            Self::Event => "an event is written in positions, velocities, time, inputs and parameters",
             Self::Anywhere => "this cannot stand here",
         }
     }

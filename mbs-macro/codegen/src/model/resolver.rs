@@ -9,8 +9,8 @@ use quote::quote;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Direction, Gap, Model, Output, Parameter, ReactiveLoad,
-    Requirement, Solver, Start,
+    Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
+    ReactiveLoad, Requirement, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::{Inertia, Load};
@@ -75,6 +75,8 @@ pub(super) struct Resolver<'a> {
     pub start_time: Option<(Expr, Span)>,
     pub outputs: Vec<Output>,
     pub output_names: HashMap<String, Span>,
+    pub events: Vec<Event>,
+    pub event_names: HashMap<String, Span>,
 }
 
 impl<'a> Resolver<'a> {
@@ -109,6 +111,8 @@ impl<'a> Resolver<'a> {
             start_time: None,
             outputs: Vec::new(),
             output_names: HashMap::new(),
+            events: Vec::new(),
+            event_names: HashMap::new(),
         }
     }
 
@@ -220,6 +224,7 @@ impl<'a> Resolver<'a> {
             start_time: self.start_time.map_or(zero, |(time, _)| time),
             closes: self.closes,
             outputs: self.outputs,
+            events: self.events,
             sketch,
         };
         self.errors.finish(model)

@@ -58,17 +58,10 @@ impl<'a> Resolver<'a> {
         right: Option<Typed>,
         equals: Span,
     ) -> Option<Result<(Expr, Dimension), Diagnostic>> {
-        let (left, right) = (left?, right?);
-        if let (Some(a), Some(b)) = (left.dimension, right.dimension)
-            && a != b
-        {
-            return Some(Err(Diagnostic::new(
-                equals,
-                format!("the left side is {}, the right side {}", described(a), described(b)),
-            )
-            .help(equation_help(a, b))));
-        }
-        let phi = self.scope.arena.sub(left.expr, right.expr);
+        let (phi, dimension) = match self.difference(left?, right?, equals) {
+            Ok(difference) => difference,
+            Err(error) => return Some(Err(error)),
+        };
         let coordinates = self.coordinates_in(phi);
         if role == Role::Coupler && coordinates < 2 {
             return Some(Err(Diagnostic::new(
@@ -84,7 +77,24 @@ impl<'a> Resolver<'a> {
             )
             .help("write an equation between coordinates, as in `x = l*cos(theta)`")));
         }
-        Some(Ok((phi, left.dimension.or(right.dimension).unwrap_or(Dimension::NONE))))
+        Some(Ok((phi, dimension)))
+    }
+
+    /// left − right with its dimension.
+    pub(super) fn difference(
+        &mut self,
+        left: Typed,
+        right: Typed,
+        equals: Span,
+    ) -> Result<(Expr, Dimension), Diagnostic> {
+        if let (Some(a), Some(b)) = (left.dimension, right.dimension)
+            && a != b
+        {
+            let message = format!("the left side is {}, the right side {}", described(a), described(b));
+            return Err(Diagnostic::new(equals, message).help(equation_help(a, b)));
+        }
+        let difference = self.scope.arena.sub(left.expr, right.expr);
+        Ok((difference, left.dimension.or(right.dimension).unwrap_or(Dimension::NONE)))
     }
 
     pub(super) fn resolve_item(&mut self, item: &'a Item) {
@@ -137,8 +147,11 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Outputs come last: they may ask for everything.
+    /// Outputs and events come last: they may ask for everything.
     pub(super) fn resolve_measurement(&mut self, item: &Item) {
+        if let ItemKind::Event { name, left, equals, right, crossing } = &item.kind {
+            self.resolve_event((name, &item.doc), [left, right], *equals, *crossing);
+        }
         if let ItemKind::Output { name, unit, value } = &item.kind {
             self.resolve_output(name, unit.as_ref(), value, &item.doc);
         }
@@ -345,7 +358,7 @@ fn prescribes_position(name: &Ident, role: Role, left: &Formula, right: &Formula
 }
 
 /// The SI unit in the description of a dimension, `[m/s]`, without brackets.
-fn si_unit(dimension: Dimension) -> String {
+pub(super) fn si_unit(dimension: Dimension) -> String {
     let text = dimension.to_string();
     let unit = text.split_once('[').and_then(|(_, rest)| rest.strip_suffix(']'));
     unit.unwrap_or_default().to_owned()

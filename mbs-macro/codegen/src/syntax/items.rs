@@ -16,7 +16,7 @@ use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, 
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::ELEMENTS;
-use crate::quantity::Comparison;
+use crate::quantity::{Comparison, Crossing};
 
 /// Reads a declaration.
 ///
@@ -312,6 +312,34 @@ fn start_entry(input: ParseStream<'_>) -> Result<StartEntry> {
     let value = input.parse()?;
     semicolon(input)?;
     Ok(StartEntry { is_guess, is_rate, prefix: path, coordinate, value })
+}
+
+pub(super) fn event(input: ParseStream<'_>) -> Result<ItemKind> {
+    const EXAMPLE: &str = "event hit: x = 0.2 [m] rising;";
+    let name = name(input)?;
+    input.parse::<Token![:]>().map_err(|error| {
+        Error::new(error.span(), format!("a name and `:` stand before an event, as in `{EXAMPLE}`"))
+    })?;
+    let left = input.parse()?;
+    if input.peek(Token![<]) || input.peek(Token![>]) {
+        let message = format!("an event has `=` and a direction behind it, as in `{EXAMPLE}`");
+        return Err(Error::new(input.span(), message));
+    }
+    let equals = equals(input)?;
+    let right = input.parse()?;
+    let crossing = if input.peek(Token![;]) { Crossing::Either } else { crossing(input)? };
+    semicolon(input)?;
+    Ok(ItemKind::Event { name, left, equals, right, crossing })
+}
+
+fn crossing(input: ParseStream<'_>) -> Result<Crossing> {
+    let expected = "`rising`, `falling` or the end of the statement is expected here";
+    let word = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    match word.to_string().as_str() {
+        "rising" => Ok(Crossing::Rising),
+        "falling" => Ok(Crossing::Falling),
+        _ => Err(Error::new(word.span(), expected)),
+    }
 }
 
 pub(super) fn output(input: ParseStream<'_>) -> Result<ItemKind> {

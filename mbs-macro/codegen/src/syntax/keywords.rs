@@ -68,6 +68,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("torque", "torque turn on rod = m;", "a torque on a body", |input, _| items::force(input, true)),
     ("start", "start { theta = 30 [deg]; guess x = l; }", "where the motion starts", |input, _| items::start(input)),
     ("output", "output power [W] = u*der(theta);", "a value to be recorded", |input, _| items::output(input)),
+    ("event", "event hit: x = 0.2 [m] rising;", "a moment that a run finds", |input, _| items::event(input)),
     ("require", "require l1 < l2;", "a condition between parameters", |input, _| items::require(input)),
     ("instance", "instance left: Leg { length = 0.5 [m]; }", "a part that an assembly describes", |input, _| items::instance(input)),
 ];
@@ -118,6 +119,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["equation", "eq", "condition"], "an equation between coordinates is a `constraint`, a condition between parameters a `require`"),
     (&["load", "moment"], "a load is a `force` or a `torque`"),
     (&["sensor", "measure", "record", "plot"], "what is to be recorded is an `output`"),
+    (&["when", "trigger", "zero_crossing", "until"], "a moment that a run finds is an `event`: `event hit: x = 0.2 [m] rising;`"),
     (&["initial", "init", "initially"], "the motion begins where `start { … }` says"),
     (&["coordinate", "state", "variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`"),
     (&["marker", "frame", "node"], "a place on a body is a `point`: `point tip on rod = (l/2, 0);`"),

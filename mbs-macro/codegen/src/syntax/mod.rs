@@ -22,7 +22,7 @@ pub use keywords::{Keyword, KeywordKind, keywords};
 
 use crate::mechanics::elements::ElementKind;
 use crate::mechanics::joints::JointKind;
-use crate::quantity::Comparison;
+use crate::quantity::{Comparison, Crossing};
 
 /// A whole `mechanism! { … }`.
 pub struct Declaration {
@@ -94,6 +94,8 @@ pub enum ItemKind {
     Element(Box<Element>),
     /// `start { … }`
     Start { entries: Vec<StartEntry> },
+    /// `event hit: x = 0.2 [m] rising;`
+    Event { name: Ident, left: Formula, equals: Span, right: Formula, crossing: Crossing },
     /// `output name [unit] = …;`
     Output { name: Ident, unit: Option<UnitText>, value: Formula },
 }

@@ -189,3 +189,18 @@ declare! { CHAIN;
         }
     }
 }
+
+declare! { BOUNCER;
+    /// A ball that passes a shelf.
+    pub Bouncer {
+        dof = 1;
+        param shelf = 0.5 [m];
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 0.3 [kg]; }
+        /// It stands still for a moment.
+        event top: der(y) = 0 falling;
+        event level: ball.y = shelf;
+        event late: t = 0.65 [s] rising;
+        start { y = 1 [m]; der(y) = 2 [m/s]; }
+    }
+}

@@ -7,7 +7,7 @@ use mbs_runtime::{
 };
 
 use crate::compare::{numbers, of, same};
-use crate::declarations::{FREE, Free};
+use crate::declarations::{BOUNCER, Bouncer, FREE, Free};
 
 /// Everything that a [`System`] tells is the same, at the start and on the way.
 pub fn runs_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: M, inputs: &[f64], h: f64) {
@@ -42,6 +42,25 @@ fn side_by_side(mut typed: Box<dyn System>, mut run: Box<dyn System>, inputs: &[
         typed.set_inputs(&pushed);
         run.set_inputs(&pushed);
     }
+}
+
+/// What both find on their way through declared events.
+#[test]
+fn events_are_the_same() {
+    let live = mbs_live::Text::declaration("bouncer.mbs", BOUNCER).compile().expect("a mechanism");
+    assert_eq!(live.declared_info(), Bouncer::<f64>::INFO);
+    let typed = Adaptive::builder(Bouncer::declared()).build().expect("a start");
+    let mut typed = Sampled::new(typed, 0.01).expect("an interval");
+    let run = Run::adaptive(&live).build().expect("a start");
+    let mut run = Sampled::new(run, 0.01).expect("an interval");
+    let mut found = 0;
+    for _ in 0..100 {
+        let (event, other) = (run.step_to_event().expect("a step"), typed.step_to_event().expect("a step"));
+        assert_eq!(event, other);
+        assert_eq!(run.time().to_bits(), System::time(&typed).to_bits());
+        found += usize::from(event.is_some());
+    }
+    assert_eq!(found, 3);
 }
 
 /// All numbers that a run tells in its present state.

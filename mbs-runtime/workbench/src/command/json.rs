@@ -35,6 +35,10 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
             "steps": effort.steps, "rejected": effort.rejected,
             "shortest_s": number(effort.shortest), "longest_s": number(effort.longest),
         })),
+        "events": recording.occurrences.iter().map(|event| json!({
+            "name": event.name, "t_s": number(event.t), "rising": event.is_rising,
+        })).collect::<Vec<_>>(),
+        "unmet": recording.unmet.as_ref().map(|unmet| &unmet.condition),
         "end_s": number(summary.end),
         "max_phi": number(summary.max_phi),
         "max_phi_dot": number(summary.max_phi_dot),

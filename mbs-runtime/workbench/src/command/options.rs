@@ -7,7 +7,7 @@ use clap::{Arg, ArgAction, ArgMatches};
 use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{Error, Model, Settings, Signals, StartKind, Unit, quantity};
+use crate::{Error, Model, Settings, Signals, StartKind, Unit, Until, quantity};
 
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -17,9 +17,9 @@ pub(super) fn option(name: &'static str, value: &'static str, help: &'static str
     Arg::new(name).long(name).value_name(value).help(help).allow_hyphen_values(true)
 }
 
-/// Those that every command with runs has.
-pub(super) fn of_a_run() -> Vec<Arg> {
-    vec![
+/// Those that give parameters and inputs their values.
+pub(super) fn of_values() -> [Arg; 2] {
+    [
         option(
             "set",
             "NAME=VALUE",
@@ -32,6 +32,12 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "An input, in the same way, or @FILE.csv with time and inputs in columns; repeatable",
         )
         .action(ArgAction::Append),
+    ]
+}
+
+/// Those that every command with runs has.
+pub(super) fn of_a_run() -> Vec<Arg> {
+    let others = [
         option(
             "step",
             "TIME",
@@ -39,6 +45,11 @@ pub(super) fn of_a_run() -> Vec<Arg> {
              [default: as declared, 0.5ms, or what a fast mechanism asks for]",
         ),
         option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
+        option(
+            "until",
+            "CONDITION",
+            "End where this becomes true: 'x3 > 200mm', 'der(theta) < 0'; a run to a tolerance",
+        ),
         option(
             "alpha",
             "RATE",
@@ -76,7 +87,21 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             .long("allow-unstable")
             .action(ArgAction::SetTrue)
             .help("Accept gains under which the violation grows"),
-    ]
+    ];
+    of_values().into_iter().chain(others).collect()
+}
+
+/// The mechanism's defaults with the parameters and inputs that are given.
+pub(super) fn values(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
+    let info = model.info();
+    let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
+    let inputs = assignments("input", info.inputs, texts("input").filter(|text| !text.starts_with('@')))?;
+    Ok(Settings {
+        parameters: assignments("parameter", info.parameters, texts("set"))?,
+        signals: signals(info, texts("input").filter_map(|text| text.strip_prefix('@')), &inputs)?,
+        inputs,
+        ..model.defaults()
+    })
 }
 
 /// What they say, and the mechanism's defaults where they do not.
@@ -87,18 +112,18 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         None => Ok(None),
     };
     let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
-    let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
-    let inputs = assignments("input", info.inputs, texts("input").filter(|text| !text.starts_with('@')))?;
-    let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances);
+    let until = matches.get_one::<String>("until").map(|text| Until::parse(info, text)).transpose()?;
+    // events are found by runs to a tolerance
+    let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| matches.contains_id(name));
+    let has_events = !info.events.is_empty() && !has_feedback && defaults.stabilization.is_none();
+    let for_events = (until.is_some() || has_events).then(Tolerances::default);
+    let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances).or(for_events);
     // a run to a tolerance has no use for the feedback that is declared, nor has projection
     let declared = defaults.stabilization.filter(|_| tolerances.is_none());
     let stabilization = Stabilization::find(choice("feedback")).or(declared);
     let has_gains = tolerances.is_none() && stabilization != Some(Stabilization::Projection);
     let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
     Ok(Settings {
-        parameters: assignments("parameter", info.parameters, texts("set"))?,
-        signals: signals(info, texts("input").filter_map(|text| text.strip_prefix('@')), &inputs)?,
-        inputs,
         step: value("step", TIME)?.unwrap_or(defaults.step),
         end: value("end", TIME)?.unwrap_or(defaults.end),
         every: matches.try_get_one::<u64>("every").ok().flatten().copied().unwrap_or(defaults.every),
@@ -107,8 +132,10 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         scheme: Tableau::find(choice("method")).or(defaults.scheme),
         stabilization,
         tolerances,
+        until,
         start: if choice("start") == "declared" { StartKind::Declared } else { StartKind::Consistent },
         allow_unstable: matches.get_flag("allow-unstable"),
+        ..values(model, matches)?
     })
 }
 

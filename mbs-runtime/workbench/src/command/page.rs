@@ -8,6 +8,8 @@ use crate::number::significant;
 use crate::report::{Animation, Block, Readout, Report, Section};
 use crate::{Column, Error, Picture, Recording, Table};
 
+/// More events than this are not listed.
+const MOST_EVENTS: usize = 12;
 /// More values than this beside a moving picture nobody can follow.
 const MOST_READOUTS: usize = 6;
 
@@ -90,6 +92,17 @@ pub(super) fn summary(name: &str, given: &[Given], recording: &Recording, shown:
             row("shortest step", significant(1e3 * effort.shortest, 3), "ms");
             row("longest step", significant(1e3 * effort.longest, 3), "ms");
         }
+    }
+    let (first, rest) = recording.occurrences.split_at(recording.occurrences.len().min(MOST_EVENTS));
+    for event in first {
+        row(&event.name, significant(event.t, 10), "s");
+    }
+    if !rest.is_empty() {
+        row(&format!("… {} more events, with --json", rest.len()), String::new(), "");
+    }
+    if let Some(unmet) = &recording.unmet {
+        let how = if unmet.holds_at_start { "holds from the start" } else { "not met" };
+        row(&unmet.condition, how.into(), "");
     }
     row("constraint violation, max ‖Φ‖", significant(summary.max_phi, 4), "");
     row("its rate, max ‖dΦ/dt‖", significant(summary.max_phi_dot, 4), "1/s");

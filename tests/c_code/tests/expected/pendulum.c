@@ -469,6 +469,17 @@ void pendulum_compute_outputs(
     result->height = q->y;
 }
 
+void pendulum_compute_events(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_coordinates *v,
+    const struct pendulum_inputs *inputs,
+    pendulum_real *result)
+{
+    (void)m; (void)t; (void)q; (void)v; (void)inputs; (void)result;
+}
+
 /* What the conditions of the parameters judge.
    Cost: 0 mul + 0 add + 0 div + 0 sincos. */
 static void pendulum_compute_conditions(

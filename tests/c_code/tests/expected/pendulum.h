@@ -20,6 +20,7 @@ enum {
     PENDULUM_CONSTRAINTS = 1,
     PENDULUM_OUTPUTS = 1,
     PENDULUM_REDUNDANT = 0,
+    PENDULUM_EVENTS = 0,
     PENDULUM_POINTS = 2,
     PENDULUM_JACOBIAN = 2,
     PENDULUM_PIVOTS = 1,
@@ -360,6 +361,16 @@ void pendulum_compute_outputs(
     const struct pendulum_inputs *inputs,
     const struct pendulum_reactions *reactions,
     struct pendulum_outputs *result);
+
+/* The values whose changes of sign are declared as events.
+   Cost: 0 mul + 0 add + 0 div + 0 sincos. */
+void pendulum_compute_events(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_coordinates *v,
+    const struct pendulum_inputs *inputs,
+    pendulum_real *result);
 
 /* The declared start, before guesses are corrected. Returns its time.
    Cost: 0 mul + 0 add + 0 div + 0 sincos. */

@@ -54,6 +54,7 @@ fn counts(target: &Target<'_>) -> String {
     }
     let others = [
         ("REDUNDANT", compiled.redundant.len()),
+        ("EVENTS", compiled.events.len()),
         ("POINTS", compiled.sketch.points.len()),
         ("JACOBIAN", compiled.jacobian.len()),
         ("PIVOTS", compiled.pivots.len()),

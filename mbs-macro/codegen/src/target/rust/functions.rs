@@ -143,6 +143,12 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     let derivation = derivation::emit(compiled);
     let sketch = sketch::emit(&compiled.sketch, names);
     let points = Literal::usize_unsuffixed(compiled.sketch.points.len());
+    let events = Literal::usize_unsuffixed(compiled.events.len());
+    let event_values = {
+        let body = body(compiled, names, FunctionId::Events, &Access::of_state());
+        let (statements, values) = (&body.statements, body.array(0..compiled.events.len()));
+        quote!(#statements #values)
+    };
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
     let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(compiled, names) };
@@ -167,6 +173,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             type Constraints = #rows;
             type Outputs = #outputs;
             type Points = [[T; 2]; #points];
+            type Events = [T; #events];
             const INFO: &'static #runtime::Info = &#info;
             const DERIVATION: &'static #runtime::Derivation = &#derivation;
             const SKETCH: &'static #runtime::Sketch = &#sketch;
@@ -208,6 +215,8 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             }
             #inline
             fn outputs(&self, at: &#state, inputs: &#inputs, reactions: &#reactions) -> #outputs { #output_values }
+            #inline
+            fn events(&self, at: &#state, inputs: &#inputs) -> [T; #events] { #event_values }
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
     }

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Count, Pivot, Quantity};
+use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity};
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
@@ -22,6 +22,20 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         let (name, doc, formula) = (&constraint.name, &constraint.doc, &constraint.formula);
         let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
         quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
+    });
+    let events = compiled.events.iter().map(|Event { quantity: of, crossing }| {
+        let Quantity { name, doc, dimension: dim, .. } = of;
+        let dimension = dimension(*dim, runtime);
+        let direction = match crossing {
+            Crossing::Rising => quote!(Rising),
+            Crossing::Falling => quote!(Falling),
+            Crossing::Either => quote!(Either),
+        };
+        quote! {
+            #runtime::DeclaredEvent {
+                name: #name, doc: #doc, dimension: #dimension, direction: #runtime::Direction::#direction,
+            }
+        }
     });
     let start_pivots = pivots(&compiled.start_pivots, runtime);
     let pivots = pivots(&compiled.pivots, runtime);
@@ -47,7 +61,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         #runtime::Info::from_parts(
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
-            &[#(#constraints),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
+            &[#(#events),*], &[#(#constraints),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
         )
     }
 }

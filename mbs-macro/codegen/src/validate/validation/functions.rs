@@ -32,7 +32,9 @@ impl Point<'_> {
         self.agree("kinetic_energy", &plan.kinetic_energy, &[kinetic])?;
         self.agree("potential_energy", &plan.potential_energy, &[potential])?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
-        self.agree("outputs", &plan.outputs, &outputs)
+        self.agree("outputs", &plan.outputs, &outputs)?;
+        let events: Vec<_> = model.events.iter().map(|event| self.value(event.value)).collect();
+        self.agree("events", &plan.events, &events)
     }
 
     /// A program gives what is expected, as far as rounding lets one tell.

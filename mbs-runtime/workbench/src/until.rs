@@ -1,0 +1,142 @@
+//! `--until 'x3 > 200mm'`: a value at which a run ends.
+
+use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
+
+use crate::run::Instant;
+use crate::{Error, Unit, quantity};
+
+/// A condition that ends a run where it becomes true.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Until {
+    /// As it was written.
+    pub text: String,
+    /// What is compared with what.
+    pub threshold: Threshold,
+}
+
+impl Until {
+    /// A condition of the form `x3 > 200mm`: a coordinate, the rate `der(…)` of one, or an output,
+    /// and a value with an optional unit.
+    ///
+    /// # Errors
+    /// Another form, a name that the mechanism does not have, a value of another dimension.
+    pub fn parse(info: &Info, text: &str) -> Result<Self, Error> {
+        let at = text.find(['<', '>']).ok_or_else(|| Error::Name {
+            name: text.to_owned(),
+            reason: "a condition is expected, for instance 'x3 > 200mm' or 'der(theta) < 0'".into(),
+        })?;
+        let (name, rest) = text.split_at(at);
+        let direction = if rest.starts_with('>') { Direction::Rising } else { Direction::Falling };
+        let value = rest.trim_start_matches(['<', '>', '=']).trim();
+        let (measured, dimension, unit) = measured(info, name.trim())?;
+        let value = quantity::parse_in(name.trim(), value, dimension, &unit)?;
+        Ok(Self { text: text.trim().to_owned(), threshold: Threshold { measured, value, direction } })
+    }
+}
+
+impl Until {
+    /// Whether it is true of a state.
+    pub(crate) fn holds(&self, now: &Instant) -> bool {
+        let Threshold { measured, value, direction } = self.threshold;
+        let found = match measured {
+            Measured::Position(at) => now.q.get(at),
+            Measured::Velocity(at) => now.v.get(at),
+            Measured::Output(at) => now.outputs.get(at),
+        };
+        found.is_some_and(|found| match direction {
+            Direction::Falling => *found < value,
+            Direction::Rising | Direction::Either => *found > value,
+        })
+    }
+}
+
+/// The quantity called so, its dimension, and the unit of a bare number.
+fn measured(info: &Info, name: &str) -> Result<(Measured, Dimension, Unit), Error> {
+    let place = |quantities: &'static [Quantity], name: &str| {
+        quantities.iter().enumerate().find(|(_, quantity)| quantity.name == name)
+    };
+    let rate = name.strip_prefix("der(").and_then(|name| name.strip_suffix(')'));
+    if let Some((at, q)) = rate.and_then(|of| place(info.coordinates, of.trim())) {
+        let dimension = Dimension { time: q.dimension.time - 1, ..q.dimension };
+        return Ok((Measured::Velocity(at), dimension, Unit::of_coordinate(q).per_second()));
+    }
+    if let Some((at, q)) = place(info.coordinates, name) {
+        return Ok((Measured::Position(at), q.dimension, Unit::of_coordinate(q)));
+    }
+    if let Some((at, q)) = place(info.outputs, name) {
+        return Ok((Measured::Output(at), q.dimension, Unit::of(q)));
+    }
+    let rates: Vec<String> = info.coordinates.iter().map(|q| format!("der({})", q.name)).collect();
+    let names = info.coordinates.iter().chain(info.outputs).map(|q| q.name);
+    Err(Error::unknown("coordinate, rate or output", name, names.chain(rates.iter().map(String::as_str))))
+}
+
+/// Something that happened during a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occurrence {
+    /// The name of the event, or the condition that ended the run.
+    pub name: String,
+    /// When, in s.
+    pub t: f64,
+    /// Whether its value became positive.
+    pub is_rising: bool,
+}
+
+/// A condition that was to end a run and did not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unmet {
+    /// As it was written.
+    pub condition: String,
+    /// Whether it was true from the start, so that it could not become true.
+    pub holds_at_start: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    mbs_runtime::mechanism! {
+        Door {
+            dof = 1;
+            body leaf (angle = theta) { inertia = 2 [kg*m^2]; }
+            body latch (x) { mass = 1 [kg]; }
+            coupler rod: x = 0.1 [m]*theta;
+            start { der(theta) = 1 [rad/s]; }
+            output opening [mm] = x;
+        }
+    }
+
+    fn read(text: &str) -> Result<Threshold, Error> {
+        Until::parse(<Door as mbs_runtime::Mechanism>::INFO, text).map(|until| until.threshold)
+    }
+
+    #[test]
+    fn conditions_have_names_directions_and_units() {
+        let is = |text: &str, measured, value: f64, direction| {
+            let found = read(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            assert_eq!((found.measured, found.direction), (measured, direction), "{text}");
+            assert!((found.value - value).abs() < 1e-15, "{text}: {}", found.value);
+        };
+        is("theta > 90deg", Measured::Position(0), std::f64::consts::FRAC_PI_2, Direction::Rising);
+        is("theta<1.5", Measured::Position(0), 1.5, Direction::Falling);
+        is("x >= 20 mm", Measured::Position(1), 0.02, Direction::Rising);
+        is("der(x) < -5 mm/s", Measured::Velocity(1), -0.005, Direction::Falling);
+        is("der(theta) > 60rpm", Measured::Velocity(0), std::f64::consts::TAU, Direction::Rising);
+        // a bare number is in the unit that tables show
+        is("opening > 20", Measured::Output(0), 0.02, Direction::Rising);
+    }
+
+    #[test]
+    fn other_conditions_are_refused() {
+        for (text, part) in [
+            ("x = 3", "x3 > 200mm"),
+            ("y > 3", "theta"),
+            ("x > 20 deg", "20 deg"),
+            ("x > much", "much"),
+            ("der(y) > 1", "der(theta)"),
+        ] {
+            let message = read(text).expect_err(text).to_string();
+            assert!(message.contains(part), "{text}: {message}");
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Events: where values change their signs, against closed forms; in order; at the start; and
+//! what becomes of a run behind them.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
+use mbs_runtime::{
+    Adaptive, Direction, Dop853, Dopri5, Error, Event, Mechanism, Scheme, State, Tolerances, mechanism,
+};
+
+mechanism! {
+    /// A ball above the ground.
+    pub Ball {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 0.3 [kg]; }
+        start { y = 1 [m]; }
+    }
+}
+
+mechanism! {
+    /// A bob on a rod, released from the side.
+    pub Swing {
+        dof = 1;
+        param length = 1 [m];
+        gravity = (0, -9.81) [m/s^2];
+        body bob (x, y) { mass = 2 [kg]; }
+        constraint rod: x^2 + y^2 = length^2;
+        start { x = length; guess y = 0; }
+    }
+}
+
+mechanism! {
+    /// The ball with its events declared.
+    pub Bouncer {
+        dof = 1;
+        param shelf = 0.5 [m];
+        input wind [N];
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 0.3 [kg]; }
+        force push on y = wind;
+        /// It stands still for a moment.
+        event top: der(y) = 0 falling;
+        event level: ball.y = shelf;
+        event ground: y = 0 falling;
+        event gust: wind = 1 [N] rising;
+        event late: t = 0.65 [s];
+        start { y = 1 [m]; der(y) = 2 [m/s]; }
+    }
+}
+
+mechanism! {
+    /// x = t m/s.
+    pub Glider {
+        dof = 1;
+        body block (x) { mass = 1 [kg]; }
+        start { der(x) = 1 [m/s]; }
+    }
+}
+
+use Direction::{Either, Falling, Rising};
+
+fn tolerances(rtol: f64) -> Tolerances {
+    Tolerances { rtol, atol: 1e-2 * rtol, ..Tolerances::default() }
+}
+
+fn swing<S: Scheme>(rtol: f64) -> Adaptive<Swing, S> {
+    let builder = Adaptive::builder(Swing::declared()).scheme::<S>();
+    builder.tolerances(tolerances(rtol)).build().expect("a start")
+}
+
+fn glider() -> Adaptive<Glider> {
+    Adaptive::builder(Glider::declared()).build().expect("a start")
+}
+
+/// Restitution is applied by the program. The fall takes √(2h/g), every bounce 2eᵏ√(2h/g).
+#[test]
+fn impacts_of_a_bouncing_ball_are_those_of_the_closed_form() {
+    let mut run = Adaptive::builder(Ball::declared()).build().expect("a start");
+    let mut expected = (2.0 / 9.81_f64).sqrt();
+    let mut bounce = 2.0 * expected;
+    for known in [0.451_523_641, 1.083_656_738, 1.526_149_907, 1.835_895_124] {
+        let event = run.advance_until(10.0, [Falling], |at| [at.q.y]).expect("a motion").expect("an impact");
+        assert!((event.t - expected).abs() < 1e-12, "{event:?} {expected}");
+        assert!((event.t - known).abs() < 1e-9, "{event:?} {known}");
+        // right behind: on the ground or an atom's width below it
+        let mut state = run.state();
+        assert!(state.q.y <= 0.0 && state.q.y > -1e-14, "{state:?}");
+        state.v.y *= -0.7;
+        run.set_state(state).expect("a free state");
+        bounce *= 0.7;
+        expected += bounce;
+    }
+}
+
+/// Released from the side, a pendulum is at the bottom after odd multiples of K(1/√2) √(l/g).
+#[test]
+fn crossings_of_a_pendulum_are_those_of_the_elliptic_integral() {
+    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let mut run = swing::<Dop853>(1e-13);
+    for crossing in 0..20 {
+        let event = run.advance_until(60.0, [Either], |at| [at.q.x]).expect("a motion").expect("a crossing");
+        let expected = f64::from(2 * crossing + 1) * quarter;
+        assert!((event.t - expected).abs() < 1e-10, "{crossing}: {event:?} {expected}");
+        assert_eq!(event.is_rising, crossing % 2 == 1);
+        // the state is on the constraint, and on the other side
+        let state = run.state();
+        assert!((state.q.x >= 0.0) == event.is_rising && (state.q.x.hypot(state.q.y) - 1.0).abs() < 1e-15);
+    }
+}
+
+/// A coarse tolerance moves the motion, and not the place where its event is found.
+#[test]
+fn the_state_at_an_event_is_that_of_a_step_that_ends_there() {
+    let mut run = swing::<Dopri5>(1e-5);
+    let event = run.advance_until(2.0, [Falling], |at| [at.q.x - 0.3]).expect("a motion").expect("it falls");
+    let (state, next) = (run.state(), run.at(event.t).expect("now"));
+    assert_eq!((state, state.t), (next, event.t));
+    assert!(state.q.x <= 0.3 && state.q.x > 0.3 - 1e-15, "{state:?}");
+    // of the run that ends there without looking for anything
+    let mut straight = swing::<Dopri5>(1e-5);
+    straight.advance_to(event.t).expect("a motion");
+    assert!((straight.state().q.x - 0.3).abs() < 1e-6);
+}
+
+/// y = 1 m + 2 m/s t − 4.905 m/s² t².
+#[test]
+fn declared_events_have_names_and_are_found() {
+    let info = Bouncer::<f64>::INFO;
+    let names: Vec<&str> = info.events.iter().map(|event| event.name).collect();
+    assert_eq!(names, ["top", "level", "ground", "gust", "late"]);
+    assert_eq!(info.events[0].doc, "It stands still for a moment.");
+    let directions: Vec<Direction> = info.events.iter().map(|event| event.direction).collect();
+    assert_eq!(directions, [Falling, Either, Falling, Rising, Either]);
+    assert_eq!((info.events[1].dimension.length, info.events[0].dimension.time), (1, -1));
+
+    let height = |y: f64| (2.0 + (4.0 + 4.0 * 4.905 * (1.0 - y)).sqrt()) / 9.81;
+    let expected = [("top", 2.0 / 9.81), ("level", height(0.5)), ("late", 0.65), ("ground", height(0.0))];
+    let mut run = Adaptive::builder(Bouncer::declared()).build().expect("a start");
+    for (name, t) in expected {
+        let event = run.advance_to_event(0.8).expect("a motion").expect("an event");
+        assert_eq!(names[event.index], name);
+        assert!((event.t - t).abs() < 1e-12, "{name}: {event:?} {t}");
+    }
+    assert_eq!(run.advance_to_event(0.8), Ok(None));
+}
+
+#[test]
+fn events_of_one_step_come_in_their_order() {
+    // x = t, whose first step is longer than all of this
+    let at_times = |at: &State<GliderCoordinates>| [0.5 + 1e-9, 0.25, 0.5].map(|t| at.q.x - t);
+    let mut run = glider();
+    let mut found = Vec::new();
+    while let Some(Event { index, t, .. }) = run.advance_until(1.0, [Rising; 3], at_times).expect("a motion")
+    {
+        found.push((index, t));
+    }
+    let expected = [(1, 0.25), (2, 0.5), (0, 0.5 + 1e-9)];
+    assert_eq!(found.len(), 3, "{found:?}");
+    for ((index, t), (known, at)) in found.into_iter().zip(expected) {
+        assert!(index == known && (t - at).abs() < 1e-15, "{index} at {t}, and not {known} at {at}");
+    }
+    assert_eq!(run.time(), 1.0);
+}
+
+#[test]
+fn simultaneous_events_are_told_one_after_the_other() {
+    let values = |at: &State<GliderCoordinates>| [at.q.x - 0.5, 1.0 - 2.0 * at.q.x, at.q.x - 0.7];
+    let mut run = glider();
+    let mut next = || run.advance_until(1.0, [Rising, Falling, Rising], values).expect("a motion");
+    let [first, second, third] = [next(), next(), next()].map(|event| event.expect("an event"));
+    assert_eq!([first.index, second.index, third.index], [0, 1, 2]);
+    assert_eq!(first.t, second.t);
+    assert!(first.is_rising && !second.is_rising && next().is_none());
+}
+
+/// A value that is zero at the start has no sign there; it has one event where it comes back.
+#[test]
+fn an_event_at_the_start_is_masked() {
+    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let mut run = swing::<Dop853>(1e-12);
+    // y is 0 at the start, negative then, and 0 again after half a period, which it only touches;
+    // the velocity is 0 at the start and changes its sign there
+    let event =
+        run.advance_until(10.0, [Either], |at| [at.v.x]).expect("a motion").expect("an end of the swing");
+    assert!((event.t - 2.0 * quarter).abs() < 1e-8, "{event:?}");
+    // what has just happened does not happen again
+    let event = run.advance_until(10.0, [Either], |at| [at.v.x]).expect("a motion").expect("the other end");
+    assert!((event.t - 4.0 * quarter).abs() < 1e-8, "{event:?}");
+}
+
+#[test]
+fn only_the_directions_that_are_asked_for_are_events() {
+    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    for (direction, expected) in [(Rising, 3.0), (Falling, 1.0), (Either, 1.0)] {
+        let mut run = swing::<Dop853>(1e-12);
+        let event =
+            run.advance_until(10.0, [direction], |at| [at.q.x]).expect("a motion").expect("a crossing");
+        assert!((event.t - expected * quarter).abs() < 1e-9, "{direction:?}: {event:?}");
+    }
+}
+
+/// A parabola that touches zero is no change of sign; one that goes through it within a quarter of
+/// a step is found with shorter steps.
+#[test]
+fn what_touches_zero_is_no_event() {
+    let touches = |at: &State<GliderCoordinates>| [(at.q.x - 0.3) * (at.q.x - 0.3)];
+    assert_eq!(glider().advance_until(1.0, [Either], touches), Ok(None));
+
+    let dips = |at: &State<GliderCoordinates>| [(at.q.x - 0.30) * (at.q.x - 0.31)];
+    let short = Tolerances { max_step: 0.02, ..Tolerances::default() };
+    let mut run = Adaptive::builder(Glider::declared()).tolerances(short).build().expect("a start");
+    let event = run.advance_until(1.0, [Falling], dips).expect("a motion").expect("a dip");
+    assert!((event.t - 0.3).abs() < 1e-12, "{event:?}");
+}
+
+#[test]
+fn states_that_violate_a_constraint_are_refused() {
+    let mut run = swing::<Dopri5>(1e-6);
+    let mut state = run.state();
+    state.q.y = -0.5;
+    assert!(matches!(run.set_state(state), Err(Error::Inconsistent { constraint: "rod", .. })));
+    assert!(matches!(run.advance_until(f64::NAN, [Either], |at| [at.q.x]), Err(Error::EndTime { .. })));
+}
