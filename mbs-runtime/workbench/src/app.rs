@@ -11,7 +11,7 @@ use mbs_runtime::Mechanism;
 use crate::Settings;
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
-use crate::command::{completions, explain, list, new, simulate, sweep};
+use crate::command::{completions, equilibrium, explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
@@ -156,6 +156,7 @@ impl App {
             parser.subcommand(check::command()).subcommand(watch::command()).subcommand(export::command());
         parser
             .subcommand(list::command())
+            .subcommand(equilibrium::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
@@ -168,6 +169,7 @@ impl App {
         let silent = |()| Warnings::new();
         match matches.subcommand() {
             Some(("list", matches)) => list::run(&self.models, matches.get_flag("json")).map(silent),
+            Some(("equilibrium", matches)) => equilibrium::run(&self.models, matches).map(silent),
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),

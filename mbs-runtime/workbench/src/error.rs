@@ -49,6 +49,9 @@ pub enum Error {
     /// What the mechanism or the integrator said.
     #[error("{0}")]
     Mechanism(#[from] mbs_runtime::Error),
+    /// What an analysis said.
+    #[error("{0}")]
+    Analysis(#[from] mbs_analysis::Error),
     /// What is wrong with a declaration.
     #[cfg(feature = "live")]
     #[error("{0}")]

@@ -5,6 +5,7 @@ pub(crate) mod check;
 mod compare;
 pub(crate) mod completions;
 mod curves;
+pub(crate) mod equilibrium;
 pub(crate) mod explain;
 #[cfg(feature = "live")]
 pub(crate) mod export;

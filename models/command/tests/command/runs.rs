@@ -54,6 +54,10 @@ fn a_method_of_ones_choice() {
         let end: f64 = csv.lines().next_back().unwrap().split(',').nth(at).unwrap().parse().unwrap();
         (end - REFERENCE).abs()
     };
+    // to a tolerance, and in constant steps with projection
+    assert!(error("slider-crank-free", "--rtol 1e-9 --atol 1e-11") < 5e-8);
+    assert!(error("slider-crank-free", "--rtol 1e-10 --atol 1e-12 --method dop853") < 5e-9);
+    assert!(error("slider-crank-free", "--method dop853 --feedback projection") < 1e-11);
     let (heun, rk4) = (error("slider-crank-free", ""), error("slider-crank-free", "--method rk4"));
     assert!(heun > 1e-3 && rk4 < 4e-7, "{heun} {rk4}");
 
@@ -197,4 +201,97 @@ fn inputs_from_a_file() {
     assert!(none < rising && rising < constant, "{none} {rising} {constant}");
     let twice = run("--input @in.csv --input crank_torque=1");
     assert!(text(twice.stderr).contains("set to a value and read from a file"));
+}
+
+#[test]
+fn what_a_run_to_a_tolerance_cannot_do_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (options, part) in [
+        ("--rtol 0", "rtol"),
+        ("--atol -1e-9", "atol"),
+        ("--rtol 1e-6 --feedback held", "projection"),
+        ("--rtol 1e-6 --alpha 100", "alpha"),
+        ("--feedback projection --beta 100", "beta"),
+        ("--rtol 1e-6 --method rk4", "dopri5"),
+        ("--rtol 1mm", "without a unit"),
+        ("--until x3=200mm", "x3 > 200mm"),
+        ("--until y9>200mm", "y9"),
+    ] {
+        let output = mbs(folder.path(), &format!("simulate slider-crank-free --end 10ms {options}"));
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && words.contains(part), "{options}: {words}");
+    }
+}
+
+/// A ball thrown upwards: y = 1 m + 2 m/s t − 4.905 m/s² t².
+#[test]
+fn events_and_conditions_that_end_a_run() {
+    const BALL: &str = "Ball {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 0.3 [kg]; }
+        event top: der(y) = 0 falling;
+        event shelf: ball.y = 0.5 [m];
+        start { y = 1 [m]; der(y) = 2 [m/s]; }
+        output height [mm] = y;
+    }";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ball.mbs"), BALL).unwrap();
+    let json = |options: &str| -> serde_json::Value {
+        let output = mbs(folder.path(), &format!("simulate ball.mbs --json {options}"));
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let height = |y: f64| (2.0 + (4.0 + 4.0 * 4.905 * (1.0 - y)).sqrt()) / 9.81;
+    let is_near = |value: &serde_json::Value, t: f64| (value.as_f64().unwrap() - t).abs() < 1e-12;
+    let run = json("--until height<200mm --out ball.csv");
+    let events = run["events"].as_array().unwrap();
+    let names: Vec<&str> = events.iter().map(|event| event["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["top", "shelf", "height<200mm"]);
+    for (event, t) in events.iter().zip([2.0 / 9.81, height(0.5), height(0.2)]) {
+        assert!(is_near(&event["t_s"], t), "{event} {t}");
+    }
+    // the run ends there, and so does its table
+    assert!(is_near(&run["end_s"], height(0.2)) && run["unmet"].is_null());
+    let csv = std::fs::read_to_string(folder.path().join("ball.csv")).unwrap();
+    let last: f64 = csv.lines().next_back().unwrap().split(',').next().unwrap().parse().unwrap();
+    assert!((last - height(0.2)).abs() < 1e-9, "{last}");
+
+    let run = json("--until y>2 --end 0.5s");
+    assert_eq!((run["unmet"].as_str(), run["end_s"].as_f64()), (Some("y>2"), Some(0.5)));
+    // constant steps find no events
+    assert_eq!(json("--feedback held --end 0.5s")["events"].as_array().unwrap().len(), 0);
+    let table = mbs(folder.path(), "simulate ball.mbs --until y>0 --end 0.5s");
+    assert!(String::from_utf8_lossy(&table.stdout).contains("holds from the start"));
+}
+
+/// Two rods of 0.5 m and 1 kg on each other: they hang, and stand where they begin near to it.
+#[test]
+fn where_a_mechanism_rests() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = |options: &str| -> serde_json::Value {
+        let output = mbs(folder.path(), &format!("equilibrium double-pendulum --json {options}"));
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let rest = json("--sketch rest.svg");
+    assert!(rest["is_stable"].as_bool().unwrap() && folder.path().join("rest.svg").exists());
+    assert!((rest["outputs"]["end_y"]["value"].as_f64().unwrap() + 1.0).abs() < 1e-10);
+    // both weights hang from the hook
+    assert!((rest["outputs"]["hook_force"]["value"].as_f64().unwrap() - 2.0 * 9.81).abs() < 1e-8);
+    let standing = json("--from angle1=175deg --from angle2=178deg");
+    assert!((standing["outputs"]["end_y"]["value"].as_f64().unwrap() - 1.0).abs() < 1e-10);
+    assert_eq!(standing["stability"], "unstable: it falls away in 2 directions");
+    assert!(json("--from angle1=175deg --from angle2=178deg --relax")["is_stable"].as_bool().unwrap());
+
+    for (options, part) in [
+        ("slider-crank", "no degree of freedom"),
+        ("double-pendulum --from angle3=1", "angle2"),
+        ("double-pendulum --input @force.csv", "@FILE"),
+        ("spring-mass-damper --set stiffness=much", "much"),
+    ] {
+        let output = mbs(folder.path(), &format!("equilibrium {options}"));
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && words.contains(part), "{options}: {words}");
+    }
 }

@@ -1,0 +1,177 @@
+//! Motions that the constraints leave free, in minimal coordinates.
+
+use mbs_runtime::equations::{At, Described};
+use nalgebra::{DMatrix, DVector};
+
+use crate::Error;
+
+/// A mechanism at rest, with its inputs and its time held.
+pub struct Rest<'a> {
+    pub mechanism: &'a dyn Described<f64>,
+    pub t: f64,
+    pub inputs: &'a [f64],
+    /// The size of the mechanism in m.
+    pub length: f64,
+}
+
+/// The directions N in which positions can move: Φ_q N = 0.
+///
+/// N = W Y with orthonormal Y, where W has what each coordinate moves by under a unit of kinetic
+/// energy, so that lengths and angles weigh alike.
+pub struct Tangent {
+    /// W, the diagonal of it.
+    weights: DVector<f64>,
+    /// Y
+    orthonormal: DMatrix<f64>,
+    /// N
+    pub directions: DMatrix<f64>,
+}
+
+/// How far differences step, as a share of the scale of a coordinate: the truncation δ⁴ of the
+/// five-point formula and the rounding ε/δ are both about 10⁻¹².
+const DIFFERENCE: f64 = 1e-3;
+/// Newton's corrections of positions end before this.
+const CORRECTIONS: usize = 50;
+
+impl Rest<'_> {
+    /// 1 rad for an angle, the size of the mechanism for a length.
+    pub fn scales(&self) -> DVector<f64> {
+        let coordinates = self.mechanism.info().coordinates;
+        let scale = |at: usize| if coordinates[at].dimension.length != 0 { self.length } else { 1.0 };
+        DVector::from_fn(coordinates.len(), |at, _| scale(at))
+    }
+
+    /// Moves positions onto the constraints, as little as possible in the norm of the mass matrix.
+    ///
+    /// # Errors
+    /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
+    pub fn assemble(&self, q: &mut DVector<f64>) -> Result<(), Error> {
+        let info = self.mechanism.info();
+        let mut phi = vec![0.0; info.constraints.len()];
+        let mut delta = vec![0.0; q.len()];
+        let scales = self.scales();
+        for _ in 0..CORRECTIONS {
+            self.mechanism.phi(self.t, q.as_slice(), &mut phi);
+            self.mechanism.projection(self.t, q.as_slice(), &phi, &mut delta);
+            let size =
+                delta.iter().zip(&scales).map(|(delta, scale)| (delta / scale).abs()).fold(0.0, f64::max);
+            if !size.is_finite() {
+                break;
+            }
+            // far from the constraints a full correction may overshoot
+            let share = (0.5 / size).min(1.0);
+            q.iter_mut().zip(&delta).for_each(|(q, delta)| *q -= share * delta);
+            if size < 1e-14 * (1.0 + q.amax()) {
+                return Ok(());
+            }
+        }
+        let worst = phi.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        let (row, violation) = worst.map_or((0, 0.0), |(row, phi)| (row, phi.abs()));
+        // at rounding Newton's method may circle
+        if violation <= 1e-13 * (1.0 + q.amax()) {
+            return Ok(());
+        }
+        let constraint = info.constraints.get(row).map_or("", |constraint| constraint.name);
+        Err(mbs_runtime::Error::NotAssembled { t: self.t, constraint, violation }.into())
+    }
+
+    /// q̈ from rest, and λ, with drives that stand still: Φ_q q̈ = 0.
+    pub fn acceleration(&self, q: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        let info = self.mechanism.info();
+        let (n, m) = (q.len(), info.constraints.len());
+        let still = vec![0.0; n];
+        let at = At { t: self.t, q: q.as_slice(), v: &still };
+        let (mut a, mut multipliers) = (DVector::zeros(n), DVector::zeros(m));
+        self.mechanism.reactions(at, self.inputs, a.as_mut_slice(), multipliers.as_mut_slice());
+        // what the acceleration of drives adds is taken away
+        let gamma = self.along(q, &a);
+        if gamma.amax() > 0.0 {
+            let feedback: Vec<f64> = gamma.iter().map(|gamma| -gamma).collect();
+            self.mechanism.constrained(at, self.inputs, &feedback, a.as_mut_slice());
+        }
+        (a, multipliers)
+    }
+
+    /// Φ_q w
+    fn along(&self, q: &DVector<f64>, w: &DVector<f64>) -> DVector<f64> {
+        let m = self.mechanism.info().constraints.len();
+        let (mut rates, mut at_rest) = (DVector::zeros(m), DVector::zeros(m));
+        let still = vec![0.0; q.len()];
+        let q = q.as_slice();
+        self.mechanism.phi_dot(At { t: self.t, q, v: w.as_slice() }, rates.as_mut_slice());
+        self.mechanism.phi_dot(At { t: self.t, q, v: &still }, at_rest.as_mut_slice());
+        rates - at_rest
+    }
+
+    /// vᵀMw/2 summed: the kinetic energy of a velocity.
+    fn kinetic_energy(&self, q: &DVector<f64>, v: &DVector<f64>) -> f64 {
+        self.mechanism.kinetic_energy(At { t: self.t, q: q.as_slice(), v: v.as_slice() })
+    }
+
+    /// The directions that are free at a position on the constraints.
+    pub fn tangent(&self, q: &DVector<f64>) -> Tangent {
+        let info = self.mechanism.info();
+        let (n, m) = (q.len(), info.constraints.len());
+        let unit = |at: usize| DVector::from_fn(n, |other, _| f64::from(u8::from(at == other)));
+        let masses: Vec<f64> = (0..n).map(|at| 2.0 * self.kinetic_energy(q, &unit(at))).collect();
+        let lightest = masses.iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
+        let lightest = if lightest.is_finite() { lightest } else { 1.0 };
+        let weights =
+            DVector::from_fn(n, |at, _| 1.0 / if masses[at] > 0.0 { masses[at] } else { lightest }.sqrt());
+        // square, so that the decomposition has all right singular vectors
+        let mut jacobian = DMatrix::zeros(n.max(m), n);
+        for at in 0..n {
+            let column = self.along(q, &(unit(at) * weights[at]));
+            jacobian.view_mut((0, at), (m, 1)).copy_from(&column);
+        }
+        for row in 0..m {
+            let size = jacobian.row(row).amax();
+            if size > 0.0 {
+                jacobian.row_mut(row).scale_mut(1.0 / size);
+            }
+        }
+        let free = usize::try_from(info.dof).unwrap_or(0).min(n);
+        let decomposition = jacobian.svd(false, true);
+        let mut order: Vec<usize> = (0..decomposition.singular_values.len()).collect();
+        order.sort_by(|&a, &b| decomposition.singular_values[a].total_cmp(&decomposition.singular_values[b]));
+        let right = decomposition.v_t.unwrap_or_else(|| DMatrix::identity(n, n));
+        let orthonormal = DMatrix::from_fn(n, free, |row, column| right[(order[column], row)]);
+        let directions = DMatrix::from_fn(n, free, |row, column| weights[row] * orthonormal[(row, column)]);
+        Tangent { weights, orthonormal, directions }
+    }
+
+    /// M_r = NᵀMN, from kinetic energies.
+    pub fn reduced_mass(&self, q: &DVector<f64>, tangent: &Tangent) -> DMatrix<f64> {
+        let directions = &tangent.directions;
+        let energy = |v: &DVector<f64>| self.kinetic_energy(q, v);
+        let column = |at: usize| directions.column(at).clone_owned();
+        let free = directions.ncols();
+        DMatrix::from_fn(free, free, |i, j| {
+            let (a, b) = (column(i), column(j));
+            energy(&(&a + &b)) - energy(&a) - energy(&b)
+        })
+    }
+
+    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions, by the five-point
+    /// formula.
+    pub fn stiffness_rate(&self, q: &DVector<f64>, tangent: &Tangent) -> DMatrix<f64> {
+        let scales = self.scales();
+        let directions = &tangent.directions;
+        let mut reduced = DMatrix::zeros(directions.ncols(), directions.ncols());
+        for (at, direction) in directions.column_iter().enumerate() {
+            let largest = direction.component_div(&scales).amax();
+            let step = DIFFERENCE / if largest > 0.0 { largest } else { 1.0 };
+            let there = |share: f64| self.acceleration(&(q + direction * (share * step))).0;
+            let change = (there(1.0) - there(-1.0)) * 8.0 - (there(2.0) - there(-2.0));
+            reduced.set_column(at, &tangent.minimal(&(change / (12.0 * step))));
+        }
+        reduced
+    }
+}
+
+impl Tangent {
+    /// z of w = N z, for a w that is along the constraints.
+    pub fn minimal(&self, w: &DVector<f64>) -> DVector<f64> {
+        self.orthonormal.transpose() * w.component_div(&self.weights)
+    }
+}

@@ -1,0 +1,200 @@
+//! `mbs equilibrium`: where a mechanism rests, and whether it stays there.
+
+use std::path::PathBuf;
+
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use mbs_analysis::{Equilibrium, Search, Stability, Strategy, equilibrium};
+use mbs_runtime::equations::{At, Room, project};
+use mbs_runtime::{Info, System};
+use serde_json::{Map, Value, json};
+
+use super::json::number;
+use super::options::{self, option};
+use crate::figure::Figure;
+use crate::models::Models;
+use crate::number::significant;
+use crate::quantity::{self, TIME};
+use crate::settings::Start;
+use crate::{Error, Motion, Picture, Table, Unit, say};
+
+const EXAMPLES: &str = "\
+Examples:
+  mbs equilibrium double-pendulum
+  mbs equilibrium double-pendulum --from angle1=170deg --sketch rest.svg
+  mbs equilibrium my.mbs --set k=2N/mm --relax";
+
+pub(crate) fn command() -> Command {
+    Command::new("equilibrium")
+        .about("Find where a mechanism rests, its reactions there, and whether that is stable")
+        .after_help(EXAMPLES)
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
+        .args(options::of_values())
+        .arg(
+            option("from", "NAME=VALUE", "Begin with this value of a coordinate; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(option("at", "TIME", "Hold drives and forces where they are at this time [default: 0s]"))
+        .arg(
+            Arg::new("relax")
+                .long("relax")
+                .action(ArgAction::SetTrue)
+                .help("Go where the mechanism would come to rest, past unstable equilibria"),
+        )
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
+        .arg(
+            option("sketch", "FILE.svg|.png", "Draw the mechanism where it rests")
+                .value_parser(value_parser!(PathBuf)),
+        )
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+    let name = matches.get_one::<String>("model").map_or("", String::as_str);
+    let found = models.find(name)?;
+    let (name, model) = (found.name(), found.model());
+    let sketch = matches.get_one::<PathBuf>("sketch");
+    sketch.map_or(Ok(()), |path| Figure::check_ending(path))?;
+    if matches.get_many::<String>("input").unwrap_or_default().any(|text| text.starts_with('@')) {
+        let reason = "inputs that change with time have no equilibrium; give a value, such as force=3N";
+        return Err(Error::Name { name: "--input @FILE".into(), reason: reason.into() });
+    }
+    let start = Start::of(model, &options::values(model, matches)?)?;
+    let run = model.start(&start)?;
+    let t = match matches.get_one::<String>("at") {
+        Some(text) => quantity::parse("at", text, TIME)?,
+        None => run.time(),
+    };
+    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
+    let strategy = if matches.get_flag("relax") { Strategy::Relaxation } else { Strategy::Automatic };
+    let search =
+        Search { from: Some(positions(&*run, t, from)?), inputs: Some(start.inputs.clone()), t, strategy };
+    let rest = equilibrium(run.described(), &search)?;
+    let shown = Found::of(name, model.info(), &*run, &rest);
+    if let Some(path) = sketch {
+        Figure::mechanism(name, Picture::of(&still(&*run, model.sketch(), &rest))).save(path)?;
+    }
+    if matches.get_flag("json") {
+        return say(shown.json());
+    }
+    say(shown.table().to_string().trim_end())?;
+    sketch.map_or(Ok(()), |path| say(format_args!("written: {}", path.display())))
+}
+
+/// The positions of a start with those that are given in their place, and the others moved onto the
+/// constraints.
+fn positions<'a>(run: &dyn System, t: f64, given: impl Iterator<Item = &'a str>) -> Result<Vec<f64>, Error> {
+    let info = run.equations().info();
+    let coordinates = info.coordinates;
+    let (n, m) = (coordinates.len(), info.constraints.len());
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    run.state(&mut q, &mut v);
+    let mut kept = Vec::new();
+    for text in given {
+        let (name, value) = quantity::split_setting(text)?;
+        let mut known = coordinates.iter().zip(&mut q);
+        let Some((coordinate, place)) = known.find(|(coordinate, _)| coordinate.name == name) else {
+            return Err(Error::unknown("coordinate", name, coordinates.iter().map(|q| q.name)));
+        };
+        *place = quantity::parse_in(name, value, coordinate.dimension, &Unit::of_coordinate(coordinate))?;
+        kept.push(coordinate.name);
+    }
+    if !kept.is_empty() {
+        let mut numbers = vec![0.0; Room::<f64>::len(n, m, 0)];
+        let mut room = Room::within(&mut numbers, n, m);
+        v.fill(0.0);
+        project(run.equations(), t, &mut q, &mut v, [&kept, &[]], &mut room)?;
+    }
+    Ok(q)
+}
+
+/// A motion of one instant.
+fn still(run: &dyn System, sketch: &'static mbs_runtime::Sketch, rest: &Equilibrium) -> Motion {
+    let mut points = vec![0.0; 2 * sketch.points.len()];
+    run.points(rest.t, &rest.q, &mut points);
+    let places = points.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
+    Motion { sketch, times: vec![rest.t], places: vec![places] }
+}
+
+/// What is shown of an equilibrium: names, values in their units, and the units.
+struct Found<'a> {
+    name: &'a str,
+    rest: &'a Equilibrium,
+    coordinates: Vec<(&'static str, f64, Unit)>,
+    outputs: Vec<(&'static str, f64, Unit)>,
+    reactions: Vec<(&'static str, f64, Unit)>,
+    potential_energy: f64,
+}
+
+impl<'a> Found<'a> {
+    fn of(name: &'a str, info: &'static Info, run: &dyn System, rest: &'a Equilibrium) -> Self {
+        let still = vec![0.0; rest.q.len()];
+        let at = At { t: rest.t, q: &rest.q, v: &still };
+        let mut outputs = vec![f64::NAN; info.outputs.len()];
+        run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
+        let coordinates = info.coordinates.iter().zip(&rest.q);
+        let reactions = info.constraints.iter().zip(&rest.multipliers);
+        Self {
+            name,
+            rest,
+            coordinates: coordinates.map(|(q, x)| (q.name, *x, Unit::of_coordinate(q))).collect(),
+            outputs: info.outputs.iter().zip(&outputs).map(|(o, x)| (o.name, *x, Unit::of(o))).collect(),
+            reactions: reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension))).collect(),
+            potential_energy: run.energies(at)[1],
+        }
+    }
+
+    /// What the stiffness says, in words.
+    fn stability(&self) -> String {
+        match self.rest.stability() {
+            Stability::Stable => "stable".into(),
+            Stability::Indifferent => "indifferent: some displacements are not driven back".into(),
+            Stability::Unstable { directions: 1 } => "unstable: it falls away in one direction".into(),
+            Stability::Unstable { directions } => {
+                format!("unstable: it falls away in {directions} directions")
+            }
+        }
+    }
+
+    fn table(&self) -> Table {
+        let mut table = Table::new([self.name, "at rest", ""]);
+        table.row(["stability", self.stability().as_str()]);
+        for list in [&self.coordinates, &self.outputs] {
+            for (name, value, unit) in list {
+                table.row([*name, &significant(unit.shown(chopped(*value, list)), 8), unit.name()]);
+            }
+        }
+        for (name, value, unit) in &self.reactions {
+            let value = significant(unit.shown(chopped(*value, &self.reactions)), 6);
+            table.row([&format!("lambda({name})"), &value, unit.name()]);
+        }
+        table.row(["potential energy", &significant(self.potential_energy, 6), "J"]);
+        for (at, stiffness) in self.rest.stiffness.iter().enumerate() {
+            table.row([&format!("stiffness {} over mass", at + 1), &significant(*stiffness, 6), "1/s^2"]);
+        }
+        table
+    }
+
+    fn json(&self) -> Value {
+        let of = |list: &[(&'static str, f64, Unit)]| -> Map<String, Value> {
+            let value = |x: f64, unit: &Unit| json!({ "value": number(unit.shown(x)), "unit": unit.name() });
+            list.iter().map(|(name, x, unit)| ((*name).to_owned(), value(*x, unit))).collect()
+        };
+        json!({
+            "mechanism": self.name,
+            "t_s": number(self.rest.t),
+            "stability": self.stability(),
+            "is_stable": self.rest.is_stable(),
+            "coordinates": of(&self.coordinates),
+            "outputs": of(&self.outputs),
+            "multipliers": of(&self.reactions),
+            "potential_energy_J": number(self.potential_energy),
+            "stiffness_1_s2": self.rest.stiffness.iter().map(|x| number(*x)).collect::<Vec<_>>(),
+            "iterations": self.rest.iterations,
+        })
+    }
+}
+
+/// 0 for what is a rounding of the others.
+fn chopped(value: f64, others: &[(&'static str, f64, Unit)]) -> f64 {
+    let largest = others.iter().fold(0.0_f64, |largest, (_, x, _)| largest.max(x.abs()));
+    if value.abs() < 1e-13 * largest { 0.0 } else { value }
+}
