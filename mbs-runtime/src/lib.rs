@@ -125,6 +125,7 @@ mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
 #[doc = include_str!("methods.md")]
+#[doc = include_str!("precision.svg")]
 pub mod methods {}
 mod kinematics;
 pub mod lanes;
