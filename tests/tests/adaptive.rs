@@ -31,6 +31,15 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A body on which nothing acts.
+    pub Drift {
+        dof = 1;
+        body block (x) { mass = 1 [kg]; }
+        start { x = 1 [m]; }
+    }
+}
+
 const END: f64 = 0.3;
 /// θ1 after 0.3 s with 0.5 N·m on the crank from 200 rpm: 1,000 and 3,000 steps of DOP853 with
 /// projection, and as many with feedback, agree to 3e-14. `order.rs` has 5.644159549774 from
@@ -242,6 +251,32 @@ fn a_drive_beyond_reach_ends_where_the_reach_does() {
     assert!(state.q.is_finite() && state.t < last && last - state.t < 1e-6, "{state:?} {last}");
     // it says so again, and stays where it is
     assert_eq!((run.step().is_err(), run.state()), (true, state));
+}
+
+/// An end as near as the next number, and steps where nothing happens for ever.
+#[test]
+fn the_shortest_and_the_longest_steps_are_taken() {
+    let mut run = swing::<Dopri5>(1e-6);
+    run.advance_to(1.0).expect("a regular motion");
+    run.advance_to(1.0_f64.next_up()).expect("a regular motion");
+    assert_eq!(run.time(), 1.0_f64.next_up());
+
+    let mut run = Adaptive::builder(Drift::declared()).build().expect("a start");
+    for _ in 0..500 {
+        run.step().expect("a step");
+    }
+    assert!(run.time() > 1e9 && run.state().q.x == 1.0);
+}
+
+/// What is tried in search of an error is no part of the run.
+#[test]
+fn an_error_leaves_the_watch_as_it_was() {
+    let mut run = crank::<Dopri5>(1e-6);
+    run.advance_to(0.1).expect("a regular motion");
+    let before = run.worst_growth();
+    run.inputs_mut().crank_torque = 1e300;
+    assert!(run.step().is_err());
+    assert_eq!(run.worst_growth(), before);
 }
 
 #[test]

@@ -73,6 +73,8 @@ const SAFETY: f64 = 0.9;
 /// A step is at least and at most this much longer than the one before it.
 const LEAST: f64 = 0.2;
 const MOST: f64 = 10.0;
+/// Where nothing happens, steps grow to so many seconds and no further.
+const LONGEST: f64 = 1e9;
 /// The step after one that could not be taken at all.
 const AFTER_FAILURE: f64 = 0.25;
 
@@ -123,7 +125,7 @@ impl Control {
             AFTER_FAILURE
         };
         self.is_again = !is_good;
-        self.next = h * factor;
+        self.next = (h * factor).min(LONGEST);
         is_good
     }
 }

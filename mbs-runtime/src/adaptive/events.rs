@@ -379,12 +379,16 @@ impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
     }
 
     /// Goes on from another state at the present time or at any other, as a program makes it at an
-    /// event: after an impact, or with a latch that has opened.
+    /// event: after an impact, or with a latch that has opened. Events at the same time that were
+    /// not told yet are told by the next call; those of another time are forgotten.
     ///
     /// # Errors
     /// [`Error::Inconsistent`] for one that violates the constraints, [`Error::NonFinite`].
     pub fn set_state(&mut self, state: State<M::Coordinates>) -> Result<(), Error> {
         crate::start::check(&self.dynamics, &state, M::Real::from_f64(1e-3))?;
+        if state.t != self.now.t {
+            self.due = 0;
+        }
         copy(&mut self.now.q, &state.q.into_array());
         copy(&mut self.now.v, &state.v.into_array());
         self.now.t = state.t;

@@ -188,7 +188,8 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             // a little longer rather than a tiny step behind it
             let t_next = if D::Real::from_f64(1.01) * h >= left { limit } else { t + h };
             let h = (t_next - t).to_f64();
-            let is_ahead = t_next > t && h >= 4.0 * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            let shortest = 4.0 * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            let is_ahead = t_next > t && (t_next >= limit || h >= shortest);
             if !is_ahead {
                 break;
             }
@@ -244,7 +245,8 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     /// one, and that the tolerance cannot be met if none has.
     fn cause(&mut self) -> Error {
         let Self { dynamics, inputs, now, next, control, watch, .. } = self;
-        let t = now.t.to_f64();
+        // what is tried here is no step of the run
+        let (t, mut watch) = (now.t.to_f64(), *watch);
         let nothing = D::Real::default();
         let found = dynamics.with_inputs(inputs, |inputs| {
             dynamics.with_room::<S>(|room| {
@@ -260,7 +262,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
                         method: Explicit::projected(Self::TABLEAU),
                         keeps_constraints: true,
                     };
-                    run.step(now.t + step, [next.q.as_mut(), next.v.as_mut()], &mut *watch, room)?;
+                    run.step(now.t + step, [next.q.as_mut(), next.v.as_mut()], &mut watch, room)?;
                     h *= 4.0;
                 }
                 Ok(())
@@ -300,6 +302,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         self.now.t = at;
         self.is_solved = false;
         self.before = self.now.clone();
+        self.due = 0;
         Ok(())
     }
 
