@@ -13,8 +13,8 @@ use crate::diagnostics::Diagnostic;
 use crate::quantity::Crossing;
 use crate::syntax::Formula;
 
-/// As many as a run watches at once.
-const MOST_EVENTS: usize = 64;
+/// A run watches 64 values at once, one of which may be the condition that ends it.
+const MOST_EVENTS: usize = 63;
 
 impl Resolver<'_> {
     pub(super) fn resolve_event(

@@ -46,11 +46,6 @@ pub(super) fn of_a_run() -> Vec<Arg> {
         ),
         option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
         option(
-            "until",
-            "CONDITION",
-            "End where this becomes true: 'x3 > 200mm', 'der(theta) < 0'; a run to a tolerance",
-        ),
-        option(
             "alpha",
             "RATE",
             "Feedback of the velocity violation in 1/s [default: as declared, or deadbeat]",
@@ -112,10 +107,12 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         None => Ok(None),
     };
     let choice = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
-    let until = matches.get_one::<String>("until").map(|text| Until::parse(info, text)).transpose()?;
-    // events are found by runs to a tolerance
+    // not every command looks for events, which are found by runs to a tolerance
+    let condition = matches.try_get_one::<String>("until");
+    let (looks, condition) = (condition.is_ok(), condition.ok().flatten());
+    let until = condition.map(|text| Until::parse(info, text)).transpose()?;
     let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| matches.contains_id(name));
-    let has_events = !info.events.is_empty() && !has_feedback && defaults.stabilization.is_none();
+    let has_events = looks && !info.events.is_empty() && !has_feedback && defaults.stabilization.is_none();
     let for_events = (until.is_some() || has_events).then(Tolerances::default);
     let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances).or(for_events);
     // a run to a tolerance has no use for the feedback that is declared, nor has projection

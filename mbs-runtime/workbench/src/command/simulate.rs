@@ -26,6 +26,11 @@ pub(crate) fn command() -> Command {
         .after_help(EXAMPLES)
         .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`"))
         .args(options::of_a_run())
+        .arg(option(
+            "until",
+            "CONDITION",
+            "End where this becomes true: 'x3 > 200mm', 'der(theta) < 0'; a run to a tolerance",
+        ))
         .arg(
             option("every", "N", "Record every N-th step")
                 .value_parser(value_parser!(u64).range(1..))
@@ -49,6 +54,7 @@ pub(crate) fn command() -> Command {
 const EXAMPLES: &str = "\
 Examples:
   mbs simulate four-bar --columns 'coupler*' --plot run.svg
+  mbs simulate slider-crank-free --rtol 1e-8 --until 'x3 < 200mm'
   mbs simulate jansen --columns foot_y --x foot_x --plot path.svg
   mbs simulate slider-crank --compare omega=100rpm,200rpm --columns drive_torque --plot both.svg
 
