@@ -1,12 +1,12 @@
-//! What an engineer asks of a mechanism beside its motion: where it rests, and whether it stays
-//! there.
+#![doc = include_str!("../README.md")]
+#![doc = include_str!("flap.svg")]
+//!
+//! # What it asks a mechanism
 //!
 //! Everything works on the equations of a mechanism on slices
 //! ([`Described`](mbs_runtime::equations::Described)), which every type of `mechanism!` is, and
 //! every text that `mbs-live` has compiled. Vectors are in the order of
 //! [`Info`](mbs_runtime::Info), in SI units and rad.
-//!
-//! * [`equilibrium`]: positions at which nothing moves, and whether they are stable.
 #![forbid(unsafe_code)]
 
 mod equilibrium;
@@ -15,7 +15,3 @@ mod tangent;
 
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
-
-#[doc = include_str!("../README.md")]
-#[cfg(doctest)]
-struct Readme;
