@@ -6,6 +6,7 @@ mod change;
 mod control;
 mod dense;
 mod dynamics;
+mod effort;
 mod events;
 mod sampled;
 
@@ -15,6 +16,7 @@ use control::Control;
 pub use control::Tolerances;
 use dense::Moment;
 pub use dynamics::Dynamics;
+pub use effort::Effort;
 pub use events::{Direction, Event, MOST_EVENTS};
 pub use sampled::{Measured, Sampled, Threshold};
 
@@ -99,28 +101,6 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     /// rise.
     due: u64,
     due_rising: u64,
-}
-
-/// What a run to a tolerance has taken.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Effort {
-    /// Steps taken.
-    pub steps: u64,
-    /// Steps that were tried and not taken, because their error was too large.
-    pub rejected: u64,
-    /// The shortest step in s; 0 before the first one.
-    pub shortest: f64,
-    /// The longest one in s.
-    pub longest: f64,
-}
-
-impl Effort {
-    /// Counts a step.
-    fn count(&mut self, h: f64) {
-        self.shortest = if self.steps == 0 { h } else { self.shortest.min(h) };
-        self.longest = self.longest.max(h);
-        self.steps += 1;
-    }
 }
 
 impl<D: Dynamics, S: Scheme> Adaptive<D, S> {

@@ -1,0 +1,23 @@
+//! What a run to a tolerance takes.
+
+/// What a run to a tolerance has taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were tried and not taken, because their error was too large.
+    pub rejected: u64,
+    /// The shortest step in s; 0 before the first one.
+    pub shortest: f64,
+    /// The longest one in s.
+    pub longest: f64,
+}
+
+impl Effort {
+    /// Counts a step.
+    pub(super) fn count(&mut self, h: f64) {
+        self.shortest = if self.steps == 0 { h } else { self.shortest.min(h) };
+        self.longest = self.longest.max(h);
+        self.steps += 1;
+    }
+}
