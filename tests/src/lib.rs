@@ -11,6 +11,7 @@ pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;
+pub mod swing;
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

@@ -7,19 +7,7 @@ use mbs_runtime::{
     System, Tolerances, mechanism,
 };
 use models::{SliderCrank, SliderCrankFree, SliderCrankFreeInputs, SliderCrankParameters, SpringMassDamper};
-
-mechanism! {
-    /// A bob on a rod, released from the side.
-    pub Swing {
-        dof = 1;
-        param length = 1 [m];
-        gravity = (0, -9.81) [m/s^2];
-        body bob (x, y) { mass = 2 [kg]; }
-        constraint rod: x^2 + y^2 = length^2;
-        start { x = length; guess y = 0; }
-        output tension [N] = 2*length*lambda(rod);
-    }
-}
+use tests::swing::{Swing, SwingCoordinates, SwingParameters, quarter_period};
 
 mechanism! {
     /// A point that runs away: ẍ = 6 x² with x = 1/(1 s − t)².
@@ -220,7 +208,7 @@ fn single_precision_keeps_its_tolerance() {
     let swing = Swing::<f32>::new(SwingParameters::default()).expect("declared parameters");
     let tolerances = Tolerances { rtol: 2e-5, atol: 1e-6, ..Tolerances::default() };
     let mut run = Adaptive::builder(swing).tolerances(tolerances).build().expect("a start");
-    let bottom = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let bottom = quarter_period();
     run.advance_to(bottom).expect("a regular motion");
     assert!(run.state().q.x.abs() < 2e-4, "{:?}", run.state());
     let finer = Tolerances { rtol: 1e-9, ..tolerances };

@@ -5,6 +5,7 @@
 use mbs_runtime::{
     Adaptive, Direction, Dop853, Dopri5, Error, Event, Mechanism, Scheme, State, Tolerances, mechanism,
 };
+use tests::swing::{Swing, quarter_period};
 
 mechanism! {
     /// A ball above the ground.
@@ -13,18 +14,6 @@ mechanism! {
         gravity = (0, -9.81) [m/s^2];
         body ball (y) { mass = 0.3 [kg]; }
         start { y = 1 [m]; }
-    }
-}
-
-mechanism! {
-    /// A bob on a rod, released from the side.
-    pub Swing {
-        dof = 1;
-        param length = 1 [m];
-        gravity = (0, -9.81) [m/s^2];
-        body bob (x, y) { mass = 2 [kg]; }
-        constraint rod: x^2 + y^2 = length^2;
-        start { x = length; guess y = 0; }
     }
 }
 
@@ -94,7 +83,7 @@ fn impacts_of_a_bouncing_ball_are_those_of_the_closed_form() {
 /// Released from the side, a pendulum is at the bottom after odd multiples of K(1/√2) √(l/g).
 #[test]
 fn crossings_of_a_pendulum_are_those_of_the_elliptic_integral() {
-    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let quarter = quarter_period();
     let mut run = swing::<Dop853>(1e-13);
     for crossing in 0..20 {
         let event = run.advance_until(60.0, [Either], |at| [at.q.x]).expect("a motion").expect("a crossing");
@@ -175,7 +164,7 @@ fn simultaneous_events_are_told_one_after_the_other() {
 /// A value that is zero at the start has no sign there; it has one event where it comes back.
 #[test]
 fn an_event_at_the_start_is_masked() {
-    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let quarter = quarter_period();
     let mut run = swing::<Dop853>(1e-12);
     // y is 0 at the start, negative then, and 0 again after half a period, which it only touches;
     // the velocity is 0 at the start and changes its sign there
@@ -189,7 +178,7 @@ fn an_event_at_the_start_is_masked() {
 
 #[test]
 fn only_the_directions_that_are_asked_for_are_events() {
-    let quarter = 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let quarter = quarter_period();
     for (direction, expected) in [(Rising, 3.0), (Falling, 1.0), (Either, 1.0)] {
         let mut run = swing::<Dop853>(1e-12);
         let event =

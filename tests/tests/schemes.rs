@@ -9,18 +9,7 @@ use mbs_runtime::{
     DOP853, Error, Explicit, Mechanism, Method, MethodVisitor, SCHEMES, Simulation, State, Tableau,
     mechanism, with_type,
 };
-
-mechanism! {
-    /// A bob on a rod, released from the side.
-    pub Swing {
-        dof = 1;
-        param length = 1 [m];
-        gravity = (0, -9.81) [m/s^2];
-        body bob (x, y) { mass = 2 [kg]; }
-        constraint rod: x^2 + y^2 = length^2;
-        start { x = length; guess y = 0; }
-    }
-}
+use tests::swing::{Swing, SwingCoordinates, quarter_period};
 
 mechanism! {
     /// Two sliders on a lever, one of them on a spring: (1 kg + 4 · 0.5 kg) ẍ = −12 N/m x.
@@ -55,7 +44,7 @@ impl<M: Mechanism<Real = f64>> MethodVisitor for Miss<M> {
 
 /// After five quarters of its period 4 K(1/√2) √(l/g) the bob is at the bottom.
 fn swing(method: Explicit, steps: u32) -> f64 {
-    let end = 5.0 * 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let end = 5.0 * quarter_period();
     let miss = |at: &State<SwingCoordinates>| at.q.x.hypot(at.q.y + 1.0);
     let miss = Miss { mechanism: Swing::declared(), end, steps, miss };
     with_type(method, miss).expect("a type").expect("a regular motion")
