@@ -157,6 +157,9 @@ impl<'a> Found<'a> {
     fn table(&self) -> Table {
         let mut table = Table::new([self.name, "at rest", ""]);
         table.row(["stability", self.stability().as_str()]);
+        if let Stability::Unstable { .. } = self.rest.stability() {
+            table.row(["", "--relax finds where it falls to"]);
+        }
         for list in [&self.coordinates, &self.outputs] {
             for (name, value, unit) in list {
                 table.row([*name, &significant(unit.shown(chopped(*value, list)), 8), unit.name()]);
