@@ -192,7 +192,8 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         self.steps_to(end)
     }
 
-    // What few ask for is spared code of its own: stages on slices give the same numbers.
+    // Other methods than the declared one run in stages on slices, which give the same numbers
+    // and are compiled once for all of them.
     fn step(&mut self) -> Result<(), Error> {
         if is_fused_for::<M, X>() && X::EXPLICIT.is_held() { self.step() } else { self.step_in_stages() }
     }

@@ -14,8 +14,8 @@ pub enum Strategy {
     Automatic,
     /// By Newton's method alone: the nearest equilibrium, stable or not.
     Newton,
-    /// By relaxation: where the mechanism would come to rest from here if it moved through honey,
-    /// which is a stable equilibrium.
+    /// By relaxation: where the mechanism would come to rest from here if it moved slowly through a
+    /// viscous fluid, which is a stable equilibrium.
     Relaxation,
 }
 
@@ -79,7 +79,7 @@ const REST: f64 = 1e-9;
 const STILL: f64 = 1e-11;
 /// A step of Newton's method is halved at most so often.
 const HALVINGS: u32 = 6;
-/// Positions this many scales away are lost.
+/// The search ends where a coordinate is this many scales away.
 const FAR: f64 = 1e4;
 
 impl Equilibrium {
@@ -185,7 +185,7 @@ fn stiffness(rest: &Rest<'_>, q: &DVector<f64>, tangent: &Tangent) -> Vec<f64> {
     values
 }
 
-/// How much still accelerates.
+/// The acceleration that is left at a position.
 struct Residual {
     /// z̈
     minimal: DVector<f64>,
@@ -218,8 +218,8 @@ fn find(rest: &Rest<'_>, start: DVector<f64>, is_relaxed: bool) -> Result<(DVect
         }
         let mut share = (LONGEST / length).min(1.0);
         let (mut next, mut then) = moved(rest, &q, &step, share)?;
-        // Newton's method may run up a slope, where it is not rounding that makes one; relaxation is
-        // meant to go where it leads
+        // A step of Newton's method that enlarges the acceleration is halved, unless the increase is
+        // rounding. Relaxation takes its steps whole, because the acceleration grows on its way.
         for _ in 0..if is_relaxed || length < SMALL { 0 } else { HALVINGS } {
             if then.size <= now.size {
                 break;

@@ -31,7 +31,7 @@ use crate::run::{Run, note_risen};
 use crate::watch::{Watch, WorstPlace};
 use crate::{Components, Dopri5, Error, Gains, Mechanism, Real, Scheme, State};
 
-/// So many lengths of a step are tried, one after the other.
+/// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
 /// The error that ends a run is looked for in steps up to this many seconds.
 const LONGEST: f64 = 1.0;
@@ -165,7 +165,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         for _ in 0..TRIALS {
             let h = D::Real::from_f64(self.next_step());
             let left = limit - t;
-            // a little longer rather than a tiny step behind it
+            // a step that would end just short of the limit is stretched to it
             let t_next = if D::Real::from_f64(1.01) * h >= left { limit } else { t + h };
             let h = (t_next - t).to_f64();
             let shortest = 4.0 * D::Real::EPSILON.to_f64() * t.to_f64().abs();
@@ -225,7 +225,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     /// one, and that the tolerance cannot be met if none has.
     fn cause(&mut self) -> Error {
         let Self { dynamics, inputs, now, next, control, watch, .. } = self;
-        // what is tried here is no step of the run
+        // steps that only look for the error are not steps of the run
         let (t, mut watch) = (now.t.to_f64(), *watch);
         let nothing = D::Real::default();
         let found = dynamics.with_inputs(inputs, |inputs| {

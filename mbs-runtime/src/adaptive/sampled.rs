@@ -13,9 +13,8 @@ use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
 /// A run to a tolerance whose state is looked at on a grid of times: a [`System`] whose `step`
 /// leads to the next of these times.
 ///
-/// Steps of the run are as long as they would be without anyone looking: what is seen is
-/// interpolated, and projected onto the constraints. Where inputs change, and behind events, the
-/// run starts anew from there.
+/// The grid does not shorten the steps of the run: a sample is interpolated, and projected onto the
+/// constraints. The run starts anew from a sample at which inputs change, and from every event.
 ///
 /// # Example
 /// ```
