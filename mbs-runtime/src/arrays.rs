@@ -9,13 +9,15 @@ use crate::{Accelerations, Components, Gains, Mechanism, Method, Real, Scheme, S
 
 /// The coordinates of a mechanism as an array.
 pub type Coordinates<M> = <<M as Mechanism>::Coordinates as Components>::Array;
+/// The coordinates that are integrated as an array.
+pub type States<M> = <<M as Mechanism>::States as Components>::Array;
 /// One number per constraint as an array.
 pub type Constraints<M> = <<M as Mechanism>::Constraints as Components>::Array;
 
 /// What a step on arrays works with, all 0.
 pub struct Room<M: OnArrays> {
-    /// One vector of coordinates.
-    pub coordinates: Coordinates<M>,
+    /// One vector of states.
+    pub states: States<M>,
     /// One number per constraint.
     pub constraints: Constraints<M>,
     /// Results that loops hand to each other.
@@ -35,11 +37,11 @@ pub trait OnArrays: Mechanism {
     fn stabilized_on_arrays(
         &self,
         t: Self::Real,
-        q: &Coordinates<Self>,
-        v: &Coordinates<Self>,
+        q: &States<Self>,
+        v: &States<Self>,
         inputs: &Self::Inputs,
         gains: &Gains<Self::Real>,
-        acceleration: &mut Coordinates<Self>,
+        acceleration: &mut States<Self>,
         feedback: &mut Constraints<Self>,
         slots: &mut Self::Slots,
     ) -> Self::Real;
@@ -49,11 +51,11 @@ pub trait OnArrays: Mechanism {
     fn constrained_on_arrays(
         &self,
         t: Self::Real,
-        q: &Coordinates<Self>,
-        v: &Coordinates<Self>,
+        q: &States<Self>,
+        v: &States<Self>,
         inputs: &Self::Inputs,
         feedback: &Constraints<Self>,
-        acceleration: &mut Coordinates<Self>,
+        acceleration: &mut States<Self>,
         slots: &mut Self::Slots,
     ) -> Self::Real;
 }
@@ -61,11 +63,11 @@ pub trait OnArrays: Mechanism {
 /// [`Mechanism::stabilized`] of such a mechanism.
 pub fn stabilized<M: OnArrays>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
-) -> Stabilized<M::Coordinates, M::Constraints> {
-    let Room { coordinates: mut a, constraints: mut feedback, mut slots } = M::room();
+) -> Stabilized<M::States, M::Constraints> {
+    let Room { states: mut a, constraints: mut feedback, mut slots } = M::room();
     let (q, v) = (at.q.into_array(), at.v.into_array());
     let growth =
         mechanism.stabilized_on_arrays(at.t, &q, &v, inputs, gains, &mut a, &mut feedback, &mut slots);
@@ -76,11 +78,11 @@ pub fn stabilized<M: OnArrays>(
 /// [`Mechanism::constrained`] of such a mechanism.
 pub fn constrained<M: OnArrays>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     feedback: &M::Constraints,
-) -> Accelerations<M::Coordinates> {
-    let Room { coordinates: mut a, mut slots, .. } = M::room();
+) -> Accelerations<M::States> {
+    let Room { states: mut a, mut slots, .. } = M::room();
     let (q, v, feedback) = (at.q.into_array(), at.v.into_array(), feedback.into_array());
     let growth = mechanism.constrained_on_arrays(at.t, &q, &v, inputs, &feedback, &mut a, &mut slots);
     Accelerations { acceleration: Components::from_array(a), growth }
@@ -92,14 +94,14 @@ pub fn constrained<M: OnArrays>(
 #[inline(never)]
 pub fn step<M: OnArrays, X: Method>(
     mechanism: &M,
-    state: &mut State<M::Coordinates>,
+    state: &mut State<M::States>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
     alarm: M::Real,
 ) -> Option<M::Real> {
-    let Room { coordinates: zeros, constraints: mut feedback, mut slots } = M::room();
+    let Room { states: zeros, constraints: mut feedback, mut slots } = M::room();
     let (mut q, mut there) = (zeros, zeros);
     let (mut velocities, mut accelerations) = (X::Scheme::stages(zeros), X::Scheme::stages(zeros));
     state.q.copy_to(&mut q);

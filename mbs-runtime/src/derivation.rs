@@ -6,6 +6,8 @@
 /// show it does not carry it. Entries that are 0 are left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Derivation {
+    /// The coordinates that are not integrated, by those that are.
+    pub given: &'static [Formula],
     /// Φ, by constraint.
     pub phi: &'static [Formula],
     /// Φ_q, by constraint and coordinate.

@@ -25,28 +25,32 @@ pub(crate) fn check_solution<T: Real>(
     if vectors::is_finite(solution.value) && solution.growth < growth_limit() {
         return Ok(());
     }
-    Err(solution.cause(growth_limit(), worst()))
+    let info = solution.info;
+    Err(solution.cause(growth_limit(), worst(), |at| info.coordinate_name(at)))
 }
 
 /// What went wrong in a stage with this q̈ and growth, if anything did: what is not finite,
-/// or a pivot whose growth is over `limit`.
+/// or a pivot whose growth is over `limit`. q and v are room for all coordinates.
 pub(crate) fn stage_error<T: Real>(
     equations: &dyn Equations<T>,
-    at: At<'_, T>,
+    states: At<'_, T>,
     acceleration: &[T],
     growth: T,
     limit: T,
+    [q, v]: [&mut [T]; 2],
 ) -> Option<Error> {
     let info = equations.info();
-    if let Err(error) = check_finite(info, at) {
+    let At { t, .. } = states;
+    let non_finite = |components| non_finite(t, components, |at| info.state_name(at));
+    if let Some(error) = non_finite(states.q).or_else(|| non_finite(states.v)) {
         return Some(error);
     }
     if !is_over(growth, limit) && vectors::is_finite(acceleration) {
         return None;
     }
-    let At { t, q, .. } = at;
+    equations.complete(states, q, v);
     let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
-    Some(solution.cause(limit, equations.worst_pivot(t, q)))
+    Some(solution.cause(limit, equations.worst_pivot(t, q), |at| info.state_name(at)))
 }
 
 /// Whether a growth reaches a limit; one that is no number does.
@@ -58,14 +62,14 @@ fn is_over<T: Real>(growth: T, limit: T) -> bool {
 impl<T: Real> Solution<'_, T> {
     /// Why the solution is no good: a position that is not finite, a pivot, or,
     /// with all pivots healthy, the component that is not finite.
-    fn cause(&self, limit: T, worst: Option<(usize, T)>) -> Error {
-        if let Some(error) = non_finite(self.info, self.t, self.q) {
+    fn cause(&self, limit: T, worst: Option<(usize, T)>, name: impl Fn(usize) -> &'static str) -> Error {
+        if let Some(error) = non_finite(self.t, self.q, |at| self.info.coordinate_name(at)) {
             return error;
         }
         let worst_growth = worst.map_or(self.growth, |(_, growth)| growth);
         if !is_over(self.growth, limit)
             && !is_over(worst_growth, limit)
-            && let Some(error) = non_finite(self.info, self.t, self.value)
+            && let Some(error) = non_finite(self.t, self.value, name)
         {
             return error;
         }
@@ -82,17 +86,17 @@ impl<T: Real> Solution<'_, T> {
 
 /// `Ok` if positions and velocities are finite.
 pub(crate) fn check_finite<T: Real>(info: &Info, at: At<'_, T>) -> Result<(), Error> {
-    match non_finite(info, at.t, at.q).or_else(|| non_finite(info, at.t, at.v)) {
+    let non_finite = |components| non_finite(at.t, components, |at| info.coordinate_name(at));
+    match non_finite(at.q).or_else(|| non_finite(at.v)) {
         Some(error) => Err(error),
         None => Ok(()),
     }
 }
 
 /// The error that names the first component that is not finite.
-fn non_finite<T: Real>(info: &Info, t: T, components: &[T]) -> Option<Error> {
+fn non_finite<T: Real>(t: T, components: &[T], name: impl Fn(usize) -> &'static str) -> Option<Error> {
     let (at, _) = vectors::first_non_finite(components)?;
-    let coordinate = info.coordinates.get(at)?.name;
-    Some(Error::NonFinite { t: t.to_f64(), coordinate })
+    Some(Error::NonFinite { t: t.to_f64(), coordinate: name(at) })
 }
 
 /// `Ok` if the inputs are finite.

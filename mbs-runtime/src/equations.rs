@@ -5,12 +5,13 @@
 //!
 //! Vectors have a component per coordinate (`q`, `v`, `acceleration`, `correction`), per
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
-//! [`Info`]. SI units, angles in rad.
+//! [`Info`]. What a step is made of has a component per coordinate that is integrated
+//! ([`Info::states`]). SI units, angles in rad.
 
 pub use crate::described::Described;
 pub use crate::reach::reach;
 pub use crate::room::Room;
-pub use crate::run::{Run, check_outputs};
+pub use crate::run::{Correction, Run, check_outputs, correction};
 pub use crate::simulation::clock::steps_to;
 pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
@@ -47,18 +48,24 @@ pub trait Equations<T: Real> {
     /// Φ̇ = Φ_q v + Φ_t
     fn phi_dot(&self, at: At<'_, T>, phi_dot: &mut [T]);
 
-    /// Solves Eq. (8) for q̈ and gives the feedback −2αΦ̇ − β²Φ that went into it.
+    /// Writes all coordinates and velocities, from those that are integrated.
+    fn complete(&self, states: At<'_, T>, q: &mut [T], v: &mut [T]);
+
+    /// Solves Eq. (8) for q̈ of the states and gives the feedback −2αΦ̇ − β²Φ that went into it.
     fn stabilized(
         &self,
-        at: At<'_, T>,
+        states: At<'_, T>,
         inputs: &[T],
         gains: &Gains<T>,
         acceleration: &mut [T],
         feedback: &mut [T],
     ) -> T;
 
-    /// Solves for q̈ with γ + `feedback` below.
-    fn constrained(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
+    /// Solves for q̈ of the states with γ + `feedback` below.
+    fn constrained(&self, states: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
+
+    /// Solves for q̈ of all coordinates with γ + `feedback` below.
+    fn accelerations(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
 
     /// The smallest Δq, in the norm of the mass matrix, with Φ_q Δq = `residual` and
     /// Δq = 0 for coordinates that the start prescribes.
@@ -80,6 +87,13 @@ pub trait Equations<T: Real> {
 
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
+
+    /// Writes those of all coordinates, velocities or accelerations that are integrated.
+    fn states(&self, all: &[T], states: &mut [T]) {
+        for (state, &at) in states.iter_mut().zip(self.info().states) {
+            *state = all.get(at).copied().unwrap_or_default();
+        }
+    }
 }
 
 impl<M: Mechanism> Equations<M::Real> for M {
@@ -95,15 +109,21 @@ impl<M: Mechanism> Equations<M::Real> for M {
         write(Mechanism::phi_dot(self, &at.state()), phi_dot);
     }
 
+    fn complete(&self, states: At<'_, M::Real>, q: &mut [M::Real], v: &mut [M::Real]) {
+        let all = Mechanism::complete(self, &states.state());
+        write(all.q, q);
+        write(all.v, v);
+    }
+
     fn stabilized(
         &self,
-        at: At<'_, M::Real>,
+        states: At<'_, M::Real>,
         inputs: &[M::Real],
         gains: &Gains<M::Real>,
         acceleration: &mut [M::Real],
         feedback: &mut [M::Real],
     ) -> M::Real {
-        let solved = Mechanism::stabilized(self, &at.state(), &read(inputs), gains);
+        let solved = Mechanism::stabilized(self, &states.state(), &read(inputs), gains);
         write(solved.acceleration, acceleration);
         write(solved.feedback, feedback);
         solved.growth
@@ -111,12 +131,24 @@ impl<M: Mechanism> Equations<M::Real> for M {
 
     fn constrained(
         &self,
+        states: At<'_, M::Real>,
+        inputs: &[M::Real],
+        feedback: &[M::Real],
+        acceleration: &mut [M::Real],
+    ) -> M::Real {
+        let solved = Mechanism::constrained(self, &states.state(), &read(inputs), &read(feedback));
+        write(solved.acceleration, acceleration);
+        solved.growth
+    }
+
+    fn accelerations(
+        &self,
         at: At<'_, M::Real>,
         inputs: &[M::Real],
         feedback: &[M::Real],
         acceleration: &mut [M::Real],
     ) -> M::Real {
-        let solved = Mechanism::constrained(self, &at.state(), &read(inputs), &read(feedback));
+        let solved = Mechanism::reactions(self, &at.state(), &read(inputs), &read(feedback));
         write(solved.acceleration, acceleration);
         solved.growth
     }

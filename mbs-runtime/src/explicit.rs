@@ -2,7 +2,7 @@
 
 use mbs_schemes::{Row, Stabilization, Tableau};
 
-use crate::arrays::Coordinates;
+use crate::arrays::States;
 use crate::{Components, Gains, Mechanism, Method, Real, Scheme, State};
 
 /// What vectors of a step are made of: a scalar, or a column of them.
@@ -258,28 +258,30 @@ fn block<const N: usize, E: Element, V: AsRef<[E]>>(
     }
 }
 
-/// The correction of a mechanism, for [`project`].
+/// The correction of the states of a mechanism, for [`project`].
 #[inline(always)]
 pub(crate) fn correct<M: Mechanism>(
     mechanism: &M,
     t: M::Real,
-    at: &Beside<'_, Coordinates<M>>,
-    delta: &mut Coordinates<M>,
+    at: &Beside<'_, States<M>>,
+    delta: &mut States<M>,
 ) -> M::Real {
-    let q = Components::from_array(*at.q);
+    let v = at.v.unwrap_or(at.q);
+    let at_states = State { t, q: Components::from_array(*at.q), v: Components::from_array(*v) };
+    let all = mechanism.complete(&at_states);
     let violation = match at.v {
-        None => mechanism.phi(t, &q),
-        Some(v) => mechanism.phi_dot(&State { t, q, v: Components::from_array(*v) }),
+        None => mechanism.phi(t, &all.q),
+        Some(_) => mechanism.phi_dot(&all),
     };
-    let solved = mechanism.projection(t, &q, &violation);
-    *delta = solved.acceleration.into_array();
+    let solved = mechanism.projection(t, &all.q, &violation);
+    *delta = M::states(solved.acceleration).into_array();
     solved.growth
 }
 
 /// A step of a mechanism whose health has not been tested.
 pub(crate) struct Trial<M: Mechanism> {
     /// q⁺, v⁺
-    pub next: State<M::Coordinates>,
+    pub next: State<M::States>,
     /// The growths of all stages, added.
     pub growth: M::Real,
 }
@@ -288,7 +290,7 @@ pub(crate) struct Trial<M: Mechanism> {
 #[inline(always)]
 pub(crate) fn trial<M: Mechanism, X: Method>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
     span: &Span<M::Real>,

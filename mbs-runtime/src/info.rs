@@ -24,6 +24,8 @@ pub struct Info {
     pub events: &'static [DeclaredEvent],
     /// The constraints, drives included, in the order of λ.
     pub constraints: &'static [Constraint],
+    /// Which coordinates are integrated, as indices; constraints give the others.
+    pub states: &'static [usize],
     /// Which constraints repeat others, as indices: they are not solved for, but
     /// met with the others.
     pub redundant: &'static [usize],
@@ -139,6 +141,22 @@ impl Info {
         self.functions.iter().find(|f| f.name == name).map(|f| f.operations)
     }
 
+    /// The name of a coordinate; empty where there is none.
+    pub(crate) fn coordinate_name(&self, at: usize) -> &'static str {
+        self.coordinates.get(at).map_or("", |coordinate| coordinate.name)
+    }
+
+    /// The name of a coordinate that is integrated; empty where there is none.
+    pub(crate) fn state_name(&self, state: usize) -> &'static str {
+        let coordinate = self.states.get(state).and_then(|&at| self.coordinates.get(at));
+        coordinate.map_or("", |coordinate| coordinate.name)
+    }
+
+    /// Whether constraints give some coordinates, which are not integrated.
+    pub fn has_reduced_states(&self) -> bool {
+        self.states.len() < self.coordinates.len()
+    }
+
     /// The name of a constraint; empty where there is none.
     pub(crate) fn constraint_name(&self, row: usize) -> &'static str {
         self.constraints.get(row).map_or("", |constraint| constraint.name)
@@ -157,6 +175,7 @@ impl Info {
         outputs: &'static [Quantity],
         events: &'static [DeclaredEvent],
         constraints: &'static [Constraint],
+        states: &'static [usize],
         redundant: &'static [usize],
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
@@ -172,6 +191,7 @@ impl Info {
             outputs,
             events,
             constraints,
+            states,
             redundant,
             pivots,
             start_pivots,

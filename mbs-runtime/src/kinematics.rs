@@ -3,7 +3,7 @@
 use crate::diagnosis::{Solution, check_solution};
 use crate::equations::{Arrays, At, Equations, consistent};
 use crate::room::{OnStack, Room};
-use crate::{Baumgarte, Components, Error, Held, Mechanism, Real, State};
+use crate::{Components, Error, Mechanism, Real, State, vectors};
 
 /// Position, velocity and acceleration at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +65,8 @@ fn solve<T: Real>(
 ) -> Result<(), Error> {
     consistent(equations, t, q, v, room)?;
     let [feedback, ..] = &mut room.constraints;
-    let none = Baumgarte::<Held>::NONE.gains();
-    let growth = equations.stabilized(At { t, q, v }, inputs, &none, acceleration, feedback);
+    vectors::fill(feedback, T::default());
+    let growth = equations.accelerations(At { t, q, v }, inputs, feedback, acceleration);
     let info = equations.info();
     let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
     check_solution(&solution, || equations.worst_pivot(t, q))

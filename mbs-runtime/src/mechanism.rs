@@ -23,12 +23,13 @@ pub struct Gains<T> {
     pub minus_beta_squared: T,
 }
 
-/// The solution of the constrained system with feedback from the state itself.
+/// The solution of the constrained system with feedback from the state itself; see
+/// [`Mechanism::stabilized`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stabilized<C: Components, R> {
-    /// q̈
+    /// q̈ of the coordinates that are integrated.
     pub acceleration: C,
-    /// −2αΦ̇ − β²Φ, one per constraint.
+    /// −2αΦ̇ − β²Φ, one per constraint; 0 of those that give a coordinate.
     pub feedback: R,
     /// Pivot growth; see [`Mechanism`].
     pub growth: C::Real,
@@ -83,6 +84,11 @@ pub struct Stepped<C: Components> {
 /// that made the pivot divided by the pivot: about 1 per pivot in a healthy
 /// position, 1/ε when all digits have cancelled, infinite or NaN at an exact
 /// zero. Integrators compare it with [`growth_limit`] once a step.
+///
+/// **States.** A step integrates the [`States`](Self::States): all coordinates, or with
+/// `states = reduced;` those that no constraint gives explicitly. The others and their
+/// velocities are functions of the states, which [`complete`](Self::complete) evaluates; they
+/// meet their constraints exactly. What is not part of a step is given all coordinates.
 pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The scalar of the computation.
     type Real: Real;
@@ -97,6 +103,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Inputs: Components<Real = Self::Real> + Default;
     /// The coordinates q, and with the same names q̇ and q̈.
     type Coordinates: Components<Real = Self::Real>;
+    /// The coordinates that are integrated, by the same names: the
+    /// [`Coordinates`](Self::Coordinates), unless the declaration reduces them.
+    type States: Components<Real = Self::Real>;
     /// One component per constraint: Φ, Φ̇, γ and λ.
     type Constraints: Components<Real = Self::Real>;
     /// The declared outputs.
@@ -144,21 +153,28 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Φ̇ = Φ_q v + Φ_t
     fn phi_dot(&self, at: &State<Self::Coordinates>) -> Self::Constraints;
 
-    /// Solves Eq. (8) for q̈ and gives the feedback that went into it.
+    /// Those of all coordinates, of their velocities or accelerations, that are integrated.
+    fn states(all: Self::Coordinates) -> Self::States;
+
+    /// All coordinates and velocities, from those that are integrated.
+    fn complete(&self, at: &State<Self::States>) -> State<Self::Coordinates>;
+
+    /// Solves Eq. (8) for q̈ of the states, and gives the feedback that went into it.
     fn stabilized(
         &self,
-        at: &State<Self::Coordinates>,
+        at: &State<Self::States>,
         inputs: &Self::Inputs,
         gains: &Gains<Self::Real>,
-    ) -> Stabilized<Self::Coordinates, Self::Constraints>;
+    ) -> Stabilized<Self::States, Self::Constraints>;
 
-    /// Solves for q̈ with γ + `feedback` below.
+    /// Solves for q̈ of the states with γ + `feedback` below; constraints that give a
+    /// coordinate have none.
     fn constrained(
         &self,
-        at: &State<Self::Coordinates>,
+        at: &State<Self::States>,
         inputs: &Self::Inputs,
         feedback: &Self::Constraints,
-    ) -> Accelerations<Self::Coordinates>;
+    ) -> Accelerations<Self::States>;
 
     /// A whole step of the declared [`Scheme`](Self::Scheme) of length `h`, from `at` to
     /// `t_next`, as one program: sines and cosines of all stages, the solutions and the
@@ -168,12 +184,12 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     #[inline(always)]
     fn fused_step<X: Method>(
         &self,
-        _at: &State<Self::Coordinates>,
+        _at: &State<Self::States>,
         _inputs: &Self::Inputs,
         _gains: &Gains<Self::Real>,
         _h: Self::Real,
         _t_next: Self::Real,
-    ) -> Option<Stepped<Self::Coordinates>> {
+    ) -> Option<Stepped<Self::States>> {
         None
     }
 
@@ -184,12 +200,12 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     #[allow(clippy::type_complexity, reason = "the parts have names")]
     fn fused_step_with_reactions<X: Method>(
         &self,
-        _at: &State<Self::Coordinates>,
+        _at: &State<Self::States>,
         _inputs: &Self::Inputs,
         _gains: &Gains<Self::Real>,
         _h: Self::Real,
         _t_next: Self::Real,
-    ) -> Option<(Stepped<Self::Coordinates>, Reactions<Self::Coordinates, Self::Constraints>)> {
+    ) -> Option<(Stepped<Self::States>, Reactions<Self::Coordinates, Self::Constraints>)> {
         None
     }
 
@@ -200,7 +216,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     #[inline(always)]
     fn long_step<X: Method>(
         &self,
-        _state: &mut State<Self::Coordinates>,
+        _state: &mut State<Self::States>,
         _inputs: &Self::Inputs,
         _gains: &Gains<Self::Real>,
         _h: Self::Real,
@@ -210,7 +226,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// Solves for q̈ and λ with γ + `feedback` below.
+    /// Solves for q̈ and λ of all coordinates and constraints with γ + `feedback` below.
     fn reactions(
         &self,
         at: &State<Self::Coordinates>,
@@ -243,7 +259,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// ⎣ Φ_q  0   ⎦ ⎣ μ ⎦ = ⎣ violation ⎦
     /// ```
     ///
-    /// It is the elimination of [`constrained`](Self::constrained) with another right-hand
+    /// It is the elimination of [`reactions`](Self::reactions) with another right-hand
     /// side. q − Δ of Φ is a step of Newton's method to the constraints, v − Δ of Φ̇ is on
     /// their tangent.
     fn projection(

@@ -43,8 +43,8 @@ pub fn reach<T: Real>(
         vectors::copy(feedback, phi);
         vectors::map(feedback, |x| -(x / (h * h)));
         let at = At { t, q: position, v: still };
-        let growth = equations.constrained(at, inputs, feedback, moved);
-        equations.constrained(at, inputs, no_feedback, unmoved);
+        let growth = equations.accelerations(at, inputs, feedback, moved);
+        equations.accelerations(at, inputs, no_feedback, unmoved);
         vectors::zip_map(moved, unmoved, |a, b| h * h * (a - b));
         let correction: &[T] = moved;
         let size = vectors::largest(correction).1;

@@ -2,13 +2,15 @@
 
 use mbs_schemes::MOST_STAGES;
 
-use crate::arrays::{Constraints, Coordinates};
-use crate::{Components, Mechanism, Scheme};
+use crate::arrays::{Constraints, Coordinates, States};
+use crate::{Components, Info, Mechanism, Scheme};
 
 /// How many vectors of coordinates the most demanding calculation works with, and how many
 /// of constraints: [`project`](crate::equations::project).
 const COORDINATES: usize = 8;
 const CONSTRAINTS: usize = 6;
+/// Vectors for all coordinates and velocities of two states.
+const COMPLETED: usize = 4;
 
 /// Vectors to compute with. What they hold before and after a calculation means nothing:
 /// each takes the first ones that it needs.
@@ -18,20 +20,26 @@ pub struct Room<'a, T> {
     pub(crate) coordinates: [&'a mut [T]; COORDINATES],
     /// Vectors with a component per constraint.
     pub(crate) constraints: [&'a mut [T]; CONSTRAINTS],
+    /// All coordinates and velocities of two states of a step.
+    pub(crate) completed: [&'a mut [T]; COMPLETED],
+    /// The positions that are integrated, of a stage of a step.
+    pub(crate) there: &'a mut [T],
     /// v and q̈ of the stages of a step, as many as there are.
     pub(crate) slopes: [[&'a mut [T]; MOST_STAGES]; 2],
 }
 
 impl<'a, T> Room<'a, T> {
-    /// The numbers that a mechanism with so many coordinates and constraints needs, for steps
-    /// of so many stages; without steps, 0.
-    pub const fn len(coordinates: usize, constraints: usize, stages: usize) -> usize {
-        (COORDINATES + 2 * stages) * coordinates + CONSTRAINTS * constraints
+    /// The numbers that a mechanism needs, for steps of so many stages; without steps, 0.
+    pub const fn len(info: &Info, stages: usize) -> usize {
+        (COORDINATES + COMPLETED) * info.coordinates.len()
+            + CONSTRAINTS * info.constraints.len()
+            + (1 + 2 * stages) * info.states.len()
     }
 
-    /// Room in a slice of [`len`](Self::len) numbers. In a shorter one, what is computed
-    /// means nothing.
-    pub fn within(mut numbers: &'a mut [T], coordinates: usize, constraints: usize) -> Self {
+    /// Room for a mechanism in a slice of [`len`](Self::len) numbers. In a shorter one, what is
+    /// computed means nothing.
+    pub fn within(mut numbers: &'a mut [T], info: &Info) -> Self {
+        let (coordinates, states) = (info.coordinates.len(), info.states.len());
         let mut cut = |length: usize| {
             let whole = core::mem::take(&mut numbers);
             let (vector, rest) = whole.split_at_mut(length.min(whole.len()));
@@ -40,8 +48,10 @@ impl<'a, T> Room<'a, T> {
         };
         Self {
             coordinates: [(); COORDINATES].map(|()| cut(coordinates)),
-            constraints: [(); CONSTRAINTS].map(|()| cut(constraints)),
-            slopes: slopes(numbers.chunks_exact_mut(coordinates.max(1))),
+            constraints: [(); CONSTRAINTS].map(|()| cut(info.constraints.len())),
+            completed: [(); COMPLETED].map(|()| cut(coordinates)),
+            there: cut(states),
+            slopes: slopes(numbers.chunks_exact_mut(states.max(1))),
         }
     }
 }
@@ -61,10 +71,12 @@ fn slopes<'a, T>(mut vectors: impl Iterator<Item = &'a mut [T]>) -> [[&'a mut [T
 pub(crate) struct OnStack<M: Mechanism> {
     coordinates: [Coordinates<M>; COORDINATES],
     constraints: [Constraints<M>; CONSTRAINTS],
+    completed: [Coordinates<M>; COMPLETED],
+    there: States<M>,
 }
 
 /// v and q̈ of every stage of a scheme.
-pub(crate) type Stages<M, S> = <S as Scheme>::Stages<[Coordinates<M>; 2]>;
+pub(crate) type Stages<M, S> = <S as Scheme>::Stages<[States<M>; 2]>;
 
 impl<M: Mechanism> OnStack<M> {
     /// Zeros.
@@ -74,6 +86,8 @@ impl<M: Mechanism> OnStack<M> {
         Self {
             coordinates: [M::Coordinates::splat(zero).into_array(); COORDINATES],
             constraints: [M::Constraints::splat(zero).into_array(); CONSTRAINTS],
+            completed: [M::Coordinates::splat(zero).into_array(); COMPLETED],
+            there: M::States::splat(zero).into_array(),
         }
     }
 
@@ -82,6 +96,8 @@ impl<M: Mechanism> OnStack<M> {
         Room {
             coordinates: self.coordinates.each_mut().map(AsMut::as_mut),
             constraints: self.constraints.each_mut().map(AsMut::as_mut),
+            completed: self.completed.each_mut().map(AsMut::as_mut),
+            there: self.there.as_mut(),
             slopes: slopes(core::iter::empty()),
         }
     }

@@ -18,7 +18,7 @@ use crate::{Error, Gains, Info, Real, spare, vectors};
 pub struct Run<'a, T> {
     /// The mechanism.
     pub equations: &'a dyn Equations<T>,
-    /// The last good state.
+    /// The last good state: the coordinates that are integrated.
     pub at: At<'a, T>,
     /// The inputs, held over the step.
     pub inputs: &'a [T],
@@ -63,7 +63,9 @@ impl<T: Real> Run<'_, T> {
         if self.is_calm(next, growth, watch, room) {
             watch.note(growth);
         } else {
-            self.examine_step(next, growth, watch, room)?;
+            let mut examine =
+                |ends: [At<'_, T>; 2], room: &mut Room<'_, T>| self.examine_step(ends, growth, watch, room);
+            completed(self.equations, [self.at, next], room, &mut examine)?;
             watch.note_examined(growth);
         }
         Ok(())
@@ -73,8 +75,12 @@ impl<T: Real> Run<'_, T> {
     /// redundant constraints, of which a step knows nothing, are met all the same. Whether
     /// the state is finite is another question.
     pub fn is_calm(&self, next: At<'_, T>, growth: T, watch: &Watch<T>, room: &mut Room<'_, T>) -> bool {
-        let [phi, ..] = &mut room.constraints;
-        let margin = spare::margin_on(self.equations, next.t, next.q, watch.length, phi);
+        if self.equations.info().redundant.is_empty() {
+            return growth <= watch.alarm;
+        }
+        let ([phi, ..], [q, v, ..]) = (&mut room.constraints, &mut room.completed);
+        self.equations.complete(next, q, v);
+        let margin = spare::margin_on(self.equations, next.t, q, watch.length, phi);
         growth <= watch.alarm && margin >= T::default()
     }
 
@@ -89,12 +95,16 @@ impl<T: Real> Run<'_, T> {
         // If only the sum of the growths is over the limit, the largest is over its share.
         let share = T::from_f64(1.0 / self.method.tableau.stage_count() as f64);
         let (mut error, mut t_last) = (None, self.at.t);
+        let mut all = core::mem::take(&mut room.completed);
         self.stages(t_next, [q_next, v_next], room, |at, acceleration, growth| {
             t_last = at.t;
             if error.is_none() {
-                error = stage_error(self.equations, at, acceleration, growth, share * growth_limit());
+                let [q, v, ..] = all.each_mut().map(|vector| &mut **vector);
+                let limit = share * growth_limit();
+                error = stage_error(self.equations, at, acceleration, growth, limit, [q, v]);
             }
         });
+        room.completed = all;
         // Where all stages are healthy, the sum that leaves them is not.
         Err(error.unwrap_or(Error::NonFinite { t: t_last.to_f64(), coordinate: "the state" }))
     }
@@ -111,8 +121,7 @@ impl<T: Real> Run<'_, T> {
         let [mut q_next, v_next] = next;
         vectors::copy(q_next, at.q);
         let [feedback, unread, ..] = &mut room.constraints;
-        let [there, ..] = room.coordinates.each_mut();
-        let mut there = &mut **there;
+        let mut there = &mut *room.there;
         let [velocities, accelerations] = room.slopes.each_mut();
         let [mut velocities, mut accelerations] =
             [velocities, accelerations].map(|stages| stages.each_mut().map(|vector| &mut **vector));
@@ -140,17 +149,15 @@ impl<T: Real> Run<'_, T> {
             return growth;
         }
         let mut v_next = v_next;
+        let ([q_all, v_all, ..], [all, ..]) = (&mut room.completed, &mut room.coordinates);
         let projected = explicit::project(&mut q_next, &mut v_next, &mut there, |Beside { q, v }, delta| {
-            match v {
-                None => equations.phi(t_next, q, feedback),
-                Some(v) => equations.phi_dot(At { t: t_next, q, v }, feedback),
-            }
-            equations.projection(t_next, q, feedback, delta)
+            let room = Correction { all: [q_all, v_all, all], violation: feedback };
+            correction(*equations, t_next, q, v.map(|v| &**v), room, delta)
         });
         growth + projected
     }
 
-    /// Examines a step to `next` after which the growth has risen: whether its constraints
+    /// Examines a step from `from` to `next`, with all coordinates of both, after which the growth has risen: whether its constraints
     /// can still be met, whether it has kept its digits, and which pivot it is, which the
     /// watch remembers.
     ///
@@ -158,7 +165,7 @@ impl<T: Real> Run<'_, T> {
     /// [`Error::OutOfReach`], [`Error::Singular`].
     fn examine_step(
         &self,
-        next: At<'_, T>,
+        [from, next]: [At<'_, T>; 2],
         growth: T,
         watch: &mut Watch<T>,
         room: &mut Room<'_, T>,
@@ -169,16 +176,21 @@ impl<T: Real> Run<'_, T> {
         }
         let [phi, ..] = &mut room.constraints;
         spare::check(equations, next.t, next.q, watch.length, phi)?;
-        self.keeps_digits(next, growth, room)?;
-        remember(equations, self.at, growth, watch);
+        self.keeps_digits([from, next], growth, room)?;
+        remember(equations, from, growth, watch);
         Ok(())
     }
 
     /// Refuses a step from which rounding has taken half of its digits, growth > 1/√ε, and
     /// that has left many times the violation of before, whose feedback would change the
     /// motion as a whole: within some steps it would leave every scale.
-    fn keeps_digits(&self, next: At<'_, T>, growth: T, room: &mut Room<'_, T>) -> Result<(), Error> {
-        let Self { equations, at, step, .. } = *self;
+    fn keeps_digits(
+        &self,
+        [at, next]: [At<'_, T>; 2],
+        growth: T,
+        room: &mut Room<'_, T>,
+    ) -> Result<(), Error> {
+        let Self { equations, step, .. } = *self;
         let has_lost_half = T::EPSILON * growth * growth > T::from_f64(1.0);
         if !has_lost_half || !self.keeps_constraints || check(equations, at, step, room).is_err() {
             return Ok(());
@@ -208,33 +220,40 @@ impl<T: Real> Run<'_, T> {
         if let Err(input) = check_inputs(equations.info(), inputs) {
             return input;
         }
-        if !self.is_good(t_next, room) || !self.keeps_constraints {
+        if !self.keeps_constraints {
             return error;
         }
-        let mut reach_at = |t| reach(equations, t, at.q, inputs, step, room);
-        if reach_at(at.t).is_err() {
-            return error;
-        }
-        reach_at(t_next).err().unwrap_or(error)
+        let mut blocked = None;
+        let mut look = |[from, _]: [At<'_, T>; 2], room: &mut Room<'_, T>| {
+            if self.is_good(from, t_next, room)
+                && reach(equations, from.t, from.q, inputs, step, room).is_ok()
+            {
+                blocked = reach(equations, t_next, from.q, inputs, step, room).err();
+            }
+            Ok(())
+        };
+        let looked = completed(equations, [at, at], room, &mut look);
+        looked.err().or(blocked).unwrap_or(error)
     }
 
-    /// Whether the state has accelerations, and its positions constraints at `t_next`.
-    fn is_good(&self, t_next: T, room: &mut Room<'_, T>) -> bool {
-        let Self { equations, at, inputs, gains, .. } = self;
+    /// Whether a state has accelerations, and its positions constraints at `t_next`.
+    fn is_good(&self, from: At<'_, T>, t_next: T, room: &mut Room<'_, T>) -> bool {
+        let Self { equations, inputs, .. } = self;
         let [acceleration, ..] = &mut room.coordinates;
         let [feedback, phi, ..] = &mut room.constraints;
-        let growth = equations.stabilized(*at, inputs, gains, acceleration, feedback);
-        equations.phi(t_next, at.q, phi);
+        vectors::fill(feedback, T::default());
+        let growth = equations.accelerations(from, inputs, feedback, acceleration);
+        equations.phi(t_next, from.q, phi);
         growth < growth_limit() && vectors::is_finite(phi)
     }
 
-    /// Examines q̈ and λ of the state.
+    /// Examines q̈ and λ of a state with these positions.
     ///
     /// # Errors
     /// [`Error::Input`], [`Error::Singular`], [`Error::NonFinite`] of an acceleration,
     /// [`Error::Undefined`] of a multiplier.
-    pub fn examine(&self, acceleration: &[T], multipliers: &[T], growth: T) -> Result<(), Error> {
-        let Self { equations, at: At { t, q, .. }, inputs, .. } = *self;
+    pub fn examine(&self, q: &[T], acceleration: &[T], multipliers: &[T], growth: T) -> Result<(), Error> {
+        let Self { equations, at: At { t, .. }, inputs, .. } = *self;
         let info = equations.info();
         let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
         let name = |row| info.constraint_name(row);
@@ -243,6 +262,60 @@ impl<T: Real> Run<'_, T> {
             // an input that is not finite is the cause of whatever failed after it
             .map_err(|error| check_inputs(info, inputs).err().unwrap_or(error))
     }
+}
+
+/// What [`correction`] works with.
+#[derive(Debug)]
+pub struct Correction<'a, T> {
+    /// All coordinates, velocities and corrections.
+    pub all: [&'a mut [T]; 3],
+    /// One number per constraint.
+    pub violation: &'a mut [T],
+}
+
+/// Writes the correction Δ of the positions that are integrated, or of the velocities there, which
+/// leads to the constraints; the growth of its solution. See [`explicit::project`].
+pub fn correction<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &[T],
+    v: Option<&[T]>,
+    room: Correction<'_, T>,
+    delta: &mut [T],
+) -> T {
+    let Correction { all: [q_all, v_all, all], violation } = room;
+    // positions do not depend on velocities
+    equations.complete(At { t, q, v: v.unwrap_or(q) }, q_all, v_all);
+    match v {
+        None => equations.phi(t, q_all, violation),
+        Some(_) => equations.phi_dot(At { t, q: q_all, v: v_all }, violation),
+    }
+    let growth = equations.projection(t, q_all, violation, all);
+    equations.states(all, delta);
+    growth
+}
+
+/// What is done with two states of which all coordinates are known.
+type Look<'a, T> = dyn FnMut([At<'_, T>; 2], &mut Room<'_, T>) -> Result<(), Error> + 'a;
+
+/// Does something with all coordinates of two states of a step.
+///
+/// # Errors
+/// Those of what is done.
+fn completed<T: Real>(
+    equations: &dyn Equations<T>,
+    [first, second]: [At<'_, T>; 2],
+    room: &mut Room<'_, T>,
+    look: &mut Look<'_, T>,
+) -> Result<(), Error> {
+    let mut all = core::mem::take(&mut room.completed);
+    let [q, v, q_second, v_second] = all.each_mut().map(|vector| &mut **vector);
+    equations.complete(first, q, v);
+    equations.complete(second, q_second, v_second);
+    let second = At { t: second.t, q: q_second, v: v_second };
+    let result = look([At { t: first.t, q, v }, second], room);
+    room.completed = all;
+    result
 }
 
 /// Tells the watch of a growth, and of its pivot if it is worth a name.
@@ -266,15 +339,17 @@ pub(crate) fn note_risen<T: Real>(
     watch: &mut Watch<T>,
     room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
-    let [phi, ..] = &mut room.constraints;
-    spare::check(equations, to.t, to.q, watch.length, phi)?;
-    if growth > watch.alarm {
-        remember(equations, from, growth, watch);
-        watch.note_examined(growth);
-    } else {
-        watch.note(growth);
-    }
-    Ok(())
+    completed(equations, [from, to], room, &mut |[from, to], room| {
+        let [phi, ..] = &mut room.constraints;
+        spare::check(equations, to.t, to.q, watch.length, phi)?;
+        if growth > watch.alarm {
+            remember(equations, from, growth, watch);
+            watch.note_examined(growth);
+        } else {
+            watch.note(growth);
+        }
+        Ok(())
+    })
 }
 
 /// `Ok` if outputs are finite, at the time `t`.

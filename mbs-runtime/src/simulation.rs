@@ -40,7 +40,7 @@ use crate::{Baumgarte, Components, Error, Gains, Held, Mechanism, Method, Reacti
 pub struct Simulation<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> {
     mechanism: M,
     inputs: M::Inputs,
-    state: State<M::Coordinates>,
+    state: State<M::States>,
     baumgarte: Baumgarte<X>,
     gains: Gains<M::Real>,
     step: M::Real,
@@ -75,12 +75,12 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline]
     pub fn step(&mut self) -> Result<(), Error> {
         let t_next = self.next_time();
-        let Self { mechanism, state, inputs, gains, step, watch, .. } = &*self;
+        let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         // Written so that a NaN fails the test. The state is stored from registers,
         // pair by pair; through a `Result` it would be copied in other pieces than
         // those in which it was written, for which processors wait.
         if is_fused_for::<M, X>()
-            && let Some(fused) = mechanism.fused_step::<X>(state, inputs, gains, *step, t_next)
+            && let Some(fused) = mechanism.fused_step::<X>(&self.counted(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
@@ -154,10 +154,10 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline]
     pub fn step_with_reactions(&mut self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let t_next = self.next_time();
-        let Self { mechanism, state, inputs, gains, step, watch, .. } = &*self;
+        let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         if is_fused_for::<M, X>()
             && let Some((fused, reactions)) =
-                mechanism.fused_step_with_reactions::<X>(state, inputs, gains, *step, t_next)
+                mechanism.fused_step_with_reactions::<X>(&self.counted(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
@@ -170,6 +170,15 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let reactions = self.reactions()?;
         self.step()?;
         Ok(reactions)
+    }
+
+    /// The present state with its time counted anew, which gives the same number: read from the
+    /// state, it would be loaded in one piece with the coordinate behind it, and wait for the
+    /// writes of both.
+    #[inline(always)]
+    fn counted(&self) -> State<M::States> {
+        let t = self.start_time + M::Real::from_f64(self.steps as f64) * self.step;
+        State { t, ..self.state }
     }
 
     /// The time after the next step.
@@ -199,9 +208,15 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps, end)
     }
 
-    /// Time, positions and velocities.
+    /// Time, positions and velocities of all coordinates.
     #[inline]
-    pub fn state(&self) -> &State<M::Coordinates> {
+    pub fn state(&self) -> State<M::Coordinates> {
+        self.mechanism.complete(&self.state)
+    }
+
+    /// Time, positions and velocities of the coordinates that are integrated.
+    #[inline]
+    pub fn integrated(&self) -> &State<M::States> {
         &self.state
     }
 
@@ -222,7 +237,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     }
 
     /// The same run, that many steps after its start.
-    pub(crate) fn moved_to(&self, state: State<M::Coordinates>, steps: u64, watch: Watch<M::Real>) -> Self {
+    pub(crate) fn moved_to(&self, state: State<M::States>, steps: u64, watch: Watch<M::Real>) -> Self {
         Self { state, steps, watch, ..*self }
     }
 
@@ -257,12 +272,12 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// Constraint violation ‖Φ‖, the Euclidean norm.
     pub fn violation(&self) -> M::Real {
-        self.mechanism.phi(self.state.t, &self.state.q).norm()
+        self.mechanism.phi(self.state.t, &self.state().q).norm()
     }
 
     /// Constraint violation in velocities ‖Φ̇‖.
     pub fn velocity_violation(&self) -> M::Real {
-        self.mechanism.phi_dot(&self.state).norm()
+        self.mechanism.phi_dot(&self.state()).norm()
     }
 
     /// The largest pivot growth of a step so far, all stages added; 0 before the first.
@@ -311,7 +326,8 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// Kinetic plus potential energy in J.
     pub fn energy(&self) -> M::Real {
-        self.mechanism.kinetic_energy(&self.state) + self.mechanism.potential_energy(&self.state)
+        let state = self.state();
+        self.mechanism.kinetic_energy(&state) + self.mechanism.potential_energy(&state)
     }
 
     /// q̈ and λ of the present state, from the right-hand side *without*
@@ -340,7 +356,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         &self,
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
-        let solved = self.mechanism.reactions(&self.state, &self.inputs, feedback);
+        let solved = self.mechanism.reactions(&self.state(), &self.inputs, feedback);
         let sum = sum_of(solved.acceleration) + sum_of(solved.multipliers);
         if sum.is_finite() && solved.growth < growth_limit() {
             return Ok(solved);
@@ -356,7 +372,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline]
     pub fn outputs(&self) -> Result<M::Outputs, Error> {
         let reactions = self.reactions()?;
-        let outputs = self.mechanism.outputs(&self.state, &self.inputs, &reactions);
+        let outputs = self.mechanism.outputs(&self.state(), &self.inputs, &reactions);
         self.check_outputs(outputs).map(|()| outputs)
     }
 

@@ -13,11 +13,12 @@ const SHARE: f64 = 1e-3;
 /// a mechanism of this size; negative or NaN if that is exceeded. Costs nothing where no
 /// constraint is redundant.
 #[inline(always)]
-pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>, length: M::Real) -> M::Real {
+pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::States>, length: M::Real) -> M::Real {
     if M::INFO.redundant.is_empty() {
         return length;
     }
-    least(M::INFO, mechanism.phi(at.t, &at.q).into_array().as_ref(), length)
+    let all = mechanism.complete(at);
+    least(M::INFO, mechanism.phi(all.t, &all.q).into_array().as_ref(), length)
 }
 
 /// The same on slices.

@@ -109,7 +109,7 @@ pub fn check<M: Mechanism>(mechanism: &M, state: &State<M::Coordinates>, step: M
 /// #     }
 /// # }
 /// let pendulum = Pendulum::declared();
-/// let mut guess = *Simulation::new(pendulum, 1e-3)?.state();
+/// let mut guess = Simulation::new(pendulum, 1e-3)?.state();
 /// (guess.q.y, guess.v.x) = (-0.6, 1.2);
 /// let start = start::project(&pendulum, &guess, &["y"], &["x"])?;
 /// assert!((start.q.x - 0.8).abs() < 1e-15 && start.q.y == -0.6);

@@ -168,8 +168,9 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
     }
 
     fn state(&self, q: &mut [f64], v: &mut [f64]) {
-        write(self.state().q, q);
-        write(self.state().v, v);
+        let state = self.state();
+        write(state.q, q);
+        write(state.v, v);
     }
 
     fn inputs(&self, inputs: &mut [f64]) {
@@ -209,7 +210,7 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         let growth = f64::default();
         let reactions =
             Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
-        let measured = self.mechanism().outputs(self.state(), self.inputs(), &reactions);
+        let measured = self.mechanism().outputs(&self.state(), self.inputs(), &reactions);
         write(measured, outputs);
         self.check_outputs(measured)
     }

@@ -52,6 +52,7 @@ impl Pendulums {
             constraints.iter().map(|rod| Pivot { constraint: rod.name, coordinate: "" }).collect();
         let (coordinates, constraints, pivots) = (coordinates.leak(), constraints.leak(), pivots.leak());
         let dof = constraints.len() as i32;
+        let states: Vec<usize> = (0..coordinates.len()).collect();
         let info = Info::from_parts(
             "Pendulums",
             "",
@@ -62,6 +63,7 @@ impl Pendulums {
             &[],
             &[],
             constraints,
+            states.leak(),
             &[],
             pivots,
             pivots,
@@ -71,8 +73,7 @@ impl Pendulums {
     }
 
     fn room(&self) -> Vec<f64> {
-        let n = self.lengths.len();
-        vec![f64::NAN; Room::<f64>::len(2 * n, n, 4)]
+        vec![f64::NAN; Room::<f64>::len(&self.info, 4)]
     }
 
     /// Φ_qᵀ (Φ_q Φ_qᵀ)⁻¹ (r − Φ_q f) + f of each, and the growth.
@@ -108,6 +109,10 @@ impl Equations<f64> for Pendulums {
             phi_dot[i] = (q[2 * i] * v[2 * i] + q[2 * i + 1] * v[2 * i + 1]) / l;
         }
     }
+    fn complete(&self, states: At<'_, f64>, q: &mut [f64], v: &mut [f64]) {
+        q.copy_from_slice(states.q);
+        v.copy_from_slice(states.v);
+    }
     fn stabilized(
         &self,
         at: At<'_, f64>,
@@ -124,7 +129,16 @@ impl Equations<f64> for Pendulums {
         }
         self.constrained(at, inputs, feedback, acceleration)
     }
-    fn constrained(&self, at: At<'_, f64>, _: &[f64], feedback: &[f64], acceleration: &mut [f64]) -> f64 {
+    fn constrained(
+        &self,
+        at: At<'_, f64>,
+        inputs: &[f64],
+        feedback: &[f64],
+        acceleration: &mut [f64],
+    ) -> f64 {
+        self.accelerations(at, inputs, feedback, acceleration)
+    }
+    fn accelerations(&self, at: At<'_, f64>, _: &[f64], feedback: &[f64], acceleration: &mut [f64]) -> f64 {
         let v = at.v;
         let gamma = |i: usize| -(v[2 * i].powi(2) + v[2 * i + 1].powi(2)) / self.lengths[i];
         self.solve(at.q, |i| gamma(i) + feedback[i], [0.0, -GRAVITY], acceleration)
@@ -161,7 +175,7 @@ fn start_of_each_is_that_of_the_one_with_named_components() {
     let lengths = [1.0, 1.5, 0.7, 2.0, 1.1];
     let pendulums = Pendulums::new(&lengths);
     let mut numbers = pendulums.room();
-    let mut room = Room::within(&mut numbers, 10, 5);
+    let mut room = Room::within(&mut numbers, &pendulums.info);
     let (mut q, mut v) = guesses(5);
     consistent(&pendulums, 0.0, &mut q, &mut v, &mut room).expect("a start");
     check(&pendulums, At { t: 0.0, q: &q, v: &v }, 1e-3, &mut room).expect("a consistent start");
@@ -169,7 +183,7 @@ fn start_of_each_is_that_of_the_one_with_named_components() {
     let (guess_q, guess_v) = guesses(5);
     for (i, length) in lengths.into_iter().enumerate() {
         let pendulum = Pendulum::new(PendulumParameters { length }).expect("a length");
-        let mut guess = *Simulation::new(pendulum, 1e-3).expect("a start").state();
+        let mut guess = Simulation::new(pendulum, 1e-3).expect("a start").state();
         (guess.q.x, guess.q.y) = (guess_q[2 * i], guess_q[2 * i + 1]);
         (guess.v.x, guess.v.y) = (guess_v[2 * i], guess_v[2 * i + 1]);
         let one = start::consistent(&pendulum, &guess).expect("a start");
@@ -185,7 +199,7 @@ fn start_of_each_is_that_of_the_one_with_named_components() {
 fn what_is_kept_and_what_is_refused_has_its_name() {
     let pendulums = Pendulums::new(&[1.0, 1.5]);
     let mut numbers = pendulums.room();
-    let mut room = Room::within(&mut numbers, 4, 2);
+    let mut room = Room::within(&mut numbers, &pendulums.info);
     let (mut q, mut v) = guesses(2);
     project(&pendulums, 0.0, &mut q, &mut v, [&["y0", "x1"], &["x0"]], &mut room).expect("a start");
     assert_eq!((q[1], q[2], v[0]), (-0.5, 0.9, 1.0));

@@ -146,7 +146,7 @@ fn on_every_path<M: Mechanism<Real = f64>, S: Mechanism<Real = f32>, X: Method>(
             }
         };
         while pack.advance(77) > 0 || pack.step() == [true; 4] {}
-        assert_eq!(pack.state(2), *alone.state());
+        assert_eq!(pack.state(2), alone.state());
         assert_eq!(pack.simulation(2).step(), Err(error), "{name}");
         assert!(run.worst_growth() == 0.0 && alone.worst_growth() > 2.0);
         assert_eq!(pack.simulation(2).worst_growth(), alone.worst_growth());

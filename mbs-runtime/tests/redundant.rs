@@ -69,7 +69,7 @@ fn spare_link_that_locks_the_motion_ends_it() {
         // 1e-3 of its 2 m
         assert!(run.violation() < 2.1e-3 && run.violation() > 1e-3, "{error}: {:e}", run.violation());
         while lanes.advance(100) > 0 || lanes.step() == [true; 4] {}
-        assert_eq!((lanes.steps(1), *lanes.simulation(1).state()), (run.steps(), *run.state()));
+        assert_eq!((lanes.steps(1), lanes.simulation(1).state()), (run.steps(), run.state()));
         let mut stages = Simulation::new(fitting_at_the_start(third, 0.0), 1e-3).expect("a start at rest");
         while stages.step_in_stages().is_ok() {}
         assert_eq!(stages.state(), run.state());

@@ -46,9 +46,9 @@ fn output_that_is_no_number_is_an_error_with_its_name() {
     undefined(run.reactions().expect_err("NaN"), "the multiplier of constraint", "motor");
     undefined(run.raw_reactions().expect_err("NaN"), "the multiplier of constraint", "motor");
     undefined(run.outputs().expect_err("NaN"), "the multiplier of constraint", "motor");
-    let before = *run.state();
+    let before = run.state();
     undefined(run.step_with_reactions().expect_err("NaN"), "the multiplier of constraint", "motor");
-    assert_eq!(*run.state(), before);
+    assert_eq!(run.state(), before);
 
     let mut quiet = Simulation::new(Quiet::declared(), 1e-2).expect("a start");
     quiet.advance_to(0.6).expect("a motion");
@@ -93,5 +93,5 @@ fn drive_that_is_no_number_is_an_error() {
     let mut run = Simulation::new(Ending::declared(), 1e-2).expect("a start");
     let error = run.advance_to(0.6).expect_err("NaN");
     assert!(matches!(error, Error::NonFinite { coordinate: "x", .. }), "{error:?}");
-    assert!(start::consistent(&Ending::declared(), &mbs_runtime::State { t: 0.6, ..*run.state() }).is_err());
+    assert!(start::consistent(&Ending::declared(), &mbs_runtime::State { t: 0.6, ..run.state() }).is_err());
 }

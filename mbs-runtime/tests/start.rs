@@ -46,7 +46,7 @@ fn moving() -> Simulation<FourBar> {
 fn run_goes_on_from_the_state_of_another_to_the_bit() {
     let mut run = moving();
     let mut other =
-        Simulation::builder(FourBar::declared(), H).from_state(*run.state()).build().expect("its own state");
+        Simulation::builder(FourBar::declared(), H).from_state(run.state()).build().expect("its own state");
     assert_eq!(other.state(), run.state());
     for _ in 0..500 {
         run.step().expect("a step");
@@ -63,7 +63,7 @@ fn states_of_coarse_and_resting_runs_are_accepted() {
         let mut run = Simulation::new(FourBar::declared(), h).expect("a start");
         for _ in 0..300 {
             run.step().expect("a step");
-            let again = Simulation::builder(FourBar::declared(), h).from_state(*run.state()).build();
+            let again = Simulation::builder(FourBar::declared(), h).from_state(run.state()).build();
             assert_eq!(again.expect("a state of a run").state(), run.state(), "h = {h}");
         }
     }
@@ -72,20 +72,20 @@ fn states_of_coarse_and_resting_runs_are_accepted() {
     for _ in 0..300 {
         single.step().expect("a step");
         Simulation::builder(FourBar::<f32>::default(), H)
-            .from_state(*single.state())
+            .from_state(single.state())
             .build()
             .expect("a state");
     }
-    let mut rest = *moving().state();
+    let mut rest = moving().state();
     rest.v = Components::splat(0.0);
     let run = Simulation::builder(FourBar::declared(), H).from_state(rest).build().expect("at rest");
-    assert_eq!(*run.state(), rest);
+    assert_eq!(run.state(), rest);
 }
 
 #[test]
 fn start_that_violates_a_constraint_is_refused_with_the_violation() {
     let build = |state| Simulation::builder(FourBar::declared(), H).from_state(state).build();
-    let mut state = *moving().state();
+    let mut state = moving().state();
     state.q.a3 += 0.01;
     match build(state).expect_err("not consistent") {
         Error::Inconsistent { constraint, is_rate: false, violation, allowed, .. } => {
@@ -94,14 +94,14 @@ fn start_that_violates_a_constraint_is_refused_with_the_violation() {
         }
         error => panic!("{error:?}"),
     }
-    let mut state = *moving().state();
+    let mut state = moving().state();
     state.v.a3 *= 0.5;
     let error = build(state).expect_err("not consistent");
     assert!(matches!(error, Error::Inconsistent { is_rate: true, .. }), "{error:?}");
     assert!(error.to_string().contains("the rate of constraint `knee"), "{error}");
     // as it is, if that is what one wants
     let run = Simulation::builder(FourBar::declared(), H).from_state(state).as_declared().build();
-    assert_eq!(*run.expect("unchecked").state(), state);
+    assert_eq!(run.expect("unchecked").state(), state);
 }
 
 /// Any coordinate of the one degree of freedom can be kept, and any velocity with it.
@@ -109,7 +109,7 @@ fn start_that_violates_a_constraint_is_refused_with_the_violation() {
 fn projection_keeps_what_it_is_told_to_the_bit() {
     let mechanism = FourBar::declared();
     let names: &[&'static str] = <FourBar as Mechanism>::Coordinates::NAMES;
-    let near = *moving().state();
+    let near = moving().state();
     for &position in names {
         for &velocity in names {
             let mut guess = near;
@@ -120,7 +120,7 @@ fn projection_keeps_what_it_is_told_to_the_bit() {
             assert_eq!(state.q.get(position), guess.q.get(position));
             assert_eq!(state.v.get(velocity), Some(0.25));
             let run = Simulation::builder(mechanism, H).from_state(state).build().expect("consistent");
-            assert_eq!(*run.state(), state);
+            assert_eq!(run.state(), state);
             // coordinates of 1 m; rates of up to 0.25 times a transmission ratio
             let ratio = state.v.largest().1.max(1.0);
             assert!(run.violation() < 1e-14, "{position}: {:e}", run.violation());
@@ -155,12 +155,12 @@ fn distance(mechanism: &FourBar, a: FourBarCoordinates, b: FourBarCoordinates) -
 #[test]
 fn projection_says_what_cannot_be_kept() {
     let mechanism = FourBar::declared();
-    let mut guess = *moving().state();
+    let mut guess = moving().state();
     guess.q.a3 += 0.05;
     let error = start::project(&mechanism, &guess, &["a1", "a2", "a3"], &[]).expect_err("two too many");
     let is_named = matches!(error, Error::NotAssembled { .. } | Error::Inconsistent { is_rate: false, .. });
     assert!(is_named, "{error:?}");
-    guess = *moving().state();
+    guess = moving().state();
     guess.v.a3 += 0.5;
     let error = start::project(&mechanism, &guess, &[], &["a1", "a3"]).expect_err("one too many");
     assert!(matches!(error, Error::Inconsistent { is_rate: true, .. }), "{error:?}");
@@ -171,7 +171,7 @@ fn projection_says_what_cannot_be_kept() {
 /// Regression: t = NaN and ±∞ were taken, and at 1e18 s time stood still.
 #[test]
 fn time_that_cannot_be_counted_is_refused() {
-    let state = *moving().state();
+    let state = moving().state();
     for t in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e18, -1e18, 1.2e12] {
         for kept in [false, true] {
             let builder = Simulation::builder(FourBar::declared(), H).from_state(State { t, ..state });
@@ -185,7 +185,7 @@ fn time_that_cannot_be_counted_is_refused() {
     late.step().expect("a step");
     assert!(late.time() > 1e9);
     let single = Simulation::new(FourBar::<f32>::default(), 1e-3).expect("a start");
-    let state = State { t: 1e5, ..*single.state() };
+    let state = State { t: 1e5, ..single.state() };
     let error = Simulation::builder(FourBar::<f32>::default(), 1e-3).from_state(state).build();
     assert!(matches!(error, Err(Error::Time { .. })), "{error:?}");
 }
@@ -194,12 +194,12 @@ fn time_that_cannot_be_counted_is_refused() {
 #[test]
 fn end_that_cannot_be_counted_to_is_refused() {
     let mut run = moving();
-    let before = *run.state();
+    let before = run.state();
     for end in [1e300, 1e18, 1e13] {
         assert_eq!(run.steps_to(end), Err(Error::Time { t: end, step: H }));
         assert_eq!(run.advance_to(end), Err(Error::Time { t: end, step: H }));
     }
-    assert_eq!(*run.state(), before);
+    assert_eq!(run.state(), before);
     assert_eq!(run.steps_to(1e9), Ok(1_000_000_000_000 - 400));
     assert_eq!(Real::to_f64(run.time()), 0.4);
 }

@@ -39,7 +39,7 @@ fn time<M: Mechanism<Real = f64>>(name: &str, h: f64, mechanism: M, inputs: M::I
                 std::process::abort();
             }
         }
-        let state = black_box(*run.state());
+        let state = black_box(run.state());
         times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(STEPS));
         let (q, v) = (state.q.into_array(), state.v.into_array());
         sum = q.as_ref().iter().chain(v.as_ref()).sum();

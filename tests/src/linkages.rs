@@ -70,8 +70,9 @@ pub fn declaration(number: u64) -> String {
     linkage.drives();
     let Linkage { text, start, coordinates, rows, .. } = linkage;
     let dof = coordinates - rows;
+    let states = if number % 2 == 0 { "all" } else { "reduced" };
     format!(
-        "pub Random{number} {{\ndof = {dof};\ngravity = (0, -9.81) [m/s^2];\n{text}start {{ {start}}}\n}}\n"
+        "pub Random{number} {{\ndof = {dof};\nstates = {states};\ngravity = (0, -9.81) [m/s^2];\n{text}start {{ {start}}}\n}}\n"
     )
 }
 

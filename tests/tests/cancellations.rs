@@ -42,7 +42,7 @@ macro_rules! assert_moves_as_its_equations {
     ($Mechanism:ident) => {{
         let mut run = Simulation::new($Mechanism::declared(), 1e-3)?;
         for _ in 0..200 {
-            let at = *run.state();
+            let at = run.state();
             let mechanism = run.mechanism();
             let (mass, phi_q) = (mechanism.mass(&at.q), mechanism.phi_q(at.t, &at.q));
             let (n, m) = (mass.nrows(), phi_q.nrows());

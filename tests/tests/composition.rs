@@ -197,7 +197,7 @@ fn a_long_chain_agrees_with_a_dense_solution() {
     const M: usize = 40;
     let long = Long::declared();
     let simulation = Simulation::builder(long, 1e-3).build().expect("the start is consistent");
-    let at = *simulation.state();
+    let at = simulation.state();
     let mut solved = Box::new(SMatrix::<f64, { N + M }, { N + M }>::zeros());
     let (mass, phi_q) = (long.mass(&at.q), long.phi_q(at.t, &at.q));
     solved.fixed_view_mut::<N, N>(0, 0).copy_from(&mass);

@@ -212,14 +212,14 @@ fn spring_without_length_is_regular_where_its_places_coincide() -> Result<(), Er
         assert_eq!(run.outputs()?.tension, 0.0);
         for _ in 0..2000 {
             run.step()?;
-            let (state, found) = (*run.state(), run.outputs()?);
+            let (state, found) = (run.state(), run.outputs()?);
             let (y, v) = (state.q.y, state.v.y);
             assert!((y - state.q.yt).abs() <= deviation, "{y} {}", state.q.yt);
             // the direction is kept from its kink by (1e-12 m)², against y > 1e-6 m
             assert!((found.tension - (4.0 * y.abs() + c * v * y.signum())).abs() < 1e-9);
             assert!((found.loss + c * v * v).abs() < 1e-9);
         }
-        let energy = run.mechanism().potential_energy(run.state());
+        let energy = run.mechanism().potential_energy(&run.state());
         let (y, yt) = (run.state().q.y, run.state().q.yt);
         assert!((energy - (2.0 * y * y + 9.81 * (y + yt))).abs() < 1e-12);
     }

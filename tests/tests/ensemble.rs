@@ -110,7 +110,7 @@ where
         assert_eq!((run.ended, run.steps), (None, STEPS), "{} {index}", M::INFO.name);
         let mut simulation = member(index).expect("a start");
         simulation.advance_to(END).expect("a motion");
-        assert_eq!(run.state, *simulation.state());
+        assert_eq!(run.state, simulation.state());
         let (found, expected) = (numbers(run), alone(member(index).expect("a start")));
         let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&found), bits(&expected), "{} {index}: {found:?} {expected:?}", M::INFO.name);
@@ -174,7 +174,7 @@ fn other_widths_and_steps() {
             let run = run.expect("a start");
             let mut simulation = member(index).expect("a start");
             simulation.advance_to(END).expect("a motion");
-            assert_eq!((run.state, run.steps, run.ended), (*simulation.state(), simulation.steps(), None));
+            assert_eq!((run.state, run.steps, run.ended), (simulation.state(), simulation.steps(), None));
         }
     }
     compare::<1>();
@@ -222,7 +222,7 @@ fn a_failing_lane_disturbs_nobody() {
         let run = outcome.expect("a start");
         let mut simulation = some_stuck(index).expect("a start");
         assert_eq!(run.ended, simulation.advance_to(END).err(), "{index}");
-        assert_eq!((run.state, run.steps), (*simulation.state(), simulation.steps()));
+        assert_eq!((run.state, run.steps), (simulation.state(), simulation.steps()));
         assert_eq!(run.ended.is_some(), [2, 5, 8].contains(&index), "{index}: {:?}", run.ended);
         if run.ended.is_none() {
             assert_eq!(Ok(run), undisturbed);
@@ -246,7 +246,7 @@ fn same_end<M: Mechanism<Real = f64>>(
         // as text: a growth may be NaN
         assert_eq!(format!("{:?}", run.ended), format!("{alone:?}"), "{} {index}", M::INFO.name);
         assert_eq!(format!("{:?}", unseen.ended), format!("{alone:?}"), "{} {index}", M::INFO.name);
-        assert_eq!((run.state, run.steps), (*simulation.state(), simulation.steps()));
+        assert_eq!((run.state, run.steps), (simulation.state(), simulation.steps()));
         assert_eq!((unseen.state, unseen.steps), (run.state, run.steps));
         run.ended
     });
@@ -300,7 +300,7 @@ fn change_points_of_parallelograms() {
     assert!(ended.iter().filter(|ended| ended.is_none()).count() >= 9, "{ended:?}");
     let some_flat = |index: usize| {
         let simulation = member(index)?;
-        let mut state = *simulation.state();
+        let mut state = simulation.state();
         if index == 3 {
             // uprights lie to the right, bars too
             let coordinates: &[&str] = <NFourBar2 as Mechanism>::Coordinates::NAMES;

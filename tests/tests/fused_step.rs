@@ -28,10 +28,10 @@ fn assert_same<C: Components>(fused: C, staged: C, what: &str) {
 /// Compares one step; its next state.
 fn compare<M: Mechanism, X: Method>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     what: &str,
-) -> State<M::Coordinates> {
+) -> State<M::States> {
     let what = format!("{what} of {} with {} feedback", M::INFO.name, X::EXPLICIT.stabilization.word());
     let number = M::Real::from_f64;
     let (h, half_h) = (number(H), number(0.5) * number(H));
@@ -63,7 +63,7 @@ fn compare<M: Mechanism, X: Method>(
     if fused.sum.is_finite() {
         assert!(q.is_finite() && v.is_finite(), "{what}: not finite, but the sum is");
     }
-    compare_with_reactions::<M, X>(mechanism, at, inputs, &what);
+    compare_with_reactions::<M, X>(mechanism, &mechanism.complete(at), inputs, &what);
     fused.next
 }
 
@@ -108,20 +108,21 @@ fn check<M: Mechanism>(mechanism: M, inputs: M::Inputs) {
     let start = mechanism.declared_start();
     let (h, none) = (M::Real::from_f64(H), M::Real::default());
     let gains = Gains { minus_two_alpha: none, minus_beta_squared: none };
+    let start = mbs_runtime::start::consistent(&mechanism, &start).unwrap_or(start);
+    let start = State { t: start.t, q: M::states(start.q), v: M::states(start.v) };
     let fused = mechanism.fused_step_with_reactions::<Held>(&start, &inputs, &gains, h, start.t + h);
     assert!(fused.is_some(), "{} gives no reactions with a step", M::INFO.name);
-    let start = mbs_runtime::start::consistent(&mechanism, &start).unwrap_or(start);
     let (mut held, mut per_stage) = (start, start);
     for _ in 0..200 {
         held = compare::<M, Held>(&mechanism, &held, &inputs, "motion");
         per_stage = compare::<M, PerStage>(&mechanism, &per_stage, &inputs, "motion");
         for scale in [1e-6, 1e-2, 1.0, 1e6] {
-            let mut shifted = |components: M::Coordinates| {
+            let mut shifted = |components: M::States| {
                 let mut array = components.into_array();
                 for x in array.as_mut() {
                     *x = *x + M::Real::from_f64(random.between(-scale, scale));
                 }
-                M::Coordinates::from_array(array)
+                M::States::from_array(array)
             };
             let beside = State { t: held.t, q: shifted(held.q), v: shifted(held.v) };
             compare::<M, Held>(&mechanism, &beside, &inputs, "a state");
@@ -184,6 +185,7 @@ fn slider_cranks_step_alike_at_dead_centres() {
                     at.q = at.q.with(name, angle).expect("an angle of the slider-crank");
                     at.v = at.v.with(name, 3.0).expect("a rate of the slider-crank");
                 }
+                let at = State { t: at.t, q: M::states(at.q), v: M::states(at.v) };
                 compare::<M, Held>(&mechanism, &at, &inputs, "a dead centre");
                 compare::<M, PerStage>(&mechanism, &at, &inputs, "a dead centre");
             }

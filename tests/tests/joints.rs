@@ -193,7 +193,7 @@ mechanism! {
 #[test]
 fn springs_oscillate_as_they_should() -> Result<(), Error> {
     let mut run = Simulation::new(Springs::declared(), 1e-3)?;
-    let energy = run.mechanism().potential_energy(run.state());
+    let energy = run.mechanism().potential_energy(&run.state());
     assert!((energy - (0.5 * 8.0 * 0.04 + 0.5 * 8.0)).abs() < 1e-14);
     run.advance_to(1.0)?;
     let free = 0.5 + 0.2 * 2.0_f64.cos();

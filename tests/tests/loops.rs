@@ -69,8 +69,8 @@ fn run<M: Mechanism<Real = f64>>(steps: usize) -> Vec<u64> {
     let mut values = Vec::new();
     for step in 0..steps {
         if step % 16 == 0 {
-            let State { t, q, v } = *simulation.state();
-            let at = *simulation.state();
+            let State { t, q, v } = simulation.state();
+            let at = simulation.state();
             let reactions = simulation.reactions().expect("the position is regular");
             let outputs = simulation.outputs().expect("the position is regular");
             values.extend_from_slice(q.into_array().as_ref());
@@ -139,7 +139,7 @@ fn whole_and_in_stages<M: Mechanism<Real = f64>, X: Method>(feedback: fn(f64) ->
         .expect("the start is consistent");
     let mut stages = whole;
     let bits = |simulation: &Simulation<M, X>| {
-        let State { t, q, v } = *simulation.state();
+        let State { t, q, v } = simulation.state();
         let (q, v) = (q.into_array(), v.into_array());
         let all = q.as_ref().iter().chain(v.as_ref()).chain([&t]).map(|x| x.to_bits());
         all.collect::<Vec<_>>()
@@ -166,7 +166,7 @@ fn long_steps_are_those_in_stages() {
 /// A long step that is no good leaves the state alone, and the error is that of a stage.
 #[test]
 fn a_bad_long_step_changes_nothing() {
-    let mut start = *Simulation::new(NPendulum40::declared(), 1e-3).expect("consistent").state();
+    let mut start = Simulation::new(NPendulum40::declared(), 1e-3).expect("consistent").state();
     start.v.theta_7 = 1e200;
     let mut simulation = Simulation::builder(NPendulum40::declared(), 1e-3)
         .from_state(start)
@@ -174,6 +174,6 @@ fn a_bad_long_step_changes_nothing() {
         .build()
         .expect("large, but finite");
     assert!(matches!(simulation.step(), Err(Error::NonFinite { .. })));
-    assert_eq!(*simulation.state(), start);
+    assert_eq!(simulation.state(), start);
     assert_eq!(simulation.steps(), 0);
 }

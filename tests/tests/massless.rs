@@ -155,14 +155,14 @@ macro_rules! compare {
             assert_solves(&dense, &ours, solved.growth, &format!("{} at {at:?}", stringify!($mechanism)));
         };
         let mut run = Simulation::new(mechanism, 1e-3).expect("the start is regular");
-        check(run.state(), true);
+        check(&run.state(), true);
         for _ in 0..$steps {
             run.step().expect("the motion is regular");
-            check(run.state(), true);
+            check(&run.state(), true);
         }
         let mut random = Random::new(7);
         for _ in 0..200 {
-            let mut at = *run.state();
+            let mut at = run.state();
             let (mut q, mut v) = (at.q.into_array(), at.v.into_array());
             q.iter_mut().chain(&mut v).for_each(|x| *x = random.between(-3.0, 3.0));
             (at.q, at.v) = (Components::from_array(q), Components::from_array(v));

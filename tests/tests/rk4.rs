@@ -56,12 +56,12 @@ const TORQUE: f64 = 0.5;
 /// A step as textbooks write it: k₁ to k₄ of positions and of velocities.
 fn by_the_book<M: Mechanism, X: Method>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
-) -> Stepped<M::Coordinates> {
+) -> Stepped<M::States> {
     let number = M::Real::from_f64;
     let (half_h, two) = (number(0.5) * h, number(2.0));
     let first = mechanism.stabilized(at, inputs, gains);
@@ -75,7 +75,7 @@ fn by_the_book<M: Mechanism, X: Method>(
             (solved.acceleration, solved.growth)
         }
     };
-    let moved = |x: M::Coordinates, by: M::Real, k: M::Coordinates| x.zip_map(k, |x, k| x + by * k);
+    let moved = |x: M::States, by: M::Real, k: M::States| x.zip_map(k, |x, k| x + by * k);
     let (v1, a1) = (at.v, first.acceleration);
     let v2 = moved(at.v, half_h, a1);
     let (a2, growth2) = solve(at.t + half_h, moved(at.q, half_h, v1), v2);
@@ -83,7 +83,7 @@ fn by_the_book<M: Mechanism, X: Method>(
     let (a3, growth3) = solve(at.t + half_h, moved(at.q, half_h, v2), v3);
     let v4 = moved(at.v, h, a3);
     let (a4, growth4) = solve(t_next, moved(at.q, h, v3), v4);
-    let mean = |k1: M::Coordinates, k2: M::Coordinates, k3: M::Coordinates, k4: M::Coordinates| {
+    let mean = |k1: M::States, k2: M::States, k3: M::States, k4: M::States| {
         let sum = k1.zip_map(k2, |k1, k2| k1 + two * k2);
         sum.zip_map(k3, |sum, k3| sum + two * k3).zip_map(k4, |sum, k4| sum + k4)
     };
@@ -102,7 +102,8 @@ fn fused_is_by_the_book<M: Mechanism<Scheme = Rk4>, X: Method<Scheme = Rk4>>(
     let h = number(0.5e-3);
     let gains = Baumgarte::<X>::deadbeat(0.5e-3).gains();
     let mut random = Random::new(11);
-    let mut at = mechanism.declared_start();
+    let start = mechanism.declared_start();
+    let mut at = State { t: start.t, q: M::states(start.q), v: M::states(start.v) };
     for _ in 0..300 {
         let scale = if random.between(0.0, 1.0) < 0.5 { 0.0 } else { 1e-3 };
         let mut off = at.q.into_array();

@@ -38,7 +38,7 @@ impl<M: Mechanism<Real = f64>> MethodVisitor for Miss<M> {
         let step = self.end / f64::from(self.steps);
         let mut run = Simulation::builder(self.mechanism, step).method::<X>().build()?;
         run.advance_to(self.end)?;
-        Ok((self.miss)(run.state()))
+        Ok((self.miss)(&run.state()))
     }
 }
 

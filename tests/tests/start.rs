@@ -41,8 +41,8 @@ fn prescribed_angle_is_kept_and_the_branch_too() {
         guess.v.theta1 = -7.0;
         let consistent = start::consistent(&mechanism, &guess).expect("a start");
         let start = Simulation::builder(mechanism, H).from_state(consistent).build().expect("a start");
-        assert_eq!(*start.state(), consistent);
-        let State { q, v, .. } = *start.state();
+        assert_eq!(start.state(), consistent);
+        let State { q, v, .. } = start.state();
         assert_eq!((q.theta1, v.theta1), (guess.q.theta1, -7.0));
         assert!(q.theta2.cos() > 0.9 && q.x3 > 0.1, "another branch: {q:?}");
         assert!(start.violation() <= POSITION_ROUNDING, "{:e} at {k}", start.violation());
@@ -56,7 +56,7 @@ fn start_as_declared_is_kept_to_the_bit() {
     let mechanism = SliderCrank::declared();
     let declared = mechanism.declared_start();
     let start = Simulation::builder(mechanism, H).as_declared().build().expect("a start");
-    assert_eq!(*start.state(), declared);
+    assert_eq!(start.state(), declared);
     assert_eq!(declared.v.into_array().iter().filter(|v| **v != 0.0).count(), 1);
     // only the crank turns, so the crank's own middle already violates Φ̇ = 0
     let parameters = *mechanism.parameters();

@@ -39,8 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn names(argument: Argument) -> &'static [&'static str] {
     match argument {
         Argument::Time => &["t"],
-        Argument::Positions => &["q"],
-        Argument::Velocities => &["v"],
+        Argument::Positions | Argument::StatePositions => &["q"],
+        Argument::Velocities | Argument::StateVelocities => &["v"],
         Argument::Inputs => &["inputs"],
         Argument::Gains => &["minus_two_alpha", "minus_beta_squared"],
         Argument::Feedback => &["feedback"],
@@ -57,8 +57,8 @@ fn read(compiled: &Compiled, operand: Operand) -> String {
             Input::Time => "t".to_owned(),
             Input::Parameter(at) => format!("p[{at}]"),
             Input::Input(at) => format!("inputs[{at}]"),
-            Input::Position(at) => format!("q[{at}]"),
-            Input::Velocity(at) => format!("v[{at}]"),
+            Input::Position(at) | Input::StatePosition(at) => format!("q[{at}]"),
+            Input::Velocity(at) | Input::StateVelocity(at) => format!("v[{at}]"),
             Input::Acceleration(at) => format!("acceleration[{at}]"),
             Input::Multiplier(at) => format!("multipliers[{at}]"),
             Input::Feedback(at) => format!("feedback[{at}]"),

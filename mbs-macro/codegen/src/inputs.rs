@@ -18,6 +18,10 @@ pub enum Input {
     Position(usize),
     /// of v,
     Velocity(usize),
+    /// of the positions that are integrated, where those are not all,
+    StatePosition(usize),
+    /// of their velocities,
+    StateVelocity(usize),
     /// of q̈,
     Acceleration(usize),
     /// or of λ.
@@ -36,11 +40,24 @@ pub enum Input {
     NextTime,
 }
 
+/// A coordinate that is integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct State {
+    /// Which one it is.
+    pub coordinate: usize,
+    /// The symbols of its position and its velocity in the functions of a step: those of the
+    /// coordinate, unless other coordinates are not integrated.
+    pub position: Symbol,
+    pub velocity: Symbol,
+}
+
 /// All inputs of programs, and the symbols of those that a method adds.
 pub struct Inputs {
     /// In the order of the symbols.
     all: Vec<Input>,
     pub time: Symbol,
+    /// The coordinates that are integrated, in their order.
+    pub states: Vec<State>,
     pub minus_two_alpha: Symbol,
     pub minus_beta_squared: Symbol,
     /// Per constraint.
@@ -68,7 +85,27 @@ impl Inputs {
         let half_step = add("(h/2)", Input::HalfStep);
         let next_time = add("(t+h)", Input::NextTime);
         let time = model.time;
-        Self { all, time, minus_two_alpha, minus_beta_squared, feedback, step, half_step, next_time }
+        let states = model.coordinates.iter().enumerate().map(|(coordinate, it)| State {
+            coordinate,
+            position: it.position,
+            velocity: it.velocity,
+        });
+        let states = states.collect();
+        Self { all, time, states, minus_two_alpha, minus_beta_squared, feedback, step, half_step, next_time }
+    }
+
+    /// Integrates these coordinates alone, which get symbols of their own.
+    pub fn reduce(&mut self, model: &mut Model, coordinates: &[usize]) {
+        self.states.clear();
+        for (at, &coordinate) in coordinates.iter().enumerate() {
+            let of = &model.coordinates[coordinate];
+            let [position, velocity] = [of.position, of.velocity].map(|symbol| {
+                let name = model.arena.name(symbol).to_owned();
+                model.arena.symbol(&name, Stage::Variable)
+            });
+            self.all.extend([Input::StatePosition(at), Input::StateVelocity(at)]);
+            self.states.push(State { coordinate, position, velocity });
+        }
     }
 
     /// What a symbol stands for.

@@ -11,6 +11,7 @@
 //! | `inputs` | `Inputs` | what a method adds to the symbols of a declaration (step, gains, feedback) has symbols |
 //! | `derive` | `Equations` | what follows computes with expressions; bodies, joints and forces are left for words |
 //! | `independence` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
+//! | `reduction` | `Reduction` | coordinates to integrate are chosen |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `validate` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
@@ -34,6 +35,7 @@ mod model;
 mod plan;
 mod quantity;
 mod reactive;
+mod reduction;
 mod syntax;
 pub mod target;
 mod validate;
@@ -67,11 +69,12 @@ pub fn analyse(declaration: TokenStream) -> Result<Compiled, Diagnostics> {
     let declaration = syntax::parse(declaration)?;
     let declaration = compose::compose(declaration)?;
     let mut model = model::resolve(&declaration)?;
-    let inputs = inputs::Inputs::new(&mut model);
+    let mut inputs = inputs::Inputs::new(&mut model);
     let equations = derive::derive(&mut model, &inputs);
     let samples = independence::Samples::new(&model, &inputs);
     let rows = independence::check_equations(&model, &equations, &samples)?;
-    let plan = plan::plan(&mut model, &equations, &rows, &samples, inputs)
+    let reduction = reduction::reduce(&mut model, &equations, &rows, &mut inputs);
+    let plan = plan::plan(&mut model, &equations, &rows, &samples, inputs, reduction)
         .map_err(|error| validate::unsolvable(&model, &error))?;
     validate::check_closure(&model, &equations, &plan)?;
     validate::check_limit(&model, &plan)?;

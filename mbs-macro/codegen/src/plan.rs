@@ -18,9 +18,10 @@ use crate::independence::{Rows, Samples};
 use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::reactive::Circular;
+use crate::reduction::Reduction;
 use correction::correction;
 pub use step::{FusedStep, Kinds};
-use system::cheapest;
+use system::{Problem, cheapest};
 
 /// The programs of all generated functions.
 pub struct Plan {
@@ -30,6 +31,8 @@ pub struct Plan {
     /// The steps of the elimination, in order.
     pub order: Vec<Elimination>,
     pub rows: Rows,
+    /// The coordinates that rows give, which are not integrated.
+    pub reduction: Reduction,
     /// What depends on parameters alone, as formulas.
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
@@ -53,9 +56,11 @@ pub struct Plan {
     pub forces: Program,
     pub kinetic_energy: Program,
     pub potential_energy: Program,
-    /// q̈, feedback, growth
+    /// q and v, from those that are integrated
+    pub complete: Program,
+    /// q̈ of the states, feedback, growth
     pub stabilized: Program,
-    /// q̈, growth
+    /// q̈ of the states, growth
     pub constrained: Program,
     /// q̈, λ, growth
     pub reactions: Program,
@@ -133,6 +138,7 @@ pub fn plan(
     rows: &Rows,
     samples: &Samples,
     inputs: Inputs,
+    reduction: Reduction,
 ) -> Result<Plan, Unsolvable> {
     if rows.basis.len() < equations.phi.len() && !model.reactive_loads.is_empty() {
         return Err(Unsolvable::Shared);
@@ -143,7 +149,8 @@ pub fn plan(
         return Err(Undetermined { unknowns }.into());
     }
     label(model, equations);
-    let solver = cheapest(model, equations, rows)?;
+    let problem = Problem { equations, rows, inputs: &inputs, reduction: &reduction };
+    let solver = cheapest(model, problem)?;
     let strategy = solver.strategy;
     let (positions, mut start_pivots) =
         correction(model, equations, rows, strategy, (samples, &inputs), false)?;
@@ -165,9 +172,12 @@ pub fn plan(
         .zip(&equations.feedback)
         .map(|(&gamma, &feedback)| model.arena.add(gamma, feedback))
         .collect();
-    let stabilized = solver.stabilized(model, equations, rows);
-    let (constrained, reactions) = solver.with_given_feedback(model, equations, rows, &inputs);
+    let stabilized = solver.stabilized(model, problem);
+    let constrained = solver.constrained(model, problem);
+    let reactions = solver.reactions(model, problem);
+    let reactions_in_states = reduction.in_states(&mut model.arena, &reactions);
     let projection = solver.projection(model, rows, &inputs);
+    let complete = reduction.complete(model);
     let growths = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| pivot.growth).collect::<Vec<_>>();
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     let outputs: Vec<Expr> = model.outputs.iter().map(|output| output.value).collect();
@@ -177,6 +187,7 @@ pub fn plan(
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
     let plan = Plan {
         inputs,
+        reduction,
         strategy,
         order: solver.factorization.order.clone(),
         rows: rows.clone(),
@@ -197,6 +208,7 @@ pub fn plan(
         position_correction: program(&positions)?,
         velocity_correction: program(&velocities)?,
         projection: program(&projection)?,
+        complete: program(&complete)?,
         pivots: program(&growths(&solver.factorization.pivots))?,
         start_pivots: program(&growths(&start_pivots))?,
         outputs: program(&outputs)?,
@@ -210,11 +222,9 @@ pub fn plan(
         pivot_names: names(&solver.factorization.pivots),
         start_pivot_names: names(&start_pivots),
     };
-    let stages = step::Stages {
-        stabilized: &plan.stabilized,
-        constrained: &plan.constrained,
-        reactions: &plan.reactions,
-    };
+    let reactions = program(&reactions_in_states)?;
+    let stages =
+        step::Stages { stabilized: &plan.stabilized, constrained: &plan.constrained, reactions: &reactions };
     let requirements = requirements(model, equations);
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);

@@ -14,12 +14,23 @@ impl Arena {
     ///
     /// The result is canonical; what holds no such symbol stays the same node.
     pub fn substitute(&mut self, expr: Expr, values: &HashMap<Symbol, Expr>) -> Expr {
+        self.substituted(&[expr], values)[&expr]
+    }
+
+    /// The same of several expressions; what they have in common is looked at once.
+    pub fn substitute_all(&mut self, exprs: &[Expr], values: &HashMap<Symbol, Expr>) -> Vec<Expr> {
+        let known = self.substituted(exprs, values);
+        exprs.iter().map(|expr| known[expr]).collect()
+    }
+
+    /// What every expression becomes that these are made of.
+    fn substituted(&mut self, exprs: &[Expr], values: &HashMap<Symbol, Expr>) -> FxHashMap<Expr, Expr> {
         let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for operand in self.reachable(&[expr]) {
+        for operand in self.reachable(exprs) {
             let substituted = self.substitute_in_node(operand, values, &known);
             known.insert(operand, substituted);
         }
-        known[&expr]
+        known
     }
 
     fn substitute_in_node(

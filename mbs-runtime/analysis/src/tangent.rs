@@ -87,7 +87,7 @@ impl Rest<'_> {
         let gamma = self.along(q, &a);
         if gamma.amax() > 0.0 {
             let feedback: Vec<f64> = gamma.iter().map(|gamma| -gamma).collect();
-            self.mechanism.constrained(at, self.inputs, &feedback, a.as_mut_slice());
+            self.mechanism.accelerations(at, self.inputs, &feedback, a.as_mut_slice());
         }
         (a, multipliers)
     }

@@ -164,7 +164,7 @@ impl<'a, M: Mechanism<Real: Lane>, X: Method, O: Observe<M>, const N: usize> Blo
         let observed = self.observer.finish(&self.notes, lane);
         let simulation = self.pack.simulation(lane);
         let run = Run {
-            state: *simulation.state(),
+            state: simulation.state(),
             steps: simulation.steps(),
             ended,
             digits_left: simulation.digits_left(),
@@ -205,7 +205,7 @@ fn unseen<M: Mechanism, X: Method>(simulation: &Simulation<M, X>) -> Option<Erro
     let of_outputs = simulation.outputs().err();
     of_outputs
         .or_else(|| not_finite("the violation of constraint", mechanism.phi(at.t, &at.q)))
-        .or_else(|| not_finite("the rate of constraint", mechanism.phi_dot(at)))
+        .or_else(|| not_finite("the rate of constraint", mechanism.phi_dot(&at)))
 }
 
 /// What an observer found no number for in a healthy state.

@@ -36,7 +36,7 @@ fn member_without_a_number_ends_with_its_name() {
         }
         assert_eq!(format!("{:?}", run.ended), format!("{error:?}"), "{index}");
         assert_eq!(run.ended.is_some(), index.is_multiple_of(3));
-        assert_eq!((run.state, run.steps), (*alone.state(), alone.steps()));
+        assert_eq!((run.state, run.steps), (alone.state(), alone.steps()));
     }
 }
 
@@ -123,7 +123,7 @@ fn members_tell_how_close_they_came() {
         let run = run.expect("a start");
         let mut alone = member(excess).expect("a start");
         alone.advance_to(2.0).expect("a motion");
-        assert_eq!((run.ended, run.state), (None, *alone.state()));
+        assert_eq!((run.ended, run.state), (None, alone.state()));
         assert_eq!((run.digits_left, run.worst_place), (alone.digits_left(), alone.worst_place()));
         let expected = 2.0 / (1.0 - 1.0 / (1.0 + excess).powi(2)).sqrt();
         let growth = alone.worst_growth();

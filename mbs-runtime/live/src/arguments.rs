@@ -8,9 +8,9 @@ use mbs_runtime::Real;
 pub struct Arguments<'a, T = f64, const C: usize = 1> {
     /// t in s
     pub t: [T; C],
-    /// q
+    /// q, or of a step what of it is integrated
     pub q: &'a [[T; C]],
-    /// v
+    /// v, or of a step what of it is integrated
     pub v: &'a [[T; C]],
     /// The inputs.
     pub inputs: &'a [[T; C]],

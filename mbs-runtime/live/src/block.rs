@@ -12,6 +12,7 @@ use crate::steps::Steps;
 pub struct Member<'a> {
     /// The mechanism, with its own parameters.
     pub mechanism: &'a Live,
+    /// What is integrated, and its velocities.
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub inputs: &'a [f64],
@@ -40,6 +41,9 @@ pub struct Block {
 
 /// Room to solve for reactions, and to measure outputs.
 struct Measure {
+    complete: Vec<Column>,
+    /// All coordinates and velocities.
+    all: [Vec<Column>; 2],
     reactions: Vec<Column>,
     outputs: Vec<Column>,
     no_feedback: Vec<Column>,
@@ -55,18 +59,20 @@ impl Block {
         let component = |vector: &[f64], at: usize| vector.get(at).copied().unwrap_or(f64::NAN);
         let (info, programs) = (first.declared_info(), first.programs());
         let fixed = |fixed| each(&|it| it.mechanism.fixed(fixed));
-        let (n, m) = (info.coordinates.len(), info.constraints.len());
+        let (n, s, m) = (info.coordinates.len(), info.states.len(), info.constraints.len());
         let zeros = |count: usize| vec![column(|_| 0.0); count];
         Self {
             stepper: Steps::new(programs, method, run, fixed),
-            q: (0..n).map(|at| each(&|it| component(it.q, at))).collect(),
-            v: (0..n).map(|at| each(&|it| component(it.v, at))).collect(),
+            q: (0..s).map(|at| each(&|it| component(it.q, at))).collect(),
+            v: (0..s).map(|at| each(&|it| component(it.v, at))).collect(),
             inputs: (0..info.inputs.len()).map(|at| each(&|it| component(it.inputs, at))).collect(),
             gains: [each(&|it| it.gains.minus_two_alpha), each(&|it| it.gains.minus_beta_squared)],
             step: each(&|it| it.step),
             start: each(&|it| it.start),
             steps: each(&|it| it.steps as f64),
             measure: Measure {
+                complete: programs.function(FunctionId::Complete).memory(fixed),
+                all: [zeros(n), zeros(n)],
                 reactions: programs.function(FunctionId::Reactions).memory(fixed),
                 outputs: programs.function(FunctionId::Outputs).memory(fixed),
                 no_feedback: zeros(m),
@@ -117,11 +123,25 @@ impl Block {
         zip(self.start, zip(steps, self.step, |n, h| n * h), |t, span| t + span)
     }
 
+    /// The coordinates and velocities of every member.
+    fn completed(&mut self) -> &[Vec<Column>; 2] {
+        let t = self.after(self.steps);
+        let Self { stepper, q, v, measure: Measure { complete, all, .. }, .. } = self;
+        let code = stepper.programs().function(FunctionId::Complete);
+        code.load(complete, &Arguments { t, q, v, ..Arguments::default() });
+        run(&code.instructions, stepper.programs().tables.splines, complete);
+        let [q, v] = all;
+        code.store(complete, &mut [q, v]);
+        all
+    }
+
     /// The outputs of every member, and whether they and the reactions are healthy.
     pub fn outputs(&mut self) -> (&[Column], [bool; LANES]) {
         let t = self.after(self.steps);
-        let Self { stepper, q, v, inputs, measure, .. } = self;
-        let Measure { reactions, outputs, no_feedback, acceleration, multipliers, measured } = measure;
+        self.completed();
+        let Self { stepper, inputs, measure, .. } = self;
+        let Measure { all: [q, v], reactions, outputs, no_feedback, .. } = measure;
+        let Measure { acceleration, multipliers, measured, .. } = measure;
         let (programs, splines) = (stepper.programs(), stepper.programs().tables.splines);
         let at = Arguments { t, q, v, inputs, feedback: no_feedback, ..Arguments::default() };
         let mut growth = column(|_| f64::NAN);
@@ -146,11 +166,12 @@ impl Block {
     }
 
     /// The coordinates of every member.
-    pub fn positions(&self) -> &[Column] {
-        &self.q
+    pub fn positions(&mut self) -> &[Column] {
+        let [q, _] = self.completed();
+        q
     }
 
-    /// Copies the state of a member; the steps since its start.
+    /// Copies what is integrated of a member; the steps since its start.
     pub fn get(&self, lane: usize, q: &mut [f64], v: &mut [f64]) -> u64 {
         let columns = self.q.iter().zip(q).chain(self.v.iter().zip(v));
         columns.for_each(|(column, number)| *number = read(column, lane));

@@ -21,15 +21,19 @@ impl Equations<f64> for Live {
         self.call(FunctionId::PhiDot, &state(at), [phi_dot]);
     }
 
+    fn complete(&self, states: At<'_, f64>, q: &mut [f64], v: &mut [f64]) {
+        self.call(FunctionId::Complete, &state(states), [q, v]);
+    }
+
     fn stabilized(
         &self,
-        at: At<'_, f64>,
+        states: At<'_, f64>,
         inputs: &[f64],
         gains: &Gains<f64>,
         acceleration: &mut [f64],
         feedback: &mut [f64],
     ) -> f64 {
-        let arguments = Arguments { inputs: single(inputs), gains: both(gains), ..state(at) };
+        let arguments = Arguments { inputs: single(inputs), gains: both(gains), ..state(states) };
         self.solve(|growth| {
             self.call(FunctionId::Stabilized, &arguments, [acceleration, feedback, growth]);
         })
@@ -37,13 +41,27 @@ impl Equations<f64> for Live {
 
     fn constrained(
         &self,
+        states: At<'_, f64>,
+        inputs: &[f64],
+        feedback: &[f64],
+        acceleration: &mut [f64],
+    ) -> f64 {
+        let arguments = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(states) };
+        self.solve(|growth| self.call(FunctionId::Constrained, &arguments, [acceleration, growth]))
+    }
+
+    fn accelerations(
+        &self,
         at: At<'_, f64>,
         inputs: &[f64],
         feedback: &[f64],
         acceleration: &mut [f64],
     ) -> f64 {
-        let arguments = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(at) };
-        self.solve(|growth| self.call(FunctionId::Constrained, &arguments, [acceleration, growth]))
+        let mut multipliers = vec![f64::NAN; feedback.len()];
+        let given = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(at) };
+        self.solve(|growth| {
+            self.call(FunctionId::Reactions, &given, [acceleration, &mut multipliers, growth]);
+        })
     }
 
     fn position_correction(&self, t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64 {

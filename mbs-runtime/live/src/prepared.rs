@@ -17,8 +17,6 @@ use crate::instruction::execute;
 #[derive(Clone, Debug)]
 pub struct Prepared {
     live: Live,
-    /// How many coordinates and constraints there are.
-    sizes: [usize; 2],
     room: RefCell<Memory>,
 }
 
@@ -26,9 +24,12 @@ pub struct Prepared {
 #[derive(Clone, Debug)]
 struct Memory {
     acceleration: Vec<[f64; 1]>,
+    complete: Vec<[f64; 1]>,
     phi: Vec<[f64; 1]>,
     phi_dot: Vec<[f64; 1]>,
     projection: Vec<[f64; 1]>,
+    /// All coordinates, velocities and corrections.
+    all: [Vec<f64>; 3],
     violation: Vec<f64>,
     no_feedback: Vec<f64>,
 }
@@ -41,13 +42,15 @@ impl Prepared {
         let (n, m) = (info.coordinates.len(), info.constraints.len());
         let room = Memory {
             acceleration: slots(FunctionId::Constrained),
+            complete: slots(FunctionId::Complete),
             phi: slots(FunctionId::Phi),
             phi_dot: slots(FunctionId::PhiDot),
             projection: slots(FunctionId::Projection),
+            all: [(); 3].map(|()| vec![0.0; n]),
             violation: vec![0.0; m],
             no_feedback: vec![0.0; m],
         };
-        Self { live: live.clone(), sizes: [n, m], room: RefCell::new(room) }
+        Self { live: live.clone(), room: RefCell::new(room) }
     }
 
     /// The mechanism.
@@ -74,6 +77,7 @@ impl Prepared {
 impl Dynamics for Prepared {
     type Real = f64;
     type Coordinates = Vec<f64>;
+    type States = Vec<f64>;
     type Constraints = Vec<f64>;
     type Inputs = Vec<f64>;
 
@@ -89,8 +93,19 @@ impl Dynamics for Prepared {
         self.live.declared_start()
     }
 
+    fn states(&self, all: &Vec<f64>) -> Vec<f64> {
+        let mut states = vec![0.0; self.live.declared_info().states.len()];
+        self.live.states(all, &mut states);
+        states
+    }
+
+    fn complete(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, [q_all, v_all]: &mut [Vec<f64>; 2]) {
+        let slots = &mut self.room.borrow_mut().complete;
+        self.run(FunctionId::Complete, slots, &state(At { t, q, v }), [q_all, v_all]);
+    }
+
     fn no_feedback(&self) -> Vec<f64> {
-        vec![0.0; self.sizes[1]]
+        vec![0.0; self.live.declared_info().constraints.len()]
     }
 
     fn default_inputs(&self) -> Vec<f64> {
@@ -105,9 +120,9 @@ impl Dynamics for Prepared {
         &self,
         what: impl FnOnce(&mut Room<'_, f64>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let [n, m] = self.sizes;
-        let mut numbers = vec![0.0; Room::<f64>::len(n, m, S::TABLEAU.stage_count())];
-        what(&mut Room::within(&mut numbers, n, m))
+        let info = self.live.declared_info();
+        let mut numbers = vec![0.0; Room::<f64>::len(info, S::TABLEAU.stage_count())];
+        what(&mut Room::within(&mut numbers, info))
     }
 
     fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
@@ -130,17 +145,19 @@ impl Dynamics for Prepared {
     }
 
     fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {
-        let Memory { phi, phi_dot, projection, violation, .. } = &mut *self.room.borrow_mut();
+        let Memory { complete, phi, phi_dot, projection, all: [q, v, correction], violation, .. } =
+            &mut *self.room.borrow_mut();
+        // positions do not depend on velocities
+        let states = At { t, q: at.q, v: at.v.unwrap_or(at.q) };
+        self.run(FunctionId::Complete, complete, &state(states), [&mut *q, &mut *v]);
         match at.v {
-            None => self.run(FunctionId::Phi, phi, &position(t, at.q), [&mut *violation]),
-            Some(v) => {
-                let at = state(At { t, q: at.q, v });
-                self.run(FunctionId::PhiDot, phi_dot, &at, [&mut *violation]);
-            }
+            None => self.run(FunctionId::Phi, phi, &position(t, q), [&mut *violation]),
+            Some(_) => self.run(FunctionId::PhiDot, phi_dot, &state(At { t, q, v }), [&mut *violation]),
         }
-        let given = Arguments { feedback: single(violation), ..position(t, at.q) };
+        let given = Arguments { feedback: single(violation), ..position(t, q) };
         let mut growth = [f64::NAN];
-        self.run(FunctionId::Projection, projection, &given, [delta, &mut growth]);
+        self.run(FunctionId::Projection, projection, &given, [&mut *correction, &mut growth]);
+        self.live.states(correction, delta);
         growth[0]
     }
 }

@@ -50,6 +50,7 @@ pub struct Run {
     start_time: f64,
     steps: u64,
     t: f64,
+    /// What is integrated, and its velocities.
     q: Vec<f64>,
     v: Vec<f64>,
     /// How many there are.
@@ -134,8 +135,17 @@ impl Run {
         Adaptive::builder(Prepared::new(mechanism))
     }
 
-    fn at(&self) -> At<'_, f64> {
+    /// What is integrated.
+    fn states(&self) -> At<'_, f64> {
         At { t: self.t, q: &self.q, v: &self.v }
+    }
+
+    /// All coordinates and velocities.
+    fn completed(&self) -> [Vec<f64>; 2] {
+        let mut all = [(); 2].map(|()| vec![f64::NAN; self.mechanism.declared_info().coordinates.len()]);
+        let [q, v] = &mut all;
+        self.mechanism.complete(self.states(), q, v);
+        all
     }
 
     /// Writes q̈ and λ of the present state with the feedback terms left in, as the first
@@ -145,7 +155,8 @@ impl Run {
     /// As [`System::reactions`].
     pub fn raw_reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
         let mut feedback = vec![f64::NAN; self.multipliers];
-        self.mechanism.stabilized(self.at(), &self.inputs, &self.gains, acceleration, &mut feedback);
+        let mut unread = vec![f64::NAN; self.q.len()];
+        self.mechanism.stabilized(self.states(), &self.inputs, &self.gains, &mut unread, &mut feedback);
         self.reactions_with(&feedback, acceleration, multipliers)
     }
 
@@ -155,15 +166,16 @@ impl Run {
         acceleration: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<(), Error> {
-        let arguments =
-            Arguments { inputs: single(&self.inputs), feedback: single(feedback), ..state(self.at()) };
+        let [q, v] = self.completed();
+        let at = At { t: self.t, q: &q, v: &v };
+        let arguments = Arguments { inputs: single(&self.inputs), feedback: single(feedback), ..state(at) };
         let mut growth = [f64::NAN];
         self.mechanism.call(
             FunctionId::Reactions,
             &arguments,
             [&mut *acceleration, &mut *multipliers, &mut growth],
         );
-        on_slices!(self).examine(acceleration, multipliers, growth[0])
+        on_slices!(self).examine(&q, acceleration, multipliers, growth[0])
     }
 }
 
@@ -193,8 +205,7 @@ impl System for Run {
     }
 
     fn state(&self, q: &mut [f64], v: &mut [f64]) {
-        copy(q, &self.q);
-        copy(v, &self.v);
+        self.mechanism.complete(self.states(), q, v);
     }
 
     fn inputs(&self, inputs: &mut [f64]) {
@@ -220,7 +231,7 @@ impl System for Run {
     fn step(&mut self) -> Result<(), Error> {
         let t_next = self.start_time + (self.steps + 1) as f64 * self.step;
         let run = on_slices!(self);
-        let mut room = Room::within(&mut self.room, self.q.len(), self.multipliers);
+        let mut room = Room::within(&mut self.room, self.mechanism.declared_info());
         let growth = self.stepper.step(run.at, run.inputs, &run.gains, run.step, t_next);
         let next = At { t: t_next, q: self.stepper.q(), v: self.stepper.v() };
         let is_finite = next.q.iter().chain(next.v).all(|x| x.is_finite());
@@ -243,15 +254,17 @@ impl System for Run {
     }
 
     fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
-        Described::outputs(&self.mechanism, self.at(), &self.inputs, [acceleration, multipliers], outputs);
+        let [q, v] = self.completed();
+        let at = At { t: self.t, q: &q, v: &v };
+        Described::outputs(&self.mechanism, at, &self.inputs, [acceleration, multipliers], outputs);
         check_outputs(self.mechanism.declared_info(), self.t, outputs)
     }
 
     fn violations(&self) -> [f64; 2] {
-        let mut rows = vec![f64::NAN; self.multipliers];
-        self.mechanism.phi(self.t, &self.q, &mut rows);
+        let (mut rows, [q, v]) = (vec![f64::NAN; self.multipliers], self.completed());
+        self.mechanism.phi(self.t, &q, &mut rows);
         let violation = norm(&rows);
-        self.mechanism.phi_dot(self.at(), &mut rows);
+        self.mechanism.phi_dot(At { t: self.t, q: &q, v: &v }, &mut rows);
         [violation, norm(&rows)]
     }
 
@@ -356,14 +369,15 @@ impl Builder {
             return Err(Error::UnstableGains { alpha, beta, step, feedback: method.stabilization.word() });
         }
         let info = mechanism.declared_info();
-        let (n, m) = (info.coordinates.len(), info.constraints.len());
         let (t, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
-        q.resize(n, f64::NAN);
-        v.resize(n, f64::NAN);
-        let mut numbers = vec![0.0; Room::<f64>::len(n, m, method.tableau.stage_count())];
-        let mut room = Room::within(&mut numbers, n, m);
+        [&mut q, &mut v].into_iter().for_each(|all| all.resize(info.coordinates.len(), f64::NAN));
+        let mut numbers = vec![0.0; Room::<f64>::len(info, method.tableau.stage_count())];
+        let mut room = Room::within(&mut numbers, info);
         let preparation = Preparation { start, inputs: &inputs, step, keeps_constraints };
         let length = preparation.prepare(&mechanism, t, &mut q, &mut v, &mut room)?;
+        let mut states = [(); 2].map(|()| vec![0.0; info.states.len()]);
+        states.iter_mut().zip([&q, &v]).for_each(|(states, all)| mechanism.states(all, states));
+        let [q, v] = states;
         Ok(Run {
             gains: baumgarte.gains(),
             method,
@@ -375,7 +389,7 @@ impl Builder {
             t,
             q,
             v,
-            multipliers: m,
+            multipliers: info.constraints.len(),
             watch: Watch::new(length),
             stepper: Stepper::new(&mechanism, method),
             room: numbers,

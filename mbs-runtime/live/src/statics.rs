@@ -89,6 +89,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.outputs.iter().map(|output| quantity(output, 0.0))),
         leak(compiled.events.iter().map(event)),
         leak(compiled.constraints.iter().map(constraint)),
+        leak(compiled.states.iter().copied()),
         leak(compiled.redundant.iter().copied()),
         leak(compiled.pivots.iter().map(pivot)),
         leak(compiled.start_pivots.iter().map(pivot)),

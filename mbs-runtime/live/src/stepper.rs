@@ -49,7 +49,8 @@ impl Stepper {
     }
 
     /// A step of length `h` seconds from a state to the time `t_next`; its growth, that of
-    /// all stages added. Vectors have a component per coordinate or input.
+    /// all stages added. Vectors have a component per coordinate that is integrated
+    /// ([`Info::states`](mbs_runtime::Info::states)), or per input.
     pub fn step(&mut self, at: At<'_, f64>, inputs: &[f64], gains: &Gains<f64>, h: f64, t_next: f64) -> f64 {
         self.0.step(&Arguments {
             inputs: single(inputs),
@@ -61,12 +62,12 @@ impl Stepper {
         self.0.growth[0]
     }
 
-    /// q after the last step.
+    /// The positions that are integrated after the last step.
     pub fn q(&self) -> &[f64] {
         self.0.q.as_flattened()
     }
 
-    /// v after the last step.
+    /// Their velocities after the last step.
     pub fn v(&self) -> &[f64] {
         self.0.v.as_flattened()
     }

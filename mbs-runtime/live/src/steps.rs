@@ -24,9 +24,9 @@ pub struct Steps<T, const C: usize> {
     programs: Arc<Programs>,
     execute: Execute<T, C>,
     memory: Memory<T, C>,
-    /// q after the last step,
+    /// The positions that are integrated after the last step,
     pub q: Columns<T, C>,
-    /// v after it,
+    /// their velocities after it,
     pub v: Columns<T, C>,
     /// and the pivot growths of its stages, added.
     pub growth: [T; C],
@@ -44,8 +44,8 @@ struct Stages<T, const C: usize> {
     /// The slots of the first stage, and those of the others.
     first: Columns<T, C>,
     others: Columns<T, C>,
-    /// The slots of the functions that project, where the method does.
-    projection: Option<[Columns<T, C>; 3]>,
+    /// What projects, where the method does.
+    projection: Option<Projection<T, C>>,
     /// v and q̈ of every stage.
     velocities: Vec<Columns<T, C>>,
     accelerations: Vec<Columns<T, C>>,
@@ -53,6 +53,13 @@ struct Stages<T, const C: usize> {
     there: Columns<T, C>,
     feedback: Columns<T, C>,
     unread: Columns<T, C>,
+}
+
+/// The slots of the functions that project, and vectors between them.
+struct Projection<T, const C: usize> {
+    slots: [Columns<T, C>; 4],
+    /// All coordinates, velocities and corrections.
+    all: [Columns<T, C>; 3],
 }
 
 impl<T: Real, const C: usize> Steps<T, C> {
@@ -65,24 +72,25 @@ impl<T: Real, const C: usize> Steps<T, C> {
     ) -> Self {
         let info = &programs.tables.info;
         let column = |count: usize| vec![[T::default(); C]; count];
-        let (n, m) = (info.coordinates.len(), info.constraints.len());
+        let (n, s, m) = (info.coordinates.len(), info.states.len(), info.constraints.len());
         let memory = match programs.step(method) {
             Some(code) => Memory::Fused(Arc::clone(code), code.memory(number)),
             None => Memory::Staged(Box::new(Stages {
                 method,
                 first: programs.function(first(method)).memory(&number),
                 others: programs.function(others(method)).memory(&number),
-                projection: method
-                    .is_projected()
-                    .then(|| PROJECTION.map(|function| programs.function(function).memory(&number))),
-                velocities: vec![column(n); method.tableau.stage_count()],
-                accelerations: vec![column(n); method.tableau.stage_count()],
-                there: column(n),
+                projection: method.is_projected().then(|| Projection {
+                    slots: PROJECTION.map(|function| programs.function(function).memory(&number)),
+                    all: [(); 3].map(|()| column(n)),
+                }),
+                velocities: vec![column(s); method.tableau.stage_count()],
+                accelerations: vec![column(s); method.tableau.stage_count()],
+                there: column(s),
                 feedback: column(m),
                 unread: column(m),
             })),
         };
-        let (q, v) = (column(n), column(n));
+        let (q, v) = (column(s), column(s));
         let programs = Arc::clone(programs);
         Self { programs, execute, memory, q, v, growth: [T::default(); C] }
     }
@@ -107,7 +115,8 @@ impl<T: Real, const C: usize> Steps<T, C> {
 }
 
 /// The functions with which positions and velocities are projected.
-const PROJECTION: [FunctionId; 3] = [FunctionId::Phi, FunctionId::PhiDot, FunctionId::Projection];
+const PROJECTION: [FunctionId; 4] =
+    [FunctionId::Complete, FunctionId::Phi, FunctionId::PhiDot, FunctionId::Projection];
 
 /// The function of the first stage.
 fn first(method: Explicit) -> FunctionId {
@@ -160,10 +169,10 @@ impl<T: Real, const C: usize> Stages<T, C> {
             }
             growth
         });
-        if let (Some(slots), Some(v)) = (projection, velocities.first_mut()) {
+        if let (Some(projection), Some(v)) = (projection, velocities.first_mut()) {
             let at = Arguments { t: at.t_next, ..*at };
             let projected = explicit::project(q, v, there, |beside, delta| {
-                correct(programs, execute, &at, slots, &beside, feedback, delta)
+                projection.correct(programs, execute, &at, &beside, feedback, delta)
             });
             growth = growth.plus(projected);
             // the stages of the next step are given no feedback
@@ -176,31 +185,43 @@ impl<T: Real, const C: usize> Stages<T, C> {
     }
 }
 
-/// The correction of positions or velocities at a time, and its growth; `violation` is room.
-fn correct<T: Real, const C: usize>(
-    programs: &Programs,
-    execute: Execute<T, C>,
-    at: &Arguments<'_, T, C>,
-    [of_phi, of_phi_dot, of_projection]: &mut [Columns<T, C>; 3],
-    beside: &Beside<'_, Columns<T, C>>,
-    violation: &mut Columns<T, C>,
-    delta: &mut Columns<T, C>,
-) -> [T; C] {
-    let (function, slots, v) = match beside.v {
-        None => (FunctionId::Phi, of_phi, &[][..]),
-        Some(v) => (FunctionId::PhiDot, of_phi_dot, v.as_slice()),
-    };
-    let run =
-        |function, slots: &mut Columns<T, C>, at: &Arguments<'_, T, C>, results: &mut [&mut [[T; C]]]| {
-            let code = programs.function(function);
-            code.load(slots, at);
-            execute(&code.instructions, programs.tables.splines, slots);
-            code.store(slots, results);
-        };
-    let at = Arguments { q: beside.q, v, ..*at };
-    run(function, slots, &at, &mut [violation]);
-    let mut growth = [T::default(); C];
-    let given = Arguments { feedback: violation, ..at };
-    run(FunctionId::Projection, of_projection, &given, &mut [delta, std::slice::from_mut(&mut growth)]);
-    growth
+impl<T: Real, const C: usize> Projection<T, C> {
+    /// Writes the correction of positions, or of the velocities there, that leads to the
+    /// constraints; its growth.
+    fn correct(
+        &mut self,
+        programs: &Programs,
+        execute: Execute<T, C>,
+        at: &Arguments<'_, T, C>,
+        beside: &Beside<'_, Columns<T, C>>,
+        violation: &mut Columns<T, C>,
+        delta: &mut Columns<T, C>,
+    ) -> [T; C] {
+        let Self { slots: [of_complete, of_phi, of_phi_dot, of_projection], all: [q, v, correction] } = self;
+        let run =
+            |function, slots: &mut Columns<T, C>, at: &Arguments<'_, T, C>, results: &mut [&mut [[T; C]]]| {
+                let code = programs.function(function);
+                code.load(slots, at);
+                execute(&code.instructions, programs.tables.splines, slots);
+                code.store(slots, results);
+            };
+        // positions do not depend on velocities
+        let states = Arguments { q: beside.q, v: beside.v.unwrap_or(beside.q), ..*at };
+        run(FunctionId::Complete, of_complete, &states, &mut [&mut *q, &mut *v]);
+        let at = Arguments { q, v, ..*at };
+        match beside.v {
+            None => run(FunctionId::Phi, of_phi, &at, &mut [violation]),
+            Some(_) => run(FunctionId::PhiDot, of_phi_dot, &at, &mut [violation]),
+        }
+        let mut growth = [T::default(); C];
+        let given = Arguments { feedback: violation, ..at };
+        let end = std::slice::from_mut(&mut growth);
+        run(FunctionId::Projection, of_projection, &given, &mut [&mut *correction, end]);
+        for (delta, &state) in delta.iter_mut().zip(programs.tables.info.states) {
+            if let Some(correction) = correction.get(state) {
+                *delta = *correction;
+            }
+        }
+        growth
+    }
 }

@@ -14,6 +14,7 @@ pub fn derivation(derivation: &compiled::Derivation) -> Derivation {
         leak(formulas.iter().filter(|formula| !formula.is_zero).map(formula))
     };
     Derivation {
+        given: leak(derivation.given.iter().map(formula)),
         phi: some(&derivation.phi),
         phi_q: some(&derivation.phi_q),
         phi_t: some(&derivation.phi_t),

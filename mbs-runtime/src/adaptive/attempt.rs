@@ -30,7 +30,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     /// left after it is a rounding; velocities once, in the position that was found. The slope at
     /// the end belongs to the estimate and is the first one of the next step.
     #[inline(always)]
-    pub fn step<D: Dynamics<Coordinates = V>>(
+    pub fn step<D: Dynamics<States = V>>(
         &mut self,
         (dynamics, tableau): (&D, &'static Tableau),
         inputs: &D::Inputs,

@@ -89,12 +89,14 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
                 Ok(())
             })
         })?;
-        let moment = Moment { t, a: q.clone(), q, v };
+        let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
+        let moment = Moment { t, a: states.clone(), q: states, v: rates };
         let stages = S::stages(moment.q.clone());
         let mut run = Adaptive {
             control: Control::new(tolerances.first_step.unwrap_or(0.0)),
             before: moment.clone(),
             next: moment.clone(),
+            all: [q, v],
             attempt: Attempt { there: moment.q.clone(), velocities: stages.clone(), accelerations: stages },
             now: moment,
             dynamics,
@@ -135,7 +137,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     fn first_step(&mut self) -> f64 {
         const SMALLEST: f64 = 1e-6;
         let Self { dynamics, inputs, tolerances, now, next, attempt, estimate, .. } = self;
-        let size = |of: [&D::Coordinates; 2]| tolerances.size([&now.q, &now.v], of);
+        let size = |of: [&D::States; 2]| tolerances.size([&now.q, &now.v], of);
         let (of_state, of_slope) = (size([&now.q, &now.v]), size([&now.v, &now.a]));
         let is_still = of_state < 1e-5 || of_slope < 1e-5;
         let first = if is_still { SMALLEST } else { 0.01 * of_state / of_slope };

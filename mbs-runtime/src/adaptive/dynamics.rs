@@ -14,6 +14,8 @@ pub trait Dynamics: Clone + Send {
     type Real: Real;
     /// A vector with a component per coordinate.
     type Coordinates: Clone + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
+    /// A vector with a component per coordinate that is integrated.
+    type States: Clone + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
     /// A vector with a component per constraint.
     type Constraints: Clone + Send + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
     /// The inputs.
@@ -27,6 +29,12 @@ pub trait Dynamics: Clone + Send {
 
     /// The declared start, nothing made consistent.
     fn declared_start(&self) -> (Self::Real, Self::Coordinates, Self::Coordinates);
+
+    /// Those of all coordinates or velocities that are integrated.
+    fn states(&self, all: &Self::Coordinates) -> Self::States;
+
+    /// Writes all coordinates and velocities, from those that are integrated.
+    fn complete(&self, t: Self::Real, q: &Self::States, v: &Self::States, all: &mut [Self::Coordinates; 2]);
 
     /// A zero per constraint.
     fn no_feedback(&self) -> Self::Constraints;
@@ -49,29 +57,30 @@ pub trait Dynamics: Clone + Send {
     /// Writes the values whose changes of sign are the declared events.
     fn events(&self, at: At<'_, Self::Real>, inputs: &Self::Inputs, values: &mut [Self::Real]);
 
-    /// q̈ without feedback terms.
+    /// q̈ of what is integrated, without feedback terms.
     fn acceleration(
         &self,
         t: Self::Real,
-        q: &Self::Coordinates,
-        v: &Self::Coordinates,
+        q: &Self::States,
+        v: &Self::States,
         inputs: &Self::Inputs,
-        acceleration: &mut Self::Coordinates,
+        acceleration: &mut Self::States,
     ) -> Self::Real;
 
-    /// The correction of positions or velocities that leads to the constraints;
-    /// see [`explicit::project`](crate::explicit::project).
+    /// The correction of the positions or velocities that are integrated, which leads to the
+    /// constraints; see [`explicit::project`](crate::explicit::project).
     fn correction(
         &self,
         t: Self::Real,
-        at: &Beside<'_, Self::Coordinates>,
-        delta: &mut Self::Coordinates,
+        at: &Beside<'_, Self::States>,
+        delta: &mut Self::States,
     ) -> Self::Real;
 }
 
 impl<M: Mechanism> Dynamics for M {
     type Real = M::Real;
     type Coordinates = arrays::Coordinates<M>;
+    type States = arrays::States<M>;
     type Constraints = arrays::Constraints<M>;
     type Inputs = M::Inputs;
 
@@ -86,6 +95,16 @@ impl<M: Mechanism> Dynamics for M {
     fn declared_start(&self) -> (M::Real, Self::Coordinates, Self::Coordinates) {
         let State { t, q, v } = Mechanism::declared_start(self);
         (t, q.into_array(), v.into_array())
+    }
+
+    fn states(&self, all: &Self::Coordinates) -> Self::States {
+        M::states(Components::from_array(*all)).into_array()
+    }
+
+    fn complete(&self, t: M::Real, q: &Self::States, v: &Self::States, all: &mut [Self::Coordinates; 2]) {
+        let states = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
+        let State { q, v, .. } = Mechanism::complete(self, &states);
+        *all = [q.into_array(), v.into_array()];
     }
 
     fn no_feedback(&self) -> Self::Constraints {
@@ -107,7 +126,7 @@ impl<M: Mechanism> Dynamics for M {
         &self,
         what: impl FnOnce(&mut Room<'_, M::Real>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let zero = M::Coordinates::splat(M::Real::default()).into_array();
+        let zero = M::States::splat(M::Real::default()).into_array();
         what(&mut OnStack::<M>::new().room_for_steps::<S>(&mut S::stages([zero; 2])))
     }
 
@@ -119,10 +138,10 @@ impl<M: Mechanism> Dynamics for M {
     fn acceleration(
         &self,
         t: M::Real,
-        q: &Self::Coordinates,
-        v: &Self::Coordinates,
+        q: &Self::States,
+        v: &Self::States,
         inputs: &M::Inputs,
-        acceleration: &mut Self::Coordinates,
+        acceleration: &mut Self::States,
     ) -> M::Real {
         let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
         let none = M::Constraints::splat(M::Real::default());
@@ -132,12 +151,7 @@ impl<M: Mechanism> Dynamics for M {
     }
 
     #[inline(always)]
-    fn correction(
-        &self,
-        t: M::Real,
-        at: &Beside<'_, Self::Coordinates>,
-        delta: &mut Self::Coordinates,
-    ) -> M::Real {
+    fn correction(&self, t: M::Real, at: &Beside<'_, Self::States>, delta: &mut Self::States) -> M::Real {
         correct(self, t, at, delta)
     }
 }

@@ -1,10 +1,11 @@
 //! When a value changes its sign on the way.
 
-use super::attempt::{copy, is_healthy};
+use super::attempt::is_healthy;
 use super::change::last_change;
+use super::dense::Moment;
 use super::{Adaptive, Dynamics};
 use crate::equations::At;
-use crate::{Components, Error, Mechanism, Real, Scheme, State, vectors};
+use crate::{Error, Mechanism, Real, Scheme, State, vectors};
 
 /// Which changes of sign are events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -244,7 +245,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
 
     /// A value at a time within the last step, by interpolation.
     fn value_between(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
-        let Self { before, now, next, dynamics, inputs, .. } = self;
+        let Self { before, now, next, dynamics, inputs, all, .. } = self;
         let moment = if t <= before.t {
             before
         } else if t >= now.t {
@@ -254,15 +255,15 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             next.t = t;
             next
         };
-        watched.value(index, (dynamics, inputs), moment.at())
+        watched.value(index, (dynamics, inputs), moment, all)
     }
 
     /// A value at the end of a step from the start of the last one to `t`, projected; by
     /// interpolation where there is no such step.
     fn value_of_step(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
-        let Self { dynamics, inputs, before, next, attempt, .. } = self;
+        let Self { dynamics, inputs, before, next, attempt, all, .. } = self;
         match attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next) {
-            Some(growth) if is_healthy(growth, next) => watched.value(index, (dynamics, inputs), next.at()),
+            Some(growth) if is_healthy(growth, next) => watched.value(index, (dynamics, inputs), next, all),
             _ => self.value_between(t, index, watched),
         }
     }
@@ -315,7 +316,16 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
 
 impl<D: Dynamics> Watched<'_, D> {
     /// One of the values.
-    fn value(&mut self, index: usize, (dynamics, inputs): (&D, &D::Inputs), at: At<'_, D::Real>) -> D::Real {
+    fn value(
+        &mut self,
+        index: usize,
+        (dynamics, inputs): (&D, &D::Inputs),
+        Moment { t, q, v, .. }: &Moment<D::Real, D::States>,
+        all: &mut [D::Coordinates; 2],
+    ) -> D::Real {
+        dynamics.complete(*t, q, v, all);
+        let [q, v] = all;
+        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         (self.values)(dynamics, inputs, at, self.room);
         self.room.get(index).copied().unwrap_or(D::Real::from_f64(f64::NAN))
     }
@@ -376,24 +386,5 @@ impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
             room: &mut [M::Real::default(); N],
         };
         self.until(end, &mut watched)
-    }
-
-    /// Goes on from another state at the present time or at any other, as a program makes it at an
-    /// event: after an impact, or with a latch that has opened. Events at the same time that were
-    /// not told yet are told by the next call; those of another time are forgotten.
-    ///
-    /// # Errors
-    /// [`Error::Inconsistent`] for one that violates the constraints, [`Error::NonFinite`].
-    pub fn set_state(&mut self, state: State<M::Coordinates>) -> Result<(), Error> {
-        crate::start::check(&self.dynamics, &state, M::Real::from_f64(1e-3))?;
-        if state.t != self.now.t {
-            self.due = 0;
-        }
-        copy(&mut self.now.q, &state.q.into_array());
-        copy(&mut self.now.v, &state.v.into_array());
-        self.now.t = state.t;
-        self.is_solved = false;
-        self.before = self.now;
-        Ok(())
     }
 }

@@ -9,6 +9,7 @@ mod dynamics;
 mod effort;
 mod events;
 mod sampled;
+mod typed;
 
 use attempt::{Attempt, copy, is_healthy};
 pub use builder::AdaptiveBuilder;
@@ -29,7 +30,7 @@ use crate::equations::At;
 use crate::explicit::{Beside, subtract};
 use crate::run::{Run, note_risen};
 use crate::watch::{Watch, WorstPlace};
-use crate::{Components, Dopri5, Error, Gains, Mechanism, Real, Scheme, State};
+use crate::{Dopri5, Error, Gains, Real, Scheme};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
@@ -88,11 +89,13 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     estimate: Estimate,
     control: Control,
     /// The start of the last step, and its end.
-    before: Moment<D::Real, D::Coordinates>,
-    now: Moment<D::Real, D::Coordinates>,
+    before: Moment<D::Real, D::States>,
+    now: Moment<D::Real, D::States>,
     /// The end of the step that is tried.
-    next: Moment<D::Real, D::Coordinates>,
-    attempt: Attempt<D::Coordinates, S::Stages<D::Coordinates>>,
+    next: Moment<D::Real, D::States>,
+    attempt: Attempt<D::States, S::Stages<D::States>>,
+    /// Room for all coordinates and velocities.
+    all: [D::Coordinates; 2],
     /// Whether the acceleration of the present state is that of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
@@ -253,7 +256,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
 
     /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
     /// onto the constraints.
-    fn interpolate(&self, t: D::Real) -> Result<(D::Coordinates, D::Coordinates), Error> {
+    fn interpolate(&self, t: D::Real) -> Result<(D::States, D::States), Error> {
         let Self { before, now, dynamics, .. } = self;
         if !(t >= before.t && t <= now.t) {
             return Err(Error::EndTime { end: t.to_f64(), now: before.t.to_f64() });
@@ -341,37 +344,6 @@ impl<D: Dynamics, S: Scheme> fmt::Debug for Adaptive<D, S> {
         let mut shown = f.debug_struct("Adaptive");
         shown.field("scheme", &scheme).field("t", &now.t).field("tolerances", tolerances);
         shown.field("effort", effort).finish_non_exhaustive()
-    }
-}
-
-impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
-    /// The mechanism.
-    pub fn mechanism(&self) -> &M {
-        &self.dynamics
-    }
-
-    /// The present state: that at the end of the last step.
-    pub fn state(&self) -> State<M::Coordinates> {
-        let Moment { t, q, v, .. } = self.now;
-        State { t, q: Components::from_array(q), v: Components::from_array(v) }
-    }
-
-    /// The state at `t` seconds, within the last step: positions are those of the polynomial of
-    /// fifth degree that has q, v and q̈ of both ends, projected onto the constraints. It is off
-    /// by O(h⁶) and its velocities by O(h⁵), beside the errors of the ends.
-    ///
-    /// # Errors
-    /// [`Error::EndTime`] for a time outside of the last step; [`cover`](Self::cover) takes steps
-    /// until it is inside.
-    pub fn at(&self, t: f64) -> Result<State<M::Coordinates>, Error> {
-        let t = M::Real::from_f64(t);
-        let (q, v) = self.interpolate(t)?;
-        Ok(State { t, q: Components::from_array(q), v: Components::from_array(v) })
-    }
-
-    /// ‖Φ‖ of the present state.
-    pub fn violation(&self) -> M::Real {
-        self.dynamics.phi(self.now.t, &self.state().q).norm()
     }
 }
 

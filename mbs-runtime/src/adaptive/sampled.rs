@@ -111,8 +111,12 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
         if !(interval > 0.0 && interval.is_finite()) {
             return Err(Error::Step { step: interval });
         }
-        let (t, q, v) = (run.now.t, run.now.q.clone(), run.now.v.clone());
-        Ok(Self { run, interval, start_time: t, samples: 0, t, q, v, ahead: None, threshold: None })
+        let (t, q_now, v_now) = (run.now.t, run.now.q.clone(), run.now.v.clone());
+        let [q, v] = run.all.clone();
+        let mut sampled =
+            Self { run, interval, start_time: t, samples: 0, t, q, v, ahead: None, threshold: None };
+        sampled.put(t, &q_now, &v_now);
+        Ok(sampled)
     }
 
     /// The same run with one value more that it watches: its event has the index behind those of
@@ -153,6 +157,16 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
     fn with_inputs<R>(&self, what: impl FnOnce(&[f64]) -> R) -> R {
         let mut inputs = self.run.inputs.clone();
         self.run.dynamics.with_inputs(&mut inputs, |inputs| what(inputs))
+    }
+
+    /// The moment that is shown.
+    fn put(&mut self, t: f64, q: &D::States, v: &D::States) {
+        let Self { run: Adaptive { dynamics, all, .. }, .. } = self;
+        dynamics.complete(t, q, v, all);
+        self.t = t;
+        let [q, v] = &self.run.all;
+        vectors::copy(self.q.as_mut(), q.as_ref());
+        vectors::copy(self.v.as_mut(), v.as_ref());
     }
 
     fn at(&self) -> At<'_, f64> {
@@ -243,12 +257,13 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         loop {
             if let Some(event) = self.ahead.filter(|event| event.t <= t) {
                 self.ahead = None;
-                (self.t, self.q, self.v) = (self.run.now.t, self.run.now.q.clone(), self.run.now.v.clone());
+                let (q, v) = (self.run.now.q.clone(), self.run.now.v.clone());
+                self.put(self.run.now.t, &q, &v);
                 return Ok(Some(event));
             }
             if self.run.now.t >= t {
-                (self.q, self.v) = self.run.interpolate(t)?;
-                self.t = t;
+                let (q, v) = self.run.interpolate(t)?;
+                self.put(t, &q, &v);
                 self.samples += 1;
                 return Ok(None);
             }

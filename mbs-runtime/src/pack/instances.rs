@@ -4,13 +4,13 @@
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
 )]
 
-use super::{Each, Many, ManyCoordinates};
+use super::{Each, Many, ManyStates};
 use crate::lanes::{Lane, Lanes};
 use crate::straight::Straight;
 use crate::{Components, Gains, Mechanism, Method, Simulation, State};
 
-/// Coordinate by coordinate, the lanes.
-type Array<M, const N: usize> = <ManyCoordinates<M, N> as Components>::Array;
+/// State by state, the lanes.
+type Array<M, const N: usize> = <ManyStates<M, N> as Components>::Array;
 
 /// What does not change while simulations advance: what they are,
 #[derive(Clone, Copy)]
@@ -93,10 +93,10 @@ pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
 
 impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
     pub fn of<X: Method>(members: [&Simulation<M, X>; N]) -> Self {
-        let q: ManyCoordinates<M, N> = pack(|lane| members[lane].state().q);
-        let v: ManyCoordinates<M, N> = pack(|lane| members[lane].state().v);
+        let q: ManyStates<M, N> = pack(|lane| members[lane].integrated().q);
+        let v: ManyStates<M, N> = pack(|lane| members[lane].integrated().v);
         Self {
-            t: Lanes(members.map(|member| member.state().t)),
+            t: Lanes(members.map(|member| member.integrated().t)),
             q: q.into_array(),
             v: v.into_array(),
             steps: Lanes(members.map(|member| member.steps() as f64)),
@@ -107,12 +107,12 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
 
     /// The state in one lane.
     #[inline]
-    pub fn scalar_state(&self, lane: usize) -> State<M::Coordinates> {
+    pub fn scalar_state(&self, lane: usize) -> State<M::States> {
         State { t: self.t.0[lane], q: scalars_of(&self.q, lane), v: scalars_of(&self.v, lane) }
     }
 
     #[inline(always)]
-    pub fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::Coordinates> {
+    pub fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::States> {
         State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }
     }
 
@@ -136,7 +136,7 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
     }
 
     #[inline(always)]
-    pub fn put(&mut self, lane: usize, state: State<<Each<M> as Mechanism>::Coordinates>) {
+    pub fn put(&mut self, lane: usize, state: State<<Each<M> as Mechanism>::States>) {
         self.t.0[lane] = state.t.0;
         put(&mut self.q, lane, state.q);
         put(&mut self.v, lane, state.v);

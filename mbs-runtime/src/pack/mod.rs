@@ -32,6 +32,9 @@ type Each<M> = <M as Mechanism>::Over<Straight<<M as Mechanism>::Real>>;
 /// The coordinates of `N` instances.
 pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
 
+/// What is integrated of `N` instances.
+pub type ManyStates<M, const N: usize> = <Many<M, N> as Mechanism>::States;
+
 /// The outputs of `N` instances.
 pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 
@@ -218,13 +221,14 @@ where
     pub fn simulation(&self, lane: usize) -> Simulation<M, X> {
         let lane = lane.min(N - 1);
         let watch = self.watches[lane].after_calm_steps(self.now.alarm.0[lane], self.now.worst.0[lane]);
-        self.members[lane].borrow().moved_to(self.state(lane), self.steps(lane), watch)
+        self.members[lane].borrow().moved_to(self.now.scalar_state(lane), self.steps(lane), watch)
     }
 
     /// Time, positions and velocities in a lane: the last one, beyond the last lane.
     #[inline]
     pub fn state(&self, lane: usize) -> State<M::Coordinates> {
-        self.now.scalar_state(lane.min(N - 1))
+        let lane = lane.min(N - 1);
+        self.members[lane].borrow().mechanism().complete(&self.now.scalar_state(lane))
     }
 
     /// Steps since the start in a lane: the last one, beyond the last lane.
@@ -285,12 +289,12 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
 #[inline(always)]
 fn staged_step<M: Mechanism, X: Method>(
     mechanism: &M,
-    at: &State<M::Coordinates>,
+    at: &State<M::States>,
     inputs: &M::Inputs,
     gains: &Gains<M::Real>,
     h: M::Real,
     t_next: M::Real,
-) -> Stepped<M::Coordinates> {
+) -> Stepped<M::States> {
     let Trial { next, growth } = trial::<M, X>(mechanism, at, inputs, gains, &Span { t: at.t, h, t_next });
     Stepped { next, growth, sum: sum_of(next.q) + sum_of(next.v) }
 }

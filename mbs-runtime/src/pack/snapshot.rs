@@ -29,7 +29,8 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
     #[inline(always)]
     pub fn state(&self) -> State<ManyCoordinates<M, N>> {
         let Moment { t, q, v, .. } = *self.moment;
-        State { t, q: Components::from_array(q), v: Components::from_array(v) }
+        let states = State { t, q: Components::from_array(q), v: Components::from_array(v) };
+        self.mechanism().complete(&states)
     }
 
     /// The time in s.
@@ -53,8 +54,9 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         }
         let mut norms = Lanes::default();
         for lane in 0..N {
-            let State { t, q, .. } = self.moment.state_of(lane);
-            norms.0[lane] = self.instances.mechanism_of(lane).phi(t, &q).norm().0;
+            let mechanism = self.instances.mechanism_of(lane);
+            let State { t, q, .. } = mechanism.complete(&self.moment.state_of(lane));
+            norms.0[lane] = mechanism.phi(t, &q).norm().0;
         }
         norms
     }
@@ -67,8 +69,9 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         }
         let mut norms = Lanes::default();
         for lane in 0..N {
-            let at = self.moment.state_of(lane);
-            norms.0[lane] = self.instances.mechanism_of(lane).phi_dot(&at).norm().0;
+            let mechanism = self.instances.mechanism_of(lane);
+            let at = mechanism.complete(&self.moment.state_of(lane));
+            norms.0[lane] = mechanism.phi_dot(&at).norm().0;
         }
         norms
     }
@@ -84,7 +87,7 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         let none = <Each<M> as Mechanism>::Constraints::splat(Straight::default());
         for lane in 0..N {
             let (mechanism, inputs) = (self.instances.mechanism_of(lane), self.instances.inputs_of(lane));
-            let at = self.moment.state_of(lane);
+            let at = mechanism.complete(&self.moment.state_of(lane));
             let reactions = mechanism.reactions(&at, &inputs, &none);
             let values = mechanism.outputs(&at, &inputs, &reactions);
             let trouble = trouble_of(sum_of(reactions.acceleration)) + trouble_of(sum_of(values));

@@ -51,12 +51,15 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         growth: M::Real,
     ) -> Result<(), Error> {
         let (acceleration, multipliers) = (acceleration.into_array(), multipliers.into_array());
-        self.on_slices(&mut |run, _| run.examine(acceleration.as_ref(), multipliers.as_ref(), growth))
+        let q = self.state().q.into_array();
+        self.on_slices(&mut |run, _| {
+            run.examine(q.as_ref(), acceleration.as_ref(), multipliers.as_ref(), growth)
+        })
     }
 
     /// Whether redundant constraints, which steps do not look at, are met all the same.
     #[inline(always)]
-    pub(super) fn keeps_redundant(&self, at: &State<M::Coordinates>) -> bool {
+    pub(super) fn keeps_redundant(&self, at: &State<M::States>) -> bool {
         spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
     }
 }

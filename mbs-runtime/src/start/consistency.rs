@@ -116,7 +116,7 @@ pub(super) fn check_redundant_accelerations<T: Real>(
     let (zero, number) = (T::default(), T::from_f64);
     let no_feedback = &mut *entries;
     vectors::fill(no_feedback, zero);
-    equations.constrained(at, inputs, no_feedback, acceleration);
+    equations.accelerations(at, inputs, no_feedback, acceleration);
     if !vectors::is_finite(acceleration) {
         // the first step says why
         return Ok(());

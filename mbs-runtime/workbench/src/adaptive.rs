@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mbs_runtime::equations::{At, Described, Equations, Room};
+use mbs_runtime::equations::{At, Correction, Described, Equations, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
     Adaptive, Components, Dynamics, Error, Mechanism, Method, MethodVisitor, Sampled, Scheme, State, System,
@@ -76,6 +76,7 @@ impl Erased {
 impl Dynamics for Erased {
     type Real = f64;
     type Coordinates = Vec<f64>;
+    type States = Vec<f64>;
     type Constraints = Vec<f64>;
     type Inputs = Vec<f64>;
 
@@ -89,6 +90,16 @@ impl Dynamics for Erased {
 
     fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
         self.start.clone()
+    }
+
+    fn states(&self, all: &Vec<f64>) -> Vec<f64> {
+        let mut states = vec![0.0; self.mechanism.info().states.len()];
+        self.mechanism.states(all, &mut states);
+        states
+    }
+
+    fn complete(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, [q_all, v_all]: &mut [Vec<f64>; 2]) {
+        self.mechanism.complete(At { t, q, v }, q_all, v_all);
     }
 
     fn no_feedback(&self) -> Vec<f64> {
@@ -107,9 +118,9 @@ impl Dynamics for Erased {
         &self,
         what: impl FnOnce(&mut Room<'_, f64>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let (n, m) = (self.start.1.len(), self.no_feedback.len());
-        let mut numbers = vec![0.0; Room::<f64>::len(n, m, S::TABLEAU.stage_count())];
-        what(&mut Room::within(&mut numbers, n, m))
+        let info = self.mechanism.info();
+        let mut numbers = vec![0.0; Room::<f64>::len(info, S::TABLEAU.stage_count())];
+        what(&mut Room::within(&mut numbers, info))
     }
 
     fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
@@ -128,11 +139,9 @@ impl Dynamics for Erased {
     }
 
     fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {
+        let [mut q, mut v, mut all] = [(); 3].map(|()| self.start.1.clone());
         let mut violation = self.no_feedback.clone();
-        match at.v {
-            None => self.mechanism.phi(t, at.q, &mut violation),
-            Some(v) => self.mechanism.phi_dot(At { t, q: at.q, v }, &mut violation),
-        }
-        self.mechanism.projection(t, at.q, &violation, delta)
+        let room = Correction { all: [&mut q, &mut v, &mut all], violation: &mut violation };
+        correction(&*self.mechanism, t, at.q, at.v.map(Vec::as_slice), room, delta)
     }
 }

@@ -166,7 +166,7 @@ fn motion<M: Model>(case: &Case<M>, random: &mut Random) -> Vec<At<M>> {
     let mut simulation = Simulation::new(M::made(), case.step).unwrap();
     let mut to = |t: f64| {
         simulation.advance_to(t).unwrap();
-        *simulation.state()
+        simulation.state()
     };
     times.into_iter().map(&mut to).collect()
 }

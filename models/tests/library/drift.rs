@@ -74,7 +74,7 @@ fn run<M: Model>(case: &Case<M>, h: f64) -> Drift {
         drift.phi = drift.phi.max(simulation.violation());
         drift.phi_dot = drift.phi_dot.max(simulation.velocity_violation());
         drift.energy = drift.energy.max((simulation.energy() - start).abs());
-        kinetic = kinetic.max(simulation.mechanism().kinetic_energy(simulation.state()));
+        kinetic = kinetic.max(simulation.mechanism().kinetic_energy(&simulation.state()));
         if step % SAMPLED == 0 || step + 1 == steps {
             size = size.max(size_of_terms(&simulation));
         }

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 use mbs_runtime::NoComponents;
 use models::{CamFollower, CamFollowerParameters};
 
-use crate::{EXACT, along, near};
+use super::{EXACT, along, near};
 
 /// Angle of the rise, and of the return.
 const RISE: f64 = TAU / 3.0;

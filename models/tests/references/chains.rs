@@ -9,7 +9,7 @@ use models::{
 };
 use paths::{Case, Run, through_double_paths};
 
-use crate::near;
+use super::near;
 
 const G: f64 = 9.81;
 

@@ -8,7 +8,7 @@ use models::{
     TrammelOfArchimedes, WattLinkage,
 };
 
-use crate::{EXACT, along, near};
+use super::{EXACT, along, near};
 
 #[test]
 fn peaucellier_goes_straight() {

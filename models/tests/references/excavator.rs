@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use models::Excavator;
 
-use crate::{EXACT, along, near};
+use super::{EXACT, along, near};
 
 /// The angle between sides a and b of a triangle with the third side s.
 fn angle(a: f64, b: f64, s: f64) -> f64 {

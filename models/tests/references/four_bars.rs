@@ -6,7 +6,7 @@ use mbs_runtime::{Error, Kinematics, NoComponents, Simulation};
 use models::{FourBar, FourBarFree, FourBarParameters};
 use paths::{Instant, Single, through_every_path};
 
-use crate::{EXACT, along, near};
+use super::{EXACT, along, near};
 
 /// The rocker's angle by Freudenstein's equation with u = tan(θ4/2):
 /// (cos θ2 − K1 − K2 cos θ2 + K3) u² − 2 sin θ2 u + K1 − (K2 + 1) cos θ2 + K3 = 0.

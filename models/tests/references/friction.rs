@@ -9,7 +9,7 @@ use mbs_runtime::{Error, Simulation};
 use models::{BlockOnIncline, BlockOnInclineParameters};
 use paths::{Instant, Single, through_double_paths, through_every_path};
 
-use crate::EXACT;
+use super::EXACT;
 
 const G: f64 = 9.81;
 const STEP: f64 = 1e-5;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use mbs_runtime::Kinematics;
 use models::{Jansen, JansenWalker, Klann};
 
-use crate::{EXACT, along, intersection, near};
+use super::{EXACT, along, intersection, near};
 
 #[test]
 fn jansen_is_a_chain_of_circles() {

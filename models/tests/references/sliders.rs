@@ -8,7 +8,7 @@ use models::{
     TogglePressParameters, VEngine,
 };
 
-use crate::{EXACT, along, near};
+use super::{EXACT, along, near};
 
 #[test]
 fn quick_return_lever_and_ram() {

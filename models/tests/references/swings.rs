@@ -8,7 +8,7 @@ use models::{
 };
 use paths::{Single, through_double_paths, through_every_path};
 
-use crate::{EXACT, near};
+use super::{EXACT, near};
 
 const G: f64 = 9.81;
 

@@ -4,7 +4,7 @@ use mbs_runtime::{Error, Simulation};
 use models::{GearedMotor, GearedMotorInputs, GearedMotorParameters, PlanetaryGear, PlanetaryGearInputs};
 use paths::{Instant, Single, through_every_path};
 
-use crate::{EXACT, near};
+use super::{EXACT, near};
 
 /// At an instant to rounding. Later Heun's error for the planet on its circle, a
 /// relative (ωh)² of the arm's largest ω.

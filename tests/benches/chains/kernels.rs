@@ -114,7 +114,7 @@ fn generated<M: Mechanism<Real = f64>>(
 
 /// From the start of the generated one.
 fn by_hand<M: Mechanism<Real = f64>, const N: usize>() -> Result<Kernel, mbs_runtime::Error> {
-    let start = *started::<M>()?.state();
+    let start = started::<M>()?.state();
     let links = |vector: M::Coordinates| Links::<N>::from_coordinates(vector.into_array().as_ref());
     let start = (links(start.q), links(start.v));
     let best = Baumgarte::<Held>::deadbeat(H);

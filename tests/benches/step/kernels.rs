@@ -261,7 +261,7 @@ where
         }
         Reactions::Within => {
             for _ in 0..steps {
-                let before = *simulation.state();
+                let before = simulation.state();
                 let solved = done(simulation.step_with_reactions());
                 reaction = last(solved.multipliers);
                 let outputs = simulation.mechanism().outputs(&before, simulation.inputs(), &solved);
@@ -269,7 +269,7 @@ where
             }
         }
     }
-    black_box(*simulation.state());
+    black_box(simulation.state());
     (simulation.state().q.get("theta1").unwrap_or(f64::NAN), reaction)
 }
 

@@ -52,9 +52,11 @@ impl<'a> Evaluator<'a> {
         gains: [f64; 2],
         is_held: bool,
     ) -> Vec<f64> {
-        let (n, m) = (self.compiled.coordinates.len(), self.compiled.constraints.len());
-        let at = self.at(state, inputs);
-        let (q, v) = (at.q, at.v);
+        let (n, m) = (self.compiled.states.len(), self.compiled.constraints.len());
+        let all = self.at(state, inputs);
+        let states = |all: &[f64]| -> Vec<f64> { self.compiled.states.iter().map(|&at| all[at]).collect() };
+        let (q, v) = (states(all.q), states(all.v));
+        let at = Given { q: &q, v: &v, ..all };
         let here = self.values(FunctionId::Stabilized, Given { gains, ..at });
         let q_there: Vec<f64> = (0..n).map(|j| q[j] + h * v[j]).collect();
         let v_there: Vec<f64> = (0..n).map(|j| v[j] + h * here[j]).collect();
@@ -65,10 +67,10 @@ impl<'a> Evaluator<'a> {
             self.values(FunctionId::Stabilized, Given { gains, ..there })
         };
         let half_h = 0.5 * h;
-        let mut next = vec![t_next];
-        next.extend((0..n).map(|j| q[j] + half_h * (v[j] + v_there[j])));
-        next.extend((0..n).map(|j| v[j] + half_h * (here[j] + there[j])));
-        next
+        let q: Vec<f64> = (0..n).map(|j| q[j] + half_h * (v[j] + v_there[j])).collect();
+        let v: Vec<f64> = (0..n).map(|j| v[j] + half_h * (here[j] + there[j])).collect();
+        let next = Given { t: t_next, q: &q, v: &v, ..Given::default() };
+        [vec![t_next], self.values(FunctionId::Complete, next)].concat()
     }
 
     fn at<'b>(&self, state: &'b [f64], inputs: &'b [f64]) -> Given<'b> {
@@ -102,8 +104,8 @@ impl<'a> Evaluator<'a> {
             Input::Time => given.t,
             Input::Parameter(at) => self.compiled.parameters[at].value,
             Input::Input(at) => given.inputs[at],
-            Input::Position(at) => given.q[at],
-            Input::Velocity(at) => given.v[at],
+            Input::Position(at) | Input::StatePosition(at) => given.q[at],
+            Input::Velocity(at) | Input::StateVelocity(at) => given.v[at],
             Input::Acceleration(at) => given.acceleration[at],
             Input::Multiplier(at) => given.multipliers[at],
             Input::Feedback(at) => given.feedback[at],

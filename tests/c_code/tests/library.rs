@@ -12,6 +12,10 @@ use mbs_codegen::{Compiled, analyse};
 #[macro_use]
 mod chains;
 
+/// What is also compiled with reduced states.
+const REDUCED: [&str; 5] =
+    ["slider_crank.rs", "slider_crank_free.rs", "four_bar_free.rs", "scotch_yoke.rs", "cam_follower.rs"];
+
 /// Declarations with what they are called.
 fn all() -> Vec<(String, Compiled)> {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src");
@@ -21,6 +25,13 @@ fn all() -> Vec<(String, Compiled)> {
         .map(|(path, tokens)| (path.display().to_string(), tokens.to_string()))
         .collect();
     assert!(texts.len() > 25, "{}", texts.len());
+    let reduced = texts.iter().filter(|(name, _)| REDUCED.iter().any(|file| name.ends_with(file)));
+    let reduced = reduced.map(|(name, text)| {
+        (format!("{name} with reduced states"), text.replacen("dof =", "states = reduced; dof =", 1))
+    });
+    texts.extend(reduced.collect::<Vec<_>>());
+    let rods = pendulum!(stringify; Rods40 40).replacen("dof =", "states = reduced; dof =", 1);
+    texts.push(("a chain of rods with reduced states".to_owned(), rods));
     texts.push(("a chain of rods".to_owned(), pendulum!(stringify; Rods40 40).to_owned()));
     texts.push(("a chain of four-bars".to_owned(), four_bar!(stringify; Bars40 40).to_owned()));
     let compiled = |(name, text): (String, String)| {

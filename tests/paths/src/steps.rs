@@ -64,7 +64,7 @@ impl<S: Mechanism<Real: Lane>, X: Method, const N: usize> InLanes<S, X, N> {
         let mut members = [*from; N];
         for (at, member) in members.iter_mut().rev().enumerate() {
             let share = 1.0 - at as f64 / 64.0;
-            *member = with_step(from, *from.state(), share * from.step_size().to_f64())?;
+            *member = with_step(from, from.state(), share * from.step_size().to_f64())?;
         }
         Ok(Self(Pack::new(members)))
     }
@@ -97,7 +97,7 @@ pub fn narrowed<M: Mechanism<Real = f64>, X: Method>(
     from: &Simulation<M, X>,
 ) -> Result<Simulation<M::Over<f32>, X>, Error> {
     let mechanism = <M::Over<f32>>::new(cast(*from.mechanism().parameters()))?;
-    let State { t, q, v } = *from.state();
+    let State { t, q, v } = from.state();
     let builder = Simulation::builder(mechanism, from.step_size()).baumgarte(*from.baumgarte());
     let start = State { t: t as f32, q: cast(q), v: cast(v) };
     builder.from_state(start).inputs(cast(*from.inputs())).as_declared().build()

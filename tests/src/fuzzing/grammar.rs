@@ -286,8 +286,9 @@ fn element(r: &mut Random, name: &str) -> String {
 
 /// How the mechanism is to be solved.
 fn solver(r: &mut Random) -> String {
-    match r.below(6) {
+    match r.below(7) {
         0 => "redundant = minimum_norm;".to_owned(),
+        6 => format!("states = {};", r.of(&["reduced", "all", "some"])),
         4 => format!("closes {}= {} .. {};", r.of(&["", "theta ", "x ", "t "]), number(r), number(r)),
         1 => format!("limit {} = {};", r.of(&["operations", "stack", "unrolled", "power"]), r.of(NUMBERS)),
         2 => format!("step = {} [ms];", r.of(NUMBERS)),

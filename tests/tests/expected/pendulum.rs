@@ -356,7 +356,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
     /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = 30u32;
-    /// The size of a state (time, positions, velocities) in bytes.
+    /// The size of the state of a step (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<
         ::mbs_runtime::State<PendulumCoordinates<T>>,
     >();
@@ -1035,6 +1035,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     type Parameters = PendulumParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = PendulumCoordinates<T>;
+    type States = PendulumCoordinates<T>;
     type Constraints = PendulumConstraints<T>;
     type Outputs = PendulumOutputs<T>;
     type Points = [[T; 2]; 2];
@@ -1136,6 +1137,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
                 },
             },
         ],
+        &[0, 1],
         &[],
         &[
             ::mbs_runtime::Pivot {
@@ -1391,6 +1393,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         ],
     );
     const DERIVATION: &'static ::mbs_runtime::Derivation = &::mbs_runtime::Derivation {
+        given: &[],
         phi: &[
             ::mbs_runtime::Formula {
                 of: "rod",
@@ -1563,6 +1566,17 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> PendulumConstraints<T> {
         Self::phi_dot(self, at)
+    }
+    #[inline(always)]
+    fn states(all: PendulumCoordinates<T>) -> PendulumCoordinates<T> {
+        all
+    }
+    #[inline(always)]
+    fn complete(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> ::mbs_runtime::State<PendulumCoordinates<T>> {
+        *at
     }
     #[inline(always)]
     fn stabilized(

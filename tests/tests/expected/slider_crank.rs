@@ -299,7 +299,7 @@ impl<T: ::mbs_runtime::Real> SliderCrank<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
     /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = ..;
-    /// The size of a state (time, positions, velocities) in bytes.
+    /// The size of the state of a step (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ..;
     /// A bound of the stack that a step takes, in bytes, in optimized code:
     /// every value of all evaluations of the right-hand side once, four
@@ -528,6 +528,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
     type Parameters = SliderCrankParameters<T>;
     type Inputs = ::mbs_runtime::NoComponents<T>;
     type Coordinates = SliderCrankCoordinates<T>;
+    type States = SliderCrankCoordinates<T>;
     type Constraints = SliderCrankConstraints<T>;
     type Outputs = SliderCrankOutputs<T>;
     type Points = [[T; 2]; 9];
@@ -554,6 +555,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         &self,
         at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
     ) -> SliderCrankConstraints<T> {}
+    #[inline(always)]
+    fn states(all: SliderCrankCoordinates<T>) -> SliderCrankCoordinates<T> {}
+    #[inline(always)]
+    fn complete(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankCoordinates<T>>,
+    ) -> ::mbs_runtime::State<SliderCrankCoordinates<T>> {}
     #[inline(always)]
     fn stabilized(
         &self,

@@ -334,7 +334,7 @@ impl<T: ::mbs_runtime::Real> SliderCrankFree<T> {
     /// Operations of one evaluation of the right-hand side, the watch over
     /// the pivots included; a step takes one per stage, or less.
     pub const OPERATIONS: ::core::primitive::u32 = ..;
-    /// The size of a state (time, positions, velocities) in bytes.
+    /// The size of the state of a step (time, positions, velocities) in bytes.
     pub const STATE_BYTES: ::core::primitive::usize = ..;
     /// A bound of the stack that a step takes, in bytes, in optimized code:
     /// every value of all evaluations of the right-hand side once, four
@@ -572,6 +572,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
     type Parameters = SliderCrankFreeParameters<T>;
     type Inputs = SliderCrankFreeInputs<T>;
     type Coordinates = SliderCrankFreeCoordinates<T>;
+    type States = SliderCrankFreeCoordinates<T>;
     type Constraints = SliderCrankFreeConstraints<T>;
     type Outputs = SliderCrankFreeOutputs<T>;
     type Points = [[T; 2]; 9];
@@ -602,6 +603,13 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         &self,
         at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
     ) -> SliderCrankFreeConstraints<T> {}
+    #[inline(always)]
+    fn states(all: SliderCrankFreeCoordinates<T>) -> SliderCrankFreeCoordinates<T> {}
+    #[inline(always)]
+    fn complete(
+        &self,
+        at: &::mbs_runtime::State<SliderCrankFreeCoordinates<T>>,
+    ) -> ::mbs_runtime::State<SliderCrankFreeCoordinates<T>> {}
     #[inline(always)]
     fn stabilized(
         &self,

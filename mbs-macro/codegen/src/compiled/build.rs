@@ -26,6 +26,7 @@ impl Compiled {
             name: model.name.to_string(),
             doc: model.doc.clone(),
             places: places(&model),
+            states: plan.inputs.states.iter().map(|state| state.coordinate).collect(),
             conditions: conditions(&model),
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
@@ -77,6 +78,7 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::Pivots => &plan.pivots,
         FunctionId::StartPivots => &plan.start_pivots,
         FunctionId::Points => &plan.points,
+        FunctionId::Complete => &plan.complete,
     }
 }
 

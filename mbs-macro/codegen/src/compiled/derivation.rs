@@ -14,6 +14,8 @@ const LONGEST_IN_A_LINE: usize = 60;
 
 /// The equations and their elimination, for people to read.
 pub struct Derivation {
+    /// The coordinates that constraints give, by those that are integrated.
+    pub given: Vec<Formula>,
     /// Φ
     pub phi: Vec<Formula>,
     /// The entries of Φ_q that are not 0, row by row.
@@ -98,7 +100,10 @@ impl Derivation {
             .iter()
             .enumerate()
             .flat_map(|(row, entries)| entries.iter().map(move |(&column, &entry)| (row, column, entry)));
+        let given = plan.reduction.given(model);
+        let given = given.into_iter().map(|(at, value)| formula(arena, coordinate_name(at), "", value));
         Self {
+            given: given.collect(),
             phi: rows(&equations.phi),
             phi_q: entries
                 .map(|(row, column, entry)| formula(arena, row_name(row), coordinate_name(column), entry))

@@ -29,9 +29,9 @@ pub enum FunctionId {
     KineticEnergy,
     /// That of gravity and springs.
     PotentialEnergy,
-    /// q̈ with feedback of the state's own violation, and this feedback.
+    /// q̈ of the states with feedback of their own violation, and this feedback.
     Stabilized,
-    /// q̈ with given feedback.
+    /// q̈ of the states with given feedback.
     Constrained,
     /// q̈ and λ with given feedback.
     Reactions,
@@ -55,6 +55,8 @@ pub enum FunctionId {
     StartPivots,
     /// x and y of every point of the sketch.
     Points,
+    /// q and v of all coordinates, from those that are integrated.
+    Complete,
 }
 
 /// What a function is given. All are given the parameters and what depends on them alone.
@@ -66,6 +68,10 @@ pub enum Argument {
     Positions,
     /// v
     Velocities,
+    /// The positions of the coordinates that are integrated,
+    StatePositions,
+    /// and their velocities.
+    StateVelocities,
     /// The inputs.
     Inputs,
     /// −2α and −β²
@@ -85,6 +91,8 @@ pub enum Results {
     Conditions,
     /// One number per coordinate.
     Coordinates,
+    /// One number per coordinate that is integrated.
+    States,
     /// One number per constraint.
     Constraints,
     /// One number per entry of the Jacobian that is not 0.
@@ -108,10 +116,12 @@ pub enum Results {
 /// Name, arguments and results of a function.
 struct Row(FunctionId, &'static str, &'static [Argument], &'static [Results]);
 
-use Argument::{Feedback, Gains, Inputs, Positions, Reactions, Time, Velocities};
-use Results::{Constraints, Coordinates, Growth, Scalar};
+use Argument::{
+    Feedback, Gains, Inputs, Positions, Reactions, StatePositions, StateVelocities, Time, Velocities,
+};
+use Results::{Constraints, Coordinates, Growth, Scalar, States};
 
-const TABLE: [Row; 24] = [
+const TABLE: [Row; 25] = [
     Row(FunctionId::Hoisted, "new", &[], &[Results::Hoisted]),
     Row(FunctionId::Phi, "phi", &[Time, Positions], &[Constraints]),
     Row(FunctionId::PhiDot, "phi_dot", &[Time, Positions, Velocities], &[Constraints]),
@@ -126,14 +136,14 @@ const TABLE: [Row; 24] = [
     Row(
         FunctionId::Stabilized,
         "stabilized",
-        &[Time, Positions, Velocities, Inputs, Gains],
-        &[Coordinates, Constraints, Growth],
+        &[Time, StatePositions, StateVelocities, Inputs, Gains],
+        &[States, Constraints, Growth],
     ),
     Row(
         FunctionId::Constrained,
         "constrained",
-        &[Time, Positions, Velocities, Inputs, Feedback],
-        &[Coordinates, Growth],
+        &[Time, StatePositions, StateVelocities, Inputs, Feedback],
+        &[States, Growth],
     ),
     Row(
         FunctionId::Reactions,
@@ -166,6 +176,12 @@ const TABLE: [Row; 24] = [
     Row(FunctionId::Pivots, "pivots", &[Time, Positions], &[Results::Pivots]),
     Row(FunctionId::StartPivots, "start_pivots", &[Time, Positions], &[Results::StartPivots]),
     Row(FunctionId::Points, "points", &[Time, Positions], &[Results::Points]),
+    Row(
+        FunctionId::Complete,
+        "complete",
+        &[Time, StatePositions, StateVelocities],
+        &[Coordinates, Coordinates],
+    ),
 ];
 
 /// The functions that people are told the cost of.

@@ -78,6 +78,9 @@ pub struct Compiled {
     pub inputs: Vec<Quantity>,
     /// The coordinates q; their rates v have the same names.
     pub coordinates: Vec<Quantity>,
+    /// The coordinates that are integrated, by position: all, unless the declaration reduces
+    /// them to those that no constraint gives.
+    pub states: Vec<usize>,
     /// Coordinates, by position, that are the x of a body whose y follows.
     pub places: Vec<usize>,
     /// The constraints Φ(q, t) = 0, one multiplier each.
@@ -274,12 +277,18 @@ impl Compiled {
         }
     }
 
+    /// Whether some coordinates are not integrated.
+    pub fn has_reduced_states(&self) -> bool {
+        self.states.len() < self.coordinates.len()
+    }
+
     /// How many numbers there are of a kind of results.
     pub fn length(&self, result: Results) -> usize {
         match result {
             Results::Hoisted => self.program(FunctionId::Hoisted).outputs.len(),
             Results::Conditions => self.program(FunctionId::Conditions).outputs.len(),
             Results::Coordinates => self.coordinates.len(),
+            Results::States => self.states.len(),
             Results::Constraints => self.constraints.len(),
             Results::Jacobian => self.jacobian.len(),
             Results::Pivots => self.pivots.len(),

@@ -17,6 +17,10 @@ pub enum Vector {
     Positions,
     /// v
     Velocities,
+    /// The positions that are integrated, where those are not all.
+    StatePositions,
+    /// Their velocities.
+    StateVelocities,
     /// q̈
     Accelerations,
     /// λ
@@ -33,6 +37,8 @@ impl Input {
             Self::Input(at) => (Vector::Inputs, at),
             Self::Position(at) => (Vector::Positions, at),
             Self::Velocity(at) => (Vector::Velocities, at),
+            Self::StatePosition(at) => (Vector::StatePositions, at),
+            Self::StateVelocity(at) => (Vector::StateVelocities, at),
             Self::Acceleration(at) => (Vector::Accelerations, at),
             Self::Multiplier(at) => (Vector::Multipliers, at),
             Self::Feedback(at) => (Vector::Feedback, at),
@@ -54,6 +60,7 @@ impl Compiled {
             Vector::Parameters => self.parameters.len(),
             Vector::Inputs => self.inputs.len(),
             Vector::Positions | Vector::Velocities | Vector::Accelerations => self.coordinates.len(),
+            Vector::StatePositions | Vector::StateVelocities => self.states.len(),
             Vector::Multipliers | Vector::Feedback => self.constraints.len(),
         }
     }

@@ -51,6 +51,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         ItemKind::Dof { .. }
         | ItemKind::Crate { .. }
         | ItemKind::Redundant { .. }
+        | ItemKind::States { .. }
         | ItemKind::Limit { .. }
         | ItemKind::Step { .. }
         | ItemKind::Closes { .. }
@@ -162,6 +163,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         ItemKind::Dof { .. }
         | ItemKind::Crate { .. }
         | ItemKind::Redundant { .. }
+        | ItemKind::States { .. }
         | ItemKind::Limit { .. }
         | ItemKind::Method { .. }
         | ItemKind::Assembly { .. } => {}

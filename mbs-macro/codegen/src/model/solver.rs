@@ -1,4 +1,4 @@
-//! `step = …;`, `method = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
+//! `states = …;`, `step = …;`, `method = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
 //! integrated, and what that may cost.
 
 use mbs_schemes::{HEUN, Tableau};
@@ -20,6 +20,8 @@ const UNROLLED: u32 = 1024;
 /// The declared choices, in SI units.
 #[derive(Default)]
 pub struct Solver {
+    /// Whether coordinates that a constraint gives explicitly are left out of the integration.
+    pub has_reduced_states: Option<(bool, Span)>,
     /// Operations that one evaluation of the right-hand side may take.
     pub operations: Option<(u32, Span)>,
     /// Bytes of stack that a step in `f64` may take.
@@ -40,6 +42,11 @@ pub struct Feedback {
 }
 
 impl Solver {
+    /// Whether coordinates that a constraint gives explicitly are left out of the integration.
+    pub fn has_reduced_states(&self) -> bool {
+        self.has_reduced_states.is_some_and(|(is_reduced, _)| is_reduced)
+    }
+
     /// The scheme of its steps: Heun's method, unless it declares another.
     pub fn scheme(&self) -> &'static Tableau {
         self.scheme.map_or(&HEUN, |(scheme, _)| scheme)
@@ -86,6 +93,13 @@ impl Resolver<'_> {
         let to = self.scope.formula_of(to, Place::Property, what, &mut self.errors);
         if let (Some(from), Some(to)) = (from, to) {
             self.closes = Some(Closes { coordinate, from, to, span: keyword });
+        }
+    }
+
+    pub(super) fn resolve_states(&mut self, keyword: Span, are_reduced: bool) {
+        match self.solver.has_reduced_states {
+            Some((_, earlier)) => self.repeated("`states`", keyword, earlier),
+            None => self.solver.has_reduced_states = Some((are_reduced, keyword)),
         }
     }
 

@@ -107,6 +107,7 @@ impl<'a> Resolver<'a> {
                 Some(earlier) => self.repeated("`redundant`", *keyword, earlier),
                 None => self.minimum_norm = Some(*keyword),
             },
+            ItemKind::States { keyword, are_reduced } => self.resolve_states(*keyword, *are_reduced),
             ItemKind::Limit { keyword, limited, value } => self.resolve_limit(*keyword, *limited, *value),
             ItemKind::Step { keyword, value } => self.resolve_step(*keyword, value),
             ItemKind::Closes { keyword, coordinate, from, to } => {

@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use mbs_schemes::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
+use crate::inputs::State;
 use crate::inputs::{Input, Inputs};
-use crate::model::{Coordinate, Model};
+use crate::model::Model;
 
 /// Longer steps are left in stages: rustc nests a scope per statement, and its
 /// stack ends at about twice as many.
@@ -29,11 +30,13 @@ pub struct Kinds {
     pub per_stage: Program,
 }
 
-/// The programs of a mechanism that a step is made of.
+/// The programs of a mechanism that a step is made of, all of the coordinates that are
+/// integrated.
 #[derive(Clone, Copy)]
 pub struct Stages<'a> {
     pub stabilized: &'a Program,
     pub constrained: &'a Program,
+    /// It gives q̈ of all coordinates.
     pub reactions: &'a Program,
 }
 
@@ -42,6 +45,10 @@ pub struct Stages<'a> {
 /// # Errors
 /// A step that does not compute what its stages do.
 pub fn fused(model: &Model, inputs: &Inputs, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
+    // constraints give the whole motion
+    if inputs.states.is_empty() {
+        return Ok(None);
+    }
     let Some(alone) = kinds(model, inputs, stages, None)? else { return Ok(None) };
     Ok(Some(FusedStep { alone, with_reactions: kinds(model, inputs, stages, Some(stages.reactions))? }))
 }
@@ -100,11 +107,11 @@ fn in_stages(
     reactions: Option<&Program>,
     point: u64,
 ) -> Vec<f64> {
-    let (n, m) = (model.coordinates.len(), model.constraints.len());
+    let (n, m) = (inputs.states.len(), model.constraints.len());
     let (given, hoisted) = (probe::symbol(point), probe::hoisted(point));
     let [t, h, half_h, t_next] = [inputs.time, inputs.step, inputs.half_step, inputs.next_time].map(&given);
-    let [q, v] = [|c: &Coordinate| c.position, |c: &Coordinate| c.velocity]
-        .map(|symbol| model.coordinates.iter().map(|c| given(symbol(c))).collect::<Vec<f64>>());
+    let [q, v] = [|state: &State| state.position, |state: &State| state.velocity]
+        .map(|symbol| inputs.states.iter().map(|state| given(symbol(state))).collect::<Vec<f64>>());
     // x₀ + (share · h) Σ w k, as the runtime computes it
     let combine = |row: &Row, x: f64, slopes: &dyn Fn(usize) -> f64| {
         let terms = row.terms().map(|(stage, weight)| weight * slopes(stage));
@@ -118,8 +125,10 @@ fn in_stages(
         let time = if node == 1.0 { t_next } else { t + in_steps(node, h, half_h) };
         let predicted: Vec<f64> = (0..n).map(|at| combine(row, v[at], &|stage| solved[stage][at])).collect();
         let there = |symbol: Symbol| match inputs.of(symbol) {
-            Some(Input::Position(at)) => combine(row, q[at], &|stage| velocities[stage][at]),
-            Some(Input::Velocity(at)) => predicted[at],
+            Some(Input::Position(at) | Input::StatePosition(at)) => {
+                combine(row, q[at], &|stage| velocities[stage][at])
+            }
+            Some(Input::Velocity(at) | Input::StateVelocity(at)) => predicted[at],
             Some(Input::Time) => time,
             Some(Input::Feedback(row)) => solved[0][n + row],
             _ => given(symbol),
@@ -136,7 +145,7 @@ fn in_stages(
     let end = |x: f64, slopes: &dyn Fn(usize) -> f64| combine(&scheme.update, x, slopes);
     let mut results: Vec<f64> = (0..n).map(|at| end(q[at], &|stage| velocities[stage][at])).collect();
     results.extend((0..n).map(|at| end(v[at], &|stage| solved[stage][at])));
-    results.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
+    results.extend(clean.iter().flat_map(|clean| &clean[..model.coordinates.len() + m]));
     results
         .extend(solved.iter().filter_map(|stage| stage.last().copied()).reduce(|sum, growth| sum + growth));
     results.extend(clean.iter().flat_map(|clean| clean.last()));
@@ -153,9 +162,9 @@ fn step(
     second: &Program,
     reactions: Option<&Program>,
 ) -> Program {
-    let (n, m) = (model.coordinates.len(), model.constraints.len());
-    let q: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.position)).collect();
-    let v: Vec<Operand> = model.coordinates.iter().map(|c| Operand::Symbol(c.velocity)).collect();
+    let (n, m) = (inputs.states.len(), model.constraints.len());
+    let q: Vec<Operand> = inputs.states.iter().map(|state| Operand::Symbol(state.position)).collect();
+    let v: Vec<Operand> = inputs.states.iter().map(|state| Operand::Symbol(state.velocity)).collect();
     let scheme = model.solver.scheme();
     let mut steps = Fusion::default();
     let mut velocities = vec![v.clone()];
@@ -165,10 +174,10 @@ fn step(
     for row in scheme.stages {
         let mut stage = held.clone();
         let mut predicted = Vec::new();
-        for (at, coordinate) in model.coordinates.iter().enumerate() {
+        for (at, state) in inputs.states.iter().enumerate() {
             let position = steps.combine(inputs, row, q[at], &|stage| velocities[stage][at]);
             let velocity = steps.combine(inputs, row, v[at], &|stage| solved[stage][at]);
-            stage.extend([(coordinate.position, position), (coordinate.velocity, velocity)]);
+            stage.extend([(state.position, position), (state.velocity, velocity)]);
             predicted.push(velocity);
         }
         stage.insert(inputs.time, steps.time(inputs, row.node()));
@@ -188,7 +197,7 @@ fn step(
     for at in 0..n {
         outputs.push(steps.combine(inputs, &scheme.update, v[at], &|stage| solved[stage][at]));
     }
-    outputs.extend(clean.iter().flat_map(|clean| &clean[..n + m]));
+    outputs.extend(clean.iter().flat_map(|clean| &clean[..model.coordinates.len() + m]));
     let growths = solved.iter().filter_map(|stage| stage.last().copied());
     outputs.extend(growths.reduce(|sum, growth| steps.push(Operation::Add, sum, growth, None)));
     outputs.extend(clean.iter().filter_map(|clean| clean.last()));

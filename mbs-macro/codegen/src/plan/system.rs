@@ -12,6 +12,7 @@ use crate::independence::Rows;
 use crate::inputs::Inputs;
 use crate::model::{Direction, Model};
 use crate::reactive::{self, Forces};
+use crate::reduction::Reduction;
 
 /// The constrained system with the coordinates in `held` left out.
 pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
@@ -56,6 +57,15 @@ fn extreme_mass(model: &Model, equations: &Equations) -> Option<f64> {
     (mean.abs() > LARGEST_MASS_EXPONENT).then(|| (mean / 2_f64.log10()).round().exp2())
 }
 
+/// What is to be solved, and for which states.
+#[derive(Clone, Copy)]
+pub struct Problem<'a> {
+    pub equations: &'a Equations,
+    pub rows: &'a Rows,
+    pub inputs: &'a Inputs,
+    pub reduction: &'a Reduction,
+}
+
 /// An eliminated system, and the forces that it is solved for.
 pub struct Solver {
     pub strategy: Strategy,
@@ -68,7 +78,8 @@ pub struct Solver {
 const LARGEST_FILL: usize = 24;
 
 /// The elimination that costs least in the function that runs most.
-pub fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result<Solver, Unsolvable> {
+pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsolvable> {
+    let Problem { equations, rows, .. } = problem;
     let kkt = system(model, equations, rows, &BTreeSet::new());
     let unknowns = model.coordinates.len() + model.constraints.len();
     let mut best: Option<(u32, Solver)> = None;
@@ -86,7 +97,7 @@ pub fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result
             // nothing to compare with
             return Ok(solver);
         }
-        let roots = solver.stabilized(model, equations, rows);
+        let roots = solver.stabilized(model, problem);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
         let cost = program.operations_for(roots.len() - 1).total();
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -97,40 +108,50 @@ pub fn cheapest(model: &mut Model, equations: &Equations, rows: &Rows) -> Result
 }
 
 impl Solver {
-    /// q̈, the feedback and the growth, with feedback from the state.
-    pub fn stabilized(&self, model: &mut Model, equations: &Equations, rows: &Rows) -> Vec<Expr> {
+    /// q̈ of the states, the feedback and the growth, with feedback from the states.
+    pub fn stabilized(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
+        let Problem { equations, reduction, .. } = problem;
         // Shared, so that the function can hand out the very value it used.
-        let feedback: Vec<Expr> = equations.feedback.iter().map(|&row| model.arena.share(row)).collect();
-        let solution = self.solution(model, equations, rows, &feedback);
-        let mut roots = accelerations(model, &solution);
+        let feedback = equations.feedback.iter().enumerate().map(|(row, &feedback)| {
+            // what a row gives meets the row
+            if reduction.rows.contains(&row) { model.arena.zero() } else { model.arena.share(feedback) }
+        });
+        let feedback: Vec<Expr> = feedback.collect();
+        let solution = self.solution(model, problem, &feedback);
+        let mut roots = accelerations_of_states(model, problem, &solution);
         roots.extend(feedback);
         roots.push(self.growth(model));
-        roots
+        in_states(model, problem, &roots)
     }
 
-    /// The roots of `constrained` and of `reactions`, where the feedback is given.
-    pub fn with_given_feedback(
-        &self,
-        model: &mut Model,
-        equations: &Equations,
-        rows: &Rows,
-        inputs: &Inputs,
-    ) -> (Vec<Expr>, Vec<Expr>) {
+    /// q̈ of the states and the growth, with given feedback.
+    pub fn constrained(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
+        let Problem { inputs, reduction, .. } = problem;
+        let feedback = inputs.feedback.iter().enumerate().map(|(row, &feedback)| {
+            if reduction.rows.contains(&row) { model.arena.zero() } else { model.arena.variable(feedback) }
+        });
+        let feedback: Vec<Expr> = feedback.collect();
+        let solution = self.solution(model, problem, &feedback);
+        let mut roots = accelerations_of_states(model, problem, &solution);
+        roots.push(self.growth(model));
+        in_states(model, problem, &roots)
+    }
+
+    /// q̈ and λ of all coordinates and constraints, and the growth, with given feedback.
+    pub fn reactions(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
+        let Problem { equations, rows, inputs, .. } = problem;
         let feedback: Vec<Expr> = inputs.feedback.iter().map(|&row| model.arena.variable(row)).collect();
-        let solution = self.solution(model, equations, rows, &feedback);
-        let growth = self.growth(model);
-        let mut constrained = accelerations(model, &solution);
-        let mut reactions = constrained.clone();
-        constrained.push(growth);
+        let solution = self.solution(model, problem, &feedback);
+        let mut roots = accelerations(model, &solution);
         let factorization = &self.factorization;
         let multipliers =
             minimum_norm::multipliers(&mut model.arena, equations, rows, factorization, &solution);
         for (constraint, multiplier) in model.constraints.iter().zip(multipliers) {
             model.arena.label(multiplier, &format!("lambda_{}", constraint.name));
-            reactions.push(multiplier);
+            roots.push(multiplier);
         }
-        reactions.push(growth);
-        (constrained, reactions)
+        roots.push(self.growth(model));
+        roots
     }
 
     /// The roots of `projection`: what leads back to the constraints, with nothing above and the
@@ -152,10 +173,10 @@ impl Solver {
     fn solution(
         &self,
         model: &mut Model,
-        equations: &Equations,
-        rows: &Rows,
+        problem: Problem<'_>,
         feedback: &[Expr],
     ) -> BTreeMap<Unknown, Expr> {
+        let Problem { equations, rows, .. } = problem;
         let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
         for (at, &force) in self.forces.values.iter().enumerate() {
             rhs.insert(Unknown::Coordinate(at), force);
@@ -179,6 +200,28 @@ fn accelerations(model: &mut Model, solution: &BTreeMap<Unknown, Expr>) -> Vec<E
         let acceleration = solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(model.arena.zero());
         model.arena.label(acceleration, &format!("acc_{}", coordinate.quantity.name));
         roots.push(acceleration);
+    }
+    roots
+}
+
+/// q̈ of the coordinates that are integrated.
+fn accelerations_of_states(
+    model: &mut Model,
+    problem: Problem<'_>,
+    solution: &BTreeMap<Unknown, Expr>,
+) -> Vec<Expr> {
+    let all = accelerations(model, solution);
+    problem.inputs.states.iter().map(|state| all[state.coordinate]).collect()
+}
+
+/// The roots of a step as functions of the coordinates that are integrated, the accelerations
+/// among them with their names.
+fn in_states(model: &mut Model, problem: Problem<'_>, roots: &[Expr]) -> Vec<Expr> {
+    let Problem { inputs, reduction, .. } = problem;
+    let roots = reduction.in_states(&mut model.arena, roots);
+    for (state, &acceleration) in inputs.states.iter().zip(&roots) {
+        let name = &model.coordinates[state.coordinate].quantity.name;
+        model.arena.label(acceleration, &format!("acc_{name}"));
     }
     roots
 }

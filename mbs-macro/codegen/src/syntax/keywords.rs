@@ -47,6 +47,7 @@ pub type Statement = (&'static str, &'static str, &'static str, Read);
 pub const STATEMENTS: &[Statement] = &[
     ("dof", "dof = 1;", "the degrees of freedom that are left, as a contract", items::dof),
     ("redundant", "redundant = minimum_norm;", "lets constraints repeat others", solver::redundant),
+    ("states", "states = reduced;", "leaves coordinates that constraints give out of the integration", solver::states),
     ("limit", "limit operations = 200;", "bounds what the generated code may cost", solver::limit),
     ("step", "step = 0.5 [ms];", "the step that the mechanism is meant for", solver::step),
     ("method", "method = rk4;", "the scheme that it is integrated with", solver::method),

@@ -47,6 +47,8 @@ pub enum ItemKind {
     Dof { keyword: Span, value: i64 },
     /// `redundant = minimum_norm;`
     Redundant { keyword: Span },
+    /// `states = reduced;`
+    States { keyword: Span, are_reduced: bool },
     /// `limit operations = 200;`
     Limit { keyword: Span, limited: Limited, value: u32 },
     /// `step = 0.5 [ms];`

@@ -1,4 +1,4 @@
-//! How a mechanism is to be solved: `redundant = …;`, `limit …;`, `step = …;`,
+//! How a mechanism is to be solved: `redundant = …;`, `states = …;`, `limit …;`, `step = …;`,
 //! `method = …;`, `feedback = …;`.
 
 use mbs_schemes::{SCHEMES, Tableau};
@@ -21,6 +21,20 @@ pub fn redundant(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     }
     semicolon(input)?;
     Ok(ItemKind::Redundant { keyword })
+}
+
+pub fn states(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let expected = "`reduced` or `all` is expected here: whether coordinates that a constraint gives \
+                    explicitly are left out of the integration";
+    let choice = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    let are_reduced = match choice.to_string().as_str() {
+        "reduced" => true,
+        "all" => false,
+        _ => return Err(Error::new(choice.span(), expected)),
+    };
+    semicolon(input)?;
+    Ok(ItemKind::States { keyword, are_reduced })
 }
 
 pub fn limit(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

@@ -16,6 +16,7 @@ use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::independence::Samples;
 use crate::independence::assembly::Assembly;
+use crate::inputs::Input;
 use crate::model::{Direction, Meaning, Model};
 use crate::plan::Plan;
 
@@ -43,17 +44,41 @@ pub fn check_programs(
         assembly.close(&plan.rows.basis, &samples.start_position(model)).at
     });
     for position in samples.positions() {
-        let symbol = |symbol: Symbol| match (model.meanings.get(symbol.index()), &assembled) {
+        let sample = |symbol: Symbol| match (model.meanings.get(symbol.index()), &assembled) {
             (Some(Meaning::Coordinate(at)), Some(assembled)) => assembled.q[*at],
             (Some(Meaning::Time), Some(assembled)) => assembled.t,
             _ => samples.value(symbol, position),
         };
+        let symbol = completed(model, plan, &hoisted, &sample);
         let bodies = Bodies::new(model, &symbol);
         let point = Point { model, plan, tape: &tape, hoisted: &hoisted, bodies: &bodies, symbol: &symbol };
         let found = point.functions().and_then(|()| point.solutions());
         found.map_err(|wrong| Diagnostic::internal(model.name.span(), wrong))?;
     }
     Ok(())
+}
+
+/// A sample whose coordinates are what those that are integrated make of them.
+fn completed<'a>(
+    model: &'a Model,
+    plan: &'a Plan,
+    hoisted: &[Rounded],
+    sample: &'a impl Fn(Symbol) -> f64,
+) -> impl Fn(Symbol) -> f64 + 'a {
+    let coordinate = |at: usize| &model.coordinates[plan.inputs.states[at].coordinate];
+    let given = move |symbol: Symbol| match plan.inputs.of(symbol) {
+        Some(Input::StatePosition(at)) => sample(coordinate(at).position),
+        Some(Input::StateVelocity(at)) => sample(coordinate(at).velocity),
+        _ => sample(symbol),
+    };
+    let hoisted: Vec<f64> = hoisted.iter().map(|hoisted| hoisted.value).collect();
+    let all = plan.complete.evaluate(&given, &hoisted);
+    let n = model.coordinates.len();
+    move |symbol| match model.meanings.get(symbol.index()) {
+        Some(Meaning::Coordinate(at)) => all[*at],
+        Some(Meaning::Velocity(at)) => all[n + at],
+        _ => given(symbol),
+    }
 }
 
 /// Whether products of two or three of the declared numbers leave the range of a

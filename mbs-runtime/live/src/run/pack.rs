@@ -117,10 +117,10 @@ impl Pack {
     /// then one for each output, with a number for each run. Runs whose reactions or outputs
     /// are not finite end, and why.
     pub fn observe(&mut self, rows: &mut [[f64; LANES]]) -> Vec<(usize, Error)> {
-        let n = self.block.positions().len();
-        let (of_coordinates, of_outputs) = rows.split_at_mut(n.min(rows.len()));
         let lanes = 0..self.runs.len();
-        for (row, column) in of_coordinates.iter_mut().zip(self.block.positions()) {
+        let positions = self.block.positions();
+        let (of_coordinates, of_outputs) = rows.split_at_mut(positions.len().min(rows.len()));
+        for (row, column) in of_coordinates.iter_mut().zip(positions) {
             lanes.clone().filter(|&lane| self.goes_on[lane]).for_each(|lane| row[lane] = read(column, lane));
         }
         let (outputs, is_healthy) = self.block.outputs();

@@ -84,16 +84,30 @@ fn functions_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, inputs:
         live.phi_dot(at, &mut rows);
         same("phi_dot", &rows, &numbers(mechanism.phi_dot(&state)));
 
-        let mut found = vec![0.0; n];
-        let growth = live.stabilized(at, inputs, &gains, &mut found, &mut rows);
-        let solved = mechanism.stabilized(&state, &typed_inputs, &gains);
+        let states = State { t, q: M::states(state.q), v: M::states(state.v) };
+        let (q_states, v_states) = (numbers(states.q), numbers(states.v));
+        let at_states = At { t, q: &q_states, v: &v_states };
+        let (mut q_all, mut v_all) = (vec![0.0; n], vec![0.0; n]);
+        live.complete(at_states, &mut q_all, &mut v_all);
+        let all = Mechanism::complete(mechanism, &states);
+        same("complete", &[q_all, v_all].concat(), &[numbers(all.q), numbers(all.v)].concat());
+
+        let mut found = vec![0.0; M::INFO.states.len()];
+        let growth = live.stabilized(at_states, inputs, &gains, &mut found, &mut rows);
+        let solved = mechanism.stabilized(&states, &typed_inputs, &gains);
         same("stabilized", &found, &numbers(solved.acceleration));
         same("feedback", &rows, &numbers(solved.feedback));
         same("growth", &[growth], &[solved.growth]);
 
-        let growth = live.constrained(at, inputs, &feedback, &mut found);
-        let solved = mechanism.constrained(&state, &typed_inputs, &of(&feedback));
+        let growth = live.constrained(at_states, inputs, &feedback, &mut found);
+        let solved = mechanism.constrained(&states, &typed_inputs, &of(&feedback));
         same("constrained", &found, &numbers(solved.acceleration));
+        same("growth", &[growth], &[solved.growth]);
+
+        let mut found = vec![0.0; n];
+        let growth = live.accelerations(at, inputs, &feedback, &mut found);
+        let solved = mechanism.reactions(&state, &typed_inputs, &of(&feedback));
+        same("accelerations", &found, &numbers(solved.acceleration));
         same("growth", &[growth], &[solved.growth]);
 
         let growth = live.position_correction(t, &q, &feedback, &mut found);
@@ -121,11 +135,10 @@ fn functions_agree<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, inputs:
 fn start_agrees<M: Mechanism<Real = f64>>(live: &Live, mechanism: &M, h: f64) {
     let declared = mechanism.declared_start();
     let (mut q, mut v) = (numbers(declared.q), numbers(declared.v));
-    let (n, m) = (q.len(), M::INFO.constraints.len());
-    let mut vectors = vec![0.0; Room::<f64>::len(n, m, 0)];
-    let mut room = Room::within(&mut vectors, n, m);
+    let mut vectors = vec![0.0; Room::<f64>::len(M::INFO, 0)];
+    let mut room = Room::within(&mut vectors, M::INFO);
     consistent(live, declared.t, &mut q, &mut v, &mut room).expect("a start");
-    let start = *Simulation::new(*mechanism, h).expect("a start").state();
+    let start = Simulation::new(*mechanism, h).expect("a start").state();
     same("start", &q, &numbers(start.q));
     same("velocities of the start", &v, &numbers(start.v));
 }
@@ -141,7 +154,7 @@ fn steps_agree<M: Mechanism<Real = f64>, X: Method>(
         Simulation::builder(mechanism, h).inputs(of(inputs)).baumgarte(baumgarte).build().expect("a start");
     let mut steps = Stepper::new(live, X::EXPLICIT);
     let gains = gains(&baumgarte);
-    let start = *run.state();
+    let start = run.state();
     let (mut q, mut v) = (numbers(start.q), numbers(start.v));
     let mut worst = 0.0_f64;
     for k in 1..=STEPS {

@@ -102,7 +102,7 @@ fn runs_are_refused_with_the_same_words() {
         assert_eq!(words(run), words(typed));
     }
     // the start of a given state
-    let start = *Simulation::new(Free::declared(), 1e-3).expect("a start").state();
+    let start = Simulation::new(Free::declared(), 1e-3).expect("a start").state();
     let (q, v) = (numbers(start.q), numbers(start.v));
     for (t, bent) in [(1e14, 0.0), (0.0, 0.1), (0.0, not_finite)] {
         let mut state = State { t, ..start };

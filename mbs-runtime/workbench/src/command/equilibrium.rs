@@ -84,7 +84,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
 fn positions<'a>(run: &dyn System, t: f64, given: impl Iterator<Item = &'a str>) -> Result<Vec<f64>, Error> {
     let info = run.equations().info();
     let coordinates = info.coordinates;
-    let (n, m) = (coordinates.len(), info.constraints.len());
+    let n = coordinates.len();
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     run.state(&mut q, &mut v);
     let mut kept = Vec::new();
@@ -98,8 +98,8 @@ fn positions<'a>(run: &dyn System, t: f64, given: impl Iterator<Item = &'a str>)
         kept.push(coordinate.name);
     }
     if !kept.is_empty() {
-        let mut numbers = vec![0.0; Room::<f64>::len(n, m, 0)];
-        let mut room = Room::within(&mut numbers, n, m);
+        let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
+        let mut room = Room::within(&mut numbers, info);
         v.fill(0.0);
         project(run.equations(), t, &mut q, &mut v, [&kept, &[]], &mut room)?;
     }

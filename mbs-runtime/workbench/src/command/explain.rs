@@ -36,11 +36,15 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     say(text.trim_end())
 }
 
+/// The heading of what is not integrated, which is shown where there is any.
+const GIVEN: &str = "Coordinates that constraints give; the others are integrated";
+
 /// A heading, what stands under it, and how its formulas are called.
 type Section = (&'static str, &'static [Formula], fn(&Formula) -> (String, String));
 
-fn sections(derivation: &'static Derivation) -> [Section; 7] {
+fn sections(derivation: &'static Derivation) -> [Section; 8] {
     [
+        (GIVEN, derivation.given, |f| (f.of.to_owned(), f.of_latex.to_owned())),
         ("Constraints Φ(q, t) = 0", derivation.phi, |f| named("Φ", r"\Phi", f)),
         ("Jacobian Φ_q", derivation.phi_q, |f| {
             let latex = format!(
@@ -95,6 +99,9 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
     );
     for (heading, formulas, name) in sections(derivation) {
         let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).0, formula.text)).collect();
+        if heading == GIVEN && lines.is_empty() {
+            continue;
+        }
         if heading == "Energies" {
             lines = energies(derivation).map(|(name, formula)| (name.to_owned(), formula.text)).into();
         }

@@ -555,6 +555,21 @@ void pendulum_compute_points(
     result[3] = 0.0;
 }
 
+void pendulum_compute_complete(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_coordinates *v,
+    struct pendulum_coordinates *q_all,
+    struct pendulum_coordinates *v_all)
+{
+    (void)m; (void)t; (void)q; (void)v; (void)q_all; (void)v_all;
+    q_all->x = q->x;
+    q_all->y = q->y;
+    v_all->x = v->x;
+    v_all->y = v->y;
+}
+
 /* Small functions on vectors. */
 
 static real pendulum_norm(const struct pendulum_constraints *phi)
@@ -715,6 +730,25 @@ const char *pendulum_words(int code)
     return code < PENDULUM_BAD_PARAMETER ? pendulum_error_words[code] : "a parameter is not finite";
 }
 
+/* All coordinates are integrated. */
+
+static inline void pendulum_select(const struct pendulum_state *all, struct pendulum_state *at)
+{
+    *at = *all;
+}
+
+static inline void pendulum_complete(
+    const struct pendulum *m, const struct pendulum_state *at, struct pendulum_state *all)
+{
+    (void)m;
+    *all = *at;
+}
+
+static void pendulum_spread(const struct pendulum_coordinates *states, struct pendulum_coordinates *all)
+{
+    *all = *states;
+}
+
 /* The start. */
 
 /* Refuses a correction of the start in a singular position. */
@@ -860,6 +894,9 @@ int pendulum_set_feedback(struct pendulum_run *run, double alpha, double beta, i
 /* The watch over a run that begins. */
 static void pendulum_begin(struct pendulum_run *run)
 {
+    struct pendulum_state at;
+    pendulum_select(&run->state, &at);
+    pendulum_complete(run->mechanism, &at, &run->state);
     run->start_time = run->state.t;
     run->steps = 0;
     run->worst_growth = 0;
@@ -968,7 +1005,7 @@ static real pendulum_try(const struct pendulum_run *run, real t_next, struct pen
     const struct pendulum *const m = run->mechanism;
     struct pendulum_constraints feedback = {0}, unread = {0};
     real growth = 0;
-    trial->at[0] = run->state;
+    pendulum_select(&run->state, &trial->at[0]);
     for (int stage = 0; stage < PENDULUM_STAGES; stage++) {
         const struct pendulum_state *const at = &trial->at[stage];
         trial->growth[stage] = stage > 0 && run->is_held
@@ -992,7 +1029,7 @@ static int pendulum_reach(struct pendulum_run *run, real t, const struct pendulu
     const struct pendulum_constraints no_feedback = {0};
     const real h = run->step;
     struct pendulum_coordinates q = *start, moved, unmoved;
-    struct pendulum_constraints phi = {0}, best = {0};
+    struct pendulum_constraints phi = {0}, best = {0}, unread;
     pendulum_compute_phi(m, t, &q, &best);
     for (int iteration = 0; iteration < 30; iteration++) {
         struct pendulum_constraints feedback = {0};
@@ -1001,8 +1038,9 @@ static int pendulum_reach(struct pendulum_run *run, real t, const struct pendulu
             best = phi;
         }
         pendulum_add(pendulum_places(&feedback), -1 / (h * h), pendulum_elements(&phi), PENDULUM_CONSTRAINTS);
-        const real growth = pendulum_compute_constrained(m, t, &q, &still, &run->inputs, &feedback, &moved);
-        pendulum_compute_constrained(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved);
+        const real growth =
+            pendulum_compute_reactions(m, t, &q, &still, &run->inputs, &feedback, &moved, &unread);
+        pendulum_compute_reactions(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved, &unread);
         pendulum_add(pendulum_places(&moved), -1, pendulum_elements(&unmoved), PENDULUM_COORDINATES);
         const real length = h * h * pendulum_largest(pendulum_elements(&moved), PENDULUM_COORDINATES);
         const real roundings = (64 + growth) * pendulum_epsilon;
@@ -1025,14 +1063,16 @@ static int pendulum_cause_in_stages(struct pendulum_run *run, const struct pendu
     /* if only the sum of the growths is over the limit, the largest is over its share */
     const real limit = pendulum_growth_limit / PENDULUM_STAGES;
     for (int stage = 0; stage < PENDULUM_STAGES; stage++) {
-        const struct pendulum_state *const at = &trial->at[stage];
-        const struct pendulum_coordinates *const solved = &trial->solved[stage];
-        const int code = pendulum_check_state(run, at);
+        struct pendulum_state at;
+        struct pendulum_coordinates solved;
+        pendulum_complete(run->mechanism, &trial->at[stage], &at);
+        pendulum_spread(&trial->solved[stage], &solved);
+        const int code = pendulum_check_state(run, &at);
         if (code != PENDULUM_OK) {
             return code;
         }
-        if (!(trial->growth[stage] < limit) || !pendulum_is_finite(solved)) {
-            return pendulum_cause_of(run, at->t, &at->q, solved, trial->growth[stage], limit);
+        if (!(trial->growth[stage] < limit) || !pendulum_is_finite(&solved)) {
+            return pendulum_cause_of(run, at.t, &at.q, &solved, trial->growth[stage], limit);
         }
     }
     return PENDULUM_NOT_FINITE;
@@ -1064,10 +1104,15 @@ static void pendulum_note(struct pendulum_run *run, real growth)
 /* Takes a step that is calm: its growth has not risen, and redundant constraints are met. */
 static inline int pendulum_take(struct pendulum_run *run, const struct pendulum_state *next, real growth)
 {
-    if (!(growth <= run->alarm) || !pendulum_meets_redundant(run, next, (real)1e-3, run->size)) {
+    struct pendulum_state all;
+    if (!(growth <= run->alarm)) {
         return 0;
     }
-    run->state = *next;
+    pendulum_complete(run->mechanism, next, &all);
+    if (!pendulum_meets_redundant(run, &all, (real)1e-3, run->size)) {
+        return 0;
+    }
+    run->state = all;
     pendulum_note(run, growth);
     return 1;
 }
@@ -1098,10 +1143,16 @@ static int pendulum_step_again(struct pendulum_run *run, real t_next)
     struct pendulum_trial trial;
     const real growth = pendulum_try(run, t_next, &trial);
     const struct pendulum_state *const next = &trial.at[PENDULUM_STAGES];
-    if (!(growth < pendulum_growth_limit) || !pendulum_is_finite(&next->q) || !pendulum_is_finite(&next->v)) {
+    struct pendulum_state all;
+    if (!(growth < pendulum_growth_limit) || pendulum_first_non_finite(pendulum_elements(&next->q), PENDULUM_COORDINATES) >= 0
+        || pendulum_first_non_finite(pendulum_elements(&next->v), PENDULUM_COORDINATES) >= 0) {
         return pendulum_diagnose(run, &trial);
     }
-    return pendulum_take(run, next, growth) ? PENDULUM_OK : pendulum_examine(run, next, growth);
+    if (pendulum_take(run, next, growth)) {
+        return PENDULUM_OK;
+    }
+    pendulum_complete(run->mechanism, next, &all);
+    return pendulum_examine(run, &all, growth);
 }
 /* A step with the feedback held over it, all stages in one.
    Cost: 43 mul + 30 add + 2 div + 0 sincos. */

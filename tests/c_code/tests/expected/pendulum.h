@@ -283,7 +283,7 @@ pendulum_real pendulum_compute_potential_energy(
     const struct pendulum_coordinates *q,
     const struct pendulum_coordinates *v);
 
-/* Accelerations with feedback of the state's own violation, and this feedback.
+/* Accelerations of what is integrated, with feedback of its own violation, and this feedback.
    Returns the pivot growth.
    Cost: 21 mul + 11 add + 1 div + 0 sincos. */
 pendulum_real pendulum_compute_stabilized(
@@ -296,7 +296,7 @@ pendulum_real pendulum_compute_stabilized(
     struct pendulum_coordinates *acceleration,
     struct pendulum_constraints *feedback);
 
-/* Accelerations with the given feedback.
+/* Accelerations of what is integrated, with the given feedback.
    Returns the pivot growth.
    Cost: 15 mul + 7 add + 1 div + 0 sincos. */
 pendulum_real pendulum_compute_constrained(
@@ -402,6 +402,16 @@ void pendulum_compute_points(
     pendulum_real t,
     const struct pendulum_coordinates *q,
     pendulum_real *result);
+
+/* All coordinates and velocities, from those that are integrated.
+   Cost: 0 mul + 0 add + 0 div + 0 sincos. */
+void pendulum_compute_complete(
+    const struct pendulum *m,
+    pendulum_real t,
+    const struct pendulum_coordinates *q,
+    const struct pendulum_coordinates *v,
+    struct pendulum_coordinates *q_all,
+    struct pendulum_coordinates *v_all);
 
 #ifdef __cplusplus
 }

@@ -13,6 +13,8 @@ mechanism! {
         start { y = 1 [m]; }
         redundant = minimum_norm;
         redundant = minimum_norm;
+        states = all;
+        states = reduced;
         limit operations = 100;
         limit operations = 200;
         limit stack = 4096;

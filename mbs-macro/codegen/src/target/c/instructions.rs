@@ -16,8 +16,8 @@ fn before(vector: Vector) -> &'static str {
     match vector {
         Vector::Parameters => "m->parameters.",
         Vector::Inputs => "inputs->",
-        Vector::Positions => "q->",
-        Vector::Velocities => "v->",
+        Vector::Positions | Vector::StatePositions => "q->",
+        Vector::Velocities | Vector::StateVelocities => "v->",
         Vector::Accelerations => "reactions->acceleration.",
         Vector::Multipliers => "reactions->multipliers.",
         Vector::Feedback => "feedback->",

@@ -6,7 +6,7 @@ use super::Target;
 use super::docs::{comment, entries};
 use super::instructions::{Kept, Printer};
 use super::loops;
-use crate::compiled::{Argument, Count, FunctionId, Kinds, Results, Vector};
+use crate::compiled::{Argument, Count, FunctionId, Kinds, Results};
 
 /// A function of C.
 pub struct Kernel {
@@ -115,7 +115,7 @@ pub fn fused(target: &Target<'_>) -> Vec<Kernel> {
 
 fn fused_step(target: &Target<'_>, name: &str, how: &str, program: &Program) -> Kernel {
     let mut printer = Printer::of(target, program);
-    let members = &target.names.of(Vector::Positions).members;
+    let members = &target.names.states().members;
     let places = ["q", "v"].into_iter().flat_map(|vector| members.iter().map(move |member| (vector, member)));
     let mut values = program.outputs.iter();
     for ((vector, member), &value) in places.zip(values.by_ref()) {
@@ -143,6 +143,8 @@ fn argument_of(argument: Argument) -> (String, &'static str) {
         Argument::Time => return ("NAME_real ".to_owned(), "t"),
         Argument::Positions => ("coordinates", "q"),
         Argument::Velocities => ("coordinates", "v"),
+        Argument::StatePositions => ("STATES", "q"),
+        Argument::StateVelocities => ("STATES", "v"),
         Argument::Inputs => ("inputs", "inputs"),
         Argument::Gains => ("gains", "gains"),
         Argument::Feedback => ("constraints", "feedback"),
@@ -180,6 +182,7 @@ fn results(id: FunctionId) -> &'static [&'static str] {
         FunctionId::Stabilized => &["acceleration", "feedback"],
         FunctionId::Reactions => &["acceleration", "multipliers"],
         FunctionId::Start => &["q", "v"],
+        FunctionId::Complete => &["q_all", "v_all"],
         FunctionId::KineticEnergy | FunctionId::PotentialEnergy => &[],
         _ => &["result"],
     }

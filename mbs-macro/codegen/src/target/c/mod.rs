@@ -77,10 +77,15 @@ struct Target<'a> {
 
 impl Target<'_> {
     /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, `SCALAR`
-    /// for the type, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
+    /// for the type, `STATES` for what is integrated, `STAGE` for a moment of it, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
     fn fill(&self, text: &str) -> String {
+        let states = self.names.states();
+        let stage = if self.compiled.has_reduced_states() { "stage" } else { "state" };
         // names last, because they may be any word
-        text.replace("SCALAR", self.scalar.name())
+        text.replace("STATE_COUNT", &format!("CAPS_{}", states.name.to_uppercase()))
+            .replace("NAME_STATES", &format!("NAME_{}", states.name))
+            .replace("NAME_STAGE", &format!("NAME_{stage}"))
+            .replace("SCALAR", self.scalar.name())
             .replace("SCHEME", self.compiled.choices.scheme.title)
             .replace("SQRT", &self.scalar.of_math("sqrt"))
             .replace("FABS", &self.scalar.of_math("fabs"))

@@ -12,8 +12,9 @@ pub struct Names {
     pub prefix: String,
     /// What every constant begins with: `SLIDER_CRANK`.
     pub capitals: String,
-    /// Those of parameters, inputs, coordinates, constraints and outputs.
-    pub structs: [Struct; 5],
+    /// Those of parameters, inputs, coordinates, constraints and outputs, and of the coordinates
+    /// that are integrated where these are not all.
+    pub structs: Vec<Struct>,
 }
 
 /// A struct of numbers.
@@ -40,39 +41,66 @@ impl Names {
         let parameters = compiled.parameters.iter().map(|it| (&it.quantity, it.value));
         let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
         let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
-        let structs = [
+        let mut structs = vec![
             ("parameters", "Numbers that are set once.", members(parameters)),
             ("inputs", "Numbers that may change from step to step.", numbers(&compiled.inputs)),
             ("coordinates", "The coordinates, or their rates per second.", numbers(&compiled.coordinates)),
             ("constraints", ROWS, members(constraints)),
             ("outputs", "What the declaration measures.", numbers(&compiled.outputs)),
         ];
-        let structs = structs.map(|(name, doc, members)| Struct { name, doc, members });
-        Self { capitals: prefix.to_uppercase(), prefix, structs }
+        if compiled.has_reduced_states() {
+            let states = compiled.states.iter().map(|&at| &compiled.coordinates[at]);
+            let states = members(states.map(|it| (&it.name, quantity(it, None))));
+            structs.push((
+                "states",
+                "The coordinates that are integrated, or their rates per second.",
+                states,
+            ));
+        }
+        let structs = structs.into_iter().map(|(name, doc, members)| Struct { name, doc, members });
+        Self { capitals: prefix.to_uppercase(), prefix, structs: structs.collect() }
+    }
+
+    /// The structs whose members have names of their own.
+    pub fn named(&self) -> impl Iterator<Item = &Struct> {
+        self.structs.iter().take(STATES)
+    }
+
+    /// The struct that holds the coordinates that are integrated.
+    pub fn states(&self) -> &Struct {
+        self.structs.get(STATES).unwrap_or(&self.structs[COORDINATES])
     }
 
     /// The struct that holds a vector.
     pub fn of(&self, vector: Vector) -> &Struct {
-        let [parameters, inputs, coordinates, constraints, _] = &self.structs;
         match vector {
-            Vector::Parameters => parameters,
-            Vector::Inputs => inputs,
-            Vector::Positions | Vector::Velocities | Vector::Accelerations => coordinates,
-            Vector::Multipliers | Vector::Feedback => constraints,
+            Vector::Parameters => &self.structs[PARAMETERS],
+            Vector::Inputs => &self.structs[INPUTS],
+            Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.structs[COORDINATES],
+            Vector::StatePositions | Vector::StateVelocities => self.states(),
+            Vector::Multipliers | Vector::Feedback => &self.structs[CONSTRAINTS],
         }
     }
 
     /// The struct that holds results; `None` of an array.
     pub fn of_results(&self, results: Results) -> Option<&Struct> {
-        let [.., coordinates, constraints, outputs] = &self.structs;
         match results {
-            Results::Coordinates => Some(coordinates),
-            Results::Constraints => Some(constraints),
-            Results::Outputs => Some(outputs),
+            Results::Coordinates => Some(&self.structs[COORDINATES]),
+            Results::States => Some(self.states()),
+            Results::Constraints => Some(&self.structs[CONSTRAINTS]),
+            Results::Outputs => Some(&self.structs[OUTPUTS]),
             _ => None,
         }
     }
 }
+
+/// Where the structs stand.
+const PARAMETERS: usize = 0;
+const INPUTS: usize = 1;
+const COORDINATES: usize = 2;
+const CONSTRAINTS: usize = 3;
+const OUTPUTS: usize = 4;
+const STATES: usize = 5;
 
 const ROWS: &str =
     "One number per constraint: its violation, its multiplier, or an amount added to its right-hand side.";

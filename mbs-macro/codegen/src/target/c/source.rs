@@ -24,6 +24,7 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
         target.fill(include_str!("text/init.c")),
+        target.fill(states(target)),
         target.fill(include_str!("text/start.c")),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
@@ -31,6 +32,14 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
     ];
     let code = code.concat();
     format!("{}{}{}{}{code}", head(target), tables(target), scheme(target), helpers(target, &code))
+}
+
+/// The way from all coordinates to those that are integrated, and back.
+fn states(target: &Target<'_>) -> &'static str {
+    match target.compiled.has_reduced_states() {
+        true => include_str!("text/states_reduced.c"),
+        false => include_str!("text/states_all.c"),
+    }
 }
 
 /// What stands before everything else.
@@ -77,7 +86,7 @@ fn tables(target: &Target<'_>) -> String {
     let compiled = target.compiled;
     let mut text = String::new();
     let mut add = |declaration: &str, elements, last| text += &table(target, declaration, elements, last);
-    for Struct { name, members, .. } in &target.names.structs {
+    for Struct { name, members, .. } in target.names.named() {
         let names = members.iter().map(|member| quoted(&member.declared)).collect();
         add(&format!("const char *const NAME_{}_names[]", name.trim_end_matches('s')), names, "0");
     }
@@ -88,6 +97,10 @@ fn tables(target: &Target<'_>) -> String {
     add("static const char *const NAME_start_pivot_names[]", pivots(&compiled.start_pivots), "0");
     let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
     add("const int NAME_phi_q_places[][2]", places, "{0, 0}");
+    if compiled.has_reduced_states() {
+        let states = compiled.states.iter().map(ToString::to_string).collect();
+        add("/* Which coordinates are integrated. */\nstatic const int NAME_state_places[]", states, "0");
+    }
     let redundant = compiled.redundant.iter().map(ToString::to_string).collect();
     add("static const int NAME_redundant[]", redundant, "0");
     // a dimension with fractions is none of a constraint or a coordinate

@@ -18,6 +18,8 @@ pub struct Access {
     pub time: TokenStream,
     pub positions: TokenStream,
     pub velocities: TokenStream,
+    /// Whether `at` is the state of a step, and not of all coordinates.
+    is_of_step: bool,
     kind: Kind,
 }
 
@@ -45,13 +47,19 @@ impl Access {
             time: quote!(at.t),
             positions: quote!(at.q),
             velocities: quote!(at.v),
+            is_of_step: false,
             kind: Kind::State,
         }
     }
 
+    /// In a method that takes `at`, the state of a step.
+    pub fn of_step() -> Self {
+        Self { is_of_step: true, ..Self::of_state() }
+    }
+
     /// In a method that takes `t` and arrays.
     pub fn of_arrays() -> Self {
-        Self { time: quote!(t), kind: Kind::Arrays, ..Self::of_state() }
+        Self { time: quote!(t), kind: Kind::Arrays, ..Self::of_step() }
     }
 
     /// In a method that takes `t` and `q`.
@@ -90,12 +98,14 @@ impl Access {
         let (time, positions, velocities) =
             (self.time.clone(), self.positions.clone(), self.velocities.clone());
         let mechanism = quote!(#mechanism::<T>);
-        Self { this: quote!(this), mechanism, parameters, time, positions, velocities, kind: self.kind }
+        let Self { is_of_step, kind, .. } = *self;
+        Self { this: quote!(this), mechanism, parameters, time, positions, velocities, is_of_step, kind }
     }
 
     /// What a function needs that reads these operands.
     pub fn arguments(&self, compiled: &Compiled, names: &Names, operands: &[Operand]) -> Vec<Argument> {
-        let Names { mechanism, parameters, runtime, state, reactions, .. } = names;
+        let Names { mechanism, parameters, runtime, state, stepped, reactions, .. } = names;
+        let state = if self.is_of_step { stepped } else { state };
         let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
         let uses = |wanted: &dyn Fn(Operand) -> bool| operands.iter().any(|&operand| wanted(operand));
         let means = |wanted: fn(Input) -> bool| {
@@ -104,8 +114,8 @@ impl Access {
         let is_parameter = means(|meaning| matches!(meaning, Input::Parameter(_)));
         let is_hoisted = uses(&|operand| matches!(operand, Operand::Hoisted(_)));
         let is_time = means(|meaning| meaning == Input::Time);
-        let is_position = means(|meaning| matches!(meaning, Input::Position(_)));
-        let is_velocity = means(|meaning| matches!(meaning, Input::Velocity(_)));
+        let is_position = means(|meaning| matches!(meaning, Input::Position(_) | Input::StatePosition(_)));
+        let is_velocity = means(|meaning| matches!(meaning, Input::Velocity(_) | Input::StateVelocity(_)));
         let of = |kind| self.kind == kind;
         let argument = |declaration, value| Argument { declaration, value };
         [

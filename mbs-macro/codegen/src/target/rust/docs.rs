@@ -17,8 +17,9 @@ pub fn mechanism(compiled: &Compiled) -> String {
     };
     let _ = write!(
         text,
-        "\n\n# Equations\n\n{n} coordinates, {m} constraints{redundant}, {} degrees of freedom. Φ(q, t) = 0 is\n",
-        compiled.degrees_of_freedom
+        "\n\n# Equations\n\n{n} coordinates, {m} constraints{redundant}, {} degrees of freedom.{} Φ(q, t) = 0 is\n",
+        compiled.degrees_of_freedom,
+        states(compiled)
     );
     let lines = compiled.constraints.iter().map(|row| format!("{}: {} = 0", row.name, row.formula));
     text.push_str(&listing(lines));
@@ -35,6 +36,18 @@ pub fn mechanism(compiled: &Compiled) -> String {
         let _ = writeln!(text, "| `{name}` | {mul} | {add} | {div} | {sin_cos} | {other} | {watch} |");
     }
     text
+}
+
+/// Which coordinates are integrated, where that is not all.
+fn states(compiled: &Compiled) -> String {
+    if !compiled.has_reduced_states() {
+        return String::new();
+    }
+    let name = |&at: &usize| format!("`{}`", compiled.coordinates[at].name);
+    match compiled.states.iter().map(name).collect::<Vec<_>>() {
+        names if names.is_empty() => " Constraints give all coordinates.".to_owned(),
+        names => format!(" Integrated: {}; constraints give the others.", names.join(", ")),
+    }
 }
 
 /// `lambda(pin_x), x1: divided by 1`

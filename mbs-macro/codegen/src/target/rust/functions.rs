@@ -9,7 +9,7 @@ use super::docs;
 use super::info;
 use super::matrices;
 use super::names::{Names, field};
-use super::program::{Body, body};
+use super::program::{Body, body, named};
 use super::sketch;
 use super::solver;
 use super::stages;
@@ -19,9 +19,10 @@ use crate::compiled::{Compiled, FunctionId};
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
 
-/// The fields of the two vectors that most functions return.
+/// The fields of the vectors that most functions return.
 pub(super) struct Fields {
     pub coordinates: Vec<Ident>,
+    pub states: Vec<Ident>,
     pub rows: Vec<Ident>,
 }
 
@@ -29,6 +30,7 @@ impl Fields {
     pub fn new(compiled: &Compiled) -> Self {
         Self {
             coordinates: compiled.coordinates.iter().map(|c| field(&c.name)).collect(),
+            states: compiled.states.iter().map(|&at| field(&compiled.coordinates[at].name)).collect(),
             rows: compiled.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
         }
     }
@@ -134,7 +136,7 @@ pub fn inherent(compiled: &Compiled, names: &Names) -> TokenStream {
 /// The implementation of the runtime's trait.
 pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> TokenStream {
     let Names { mechanism, runtime, parameters, state, reactions, .. } = names;
-    let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
+    let (q, s, rows) = (&names.coordinates.of_t, &names.states.of_t, &names.constraints.of_t);
     let (inputs, outputs) = (&names.inputs.of_t, &names.outputs.of_t);
     let fields = Fields::new(compiled);
     let scheme = solver::scheme(compiled, names);
@@ -150,6 +152,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         quote!(#statements #values)
     };
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
+    let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
     let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(compiled, names) };
     let start = declared_start(compiled, names, &fields);
@@ -170,6 +173,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             type Parameters = #parameters<T>;
             type Inputs = #inputs;
             type Coordinates = #q;
+            type States = #s;
             type Constraints = #rows;
             type Outputs = #outputs;
             type Points = [[T; 2]; #points];
@@ -201,6 +205,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             fn phi_dot(&self, at: &#state) -> #rows {
                 Self::phi_dot(self, at)
             }
+            #states
             #kernels
             #fused_step
             fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
@@ -222,19 +227,50 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     }
 }
 
+/// The way from all coordinates to those that are integrated, and back.
+fn states(compiled: &Compiled, names: &Names, fields: &Fields) -> TokenStream {
+    let Names { runtime, state, stepped, .. } = names;
+    let (q, states) = (&names.coordinates.of_t, &names.states.of_t);
+    if !compiled.has_reduced_states() {
+        return quote! {
+            #[inline(always)]
+            fn states(all: #q) -> #states { all }
+            #[inline(always)]
+            fn complete(&self, at: &#stepped) -> #state { *at }
+        };
+    }
+    let n = fields.coordinates.len();
+    let body = body(compiled, names, FunctionId::Complete, &Access::of_step());
+    let statements = &body.statements;
+    let [positions, velocities] = [0..n, n..2 * n].map(|range| body.vector(q, &fields.coordinates, range));
+    let chosen = fields.states.iter().map(|state| quote!(all.#state)).collect::<Vec<_>>();
+    let chosen = named(states, &fields.states, &chosen);
+    let inline = inlining(compiled);
+    quote! {
+        #[inline(always)]
+        fn states(all: #q) -> #states { #chosen }
+        #inline
+        fn complete(&self, at: &#stepped) -> #state {
+            #statements
+            #runtime::State { t: at.t, q: #positions, v: #velocities }
+        }
+    }
+}
+
 /// The functions that solve the constrained system.
 fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: bool) -> TokenStream {
-    let Names { runtime, state, reactions, .. } = names;
+    let Names { runtime, state, stepped, reactions, .. } = names;
     let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
-    let (n, m) = (fields.coordinates.len(), fields.rows.len());
+    let states = &names.states.of_t;
+    let (n, s, m) = (fields.coordinates.len(), fields.states.len(), fields.rows.len());
     let acceleration = |body: &Body| body.vector(q, &fields.coordinates, 0..n);
-    let of_rows = |body: &Body| body.vector(rows, &fields.rows, n..n + m);
+    let of_states = |body: &Body| body.vector(states, &fields.states, 0..s);
     let stabilized = if are_on_arrays {
         quote!(#runtime::arrays::stabilized(self, at, inputs, gains))
     } else {
-        let body = body(compiled, names, FunctionId::Stabilized, &Access::of_state());
+        let body = body(compiled, names, FunctionId::Stabilized, &Access::of_step());
         let (statements, growth) = (&body.statements, body.outputs.last());
-        let (acceleration, feedback) = (acceleration(&body), of_rows(&body));
+        let (acceleration, feedback) = (of_states(&body), body.vector(rows, &fields.rows, s..s + m));
         quote!(#statements #runtime::Stabilized { acceleration: #acceleration, feedback: #feedback, growth: #growth })
     };
     let accelerations = |function: FunctionId, access: Access| {
@@ -245,7 +281,9 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
     let constrained = if are_on_arrays {
         quote!(#runtime::arrays::constrained(self, at, inputs, feedback))
     } else {
-        accelerations(FunctionId::Constrained, Access::of_state())
+        let body = body(compiled, names, FunctionId::Constrained, &Access::of_step());
+        let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), of_states(&body));
+        quote!(#statements #runtime::Accelerations { acceleration: #acceleration, growth: #growth })
     };
     let position_correction = accelerations(FunctionId::PositionCorrection, Access::of_position());
     let velocity_correction = accelerations(FunctionId::VelocityCorrection, Access::of_position());
@@ -253,16 +291,16 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
     let reactions_body = {
         let body = body(compiled, names, FunctionId::Reactions, &Access::of_state());
         let (statements, growth) = (&body.statements, body.outputs.last());
-        let (acceleration, multipliers) = (acceleration(&body), of_rows(&body));
+        let (acceleration, multipliers) = (acceleration(&body), body.vector(rows, &fields.rows, n..n + m));
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
     let inline = inlining(compiled);
     // Corrections call what they solve for a residual; programs know it as feedback.
     quote! {
         #inline
-        fn stabilized(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>) -> #runtime::Stabilized<#q, #rows> { #stabilized }
+        fn stabilized(&self, at: &#stepped, inputs: &#inputs, gains: &#runtime::Gains<T>) -> #runtime::Stabilized<#states, #rows> { #stabilized }
         #inline
-        fn constrained(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #runtime::Accelerations<#q> { #constrained }
+        fn constrained(&self, at: &#stepped, inputs: &#inputs, feedback: &#rows) -> #runtime::Accelerations<#states> { #constrained }
         #inline
         fn reactions(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #reactions { #reactions_body }
         fn position_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #position_correction }

@@ -12,6 +12,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
     let (name, doc) = (names.mechanism.to_string(), compiled.doc.as_str());
     let dof = Literal::i32_unsuffixed(compiled.degrees_of_freedom);
+    let states = compiled.states.iter().map(|&at| Literal::usize_unsuffixed(at));
     let redundant = compiled.redundant.iter().map(|&row| Literal::usize_unsuffixed(row));
     let parameters = compiled.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
     let inputs = compiled.inputs.iter().map(|input| quantity(input, 0.0, runtime));
@@ -61,7 +62,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         #runtime::Info::from_parts(
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
-            &[#(#events),*], &[#(#constraints),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
+            &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*], #pivots, #start_pivots, &[#(#functions),*],
         )
     }
 }

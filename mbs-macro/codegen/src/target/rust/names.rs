@@ -18,6 +18,8 @@ pub struct Names {
     /// Type of the inputs, with its argument `T`.
     pub inputs: Group,
     pub coordinates: Group,
+    /// What is integrated: the coordinates, unless some are left out.
+    pub states: Group,
     pub constraints: Group,
     pub outputs: Group,
     /// Layouts that do not compute what their programs do, as the names are with every
@@ -25,6 +27,8 @@ pub struct Names {
     pub faults: RefCell<Vec<Inconsistency>>,
     /// `State<…Coordinates<T>>`
     pub state: TokenStream,
+    /// `State<…States<T>>`: what a step is given.
+    pub stepped: TokenStream,
     /// `Reactions<…Coordinates<T>, …Constraints<T>>`
     pub reactions: TokenStream,
 }
@@ -48,11 +52,17 @@ impl Names {
             Group { of_t: quote!(#name<T>), name: Some(name) }
         };
         let coordinates = group("Coordinates", false);
+        let states = if compiled.has_reduced_states() {
+            group("States", compiled.states.is_empty())
+        } else {
+            Group { of_t: coordinates.of_t.clone(), name: None }
+        };
         let constraints = group("Constraints", compiled.constraints.is_empty());
-        let (q, rows) = (&coordinates.of_t, &constraints.of_t);
+        let (q, s, rows) = (&coordinates.of_t, &states.of_t, &constraints.of_t);
         Self {
             faults: RefCell::default(),
             state: quote!(#runtime::State<#q>),
+            stepped: quote!(#runtime::State<#s>),
             reactions: quote!(#runtime::Reactions<#q, #rows>),
             nalgebra: quote!(#runtime::__private::nalgebra),
             mechanism: compiled.written.name.clone(),
@@ -60,6 +70,7 @@ impl Names {
             inputs: group("Inputs", compiled.inputs.is_empty()),
             outputs: group("Outputs", compiled.outputs.is_empty()),
             coordinates,
+            states,
             constraints,
             runtime,
         }

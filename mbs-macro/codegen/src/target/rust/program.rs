@@ -285,6 +285,14 @@ pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> To
             let name = coordinate(at);
             quote!(#velocities.#name)
         }
+        Input::StatePosition(at) => {
+            let name = coordinate(compiled.states[at]);
+            quote!(#positions.#name)
+        }
+        Input::StateVelocity(at) => {
+            let name = coordinate(compiled.states[at]);
+            quote!(#velocities.#name)
+        }
         Input::Acceleration(at) => {
             let name = coordinate(at);
             quote!(reactions.acceleration.#name)

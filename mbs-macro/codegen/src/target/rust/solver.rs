@@ -15,7 +15,7 @@ pub fn scheme(compiled: &Compiled, names: &Names) -> TokenStream {
 }
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
-    let Names { mechanism, runtime, state, .. } = names;
+    let Names { mechanism, runtime, stepped, .. } = names;
     let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
     let stabilized = compiled.program(FunctionId::Stabilized);
     let operations = stabilized.operations().total();
@@ -29,8 +29,8 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             /// Operations of one evaluation of the right-hand side, the watch over
             /// the pivots included; a step takes one per stage, or less.
             pub const OPERATIONS: ::core::primitive::u32 = #operations;
-            /// The size of a state (time, positions, velocities) in bytes.
-            pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#state>();
+            /// The size of the state of a step (time, positions, velocities) in bytes.
+            pub const STATE_BYTES: ::core::primitive::usize = ::core::mem::size_of::<#stepped>();
             /// A bound of the stack that a step takes, in bytes, in optimized code:
             /// every value of all evaluations of the right-hand side once, four
             /// copies of the state, the inputs and the rows per stage, and 1 KiB for calls.

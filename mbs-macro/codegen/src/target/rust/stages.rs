@@ -23,10 +23,10 @@ pub fn are_on_arrays(compiled: &Compiled) -> bool {
 pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, .. } = names;
     let inputs = &names.inputs.of_t;
-    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
+    let (s, m) = (compiled.states.len(), compiled.constraints.len());
     let stabilized = body(compiled, names, FunctionId::Stabilized, &Access::of_arrays());
     let constrained = body(compiled, names, FunctionId::Constrained, &Access::of_arrays());
-    let [coordinates, constraints, slots] = [n, m, stabilized.slots.max(constrained.slots)].map(|length| {
+    let [states, constraints, slots] = [s, m, stabilized.slots.max(constrained.slots)].map(|length| {
         let length = Literal::usize_unsuffixed(length);
         quote!([T; #length])
     });
@@ -40,8 +40,8 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
             #growth
         }
     };
-    let acceleration = |body: &Body| body.write(ACCELERATION, 0..n);
-    let feedback = stabilized.write(FEEDBACK, n..n + m);
+    let acceleration = |body: &Body| body.write(ACCELERATION, 0..s);
+    let feedback = stabilized.write(FEEDBACK, s..s + m);
     let acceleration_of_stabilized = acceleration(&stabilized);
     let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
     let constrained = stage(&constrained, &acceleration(&constrained));
@@ -49,7 +49,7 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
         let length = Literal::usize_unsuffixed(length);
         quote!([T::from_f64(0.0); #length])
     };
-    let (zero_coordinates, zero_constraints) = (zeros(n), zeros(m));
+    let (zero_states, zero_constraints) = (zeros(s), zeros(m));
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #runtime::arrays::OnArrays for #mechanism<T> {
@@ -57,7 +57,7 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
             #[inline(always)]
             fn room() -> #runtime::arrays::Room<Self> {
                 #runtime::arrays::Room {
-                    coordinates: #zero_coordinates,
+                    states: #zero_states,
                     constraints: #zero_constraints,
                     slots: [T::from_f64(0.0); #slot_count],
                 }
@@ -65,22 +65,22 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
             fn stabilized_on_arrays(
                 &self,
                 t: T,
-                position_array: &#coordinates,
-                velocity_array: &#coordinates,
+                position_array: &#states,
+                velocity_array: &#states,
                 inputs: &#inputs,
                 gains: &#runtime::Gains<T>,
-                acceleration: &mut #coordinates,
+                acceleration: &mut #states,
                 feedback: &mut #constraints,
                 slots: &mut #slots,
             ) -> T { #stabilized }
             fn constrained_on_arrays(
                 &self,
                 t: T,
-                position_array: &#coordinates,
-                velocity_array: &#coordinates,
+                position_array: &#states,
+                velocity_array: &#states,
                 inputs: &#inputs,
                 feedback_array: &#constraints,
-                acceleration: &mut #coordinates,
+                acceleration: &mut #states,
                 slots: &mut #slots,
             ) -> T { #constrained }
         }
@@ -89,7 +89,7 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
 
 /// The trait's step, on arrays.
 pub fn step(names: &Names) -> TokenStream {
-    let Names { runtime, state, .. } = names;
+    let Names { runtime, stepped: state, .. } = names;
     let inputs = &names.inputs.of_t;
     quote! {
         #[inline(always)]

@@ -21,8 +21,8 @@ use crate::compiled::Compiled;
 /// A step on pairs that does not compute what its program does.
 pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inconsistency> {
     let Some(step) = &compiled.fused_step else { return Ok(TokenStream::new()) };
-    let Names { mechanism, runtime, state, reactions, .. } = names;
-    let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
+    let Names { mechanism, runtime, stepped: state, reactions, .. } = names;
+    let (states, inputs) = (&names.states.of_t, &names.inputs.of_t);
     let fields = Fields::new(compiled);
     let function = |doc: &str, name: &str, result: &TokenStream, body: &TokenStream| {
         let name = Ident::new(name, Span::call_site());
@@ -34,7 +34,7 @@ pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inco
             }
         }
     };
-    let stepped = quote!(#runtime::Stepped<#q>);
+    let stepped = quote!(#runtime::Stepped<#states>);
     let alone = |doc: &str, name: &str, program: &Program| -> Result<TokenStream, Inconsistency> {
         let woven = weave::woven(compiled, program, false)?;
         let Body { statements, stepped: value, .. } = Body::new(compiled, names, &fields, &woven);
@@ -70,8 +70,8 @@ pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inco
 /// The trait's functions, which choose between the two.
 pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
     let Some(step) = &compiled.fused_step else { return TokenStream::new() };
-    let Names { runtime, state, reactions, .. } = names;
-    let (q, inputs) = (&names.coordinates.of_t, &names.inputs.of_t);
+    let Names { runtime, stepped: state, reactions, .. } = names;
+    let (states, inputs) = (&names.states.of_t, &names.inputs.of_t);
     let choice = |suffix: &str, result: TokenStream| {
         let [name, held, per_stage] =
             ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{suffix}"));
@@ -86,11 +86,11 @@ pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
             }
         }
     };
-    let alone = choice("", quote!(#runtime::Stepped<#q>));
+    let alone = choice("", quote!(#runtime::Stepped<#states>));
     let with_reactions = step
         .with_reactions
         .as_ref()
-        .map(|_| choice("_with_reactions", quote!((#runtime::Stepped<#q>, #reactions))));
+        .map(|_| choice("_with_reactions", quote!((#runtime::Stepped<#states>, #reactions))));
     quote!(#alone #with_reactions)
 }
 
@@ -106,20 +106,20 @@ impl Body {
     fn new(compiled: &Compiled, names: &Names, fields: &Fields, woven: &Woven) -> Self {
         let runtime = &names.runtime;
         let mut writer =
-            Writer { compiled, access: Access::of_state(), names: Vec::new(), taken: BTreeSet::new() };
+            Writer { compiled, access: Access::of_step(), names: Vec::new(), taken: BTreeSet::new() };
         let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
         let value = |&output| {
             let value = writer.scalar(output);
             quote!(#value.get())
         };
         let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
-        let (n, m) = (fields.coordinates.len(), fields.rows.len());
-        let of_coordinates = |values| named(&names.coordinates.of_t, &fields.coordinates, values);
-        let (q, v) = (of_coordinates(&outputs[..n]), of_coordinates(&outputs[n..2 * n]));
-        let (reactions, growth) = match &outputs[2 * n..] {
+        let (n, s, m) = (fields.coordinates.len(), fields.states.len(), fields.rows.len());
+        let of_states = |values| named(&names.states.of_t, &fields.states, values);
+        let (q, v) = (of_states(&outputs[..s]), of_states(&outputs[s..2 * s]));
+        let (reactions, growth) = match &outputs[2 * s..] {
             [growth, _] => (TokenStream::new(), growth),
             with_reactions => {
-                let acceleration = of_coordinates(&with_reactions[..n]);
+                let acceleration = named(&names.coordinates.of_t, &fields.coordinates, &with_reactions[..n]);
                 let multipliers = named(&names.constraints.of_t, &fields.rows, &with_reactions[n..n + m]);
                 let growth_here = &with_reactions[n + m + 1];
                 let reactions = quote! {

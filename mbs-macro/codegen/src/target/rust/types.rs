@@ -55,6 +55,14 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         visibility,
         names.coordinates.name.as_ref(),
     );
+    let states = quantities(
+        compiled.states.iter().map(|&at| &compiled.coordinates[at]),
+        "Coordinates that are integrated",
+        "or their rates, in SI units; constraints give the others",
+        names,
+        visibility,
+        names.states.name.as_ref(),
+    );
     let outputs = quantities(
         compiled.outputs.iter(),
         "Outputs",
@@ -99,6 +107,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         #parameters
         #inputs
         #coordinates
+        #states
         #constraints
         #outputs
     }

@@ -11,22 +11,36 @@ use crate::compiled::{Compiled, Input};
 /// # Errors
 /// Pairs that do not compute what the program does.
 pub fn woven(compiled: &Compiled, program: &Program, with_reactions: bool) -> Result<Woven, Inconsistency> {
-    let n = compiled.coordinates.len();
+    let (n, s) = (compiled.coordinates.len(), compiled.states.len());
     // The x and the y of a body. An angle next to an x is not read with it: it would
     // have to be written with it, or the processor waits for the two writes.
     let is_place = |a: usize, b: usize| b == a + 1 && compiled.places.contains(&a);
+    // which states stand side by side as their coordinates do
+    let are_placed = |a: usize, b: usize| b == a + 1 && is_place(compiled.states[a], compiled.states[b]);
     let are_neighbours = |a: Symbol, b: Symbol| match (compiled.input(a), compiled.input(b)) {
         (Input::Position(a), Input::Position(b)) | (Input::Velocity(a), Input::Velocity(b)) => is_place(a, b),
+        (Input::StatePosition(a), Input::StatePosition(b))
+        | (Input::StateVelocity(a), Input::StateVelocity(b)) => are_placed(a, b),
         _ => false,
     };
-    // What belongs to coordinates: q⁺, v⁺, and q̈ where it is given.
-    let of_coordinates = if with_reactions { 3 * n } else { 2 * n };
-    let are_written_together =
-        |a: usize, b: usize| a.max(b) < of_coordinates && a / n == b / n && is_place(a % n, b % n);
+    // q⁺ and v⁺ belong to states, q̈ to coordinates where it is given.
+    let are_written_together = |a: usize, b: usize| {
+        let (first, last) = (a.min(b), a.max(b));
+        if last < 2 * s {
+            a / s == b / s && are_placed(a % s, b % s)
+        } else {
+            with_reactions && first >= 2 * s && last < 2 * s + n && is_place(a - 2 * s, b - 2 * s)
+        }
+    };
     let is_constant = |symbol: Symbol| {
         !matches!(
             compiled.input(symbol),
-            Input::Time | Input::NextTime | Input::Position(_) | Input::Velocity(_)
+            Input::Time
+                | Input::NextTime
+                | Input::Position(_)
+                | Input::Velocity(_)
+                | Input::StatePosition(_)
+                | Input::StateVelocity(_)
         )
     };
     let layout = Layout {
@@ -35,7 +49,7 @@ pub fn woven(compiled: &Compiled, program: &Program, with_reactions: bool) -> Re
         is_constant: &is_constant,
     };
     let mut woven = weave(program, &layout);
-    let finite = if with_reactions { 3 * n + compiled.constraints.len() } else { 2 * n };
+    let finite = if with_reactions { 2 * s + n + compiled.constraints.len() } else { 2 * s };
     woven.sum_outputs(finite);
     woven.check(program)?;
     Ok(woven)

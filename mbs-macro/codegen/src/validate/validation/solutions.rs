@@ -10,7 +10,7 @@ use std::cell::Cell;
 use mbs_symbolic::{Program, Symbol};
 
 use super::super::rounding::Rounded;
-use super::{Check, DIRECTIONS, Point};
+use super::{Check, DIRECTIONS, Jet, Point};
 use crate::inputs::Input;
 use crate::model::Meaning;
 
@@ -56,7 +56,17 @@ impl Point<'_> {
         let (n, plan) = (self.model.coordinates.len(), self.plan);
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
         let given: Vec<f64> = self.plan.inputs.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
+        self.rows_are_met(&motion)?;
         let own: Vec<f64> = self.feedback(&motion).iter().map(|feedback| feedback.value).collect();
+        // rows that give a coordinate have no feedback in a step
+        let in_steps = |feedback: &[f64]| -> Vec<f64> {
+            let is_given = |row: usize| plan.reduction.rows.contains(&row);
+            feedback.iter().enumerate().map(|(row, &x)| if is_given(row) { 0.0 } else { x }).collect()
+        };
+        let states = |all: &[f64]| -> Vec<f64> {
+            plan.inputs.states.iter().map(|state| all[state.coordinate]).collect()
+        };
+        let s = plan.inputs.states.len();
         let reactions = self.solved(&plan.reactions, &given);
         if let Some(values) = &reactions {
             self.accelerated("reactions", &values[..n], &given)?;
@@ -70,13 +80,16 @@ impl Point<'_> {
         {
             self.balance(&values[..n], &values[n..])?;
         }
-        if let (Some(values), Some(reactions)) = (self.solved(&plan.constrained, &given), reactions) {
-            same("constrained", &values[..n], &reactions[..n])?;
+        let (given_in_steps, own) = (in_steps(&given), in_steps(&own));
+        let constrained =
+            self.solved(&plan.constrained, &given).zip(self.solved(&plan.reactions, &given_in_steps));
+        if let Some((values, reactions)) = constrained {
+            same("constrained", &values[..s], &states(&reactions))?;
         }
         let stabilized = self.solved(&plan.stabilized, &given).zip(self.solved(&plan.reactions, &own));
         if let Some((values, reactions)) = stabilized {
-            same("stabilized", &values[..n], &reactions[..n])?;
-            same("feedback", &values[n..n + own.len()], &own)?;
+            same("stabilized", &values[..s], &states(&reactions))?;
+            same("feedback", &values[s..s + own.len()], &own)?;
         }
         for (name, program) in [
             ("position_correction", &plan.position_correction),
@@ -87,6 +100,18 @@ impl Point<'_> {
                 let along = self.phi(&|at| values[at], &|_| 0.0, 0.0);
                 let rows = along.iter().map(|row| row.first).collect::<Vec<_>>();
                 self.rows_are(name, &rows, &given, &values[..n])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Coordinates and velocities meet the rows that give them.
+    fn rows_are_met(&self, motion: &[Jet]) -> Check {
+        for &row in &self.plan.reduction.rows {
+            for rest in [motion[row].value, motion[row].first] {
+                if exceeds(rest.value, rest.error / f64::EPSILON) {
+                    return Err(format!("`complete` does not meet row {row}: {:e} is left", rest.value));
+                }
             }
         }
         Ok(())

@@ -6,7 +6,7 @@ use super::check_programs;
 use crate::independence::{Samples, check_equations};
 use crate::inputs::Inputs;
 use crate::plan::{Plan, plan};
-use crate::{derive, model, syntax};
+use crate::{derive, model, reduction, syntax};
 
 /// A loop with a drive, a spring, an output and most kinds of rows.
 pub(crate) const DECLARATION: &str = "FourBar {
@@ -38,11 +38,12 @@ impl Planned {
     pub fn new(declaration: &str) -> Self {
         let declaration = syntax::parse(declaration.parse().expect("tokens")).expect("the right shape");
         let mut model = model::resolve(&declaration).expect("resolvable");
-        let inputs = Inputs::new(&mut model);
+        let mut inputs = Inputs::new(&mut model);
         let equations = derive::derive(&mut model, &inputs);
         let samples = Samples::new(&model, &inputs);
         let rows = check_equations(&model, &equations, &samples).expect("regular");
-        let plan = plan(&mut model, &equations, &rows, &samples, inputs).expect("determined");
+        let reduction = reduction::reduce(&mut model, &equations, &rows, &mut inputs);
+        let plan = plan(&mut model, &equations, &rows, &samples, inputs, reduction).expect("determined");
         Self { model, equations, samples, plan }
     }
 

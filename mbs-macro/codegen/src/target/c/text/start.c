@@ -143,6 +143,9 @@ int NAME_set_feedback(struct NAME_run *run, double alpha, double beta, int is_he
 /* The watch over a run that begins. */
 static void NAME_begin(struct NAME_run *run)
 {
+    struct NAME_STAGE at;
+    NAME_select(&run->state, &at);
+    NAME_complete(run->mechanism, &at, &run->state);
     run->start_time = run->state.t;
     run->steps = 0;
     run->worst_growth = 0;

@@ -2,19 +2,19 @@
 
 /* The stages of a step, the first one at its start, and behind them its end. */
 struct NAME_trial {
-    struct NAME_state at[CAPS_STAGES + 1];
-    struct NAME_coordinates solved[CAPS_STAGES];
+    struct NAME_STAGE at[CAPS_STAGES + 1];
+    struct NAME_STATES solved[CAPS_STAGES];
     real growth[CAPS_STAGES];
 };
 
 /* Leads to what stands behind some solved stages: x = x0 + (share h) (w_1 k_1 + w_2 k_2 + ...). */
 static void NAME_lead(struct NAME_trial *trial, int last, real h, real t_next)
 {
-    const struct NAME_state *const start = trial->at;
-    struct NAME_state *const to = &trial->at[last + 1];
+    const struct NAME_STAGE *const start = trial->at;
+    struct NAME_STAGE *const to = &trial->at[last + 1];
     const real factor = (real)NAME_share[last] * h;
     to->t = NAME_node[last] < 1 ? start->t + (real)NAME_node[last] * h : t_next;
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
+    for (int j = 0; j < STATE_COUNT; j++) {
         real v = 0, a = 0;
         for (int stage = 0; stage <= last; stage++) {
             const real weight = (real)NAME_weight[last][stage];
@@ -32,9 +32,9 @@ static real NAME_try(const struct NAME_run *run, real t_next, struct NAME_trial 
     const struct NAME *const m = run->mechanism;
     struct NAME_constraints feedback = {0}, unread = {0};
     real growth = 0;
-    trial->at[0] = run->state;
+    NAME_select(&run->state, &trial->at[0]);
     for (int stage = 0; stage < CAPS_STAGES; stage++) {
-        const struct NAME_state *const at = &trial->at[stage];
+        const struct NAME_STAGE *const at = &trial->at[stage];
         trial->growth[stage] = stage > 0 && run->is_held
             ? NAME_compute_constrained(
                 m, at->t, &at->q, &at->v, &run->inputs, &feedback, &trial->solved[stage])
@@ -56,7 +56,7 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
     const struct NAME_constraints no_feedback = {0};
     const real h = run->step;
     struct NAME_coordinates q = *start, moved, unmoved;
-    struct NAME_constraints phi = {0}, best = {0};
+    struct NAME_constraints phi = {0}, best = {0}, unread;
     NAME_compute_phi(m, t, &q, &best);
     for (int iteration = 0; iteration < 30; iteration++) {
         struct NAME_constraints feedback = {0};
@@ -65,8 +65,9 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
             best = phi;
         }
         NAME_add(NAME_places(&feedback), -1 / (h * h), NAME_elements(&phi), CAPS_CONSTRAINTS);
-        const real growth = NAME_compute_constrained(m, t, &q, &still, &run->inputs, &feedback, &moved);
-        NAME_compute_constrained(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved);
+        const real growth =
+            NAME_compute_reactions(m, t, &q, &still, &run->inputs, &feedback, &moved, &unread);
+        NAME_compute_reactions(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved, &unread);
         NAME_add(NAME_places(&moved), -1, NAME_elements(&unmoved), CAPS_COORDINATES);
         const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_COORDINATES);
         const real roundings = (64 + growth) * NAME_epsilon;
@@ -89,14 +90,16 @@ static int NAME_cause_in_stages(struct NAME_run *run, const struct NAME_trial *t
     /* if only the sum of the growths is over the limit, the largest is over its share */
     const real limit = NAME_growth_limit / CAPS_STAGES;
     for (int stage = 0; stage < CAPS_STAGES; stage++) {
-        const struct NAME_state *const at = &trial->at[stage];
-        const struct NAME_coordinates *const solved = &trial->solved[stage];
-        const int code = NAME_check_state(run, at);
+        struct NAME_state at;
+        struct NAME_coordinates solved;
+        NAME_complete(run->mechanism, &trial->at[stage], &at);
+        NAME_spread(&trial->solved[stage], &solved);
+        const int code = NAME_check_state(run, &at);
         if (code != CAPS_OK) {
             return code;
         }
-        if (!(trial->growth[stage] < limit) || !NAME_is_finite(solved)) {
-            return NAME_cause_of(run, at->t, &at->q, solved, trial->growth[stage], limit);
+        if (!(trial->growth[stage] < limit) || !NAME_is_finite(&solved)) {
+            return NAME_cause_of(run, at.t, &at.q, &solved, trial->growth[stage], limit);
         }
     }
     return CAPS_NOT_FINITE;
@@ -126,12 +129,17 @@ static void NAME_note(struct NAME_run *run, real growth)
 }
 
 /* Takes a step that is calm: its growth has not risen, and redundant constraints are met. */
-static inline int NAME_take(struct NAME_run *run, const struct NAME_state *next, real growth)
+static inline int NAME_take(struct NAME_run *run, const struct NAME_STAGE *next, real growth)
 {
-    if (!(growth <= run->alarm) || !NAME_meets_redundant(run, next, (real)1e-3, run->size)) {
+    struct NAME_state all;
+    if (!(growth <= run->alarm)) {
         return 0;
     }
-    run->state = *next;
+    NAME_complete(run->mechanism, next, &all);
+    if (!NAME_meets_redundant(run, &all, (real)1e-3, run->size)) {
+        return 0;
+    }
+    run->state = all;
     NAME_note(run, growth);
     return 1;
 }
@@ -161,9 +169,15 @@ static int NAME_step_again(struct NAME_run *run, real t_next)
 {
     struct NAME_trial trial;
     const real growth = NAME_try(run, t_next, &trial);
-    const struct NAME_state *const next = &trial.at[CAPS_STAGES];
-    if (!(growth < NAME_growth_limit) || !NAME_is_finite(&next->q) || !NAME_is_finite(&next->v)) {
+    const struct NAME_STAGE *const next = &trial.at[CAPS_STAGES];
+    struct NAME_state all;
+    if (!(growth < NAME_growth_limit) || NAME_first_non_finite(NAME_elements(&next->q), STATE_COUNT) >= 0
+        || NAME_first_non_finite(NAME_elements(&next->v), STATE_COUNT) >= 0) {
         return NAME_diagnose(run, &trial);
     }
-    return NAME_take(run, next, growth) ? CAPS_OK : NAME_examine(run, next, growth);
+    if (NAME_take(run, next, growth)) {
+        return CAPS_OK;
+    }
+    NAME_complete(run->mechanism, next, &all);
+    return NAME_examine(run, &all, growth);
 }

@@ -4,7 +4,7 @@
     const struct NAME_inputs *const inputs = &run->inputs;
     const struct NAME_gains *const gains = &run->gains;
     const real h = run->step, half_h = (real)0.5 * h;
-    struct NAME_state next;
+    struct NAME_STAGE next;
     real sum = 0, growth;
     next.t = t_next;
     /* not every program reads all of them */

@@ -16,7 +16,14 @@ pub struct Arrays(BTreeSet<Vector>);
 impl Vector {
     /// Whether stages on arrays are given the vector as one.
     pub(in crate::target::rust) fn is_given(self) -> bool {
-        matches!(self, Self::Positions | Self::Velocities | Self::Feedback)
+        match self {
+            Self::Positions
+            | Self::Velocities
+            | Self::StatePositions
+            | Self::StateVelocities
+            | Self::Feedback => true,
+            Self::Parameters | Self::Inputs | Self::Accelerations | Self::Multipliers => false,
+        }
     }
 
     /// The name of its array.
@@ -24,8 +31,9 @@ impl Vector {
         let name = match self {
             Self::Parameters => "parameter",
             Self::Inputs => "input",
-            Self::Positions => "position",
-            Self::Velocities => "velocity",
+            // no function is given both
+            Self::Positions | Self::StatePositions => "position",
+            Self::Velocities | Self::StateVelocities => "velocity",
             Self::Accelerations => "acceleration",
             Self::Multipliers => "multiplier",
             Self::Feedback => "feedback",
@@ -40,8 +48,8 @@ impl Vector {
             Self::Parameters => quote!(#parameters),
             Self::Inputs => quote!(*inputs),
             Self::Positions if access.is_borrowed() => quote!(*#positions),
-            Self::Positions => quote!(#positions),
-            Self::Velocities => quote!(#velocities),
+            Self::Positions | Self::StatePositions => quote!(#positions),
+            Self::Velocities | Self::StateVelocities => quote!(#velocities),
             Self::Accelerations => quote!(reactions.acceleration),
             Self::Multipliers => quote!(reactions.multipliers),
             Self::Feedback => quote!(*feedback),

@@ -126,9 +126,9 @@ fn results(compiled: &Compiled, program: &Program, access: &Access) -> Vec<usize
     if !access.is_on_arrays() {
         return Vec::new();
     }
-    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
-    let has_feedback = m > 0 && program.outputs.len() > n + m;
-    [n].into_iter().chain(has_feedback.then_some(m)).collect()
+    let (s, m) = (compiled.states.len(), compiled.constraints.len());
+    let has_feedback = m > 0 && program.outputs.len() > s + m;
+    [s].into_iter().chain(has_feedback.then_some(m)).collect()
 }
 
 /// An array of results as an argument of a function.

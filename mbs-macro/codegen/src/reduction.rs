@@ -1,0 +1,211 @@
+//! Which coordinates have to be integrated, with `states = reduced;`.
+//!
+//! A row that is linear in a coordinate with a number as its coefficient, Φᵢ = c xⱼ + g(other
+//! coordinates, t), gives that coordinate: xⱼ = −g/c. Most rows of planar joints are of that
+//! kind. Where it is not integrated, Φᵢ and Φ̇ᵢ are 0 at every instant, so that the row needs
+//! no feedback; the rows that are left are integrated and fed back as they are without
+//! reduction. The elimination stays what it is: its solution is written in the coordinates
+//! that are left.
+//!
+//! Rows are taken in their order, and each gives a coordinate that no other row has given. What
+//! depends linearly on which coordinates, and what in another way, is counted in numbers; so a
+//! coordinate is given only where the choices before have left it linear. Each choice uses up
+//! a row, which bounds their number.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use mbs_symbolic::{Arena, Expr, Node, Number, Symbol};
+
+use crate::derive::Equations;
+use crate::independence::Rows;
+use crate::inputs::Inputs;
+use crate::model::{Direction, Model};
+
+/// Sums of more terms are computed once, so that those of a chain do not become longer from
+/// link to link.
+const LONGEST_OPEN_SUM: usize = 8;
+
+/// Coordinates that constraints give.
+pub struct Reduction {
+    /// What each coordinate that is not integrated is, and its velocity, by the symbols of the
+    /// states.
+    values: HashMap<Symbol, Expr>,
+    /// Those that are not integrated.
+    given: BTreeSet<usize>,
+    /// The rows that give them.
+    pub rows: BTreeSet<usize>,
+}
+
+/// Chooses the coordinates that are integrated: all, or with `states = reduced;` those that no
+/// row gives, whose symbols are then those of states.
+pub fn reduce(model: &mut Model, equations: &Equations, rows: &Rows, inputs: &mut Inputs) -> Reduction {
+    if model.solver.has_reduced_states() {
+        Reduction::new(model, equations, rows, inputs)
+    } else {
+        Reduction { values: HashMap::new(), given: BTreeSet::new(), rows: BTreeSet::new() }
+    }
+}
+
+impl Reduction {
+    fn new(model: &mut Model, equations: &Equations, rows: &Rows, inputs: &mut Inputs) -> Self {
+        let given = given(model, equations, rows);
+        let coordinates: BTreeSet<usize> = given.iter().map(|given| given.coordinate).collect();
+        let states: Vec<usize> =
+            (0..model.coordinates.len()).filter(|at| !coordinates.contains(at)).collect();
+        inputs.reduce(model, &states);
+        let mut values = HashMap::new();
+        for state in &inputs.states {
+            let coordinate = &model.coordinates[state.coordinate];
+            values.insert(coordinate.position, model.arena.variable(state.position));
+            values.insert(coordinate.velocity, model.arena.variable(state.velocity));
+        }
+        // those that were given later are left in the earlier ones
+        for given in given.iter().rev() {
+            let coordinate = &model.coordinates[given.coordinate];
+            let symbols = [coordinate.position, coordinate.velocity];
+            for (symbol, value) in symbols.into_iter().zip([given.position, given.velocity]) {
+                let value = model.arena.substitute(value, &values);
+                values.insert(symbol, short(&mut model.arena, value));
+            }
+        }
+        Self { values, given: coordinates, rows: given.iter().map(|given| given.row).collect() }
+    }
+
+    /// The coordinates that constraints give, and what they are by the others.
+    pub fn given(&self, model: &Model) -> Vec<(usize, Expr)> {
+        let value = |at: usize| self.values.get(&model.coordinates[at].position);
+        self.given.iter().filter_map(|&at| Some((at, *value(at)?))).collect()
+    }
+
+    /// Functions of all coordinates as functions of those that are integrated.
+    pub fn in_states(&self, arena: &mut Arena, roots: &[Expr]) -> Vec<Expr> {
+        if self.values.is_empty() { roots.to_vec() } else { arena.substitute_all(roots, &self.values) }
+    }
+
+    /// All coordinates and velocities as functions of the states.
+    pub fn complete(&self, model: &mut Model) -> Vec<Expr> {
+        let positions = model.coordinates.iter().map(|coordinate| coordinate.position);
+        let velocities = model.coordinates.iter().map(|coordinate| coordinate.velocity);
+        let symbols: Vec<Symbol> = positions.chain(velocities).collect();
+        let all: Vec<Expr> = symbols.into_iter().map(|symbol| model.arena.variable(symbol)).collect();
+        self.in_states(&mut model.arena, &all)
+    }
+}
+
+/// A coordinate that a row gives, by those that no row has given before.
+struct Given {
+    coordinate: usize,
+    row: usize,
+    position: Expr,
+    velocity: Expr,
+}
+
+/// What depends on coordinates: linearly with these coefficients, or otherwise.
+#[derive(Clone, Default)]
+struct Dependence {
+    linear: BTreeMap<usize, Number>,
+    otherwise: BTreeSet<usize>,
+}
+
+impl Dependence {
+    /// Of a row, by its entries of Φ_q.
+    fn of_row(arena: &Arena, entries: &BTreeMap<usize, Expr>) -> Self {
+        let mut dependence = Self::default();
+        for (&column, &entry) in entries {
+            match arena.as_number(entry) {
+                Some(coefficient) => {
+                    dependence.linear.insert(column, coefficient);
+                }
+                None => {
+                    dependence.otherwise.insert(column);
+                }
+            }
+        }
+        dependence
+    }
+
+    /// The same with what a coordinate depends on in its place.
+    fn replace(&mut self, coordinate: usize, given: &Self) {
+        if self.otherwise.remove(&coordinate) {
+            self.otherwise.extend(given.linear.keys().chain(&given.otherwise));
+        }
+        let Some(factor) = self.linear.remove(&coordinate) else { return };
+        for (&column, &coefficient) in &given.linear {
+            let sum = self.linear.get(&column).copied().unwrap_or(Number::ZERO) + factor * coefficient;
+            self.linear.insert(column, sum);
+        }
+        self.otherwise.extend(&given.otherwise);
+    }
+
+    /// The coordinates that are given by 0 = this, and their coefficients.
+    fn candidates(&self) -> impl Iterator<Item = (usize, Number)> {
+        let is_given = |(column, coefficient): &(&usize, &Number)| {
+            !coefficient.is_zero() && !self.otherwise.contains(column)
+        };
+        self.linear.iter().filter(is_given).map(|(&column, &coefficient)| (column, coefficient))
+    }
+
+    /// What the coordinate depends on that is given by 0 = this.
+    fn solved(mut self, coordinate: usize, coefficient: Number) -> Self {
+        self.linear.remove(&coordinate);
+        let factor = -coefficient.recip();
+        self.linear.values_mut().for_each(|value| *value = factor * *value);
+        self
+    }
+}
+
+/// The coordinates that rows give, in the order of the rows.
+fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Vec<Given> {
+    let mut given = Vec::new();
+    let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
+    // what coordinates are by those that were not given when they were
+    let (mut positions, mut velocities) = (HashMap::new(), HashMap::new());
+    for &row in &rows.basis {
+        let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
+        for (&coordinate, known) in &dependences {
+            dependence.replace(coordinate, known);
+        }
+        // a length rather than an angle, of the body that was declared last
+        let is_length = |at: usize| model.coordinates[at].direction != Direction::Angle;
+        let best = dependence.candidates().max_by_key(|&(at, _)| (is_length(at), at));
+        let Some((coordinate, coefficient)) = best else { continue };
+        let dependence = dependence.solved(coordinate, coefficient);
+        for other in dependences.values_mut() {
+            other.replace(coordinate, &dependence);
+        }
+        dependences.insert(coordinate, dependence);
+
+        let symbols = &model.coordinates[coordinate];
+        let (position_symbol, velocity_symbol) = (symbols.position, symbols.velocity);
+        let position = solve(&mut model.arena, equations.phi[row], &positions, position_symbol, coefficient);
+        positions.insert(position_symbol, position);
+        velocities.insert(position_symbol, position);
+        let velocity =
+            solve(&mut model.arena, equations.phi_dot[row], &velocities, velocity_symbol, coefficient);
+        velocities.insert(velocity_symbol, velocity);
+        given.push(Given { coordinate, row, position, velocity });
+    }
+    given
+}
+
+/// The x of 0 = `row`, which is linear in it, with what is known before in its place.
+fn solve(
+    arena: &mut Arena,
+    row: Expr,
+    known: &HashMap<Symbol, Expr>,
+    x: Symbol,
+    coefficient: Number,
+) -> Expr {
+    let row = arena.substitute(row, known);
+    let rest = arena.substitute(row, &HashMap::from([(x, arena.zero())]));
+    let value = arena.scale(rest, -coefficient.recip());
+    short(arena, value)
+}
+
+/// A value that is computed once if it is a long sum.
+fn short(arena: &mut Arena, value: Expr) -> Expr {
+    match arena.node(value) {
+        Node::Sum(_, terms) if terms.len() > LONGEST_OPEN_SUM => arena.share(value),
+        _ => value,
+    }
+}
