@@ -139,7 +139,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     check("positions", &from, info.coordinates.len())?;
     check("inputs", &inputs, info.inputs.len())?;
     let mut start = DVector::from_vec(from);
-    let rest = Rest { mechanism, t: search.t, inputs: &inputs, length: length(mechanism, &start) };
+    let rest = Rest::new(mechanism, search.t, &inputs, start.as_slice());
     rest.assemble(&mut start)?;
     let (q, iterations) = match search.strategy {
         Strategy::Newton => find(&rest, start, false)?,
@@ -151,16 +151,6 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let stiffness = stiffness(&rest, &q, &tangent);
     let (q, multipliers) = (q.as_slice().to_vec(), multipliers.as_slice().to_vec());
     Ok(Equilibrium { t: search.t, q, multipliers, inputs, stiffness, iterations })
-}
-
-/// The size of a mechanism in m: its largest coordinate that is a length, at the start.
-fn length(mechanism: &dyn Described<f64>, start: &DVector<f64>) -> f64 {
-    /// Of a mechanism that begins at the origin.
-    const USUAL: f64 = 0.1;
-    let coordinates = mechanism.info().coordinates.iter().zip(start);
-    let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0).map(|(_, q)| q.abs());
-    let largest = lengths.fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { USUAL }
 }
 
 fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {

@@ -9,9 +9,24 @@
 //! [`Info`](mbs_runtime::Info), in SI units and rad.
 #![forbid(unsafe_code)]
 
+mod chart;
+mod derivative;
+mod difference;
 mod equilibrium;
 mod error;
+mod family;
+mod linearization;
+mod modes;
+mod point;
+mod signal;
 mod tangent;
+
+pub use nalgebra;
 
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
+pub use family::{Family, of_type};
+pub use linearization::{Linearization, Ports, linearize};
+pub use modes::{Behaviour, Mode};
+pub use point::{Drives, OperatingPoint};
+pub use signal::{Signal, Variable};

@@ -4,6 +4,7 @@ use mbs_runtime::equations::{At, Described};
 use nalgebra::{DMatrix, DVector};
 
 use crate::Error;
+use crate::difference::five_point;
 
 /// A mechanism at rest, with its inputs and its time held.
 pub struct Rest<'a> {
@@ -27,13 +28,20 @@ pub struct Tangent {
     pub directions: DMatrix<f64>,
 }
 
-/// How far differences step, as a share of the scale of a coordinate: the truncation δ⁴ of the
-/// five-point formula and the rounding ε/δ are both about 10⁻¹².
-const DIFFERENCE: f64 = 1e-3;
 /// Newton's corrections of positions end before this.
 const CORRECTIONS: usize = 50;
 
-impl Rest<'_> {
+impl<'a> Rest<'a> {
+    /// A mechanism whose size is that of its largest coordinate that is a length, at a position.
+    pub fn new(mechanism: &'a dyn Described<f64>, t: f64, inputs: &'a [f64], q: &[f64]) -> Self {
+        /// Of a mechanism that stands at the origin.
+        const USUAL: f64 = 0.1;
+        let coordinates = mechanism.info().coordinates.iter().zip(q);
+        let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0).map(|(_, q)| q.abs());
+        let largest = lengths.fold(0.0, f64::max);
+        Self { mechanism, t, inputs, length: if largest > 0.0 { largest } else { USUAL } }
+    }
+
     /// 1 rad for an angle, the size of the mechanism for a length.
     pub fn scales(&self) -> DVector<f64> {
         let coordinates = self.mechanism.info().coordinates;
@@ -92,15 +100,30 @@ impl Rest<'_> {
         (a, multipliers)
     }
 
+    /// Φ
+    pub fn violation(&self, q: &DVector<f64>) -> DVector<f64> {
+        let mut phi = DVector::zeros(self.mechanism.info().constraints.len());
+        self.mechanism.phi(self.t, q.as_slice(), phi.as_mut_slice());
+        phi
+    }
+
+    /// Φ̇
+    pub fn violation_rate(&self, q: &DVector<f64>, v: &DVector<f64>) -> DVector<f64> {
+        let mut rate = DVector::zeros(self.mechanism.info().constraints.len());
+        self.mechanism.phi_dot(At { t: self.t, q: q.as_slice(), v: v.as_slice() }, rate.as_mut_slice());
+        rate
+    }
+
+    /// The smallest Δ, in the norm of the mass matrix, with Φ_q Δ = `violation`.
+    pub fn correction(&self, q: &DVector<f64>, violation: &DVector<f64>) -> DVector<f64> {
+        let mut delta = DVector::zeros(q.len());
+        self.mechanism.projection(self.t, q.as_slice(), violation.as_slice(), delta.as_mut_slice());
+        delta
+    }
+
     /// Φ_q w
-    fn along(&self, q: &DVector<f64>, w: &DVector<f64>) -> DVector<f64> {
-        let m = self.mechanism.info().constraints.len();
-        let (mut rates, mut at_rest) = (DVector::zeros(m), DVector::zeros(m));
-        let still = vec![0.0; q.len()];
-        let q = q.as_slice();
-        self.mechanism.phi_dot(At { t: self.t, q, v: w.as_slice() }, rates.as_mut_slice());
-        self.mechanism.phi_dot(At { t: self.t, q, v: &still }, at_rest.as_mut_slice());
-        rates - at_rest
+    pub fn along(&self, q: &DVector<f64>, w: &DVector<f64>) -> DVector<f64> {
+        self.violation_rate(q, w) - self.violation_rate(q, &DVector::zeros(q.len()))
     }
 
     /// vᵀMw/2 summed: the kinetic energy of a velocity.
@@ -152,18 +175,16 @@ impl Rest<'_> {
         })
     }
 
-    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions, by the five-point
-    /// formula.
+    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions.
     pub fn stiffness_rate(&self, q: &DVector<f64>, tangent: &Tangent) -> DMatrix<f64> {
         let scales = self.scales();
         let directions = &tangent.directions;
         let mut reduced = DMatrix::zeros(directions.ncols(), directions.ncols());
         for (at, direction) in directions.column_iter().enumerate() {
             let largest = direction.component_div(&scales).amax();
-            let step = DIFFERENCE / if largest > 0.0 { largest } else { 1.0 };
-            let there = |share: f64| self.acceleration(&(q + direction * (share * step))).0;
-            let change = (there(1.0) - there(-1.0)) * 8.0 - (there(2.0) - there(-2.0));
-            reduced.set_column(at, &tangent.minimal(&(change / (12.0 * step))));
+            let there = |share: f64| self.acceleration(&(q + direction * share)).0;
+            let change = five_point(there, if largest > 0.0 { 1.0 / largest } else { 1.0 });
+            reduced.set_column(at, &tangent.minimal(&change));
         }
         reduced
     }

@@ -1,0 +1,298 @@
+//! The linear system of small motions about an operating point.
+
+use mbs_runtime::equations::Described;
+use nalgebra::{DMatrix, DVector};
+
+use crate::chart::Chart;
+use crate::derivative::{Derivatives, Direction, Values};
+use crate::family::{Family, Varied};
+use crate::{Error, OperatingPoint, Signal, Variable};
+
+/// A rate in 1/s that is slower than any mechanism.
+const SLOW: f64 = 1e-3;
+
+/// What goes into a linear system, what comes out of it, and in which coordinates.
+#[derive(Clone, Default)]
+pub struct Ports<'a> {
+    /// The coordinates that are states, as many as there are degrees of freedom; `None` for those
+    /// that move most, angles before lengths.
+    pub states: Option<Vec<String>>,
+    /// The inputs; `None` for all.
+    pub inputs: Option<Vec<String>>,
+    /// Declared outputs, coordinates `x`, their rates `der(x)` and multipliers `lambda(row)`; `None`
+    /// for all declared outputs, or for the coordinates of a mechanism that declares none.
+    pub outputs: Option<Vec<String>>,
+    /// Parameters that are inputs too, after the others.
+    pub parameters: Vec<String>,
+    /// Where `parameters` are asked for: the mechanisms with other parameters.
+    pub family: Option<&'a dyn Family>,
+}
+
+/// ẋ = A x + B u, y = C x + D u, of deviations from an operating point.
+///
+/// With f degrees of freedom x = (δz, δż) has 2f components: f declared coordinates z that determine
+/// the others, and their rates. Everything is in SI units and rad.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearization {
+    /// The operating point.
+    pub point: OperatingPoint,
+    /// x, 2f.
+    pub states: Vec<Signal>,
+    /// u
+    pub inputs: Vec<Signal>,
+    /// y
+    pub outputs: Vec<Signal>,
+    /// A, 2f × 2f: [0 1; ∂z̈/∂z ∂z̈/∂ż].
+    pub a: DMatrix<f64>,
+    /// B
+    pub b: DMatrix<f64>,
+    /// C
+    pub c: DMatrix<f64>,
+    /// D
+    pub d: DMatrix<f64>,
+    /// ẋ at the operating point, which deviations add to: 0 at an equilibrium.
+    pub rate: DVector<f64>,
+    /// y at the operating point.
+    pub values: DVector<f64>,
+    /// N, n × f: all coordinates move by δq = N δz.
+    pub directions: DMatrix<f64>,
+    /// M_r = NᵀMN, f × f: the mass of the minimal coordinates.
+    pub mass: DMatrix<f64>,
+    /// 1 rad or the size of the mechanism in m, for each of the coordinates.
+    pub scales: DVector<f64>,
+    /// The estimated error of ∂z̈/∂z and ∂z̈/∂ż, as a share of their largest entry, coordinates
+    /// measured by their scales. About 10⁻¹² of smooth accelerations, more where friction changes
+    /// its sign, and of the order of 1 at a stop.
+    pub uncertainty: f64,
+}
+
+/// The linear system about an operating point.
+///
+/// On Φ(q, t) = 0 the position follows from f independent coordinates z = q_I, and the velocity from
+/// z and ż:
+///
+/// ```text
+/// δq = N δz              Φ_q N = 0, N_I = 1
+/// δv = N δż + V δz       Φ_q V = −(Φ_q v + Φ_t)_q N, V_I = 0
+/// δz̈ = (q̈_q N + q̈_v V)_I δz + (q̈_v N)_I δż + (q̈_u)_I δu
+/// ```
+///
+/// V is how velocities turn with the manifold, and vanishes at rest. Outputs are differentiated in
+/// the same way, with q̈ and λ that follow the state. A parameter that is an input moves the other
+/// coordinates too, because the manifold changes: Φ_q δq = −Φ_p with δq_I = 0, and Φ̇ alike.
+///
+/// Derivatives along these directions are differences, extrapolated to ten digits or more of smooth
+/// functions; [`uncertainty`](Linearization::uncertainty) says what is known.
+///
+/// # Errors
+/// [`Error::NoFreedom`]; [`Error::Length`] and [`Error::OffConstraints`] of the point;
+/// [`Error::Unknown`], [`Error::Dependent`] and [`Error::NoFamily`] of the ports;
+/// [`Error::Undefined`] where the accelerations at the point are no numbers.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{OperatingPoint, Ports, linearize};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Oscillator {
+///         dof = 1;
+///         input push [N];
+///         body block (x) { mass = 2 [kg]; }
+///         force all on x = push - 200 [N/m]*x - 4 [N*s/m]*der(x);
+///         output position [m] = x;
+///     }
+/// }
+///
+/// let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
+/// let linear = linearize(&Oscillator::declared(), &point, &Ports::default())?;
+/// assert_eq!(linear.states[1].name, "der(x)");
+/// assert!((linear.a[(1, 0)] + 100.0).abs() < 1e-9 && (linear.a[(1, 1)] + 2.0).abs() < 1e-9);
+/// assert!((linear.b[(1, 0)] - 0.5).abs() < 1e-12 && linear.c[(0, 0)] == 1.0);
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
+///
+/// # Source
+/// D. Negrut, J. L. Ortiz, A practical approach for the linearization of the constrained multibody
+/// dynamics equations, J. Comput. Nonlinear Dynam. 1 (2006) 230-239.
+pub fn linearize(
+    mechanism: &dyn Described<f64>,
+    point: &OperatingPoint,
+    ports: &Ports<'_>,
+) -> Result<Linearization, Error> {
+    let info = mechanism.info();
+    if info.dof <= 0 {
+        return Err(Error::NoFreedom { mechanism: info.name });
+    }
+    let mut inputs = Signal::inputs(info, ports.inputs.as_deref())?;
+    inputs.extend(Signal::parameters(info, &ports.parameters)?);
+    let outputs = Signal::outputs(info, ports.outputs.as_deref())?;
+    point.check(mechanism)?;
+    let chart = Chart::new(mechanism, point, ports.states.as_deref())?;
+    let mut parameters = vec![0.0; info.parameters.len()];
+    mechanism.parameters(&mut parameters);
+    let varied = match ports.family {
+        Some(family) => Some(Varied { family, parameters: &parameters }),
+        None if ports.parameters.is_empty() => None,
+        None => return Err(Error::NoFamily { parameter: ports.parameters.concat() }),
+    };
+    let derivatives = Derivatives { mechanism, point, varied, scales: chart.scales() };
+    let here = derivatives.values();
+    check_finite(info, &here)?;
+
+    let system = Differentiated { derivatives, chart };
+    let f = system.chart.independent.len();
+    let of_states = system.columns(&system.of_states()?, &outputs)?;
+    let of_inputs = system.columns(&system.of_inputs(&inputs)?, &outputs)?;
+    let mut a = DMatrix::zeros(2 * f, 2 * f);
+    a.view_mut((0, f), (f, f)).fill_with_identity();
+    a.view_mut((f, 0), (f, 2 * f)).copy_from(&of_states.acceleration);
+    let mut b = DMatrix::zeros(2 * f, inputs.len());
+    b.view_mut((f, 0), (f, inputs.len())).copy_from(&of_inputs.acceleration);
+    let uncertainty = system.uncertainty(&of_states);
+    let chart = &system.chart;
+    let speed = chart.minimal(&DVector::from_column_slice(&point.v));
+    let rate = speed.iter().chain(chart.minimal(&here.acceleration).iter()).copied().collect::<Vec<_>>();
+    let independent = chart.independent.iter();
+    let states = independent.clone().map(|&at| Variable::Coordinate(at));
+    let states = states.chain(independent.map(|&at| Variable::Velocity(at)));
+    Ok(Linearization {
+        states: states.filter_map(|variable| Signal::of(info, variable)).collect(),
+        values: DVector::from_iterator(outputs.len(), outputs.iter().map(|y| value(point, &here, y))),
+        a,
+        b,
+        c: of_states.outputs,
+        d: of_inputs.outputs,
+        rate: DVector::from_vec(rate),
+        uncertainty,
+        directions: chart.directions.clone(),
+        mass: chart.mass.clone(),
+        scales: chart.scales(),
+        point: point.clone(),
+        inputs,
+        outputs,
+    })
+}
+
+impl Linearization {
+    /// f, the degrees of freedom.
+    pub fn dof(&self) -> usize {
+        self.directions.ncols()
+    }
+
+    /// The scales of the coordinates that are states.
+    pub(crate) fn scales_of_states(&self) -> impl Iterator<Item = f64> {
+        let place = |state: &Signal| match state.variable {
+            Variable::Coordinate(at) => self.scales.get(at).copied(),
+            _ => None,
+        };
+        self.states.iter().filter_map(place)
+    }
+}
+
+fn check_finite(info: &mbs_runtime::Info, here: &Values) -> Result<(), Error> {
+    let at = here.acceleration.iter().position(|a| !a.is_finite());
+    match at.and_then(|at| info.coordinates.get(at)) {
+        Some(coordinate) => Err(Error::Undefined { coordinate: coordinate.name }),
+        None => Ok(()),
+    }
+}
+
+/// An output at the operating point.
+fn value(point: &OperatingPoint, here: &Values, output: &Signal) -> f64 {
+    match output.variable {
+        Variable::Coordinate(at) => point.q[at],
+        Variable::Velocity(at) => point.v[at],
+        Variable::Output(at) => here.outputs[at],
+        Variable::Multiplier(at) => here.multipliers[at],
+        Variable::Input(at) => point.inputs[at],
+        Variable::Parameter(_) => f64::NAN,
+    }
+}
+
+struct Differentiated<'a> {
+    derivatives: Derivatives<'a>,
+    chart: Chart<'a>,
+}
+
+/// Derivatives along some directions, a column each.
+struct Columns {
+    /// Of z̈.
+    acceleration: DMatrix<f64>,
+    /// The estimated errors of that.
+    errors: DMatrix<f64>,
+    outputs: DMatrix<f64>,
+}
+
+impl Differentiated<'_> {
+    fn of_states(&self) -> Result<Vec<Direction>, Error> {
+        let none = Direction::none(self.derivatives.mechanism);
+        let along = |at: usize| self.chart.directions.column(at).clone_owned();
+        let f = self.chart.independent.len();
+        let displaced = (0..f).map(|at| self.completed(Direction { q: along(at), ..none.clone() }));
+        let faster = (0..f).map(|at| Ok(Direction { v: along(at), ..none.clone() }));
+        displaced.chain(faster).collect()
+    }
+
+    fn of_inputs(&self, inputs: &[Signal]) -> Result<Vec<Direction>, Error> {
+        let direction = |input: &Signal| {
+            let mut direction = Direction::none(self.derivatives.mechanism);
+            match input.variable {
+                Variable::Parameter(at) => {
+                    direction.parameter = Some(at);
+                    let [change, _] = self.derivatives.along(&direction)?;
+                    direction.q = self.chart.carried(&change.phi);
+                    self.completed(direction)
+                }
+                Variable::Input(at) => {
+                    direction.inputs[at] = 1.0;
+                    Ok(direction)
+                }
+                _ => Ok(direction),
+            }
+        };
+        inputs.iter().map(direction).collect()
+    }
+
+    /// With the change of velocities that keeps them on the constraints, δv_I = 0.
+    fn completed(&self, mut direction: Direction) -> Result<Direction, Error> {
+        let [change, _] = self.derivatives.along(&direction)?;
+        direction.v = self.chart.carried(&change.phi_dot);
+        Ok(direction)
+    }
+
+    fn columns(&self, directions: &[Direction], outputs: &[Signal]) -> Result<Columns, Error> {
+        let (f, k) = (self.chart.independent.len(), directions.len());
+        let [mut acceleration, mut errors] = [(); 2].map(|()| DMatrix::zeros(f, k));
+        let mut of_outputs = DMatrix::zeros(outputs.len(), k);
+        for (column, direction) in directions.iter().enumerate() {
+            let [change, error] = self.derivatives.along(direction)?;
+            acceleration.set_column(column, &self.chart.minimal(&change.acceleration));
+            errors.set_column(column, &self.chart.minimal(&error.acceleration));
+            for (row, output) in outputs.iter().enumerate() {
+                of_outputs[(row, column)] = match output.variable {
+                    Variable::Coordinate(at) => direction.q[at],
+                    Variable::Velocity(at) => direction.v[at],
+                    Variable::Output(at) => change.outputs[at],
+                    Variable::Multiplier(at) => change.multipliers[at],
+                    Variable::Input(_) | Variable::Parameter(_) => 0.0,
+                };
+            }
+        }
+        Ok(Columns { acceleration, errors, outputs: of_outputs })
+    }
+
+    fn uncertainty(&self, of_states: &Columns) -> f64 {
+        let scales = self.chart.minimal(&self.chart.scales());
+        let f = scales.len();
+        let measured = |of: &DMatrix<f64>, first: usize| {
+            let entry = |row: usize, column: usize| of[(row, first + column)] * scales[column] / scales[row];
+            DMatrix::from_fn(f, f, entry).amax()
+        };
+        // what nothing drives back accelerates by rounding alone
+        let stiffest = measured(&of_states.acceleration, 0).max(SLOW * SLOW);
+        let fastest = measured(&of_states.acceleration, f).max(stiffest.sqrt());
+        let share = |error: f64, size: f64| if error > 0.0 { error / size } else { 0.0 };
+        share(measured(&of_states.errors, 0), stiffest).max(share(measured(&of_states.errors, f), fastest))
+    }
+}

@@ -1,0 +1,278 @@
+//! Natural frequencies, damping ratios and mode shapes.
+
+use nalgebra::{Complex, DMatrix, DVector, Schur};
+
+use crate::{Error, Linearization};
+
+/// Differences of coefficients give a stiffness this share of the largest one as well.
+const ZERO: f64 = 1e-11;
+/// An eigenvalue is 0 that is this share of the fastest rate.
+const STILL: f64 = 1e-9;
+/// A real part is 0 that is this share of its eigenvalue.
+const UNDAMPED: f64 = 1e-10;
+/// A component of a shape is 0 that is this share of the largest one.
+const SMALL: f64 = 1e-9;
+/// Two eigenvalues are one that differ by this share: rounding ε parts a double one by √ε.
+const DOUBLE: f64 = 1e-7;
+
+/// What becomes of a small displacement in the shape of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Behaviour {
+    /// Nothing drives it back: λ = 0.
+    RigidBody,
+    /// It oscillates for ever: λ = ±iω.
+    Undamped,
+    /// It oscillates and dies away: Re λ < 0.
+    Underdamped,
+    /// It dies away without oscillating: λ < 0. A mode with more than critical damping is two of these.
+    Overdamped,
+    /// It oscillates and grows: Re λ > 0.
+    Flutter,
+    /// It grows without oscillating: λ > 0.
+    Divergence,
+}
+
+impl Behaviour {
+    /// What it does, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::RigidBody => "rigid-body mode: moves freely",
+            Self::Undamped => "oscillates, undamped",
+            Self::Underdamped => "oscillates, damped",
+            Self::Overdamped => "decays without oscillating (overdamped)",
+            Self::Flutter => "unstable: oscillates and grows (flutter)",
+            Self::Divergence => "unstable: grows without oscillating (divergence)",
+        }
+    }
+
+    /// Whether it grows.
+    pub fn is_unstable(self) -> bool {
+        matches!(self, Self::Flutter | Self::Divergence)
+    }
+}
+
+/// Motions δq = Re(φ e^{λt}) of a linear system: a pair of conjugate eigenvalues, or a real one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ in 1/s, with Im λ ≥ 0. A part is 0 that cannot be told from it.
+    pub eigenvalue: Complex<f64>,
+    /// φ, a component for each coordinate. That of the state that moves most is 1 rad or 1 m, where an
+    /// angle of 1 rad counts as much as a length of the size of the mechanism.
+    pub shape: DVector<Complex<f64>>,
+    /// What becomes of it.
+    pub behaviour: Behaviour,
+    /// The right and left null vectors of λ²1 − λG − K, in the norm of the mass.
+    pub(crate) vectors: [DVector<Complex<f64>>; 2],
+}
+
+impl Mode {
+    /// ω = |λ| in rad/s: the frequency without damping.
+    pub fn natural_frequency(&self) -> f64 {
+        self.eigenvalue.norm()
+    }
+
+    /// ω_d = Im λ in rad/s: the frequency at which it oscillates.
+    pub fn damped_frequency(&self) -> f64 {
+        self.eigenvalue.im
+    }
+
+    /// ζ = −Re λ/|λ|: 0 without damping, 1 for what decays without oscillating, negative for what grows;
+    /// `None` for a rigid-body mode.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        // 0 and not −0
+        let ratio = 0.0 - self.eigenvalue.re / self.eigenvalue.norm();
+        (self.behaviour != Behaviour::RigidBody).then_some(ratio)
+    }
+
+    /// 1/|Re λ| in s: in that time it decays to 1/e, or grows by e.
+    pub fn time_constant(&self) -> f64 {
+        1.0 / self.eigenvalue.re.abs()
+    }
+}
+
+impl Linearization {
+    /// The modes, rigid-body modes first and the others with ascending natural frequencies.
+    ///
+    /// λ is a root of det(λ²1 − λG − K) with K = ∂z̈/∂z and G = ∂z̈/∂ż, and φ = N z with
+    /// (λ²1 − λG − K) z = 0, computed in coordinates in which the mass is 1. Directions without
+    /// stiffness are taken out first, because rounding would part their double eigenvalue 0; what
+    /// damps their velocity is a mode of its own. Equal eigenvalues have shapes that are independent of
+    /// each other, any combination of which is one.
+    ///
+    /// # Errors
+    /// [`Error::Eigenvalues`] if the QR algorithm does not converge.
+    ///
+    /// # Source
+    /// F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Rev. 43 (2001) 235-286.
+    pub fn modes(&self) -> Result<Vec<Mode>, Error> {
+        let pencil = Pencil::of(self);
+        let (free, held) = pencil.free_and_held(self.uncertainty);
+        let mut modes: Vec<Mode> = free
+            .column_iter()
+            .map(|y| pencil.mode(self, Complex::from(0.0), &complex(&y.clone_owned())))
+            .collect();
+        let mut roots = pencil.roots(&free, &held)?;
+        // the velocity of a free direction is 0 too, unless something damps it
+        for _ in 0..free.ncols() {
+            if roots.first().is_some_and(|root| root.norm() <= STILL) {
+                roots.remove(0);
+            }
+        }
+        let mut last: Option<(Complex<f64>, usize)> = None;
+        for root in roots {
+            let repeated = match last {
+                Some((other, count)) if (root - other).norm() <= DOUBLE * root.norm() => count + 1,
+                _ => 0,
+            };
+            last = Some((root, repeated));
+            modes.push(pencil.vectors(self, root, repeated));
+        }
+        Ok(modes)
+    }
+
+    /// The frequencies in rad/s of modes that oscillate, ascending.
+    pub fn resonances(&self) -> Result<Vec<f64>, Error> {
+        let modes = self.modes()?;
+        let oscillates = modes.iter().map(Mode::damped_frequency).filter(|omega| *omega > 0.0);
+        let mut found: Vec<f64> = oscillates.collect();
+        found.sort_by(f64::total_cmp);
+        Ok(found)
+    }
+}
+
+/// λ²1 − λG − K in units of time 1/`rate` and coordinates y = `to` z in which the mass is 1.
+pub(crate) struct Pencil {
+    pub stiffness: DMatrix<f64>,
+    pub damping: DMatrix<f64>,
+    /// In 1/s.
+    pub rate: f64,
+    to: DMatrix<f64>,
+    back: DMatrix<f64>,
+}
+
+impl Pencil {
+    pub fn of(linear: &Linearization) -> Self {
+        let f = linear.dof();
+        let [to, back] = unit_mass(linear);
+        let within = |first: usize| &to * linear.a.view((f, first), (f, f)) * &back;
+        let (stiffness, damping) = (within(0), within(f));
+        let rate = stiffness.amax().sqrt().max(damping.amax());
+        let rate = if rate > 0.0 { rate } else { 1.0 };
+        Self { stiffness: stiffness / (rate * rate), damping: damping / rate, rate, to, back }
+    }
+
+    /// A change of ∂z̈/∂z or ∂z̈/∂ż in the coordinates y.
+    pub fn changed(&self, of_z: &DMatrix<f64>) -> DMatrix<f64> {
+        &self.to * of_z * &self.back
+    }
+
+    /// Orthonormal directions without stiffness, and those across.
+    fn free_and_held(&self, uncertainty: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+        let f = self.stiffness.nrows();
+        let decomposition = self.stiffness.clone().svd(false, true);
+        let values = &decomposition.singular_values;
+        let zero = ZERO.max(10.0 * uncertainty.min(1e-3)) * values.amax();
+        let right = decomposition.v_t.map_or_else(|| DMatrix::identity(f, f), |v| v.transpose());
+        let (free, held): (Vec<usize>, Vec<usize>) = (0..f).partition(|at| values[*at] <= zero);
+        (right.select_columns(&free), right.select_columns(&held))
+    }
+
+    /// Eigenvalues with Im λ ≥ 0, ascending by size, of the system of (a, ȧ, ḃ) with y = `held` a +
+    /// `free` b, which b itself does not enter.
+    fn roots(&self, free: &DMatrix<f64>, held: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Error> {
+        let (f, h) = (self.stiffness.nrows(), held.ncols());
+        let all =
+            DMatrix::from_fn(
+                f,
+                f,
+                |row, column| {
+                    if column < h { held[(row, column)] } else { free[(row, column - h)] }
+                },
+            );
+        let mut system = DMatrix::zeros(h + f, h + f);
+        system.view_mut((0, h), (h, h)).fill_with_identity();
+        system.view_mut((h, 0), (f, h)).copy_from(&(all.transpose() * &self.stiffness * held));
+        system.view_mut((h, h), (f, f)).copy_from(&(all.transpose() * &self.damping * &all));
+        const ITERATIONS: usize = 10_000;
+        let schur = Schur::try_new(system.clone(), f64::EPSILON, ITERATIONS);
+        let Some(schur) = schur else { return Err(Error::Eigenvalues { decades: decades(&system) }) };
+        let mut roots: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().map(known).collect();
+        roots.retain(|root| root.im >= 0.0);
+        roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+        Ok(roots)
+    }
+
+    /// The mode of an eigenvalue, or one of those of a repeated one.
+    fn vectors(&self, linear: &Linearization, root: Complex<f64>, repeated: usize) -> Mode {
+        let f = self.stiffness.nrows();
+        let entry = |row: usize, column: usize| {
+            let unit = if row == column { root * root } else { Complex::from(0.0) };
+            unit - root * self.damping[(row, column)] - self.stiffness[(row, column)]
+        };
+        let decomposition = DMatrix::from_fn(f, f, entry).svd(true, true);
+        let mut order: Vec<usize> = (0..f).collect();
+        order.sort_by(|&a, &b| decomposition.singular_values[a].total_cmp(&decomposition.singular_values[b]));
+        let at = order.get(repeated.min(f.saturating_sub(1))).copied().unwrap_or(0);
+        let right = decomposition.v_t.map(|v| v.row(at).adjoint());
+        let right = right.unwrap_or_else(|| DVector::zeros(f));
+        let left = decomposition.u.map_or_else(|| DVector::zeros(f), |u| u.column(at).clone_owned());
+        Mode { vectors: [right.clone(), left], ..self.mode(linear, root, &right) }
+    }
+
+    fn mode(&self, linear: &Linearization, root: Complex<f64>, y: &DVector<Complex<f64>>) -> Mode {
+        let z = self.back.map(Complex::from) * y;
+        let sizes: Vec<f64> =
+            z.iter().zip(linear.scales_of_states()).map(|(z, scale)| z.norm() / scale).collect();
+        // among equals the first, whatever rounding says
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let first = sizes.iter().position(|size| *size >= (1.0 - 1e-6) * largest);
+        let unit = first.map(|at| z[at]).filter(|unit| unit.norm() > 0.0).unwrap_or(Complex::from(1.0));
+        let shape = linear.directions.map(Complex::from) * (z / unit);
+        let shape = DVector::from_fn(shape.len(), |at, _| {
+            let small = SMALL * largest * linear.scales[at] / unit.norm();
+            let known = |x: f64| if x.abs() > small { x } else { 0.0 };
+            Complex::new(known(shape[at].re), known(shape[at].im))
+        });
+        let vectors = [y.clone(), y.clone()];
+        Mode { eigenvalue: root * self.rate, shape, behaviour: behaviour(root), vectors }
+    }
+}
+
+/// Lᵀ and L⁻ᵀ of M_r = L Lᵀ; the scales of the coordinates where a direction has no mass.
+fn unit_mass(linear: &Linearization) -> [DMatrix<f64>; 2] {
+    let factor = linear.mass.clone().cholesky().map(|factors| factors.l().transpose());
+    let pair = factor.and_then(|to| to.clone().try_inverse().map(|back| [to, back]));
+    pair.unwrap_or_else(|| {
+        let f = linear.dof();
+        [DMatrix::identity(f, f), DMatrix::identity(f, f)]
+    })
+}
+
+/// An eigenvalue without the parts that rounding gave it.
+fn known(root: &Complex<f64>) -> Complex<f64> {
+    let size = root.norm();
+    let re = if root.re.abs() <= UNDAMPED * size { 0.0 } else { root.re };
+    let im = if root.im.abs() <= DOUBLE * size { 0.0 } else { root.im };
+    Complex::new(re, im)
+}
+
+fn behaviour(root: Complex<f64>) -> Behaviour {
+    match (root.re, root.im) {
+        _ if root.norm() <= STILL => Behaviour::RigidBody,
+        (re, im) if im > 0.0 && re == 0.0 => Behaviour::Undamped,
+        (re, im) if im > 0.0 && re < 0.0 => Behaviour::Underdamped,
+        (_, im) if im > 0.0 => Behaviour::Flutter,
+        (re, _) if re < 0.0 => Behaviour::Overdamped,
+        _ => Behaviour::Divergence,
+    }
+}
+
+fn complex(real: &DVector<f64>) -> DVector<Complex<f64>> {
+    real.map(Complex::from)
+}
+
+fn decades(matrix: &DMatrix<f64>) -> f64 {
+    let sizes = || matrix.iter().map(|x| x.abs()).filter(|x| *x > 0.0);
+    let (low, high) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+    (high / low).log10()
+}

@@ -1,0 +1,108 @@
+//! Where a mechanism is linearized.
+
+use mbs_runtime::System;
+use mbs_runtime::equations::Described;
+use nalgebra::DVector;
+
+use crate::tangent::Rest;
+use crate::{Equilibrium, Error};
+
+/// A state is on its constraints if a correction that leads there is shorter than this share of the
+/// scales. A run with feedback stays nearer than that, and what is found differs by such a share.
+const NEAR: f64 = 1e-5;
+
+/// What drives do while a mechanism moves away from an operating point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drives {
+    /// They stand still where they are at that time, Φ_t = 0 and Φ_tt = 0: the mechanism is at rest.
+    Held,
+    /// They move on: what is linearized is the deviation from the motion through the point.
+    Moving,
+}
+
+/// The state, the inputs and the time about which a mechanism is linearized.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperatingPoint {
+    /// The time in s.
+    pub t: f64,
+    /// Positions, with Φ = 0.
+    pub q: Vec<f64>,
+    /// Velocities, with Φ̇ = 0.
+    pub v: Vec<f64>,
+    /// The inputs.
+    pub inputs: Vec<f64>,
+    /// What drives do.
+    pub drives: Drives,
+}
+
+impl OperatingPoint {
+    /// A position at rest with drives held, an equilibrium or not.
+    pub fn at_rest(t: f64, q: &[f64], inputs: &[f64]) -> Self {
+        let v = vec![0.0; q.len()];
+        Self { t, q: q.to_vec(), v, inputs: inputs.to_vec(), drives: Drives::Held }
+    }
+
+    /// A state in motion, in which drives move on.
+    pub fn in_motion(t: f64, q: &[f64], v: &[f64], inputs: &[f64]) -> Self {
+        Self { t, q: q.to_vec(), v: v.to_vec(), inputs: inputs.to_vec(), drives: Drives::Moving }
+    }
+
+    /// Where a run is at this moment, in motion.
+    pub fn of_run(run: &dyn System) -> Self {
+        let info = run.equations().info();
+        let [mut q, mut v] = [(); 2].map(|()| vec![0.0; info.coordinates.len()]);
+        let mut inputs = vec![0.0; info.inputs.len()];
+        run.state(&mut q, &mut v);
+        run.inputs(&mut inputs);
+        Self { t: run.time(), q, v, inputs, drives: Drives::Moving }
+    }
+
+    /// Refuses vectors of other lengths, and a state that the constraints do not allow.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::OffConstraints`].
+    pub(crate) fn check(&self, mechanism: &dyn Described<f64>) -> Result<(), Error> {
+        let info = mechanism.info();
+        let n = info.coordinates.len();
+        for (what, list, expected) in [
+            ("positions", &self.q, n),
+            ("velocities", &self.v, n),
+            ("inputs", &self.inputs, info.inputs.len()),
+        ] {
+            if list.len() != expected {
+                return Err(Error::Length { what, found: list.len(), expected });
+            }
+        }
+        let rest = self.rest(mechanism);
+        let (q, v) = (DVector::from_column_slice(&self.q), DVector::from_column_slice(&self.v));
+        let phi = rest.violation(&q);
+        let rate = match self.drives {
+            Drives::Held => rest.along(&q, &v),
+            Drives::Moving => rest.violation_rate(&q, &v),
+        };
+        // as fast as it moves, or a scale in a second
+        let speed = v.component_div(&rest.scales()).amax().max(1.0);
+        for (violation, allowed, is_rate) in [(phi, NEAR, false), (rate, NEAR * speed, true)] {
+            let distance = rest.correction(&q, &violation).component_div(&rest.scales()).amax();
+            // what is no number is not near either
+            if distance.is_nan() || distance > allowed {
+                let row = violation.iamax();
+                let constraint = info.constraints.get(row).map_or("", |constraint| constraint.name);
+                let violation = violation.get(row).map_or(f64::NAN, |violation| violation.abs());
+                return Err(Error::OffConstraints { constraint, is_rate, violation });
+            }
+        }
+        Ok(())
+    }
+
+    /// The mechanism at this position and time.
+    pub(crate) fn rest<'a>(&'a self, mechanism: &'a dyn Described<f64>) -> Rest<'a> {
+        Rest::new(mechanism, self.t, &self.inputs, &self.q)
+    }
+}
+
+impl From<&Equilibrium> for OperatingPoint {
+    fn from(rest: &Equilibrium) -> Self {
+        Self::at_rest(rest.t, &rest.q, &rest.inputs)
+    }
+}

@@ -1,0 +1,100 @@
+//! What goes into a linear system and comes out of it.
+
+use mbs_runtime::{Dimension, Info, Quantity};
+
+use crate::Error;
+
+/// Which quantity of a mechanism a signal is, by its position in [`Info`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// A coordinate, in m or rad.
+    Coordinate(usize),
+    /// The rate of a coordinate, in m/s or rad/s.
+    Velocity(usize),
+    /// An input.
+    Input(usize),
+    /// A parameter.
+    Parameter(usize),
+    /// A declared output.
+    Output(usize),
+    /// The multiplier of a constraint: a force, or a torque.
+    Multiplier(usize),
+}
+
+/// A quantity of a linear system, in SI units and rad.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signal {
+    /// Its name: `x`, `der(x)`, `lambda(pin_x)`, or that of an input, a parameter or an output.
+    pub name: String,
+    /// What it is.
+    pub variable: Variable,
+    /// Its dimension.
+    pub dimension: Dimension,
+}
+
+impl Signal {
+    /// The signal of a variable of a mechanism; `None` where it has no such.
+    pub fn of(info: &Info, variable: Variable) -> Option<Self> {
+        let declared = |list: &[Quantity], at: usize| list.get(at).map(|q| (q.name.to_owned(), q.dimension));
+        let (name, dimension) = match variable {
+            Variable::Coordinate(at) => declared(info.coordinates, at),
+            Variable::Velocity(at) => declared(info.coordinates, at)
+                .map(|(name, of)| (format!("der({name})"), Dimension { time: of.time - 1, ..of })),
+            Variable::Input(at) => declared(info.inputs, at),
+            Variable::Parameter(at) => declared(info.parameters, at),
+            Variable::Output(at) => declared(info.outputs, at),
+            Variable::Multiplier(at) => info.constraints.get(at).map(|row| {
+                let Dimension { mass, length, time } = row.dimension;
+                let of = Dimension { mass: 1 - mass, length: 2 - length, time: -2 - time };
+                (format!("lambda({})", row.name), of)
+            }),
+        }?;
+        Some(Self { name, variable, dimension })
+    }
+
+    fn all(info: &Info, count: usize, of: impl Fn(usize) -> Variable) -> Vec<Self> {
+        (0..count).filter_map(|at| Self::of(info, of(at))).collect()
+    }
+
+    /// The inputs with these names, or all.
+    pub(crate) fn inputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
+        let all = Self::all(info, info.inputs.len(), Variable::Input);
+        names.map_or(Ok(all.clone()), |names| chosen("input", &all, names))
+    }
+
+    /// The parameters with these names.
+    pub(crate) fn parameters(info: &Info, names: &[String]) -> Result<Vec<Self>, Error> {
+        chosen("parameter", &Self::all(info, info.parameters.len(), Variable::Parameter), names)
+    }
+
+    /// The coordinates with these names.
+    pub(crate) fn coordinates(info: &Info, names: &[String]) -> Result<Vec<Self>, Error> {
+        chosen("coordinate", &Self::all(info, info.coordinates.len(), Variable::Coordinate), names)
+    }
+
+    /// The outputs with these names: declared ones, coordinates, their rates and multipliers. Without
+    /// names the declared ones, or the coordinates of a mechanism that declares none.
+    pub(crate) fn outputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
+        let n = info.coordinates.len();
+        let declared = Self::all(info, info.outputs.len(), Variable::Output);
+        let coordinates = Self::all(info, n, Variable::Coordinate);
+        let Some(names) = names else {
+            return Ok(if declared.is_empty() { coordinates } else { declared });
+        };
+        let rates = Self::all(info, n, Variable::Velocity);
+        let multipliers = Self::all(info, info.constraints.len(), Variable::Multiplier);
+        chosen("output", &[declared, coordinates, rates, multipliers].concat(), names)
+    }
+}
+
+fn chosen(kind: &'static str, known: &[Signal], names: &[String]) -> Result<Vec<Signal>, Error> {
+    let find = |name: &String| {
+        let found = known.iter().find(|signal| signal.name == *name).cloned();
+        found.ok_or_else(|| Error::Unknown {
+            kind,
+            name: name.clone(),
+            known: known.iter().map(|signal| signal.name.clone()).collect(),
+        })
+    };
+    names.iter().map(find).collect()
+}
