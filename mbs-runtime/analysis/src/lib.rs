@@ -18,6 +18,7 @@ mod family;
 mod linearization;
 mod modes;
 mod point;
+mod response;
 mod signal;
 mod tangent;
 
@@ -29,4 +30,5 @@ pub use family::{Family, of_type};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};
+pub use response::{StepResponse, phases};
 pub use signal::{Signal, Variable};

@@ -1,0 +1,116 @@
+//! What a linear system answers: to harmonic inputs, and to a step.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::{Error, Linearization};
+
+/// y after a step of one input, at rest before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepResponse {
+    /// The instants in s, from 0, evenly spaced.
+    pub times: Vec<f64>,
+    /// A row for each instant, a column for each output: the deviation from the operating point, per unit
+    /// of the input.
+    pub outputs: DMatrix<f64>,
+}
+
+impl Linearization {
+    /// H(iω) = C (iω1 − A)⁻¹ B + D at a frequency in rad/s: outputs × inputs, each as amplitude and phase
+    /// of an output per unit of an input that oscillates with that frequency. Infinite at the frequency
+    /// of an undamped mode. Meaningful for stable systems, in which all else dies away.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for a frequency that is not above 0.
+    pub fn frequency_response(&self, omega: f64) -> Result<DMatrix<Complex<f64>>, Error> {
+        if !(omega > 0.0 && omega.is_finite()) {
+            return Err(Error::Range { what: "frequency", value: omega, unit: "rad/s" });
+        }
+        let f = self.dof();
+        let s = Complex::new(0.0, omega);
+        // ż = s z leaves (s²1 − sG − K) z = B's lower half
+        let entry = |row: usize, column: usize| {
+            let unit = if row == column { s * s } else { Complex::from(0.0) };
+            unit - s * self.a[(f + row, f + column)] - self.a[(f + row, column)]
+        };
+        let right = self.b.rows(f, f).map(Complex::from);
+        let solved = DMatrix::from_fn(f, f, entry).lu().solve(&right);
+        let infinite = Complex::new(f64::INFINITY, f64::NAN);
+        let z = solved.unwrap_or_else(|| DMatrix::from_element(f, self.b.ncols(), infinite));
+        let [of_z, of_rates] = [0, f].map(|first| self.c.columns(first, f).map(Complex::from));
+        Ok((of_z + of_rates * s) * z + self.d.map(Complex::from))
+    }
+
+    /// The response to a unit step of an input at t = 0, at `steps` + 1 instants until `end` seconds.
+    ///
+    /// x_{k+1} = e^{Ah} x_k + ∫₀ʰ e^{As} ds B u is exact for an input that is held, whatever the step:
+    /// the exponential is that of [A B; 0 0] h.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for an end or a number of steps that is not above 0; [`Error::Unknown`] for a
+    /// name that no input of the system has.
+    ///
+    /// # Source
+    /// C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Trans. Automat.
+    /// Control 23 (1978) 395-404. N. J. Higham, The scaling and squaring method for the matrix
+    /// exponential revisited, SIAM J. Matrix Anal. Appl. 26 (2005) 1179-1193.
+    pub fn step_response(&self, input: &str, end: f64, steps: usize) -> Result<StepResponse, Error> {
+        if !(end > 0.0 && end.is_finite()) {
+            return Err(Error::Range { what: "the end of a step response", value: end, unit: "s" });
+        }
+        if steps == 0 {
+            return Err(Error::Range { what: "the number of steps", value: 0.0, unit: "" });
+        }
+        let Some(at) = self.inputs.iter().position(|signal| signal.name == input) else {
+            let known = self.inputs.iter().map(|signal| signal.name.clone()).collect();
+            return Err(Error::Unknown { kind: "input", name: input.to_owned(), known });
+        };
+        let (n, h) = (self.a.nrows(), end / steps as f64);
+        let mut augmented = DMatrix::zeros(n + 1, n + 1);
+        augmented.view_mut((0, 0), (n, n)).copy_from(&(&self.a * h));
+        augmented.view_mut((0, n), (n, 1)).copy_from(&(self.b.column(at) * h));
+        let exponential = augmented.exp();
+        let (transition, forced) = (exponential.view((0, 0), (n, n)), exponential.column(n));
+        let mut outputs = DMatrix::zeros(steps + 1, self.outputs.len());
+        let mut x = DVector::zeros(n);
+        for row in 0..=steps {
+            let y = &self.c * &x + self.d.column(at);
+            outputs.set_row(row, &y.transpose());
+            x = transition * x + forced.rows(0, n);
+        }
+        let times = (0..=steps).map(|k| end * k as f64 / steps as f64).collect();
+        Ok(StepResponse { times, outputs })
+    }
+}
+
+/// The phases of a response in rad along ascending frequencies, without jumps by 2π. It begins between
+/// −π and π. Where it turns by half a turn at once, at the frequency of an undamped mode, it takes the
+/// value nearer to 0, and the lag of two that are as near.
+pub fn phases(response: impl IntoIterator<Item = Complex<f64>>) -> Vec<f64> {
+    /// Of half a turn, for what is half a turn but for rounding.
+    const SLACK: f64 = 1e-6;
+    let mut last: Option<f64> = None;
+    let unwrapped = response.into_iter().map(|h| {
+        let principal = h.arg();
+        if !principal.is_finite() {
+            return f64::NAN;
+        }
+        // half a turn may come out on either side
+        let principal = if principal > TAU / 2.0 - SLACK { principal - TAU } else { principal };
+        let phase = match last {
+            None => principal,
+            Some(last) => {
+                let near = principal + TAU * ((last - principal) / TAU).round();
+                let other = if near > last { near - TAU } else { near + TAU };
+                let is_as_near = ((near - last).abs() - TAU / 2.0).abs() < SLACK;
+                let is_better =
+                    other.abs() < near.abs() - SLACK || (other < near && other.abs() < near.abs() + SLACK);
+                if is_as_near && is_better { other } else { near }
+            }
+        };
+        last = Some(phase);
+        phase
+    });
+    unwrapped.collect()
+}
