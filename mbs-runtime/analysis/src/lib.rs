@@ -19,6 +19,7 @@ mod linearization;
 mod modes;
 mod point;
 mod response;
+mod sensitivity;
 mod signal;
 mod tangent;
 
@@ -31,4 +32,5 @@ pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};
 pub use response::{StepResponse, phases};
+pub use sensitivity::{Sensitivities, sensitivities};
 pub use signal::{Signal, Variable};
