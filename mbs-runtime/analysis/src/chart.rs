@@ -14,6 +14,9 @@ const SHARE: f64 = 0.3;
 /// Coordinates whose directions are nearer to those of others than this do not determine a position.
 const INDEPENDENT: f64 = 1e-6;
 
+/// A component of a direction is 0 that is this share of the largest one.
+const ROUNDING: f64 = 1e-14;
+
 /// Independent coordinates z = q_I at a position, and the directions N of all coordinates with
 /// Φ_q N = 0 and N_I = 1.
 pub struct Chart<'a> {
@@ -50,7 +53,14 @@ impl<'a> Chart<'a> {
         };
         let rows = tangent.directions.select_rows(&independent);
         let Some(inverse) = rows.try_inverse() else { return Err(dependent(info, &independent)) };
-        let directions = &tangent.directions * &inverse;
+        let mut directions = &tangent.directions * &inverse;
+        // what is rounding beside the largest is 0
+        for mut direction in directions.column_iter_mut() {
+            let largest = direction.component_div(&scales).amax();
+            direction.zip_apply(&scales, |x, scale| {
+                *x = if x.abs() > ROUNDING * largest * scale { *x } else { 0.0 }
+            });
+        }
         let mass = inverse.transpose() * rest.reduced_mass(&q, &tangent) * &inverse;
         Ok(Self { rest, q, independent, directions, mass })
     }

@@ -14,7 +14,7 @@ pub fn five_point(f: impl Fn(f64) -> DVector<f64>, scale: f64) -> DVector<f64> {
 /// so on, extrapolated to h = 0; from f(0) and one side alone where the other has no values.
 ///
 /// Every component takes the entry of its own table of which the neighbours differ least, rounding
-/// of f counted in. So functions that vary over much less than h, such as smooth friction, are
+/// of f counted in; a slope that is not larger than its error is 0. So functions that vary over much less than h, such as smooth friction, are
 /// differenced as well as others. A corner, where both sides have slopes of their own, shows in the
 /// error.
 ///
@@ -59,6 +59,11 @@ pub fn derivative<E>(
         }
         last = row;
     }
+    // a slope that is less than its error is none
+    let [slope, error] = &mut best;
+    slope.zip_apply(error, |slope, error| {
+        *slope = if slope.abs() <= error && error.is_finite() { 0.0 } else { *slope }
+    });
     if !is_one_sided {
         add_corners(&mut best, &bends, &rounding);
     }

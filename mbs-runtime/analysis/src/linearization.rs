@@ -201,12 +201,9 @@ fn check_finite(info: &mbs_runtime::Info, here: &Values) -> Result<(), Error> {
 /// An output at the operating point.
 fn value(point: &OperatingPoint, here: &Values, output: &Signal) -> f64 {
     match output.variable {
-        Variable::Coordinate(at) => point.q[at],
-        Variable::Velocity(at) => point.v[at],
         Variable::Output(at) => here.outputs[at],
         Variable::Multiplier(at) => here.multipliers[at],
-        Variable::Input(at) => point.inputs[at],
-        Variable::Parameter(_) => f64::NAN,
+        state => point.value(state, &[]),
     }
 }
 

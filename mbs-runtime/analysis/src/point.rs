@@ -5,7 +5,7 @@ use mbs_runtime::equations::Described;
 use nalgebra::DVector;
 
 use crate::tangent::Rest;
-use crate::{Equilibrium, Error};
+use crate::{Equilibrium, Error, Variable};
 
 /// A state is on its constraints if a correction that leads there is shorter than this share of the
 /// scales. A run with feedback stays nearer than that, and what is found differs by such a share.
@@ -55,6 +55,18 @@ impl OperatingPoint {
         run.state(&mut q, &mut v);
         run.inputs(&mut inputs);
         Self { t: run.time(), q, v, inputs, drives: Drives::Moving }
+    }
+
+    /// The value of a state, an input or a parameter there; no number for what depends on accelerations.
+    pub fn value(&self, variable: Variable, parameters: &[f64]) -> f64 {
+        let found = match variable {
+            Variable::Coordinate(at) => self.q.get(at),
+            Variable::Velocity(at) => self.v.get(at),
+            Variable::Input(at) => self.inputs.get(at),
+            Variable::Parameter(at) => parameters.get(at),
+            Variable::Output(_) | Variable::Multiplier(_) => None,
+        };
+        found.copied().unwrap_or(f64::NAN)
     }
 
     /// Refuses vectors of other lengths, and a state that the constraints do not allow.

@@ -1,6 +1,6 @@
 //! What a linear system answers: to harmonic inputs, and to a step.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -84,32 +84,30 @@ impl Linearization {
     }
 }
 
-/// The phases of a response in rad along ascending frequencies, without jumps by 2π. It begins between
-/// −π and π. Where it turns by half a turn at once, at the frequency of an undamped mode, it takes the
-/// value nearer to 0, and the lag of two that are as near.
-pub fn phases(response: impl IntoIterator<Item = Complex<f64>>) -> Vec<f64> {
+/// The phases of a response in rad along ascending frequencies, without jumps by 2π. It begins between −π
+/// and π. Where it turns by half a turn at once it falls if the frequency of an undamped mode, one of
+/// `resonances`, lies between, and rises at a zero, as both do with a little damping. No numbers where
+/// the response has none.
+pub fn phases(frequencies: &[f64], response: &[Complex<f64>], resonances: &[f64]) -> Vec<f64> {
     /// Of half a turn, for what is half a turn but for rounding.
     const SLACK: f64 = 1e-6;
-    let mut last: Option<f64> = None;
-    let unwrapped = response.into_iter().map(|h| {
+    let mut last: Option<(f64, f64)> = None;
+    let unwrapped = frequencies.iter().zip(response).map(|(&omega, h)| {
         let principal = h.arg();
         if !principal.is_finite() {
             return f64::NAN;
         }
         // half a turn may come out on either side
-        let principal = if principal > TAU / 2.0 - SLACK { principal - TAU } else { principal };
-        let phase = match last {
-            None => principal,
-            Some(last) => {
-                let near = principal + TAU * ((last - principal) / TAU).round();
-                let other = if near > last { near - TAU } else { near + TAU };
-                let is_as_near = ((near - last).abs() - TAU / 2.0).abs() < SLACK;
-                let is_better =
-                    other.abs() < near.abs() - SLACK || (other < near && other.abs() < near.abs() + SLACK);
-                if is_as_near && is_better { other } else { near }
+        let principal = if principal > PI - SLACK { principal - TAU } else { principal };
+        let phase = last.map_or(principal, |(before, last)| {
+            let near = principal + TAU * ((last - principal) / TAU).round();
+            if ((near - last).abs() - PI).abs() > SLACK {
+                return near;
             }
-        };
-        last = Some(phase);
+            let falls = resonances.iter().any(|pole| (before..=omega).contains(pole));
+            last + if falls { -PI } else { PI }
+        });
+        last = Some((omega, phase));
         phase
     });
     unwrapped.collect()

@@ -32,14 +32,16 @@ pub struct Tangent {
 const CORRECTIONS: usize = 50;
 
 impl<'a> Rest<'a> {
-    /// A mechanism whose size is that of its largest coordinate that is a length, at a position.
+    /// A mechanism whose size is that of its largest coordinate that is a length, at a position or at the
+    /// declared start.
     pub fn new(mechanism: &'a dyn Described<f64>, t: f64, inputs: &'a [f64], q: &[f64]) -> Self {
-        /// Of a mechanism that stands at the origin.
+        /// Of a mechanism that stands at the origin, within a nanometre.
         const USUAL: f64 = 0.1;
+        const NOTHING: f64 = 1e-9;
         let coordinates = mechanism.info().coordinates.iter().zip(q);
-        let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0).map(|(_, q)| q.abs());
-        let largest = lengths.fold(0.0, f64::max);
-        Self { mechanism, t, inputs, length: if largest > 0.0 { largest } else { USUAL } }
+        let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0);
+        let largest = lengths.map(|(declared, q)| q.abs().max(declared.default.abs())).fold(0.0, f64::max);
+        Self { mechanism, t, inputs, length: if largest > NOTHING { largest } else { USUAL } }
     }
 
     /// 1 rad for an angle, the size of the mechanism for a length.

@@ -214,6 +214,17 @@ fn what_cannot_be_linearized_says_why() {
     assert!(error.contains("the rate of `pin_x`"), "{error}");
 }
 
+/// Where a mechanism rests at the origin but for rounding, that is not its size.
+#[test]
+fn the_origin_is_a_position_as_others() -> Result<(), Error> {
+    for x in [0.0, 1e-17, -1e-12] {
+        let point = OperatingPoint::at_rest(0.0, &[x], &[0.0]);
+        let linear = linearize(&Oscillator::declared(), &point, &Ports::default())?;
+        near(&linear.a, &[&[0.0, 1.0], &[-100.0, -2.0]], 1e-10);
+    }
+    Ok(())
+}
+
 /// At a corner there is no derivative, and the result says so.
 #[test]
 fn a_corner_shows_in_the_uncertainty() -> Result<(), Error> {

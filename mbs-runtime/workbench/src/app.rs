@@ -9,9 +9,9 @@ use mbs_runtime::Mechanism;
 
 #[cfg(feature = "live")]
 use crate::Settings;
+use crate::command::{bode, completions, equilibrium, explain, linearize, list, modes, new, simulate, sweep};
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
-use crate::command::{completions, equilibrium, explain, list, new, simulate, sweep};
 use crate::console::complain;
 use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
@@ -157,6 +157,9 @@ impl App {
         parser
             .subcommand(list::command())
             .subcommand(equilibrium::command())
+            .subcommand(linearize::command())
+            .subcommand(modes::command())
+            .subcommand(bode::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
@@ -170,6 +173,9 @@ impl App {
         match matches.subcommand() {
             Some(("list", matches)) => list::run(&self.models, matches.get_flag("json")).map(silent),
             Some(("equilibrium", matches)) => equilibrium::run(&self.models, matches).map(silent),
+            Some(("linearize", matches)) => linearize::run(&self.models, matches),
+            Some(("modes", matches)) => modes::run(&self.models, matches),
+            Some(("bode", matches)) => bode::run(&self.models, matches),
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),

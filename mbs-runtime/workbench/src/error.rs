@@ -51,7 +51,7 @@ pub enum Error {
     Mechanism(#[from] mbs_runtime::Error),
     /// What an analysis said.
     #[error("{0}")]
-    Analysis(#[from] mbs_analysis::Error),
+    Analysis(#[source] mbs_analysis::Error),
     /// What is wrong with a declaration.
     #[cfg(feature = "live")]
     #[error("{0}")]
@@ -177,5 +177,15 @@ impl Error {
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
         Self::Unknown { kind, name: name.into(), known: known.into_iter().map(str::to_owned).collect() }
+    }
+}
+
+impl From<mbs_analysis::Error> for Error {
+    fn from(error: mbs_analysis::Error) -> Self {
+        match error {
+            mbs_analysis::Error::Unknown { kind, name, known } => Self::Unknown { kind, name, known },
+            mbs_analysis::Error::Mechanism(error) => Self::Mechanism(error),
+            other => Self::Analysis(other),
+        }
     }
 }

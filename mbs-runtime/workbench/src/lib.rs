@@ -52,6 +52,7 @@ pub mod members;
 pub mod model;
 mod models;
 mod names;
+mod npz;
 pub mod number;
 pub mod picture;
 pub mod quantity;

@@ -81,7 +81,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
 
 /// The positions of a start with those that are given in their place, and the others moved onto the
 /// constraints.
-fn positions<'a>(run: &dyn System, t: f64, given: impl Iterator<Item = &'a str>) -> Result<Vec<f64>, Error> {
+pub(super) fn positions<'a>(
+    run: &dyn System,
+    t: f64,
+    given: impl Iterator<Item = &'a str>,
+) -> Result<Vec<f64>, Error> {
     let info = run.equations().info();
     let coordinates = info.coordinates;
     let n = coordinates.len();
@@ -97,7 +101,7 @@ fn positions<'a>(run: &dyn System, t: f64, given: impl Iterator<Item = &'a str>)
         *place = quantity::parse_in(name, value, coordinate.dimension, &Unit::of_coordinate(coordinate))?;
         kept.push(coordinate.name);
     }
-    if !kept.is_empty() {
+    if !kept.is_empty() || t != run.time() {
         let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
         let mut room = Room::within(&mut numbers, info);
         v.fill(0.0);

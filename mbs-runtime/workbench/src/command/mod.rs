@@ -1,5 +1,6 @@
 //! The commands that every [`App`](crate::App) has, one a file.
 
+pub(crate) mod bode;
 #[cfg(feature = "live")]
 pub(crate) mod check;
 mod compare;
@@ -10,10 +11,15 @@ pub(crate) mod explain;
 #[cfg(feature = "live")]
 pub(crate) mod export;
 mod json;
+pub(crate) mod linearize;
 pub(crate) mod list;
+pub(crate) mod modes;
 pub(crate) mod new;
+mod operating;
 mod options;
 mod page;
+mod responses;
+mod shapes;
 pub(crate) mod simulate;
 pub(crate) mod sweep;
 #[cfg(feature = "live")]

@@ -47,7 +47,11 @@ impl Span {
         let ticks = if axis.log {
             ticks::logarithmic(low, high)
         } else {
-            ticks::linear(low, high, (length / spacing) as usize)
+            let count = (length / spacing) as usize;
+            axis.unit_tick.map_or_else(
+                || ticks::linear(low, high, count),
+                |unit| ticks::multiples(low, high, count, unit),
+            )
         };
         Self { low, high, log: axis.log, from: f64::from(from), to: f64::from(to), ticks }
     }

@@ -110,12 +110,15 @@ pub struct Axis {
     pub log: bool,
     /// The range to show; by default that of the data.
     pub range: Option<(f64, f64)>,
+    /// The distance of labelled ticks that is a unit of its own, such as a quarter of a turn; multiples and
+    /// simple parts of it are taken where there is more or less room. By default powers of ten.
+    pub unit_tick: Option<f64>,
 }
 
 impl Axis {
     /// A linear axis over the range of the data.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self { label: label.into(), unit: unit.into(), log: false, range: None }
+        Self { label: label.into(), unit: unit.into(), log: false, range: None, unit_tick: None }
     }
 
     /// The same, logarithmic.
@@ -129,6 +132,13 @@ impl Axis {
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
+        self
+    }
+
+    /// The same, with ticks at multiples and simple parts of this.
+    #[must_use]
+    pub fn ticks_of(mut self, distance: f64) -> Self {
+        self.unit_tick = Some(distance);
         self
     }
 

@@ -38,6 +38,21 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Ticks {
     Ticks { major, minor: Vec::new(), exponent }
 }
 
+/// About `count` ticks at multiples of `unit`, or of a half, a third or a sixth of it.
+pub(super) fn multiples(low: f64, high: f64, count: usize, unit: f64) -> Ticks {
+    let rough = (high - low) / count.max(1) as f64;
+    let parts = [1.0 / 6.0, 1.0 / 3.0, 0.5, 1.0].map(|part| part * unit);
+    let whole = (rough / unit).ceil() * unit;
+    let step = parts.into_iter().find(|step| *step >= 0.9 * rough).unwrap_or(whole);
+    if !(step > 0.0 && step.is_finite()) {
+        return Ticks::default();
+    }
+    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
+    let at = |k: i64| k as f64 * step;
+    let label = |k: i64| minus(&trimmed(&format!("{:.6}", at(k))));
+    Ticks { major: (first..=last).map(|k| (at(k), label(k))).collect(), minor: Vec::new(), exponent: 0 }
+}
+
 /// Ticks of a logarithmic axis: a label per decade, or at 1, 2 and 5 where
 /// fewer than two decades are shown; unlabelled ticks in between.
 pub(super) fn logarithmic(low: f64, high: f64) -> Ticks {
@@ -81,6 +96,14 @@ mod tests {
 
     fn labels(ticks: &Ticks) -> Vec<&str> {
         ticks.major.iter().map(|(_, label)| label.as_str()).collect()
+    }
+
+    #[test]
+    fn angles_have_ticks_at_parts_of_a_quarter_of_a_turn() {
+        assert_eq!(labels(&multiples(-190.0, 10.0, 5, 90.0)), ["−180", "−135", "−90", "−45", "0"]);
+        assert_eq!(labels(&multiples(-360.0, 0.0, 4, 90.0)), ["−360", "−270", "−180", "−90", "0"]);
+        assert_eq!(labels(&multiples(-720.0, 0.0, 4, 90.0)), ["−720", "−540", "−360", "−180", "0"]);
+        assert_eq!(labels(&multiples(-31.0, 1.0, 4, 90.0)), ["−30", "−15", "0"]);
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub(super) fn number(x: f64) -> Value {
 }
 
 fn axis(axis: &Axis) -> Value {
-    json!({ "label": axis.heading(), "log": axis.log, "range": axis.range.map(|(a, b)| [a, b]) })
+    json!({ "label": axis.heading(), "log": axis.log, "range": axis.range.map(|(a, b)| [a, b]), "tick": axis.unit_tick })
 }
 
 fn series(series: &Series, shown: (f64, f64)) -> Value {

@@ -35,6 +35,7 @@
   function axis(description, size) {
     return {
       ...(description.log ? { filter: decades } : {}),
+      ...(description.tick ? { incrs: [1 / 6, 1 / 3, 1 / 2, 1, 2, 3, 4].map((part) => part * description.tick) } : {}),
       label: description.label, size, labelSize: 24, stroke: "#1e1e1e",
       font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif",
       grid: { stroke: "#e4e4e4", width: 1 }, ticks: { stroke: "#999", width: 1 },

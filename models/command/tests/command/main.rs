@@ -4,6 +4,7 @@
 
 mod answers;
 mod files;
+mod linear;
 mod runs;
 mod sweeps;
 mod texts;
