@@ -58,8 +58,7 @@ pub(crate) fn npz(arrays: &[(&str, Array)]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut archive = ZipArchiveWriter::new(&mut bytes);
     for (name, array) in arrays {
-        let (mut file, config) =
-            archive.new_file(&format!("{name}.npy")).start().map_err(io::Error::other)?;
+        let (mut file, config) = archive.new_file(format!("{name}.npy")).start().map_err(io::Error::other)?;
         let mut writer = config.wrap(&mut file);
         writer.write_all(&array.npy())?;
         let (_, description) = writer.finish().map_err(io::Error::other)?;

@@ -72,10 +72,10 @@ pub(super) struct Bode {
     frequencies: Vec<f64>,
     /// H in SI units, for every pair at every frequency.
     responses: Vec<Vec<Complex<f64>>>,
-    /// Where each is largest, and how large.
+    /// Where each is largest in Hz, and how large: infinite at an undamped mode.
     peaks: Vec<[f64; 2]>,
-    /// Where an undamped mode answers without bound, in Hz.
-    unbounded: Vec<f64>,
+    /// The frequencies of undamped modes in Hz, at which responses have no value.
+    resonances: Vec<f64>,
     is_unstable: bool,
 }
 
@@ -86,7 +86,7 @@ impl Bode {
         let [low, high] = range.unwrap_or_else(|| usual_range(&modes));
         let frequencies = frequencies(low, high, &modes);
         let undamped = modes.iter().filter(|mode| mode.behaviour == Behaviour::Undamped);
-        let unbounded: Vec<f64> = undamped
+        let resonances: Vec<f64> = undamped
             .map(|mode| mode.damped_frequency() / TAU)
             .filter(|hertz| (low..=high).contains(hertz))
             .collect();
@@ -94,15 +94,15 @@ impl Bode {
         let mut responses: Vec<Vec<Complex<f64>>> = pairs.iter().map(|_| Vec::new()).collect();
         for hertz in &frequencies {
             let found = linear.frequency_response(TAU * hertz)?;
-            let is_resonance = unbounded.contains(hertz);
+            let is_resonance = resonances.contains(hertz);
             for (pair, list) in pairs.iter().zip(&mut responses) {
                 let h = found[(pair.output, pair.input)];
-                list.push(if is_resonance { Complex::new(f64::INFINITY, f64::NAN) } else { h });
+                list.push(if is_resonance { Complex::new(f64::NAN, f64::NAN) } else { h });
             }
         }
         let mut found = Self {
             peaks: Vec::new(),
-            unbounded,
+            resonances,
             is_unstable: modes.iter().any(|mode| mode.behaviour.is_unstable()),
             pairs,
             frequencies,
@@ -112,19 +112,23 @@ impl Bode {
         Ok(found)
     }
 
-    /// Where the response of a pair is largest in Hz, and how large it is there, between the neighbours of the
-    /// largest value that was computed.
+    /// Where the response of a pair is largest in Hz, and how large it is there: between the neighbours of the
+    /// largest value that was computed, or at an undamped mode that the pair sees.
     fn peak(&self, linear: &Linearization, pair: usize) -> Result<[f64; 2], Error> {
-        let sizes: Vec<f64> = self.responses[pair].iter().map(|h| h.norm()).collect();
-        let largest = sizes.iter().copied().enumerate().filter(|(_, size)| !size.is_nan());
-        let (at, size) =
-            largest.fold((0, f64::NEG_INFINITY), |best, here| if here.1 > best.1 { here } else { best });
-        let last = self.frequencies.len().saturating_sub(1);
-        if at == 0 || at == last || !size.is_finite() {
-            return Ok([self.frequencies[at], size]);
-        }
         let Pair { output, input, .. } = self.pairs[pair];
         let of = |hertz: f64| Ok::<_, Error>(linear.frequency_response(TAU * hertz)?[(output, input)].norm());
+        for hertz in &self.resonances {
+            // near a pole it grows as the distance falls, by a factor of 100
+            if of(hertz * (1.0 + 1e-6))? > 10.0 * of(hertz * (1.0 + 1e-4))? {
+                return Ok([*hertz, f64::INFINITY]);
+            }
+        }
+        let sizes = self.responses[pair].iter().map(|h| h.norm()).enumerate();
+        let known = sizes.filter(|(_, size)| size.is_finite());
+        let (at, size) = known.fold((0, 0.0), |best, here| if here.1 > best.1 { here } else { best });
+        if at == 0 || at + 1 == self.frequencies.len() || size == 0.0 {
+            return Ok([self.frequencies[at], size]);
+        }
         let (mut low, mut high) = (self.frequencies[at - 1], self.frequencies[at + 1]);
         // thirds, until half of the digits of the frequency are known: so flat is a maximum
         for _ in 0..50 {
@@ -137,7 +141,7 @@ impl Bode {
 
     /// The phases of a pair in degrees.
     fn phases(&self, pair: usize) -> Vec<f64> {
-        let found = phases(&self.frequencies, &self.responses[pair], &self.unbounded);
+        let found = phases(&self.frequencies, &self.responses[pair], &self.resonances);
         found.into_iter().map(f64::to_degrees).collect()
     }
 
@@ -193,12 +197,8 @@ impl Bode {
             let list = &self.responses[at];
             let end = |h: Option<&Complex<f64>>| h.map_or_else(String::new, |h| shown(h.norm()));
             let [hertz, size] = self.peaks[at];
-            let unbounded = self.unbounded.first().filter(|_| size > 0.0);
-            let (largest, place) = match unbounded {
-                Some(hertz) => ("∞ (undamped)".into(), *hertz),
-                None => (shown(size), hertz),
-            };
-            let place = if size > 0.0 { format!("{} Hz", significant(place, 5)) } else { "–".into() };
+            let largest = if size.is_infinite() { "∞ (undamped)".into() } else { shown(size) };
+            let place = if size > 0.0 { format!("{} Hz", significant(hertz, 5)) } else { "–".into() };
             table.row([
                 pair.name.clone(),
                 end(list.first()),
