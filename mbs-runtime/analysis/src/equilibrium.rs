@@ -198,7 +198,7 @@ fn find(rest: &Rest<'_>, start: DVector<f64>, is_relaxed: bool) -> Result<(DVect
     let (mut best, strongest) = ((now.size, q.clone()), now.size);
     for iteration in 1..=ITERATIONS {
         let rate = rest.stiffness_rate(&q, &tangent);
-        let shift = if is_relaxed { shift(&rate, pace) } else { 0.0 };
+        let shift = if is_relaxed { shift(&rate, now.size, pace) } else { 0.0 };
         let system = DMatrix::identity(rate.nrows(), rate.nrows()) * shift - &rate;
         let Some(z) = solved(&system, &now.minimal) else { break };
         let step = &tangent.directions * z;
@@ -238,13 +238,14 @@ fn find(rest: &Rest<'_>, start: DVector<f64>, is_relaxed: bool) -> Result<(DVect
     Err(lost(rest, &best.1))
 }
 
-/// 1/τ of an implicit step of relaxation. Where the mechanism falls away, it is twice the fastest
+/// 1/τ of an implicit step of relaxation, from the stiffness, or from the acceleration where there is hardly
+/// any, such as at a pendulum that begins level. Where the mechanism falls away, it is twice the fastest
 /// rate at which it does: a longer step would lead back to where it falls from.
-fn shift(rate: &DMatrix<f64>, pace: f64) -> f64 {
+fn shift(rate: &DMatrix<f64>, acceleration: f64, pace: f64) -> f64 {
     let symmetric = (rate + rate.transpose()) * 0.5;
     let fastest = symmetric.symmetric_eigenvalues().iter().copied().fold(0.0, f64::max);
     let size = rate.amax();
-    if fastest > ZERO * size { 2.0 * fastest } else { size / pace }
+    if fastest > ZERO * size { 2.0 * fastest } else { size.max(acceleration) / pace }
 }
 
 /// Where a share of a step along the tangent leads on the constraints, and what accelerates there.

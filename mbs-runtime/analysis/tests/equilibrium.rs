@@ -145,6 +145,14 @@ fn a_pendulum_hangs_and_stands() {
     assert!(fallen.is_stable());
 }
 
+/// Where it begins level, gravity acts fully and has no stiffness.
+#[test]
+fn a_pendulum_that_begins_level_comes_to_hang() {
+    let hanging = equilibrium(&Pendulum::declared(), &from(&[0.4, 0.0, 0.0])).expect("it hangs");
+    near(hanging.q[1], -0.4, 1e-10);
+    assert!(hanging.is_stable());
+}
+
 /// M = m g (l/2) cos φ.
 #[test]
 fn inputs_hold_it_where_they_balance_gravity() {

@@ -149,7 +149,7 @@ impl<'a> Operating<'a> {
                 let stability = match rest.stability() {
                     Stability::Stable => "a stable equilibrium",
                     Stability::Indifferent => "an indifferent equilibrium",
-                    Stability::Unstable { .. } => "an unstable equilibrium",
+                    Stability::Unstable { .. } => "an unstable equilibrium (--relax finds where it falls to)",
                 };
                 if self.point.t == 0.0 {
                     stability.into()
