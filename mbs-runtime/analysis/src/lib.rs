@@ -15,6 +15,9 @@ mod difference;
 mod equilibrium;
 mod error;
 mod family;
+#[doc = include_str!("linear.md")]
+#[doc = include_str!("car.svg")]
+pub mod linear {}
 mod linearization;
 mod modes;
 mod point;

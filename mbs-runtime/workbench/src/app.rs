@@ -27,8 +27,8 @@ const NO_READER: u8 = 141;
 /// What a command of the embedding program does.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
-/// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `new`, and whatever the
-/// embedding program adds.
+/// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `equilibrium`, `linearize`,
+/// `modes`, `bode`, `new`, and whatever the embedding program adds.
 ///
 /// # Example
 /// ```no_run

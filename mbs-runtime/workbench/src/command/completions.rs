@@ -25,6 +25,10 @@ pub(crate) fn run(models: &Models, parser: Command, matches: &ArgMatches) -> Res
     let mut parser = parser
         .mut_subcommand("simulate", |command| with_names(command, "model"))
         .mut_subcommand("sweep", |command| with_names(command, "model"))
+        .mut_subcommand("equilibrium", |command| with_names(command, "model"))
+        .mut_subcommand("linearize", |command| with_names(command, "model"))
+        .mut_subcommand("modes", |command| with_names(command, "model"))
+        .mut_subcommand("bode", |command| with_names(command, "model"))
         .mut_subcommand("explain", |command| with_names(command, "mechanism"));
     let program = std::env::args_os().next().map(std::path::PathBuf::from);
     let stem = program.as_ref().and_then(|path| path.file_stem()).and_then(|stem| stem.to_str());
