@@ -10,6 +10,7 @@
 #![forbid(unsafe_code)]
 
 mod chart;
+mod complex;
 mod derivative;
 mod difference;
 mod equilibrium;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
+use crate::complex::null_vectors;
 use crate::{Error, Linearization};
 
 /// Differences of coefficients give a stiffness this share of the largest one as well.
@@ -14,6 +15,9 @@ const UNDAMPED: f64 = 1e-10;
 const SMALL: f64 = 1e-9;
 /// Two eigenvalues are one that differ by this share: rounding ε parts a double one by √ε.
 const DOUBLE: f64 = 1e-7;
+
+/// A singular value of the pencil is 0 that is less than this share of it: rounding moves a double root by √ε.
+const DEFECT: f64 = 1e-6;
 
 /// What becomes of a small displacement in the shape of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,14 +122,10 @@ impl Linearization {
                 roots.remove(0);
             }
         }
-        let mut last: Option<(Complex<f64>, usize)> = None;
-        for root in roots {
-            let repeated = match last {
-                Some((other, count)) if (root - other).norm() <= DOUBLE * root.norm() => count + 1,
-                _ => 0,
-            };
-            last = Some((root, repeated));
-            modes.push(pencil.vectors(self, root, repeated));
+        while let Some(root) = roots.first().copied() {
+            let is_same = |other: &&Complex<f64>| (**other - root).norm() <= DOUBLE * root.norm();
+            let equal: Vec<_> = roots.drain(..roots.iter().take_while(is_same).count().max(1)).collect();
+            modes.extend(pencil.modes(self, &equal));
         }
         Ok(modes)
     }
@@ -202,21 +202,23 @@ impl Pencil {
         Ok(roots)
     }
 
-    /// The mode of an eigenvalue, or one of those of a repeated one.
-    fn vectors(&self, linear: &Linearization, root: Complex<f64>, repeated: usize) -> Mode {
+    /// The modes of equal eigenvalues. One that is double and has one shape alone, at critical damping, has
+    /// that twice.
+    fn modes(&self, linear: &Linearization, equal: &[Complex<f64>]) -> Vec<Mode> {
         let f = self.stiffness.nrows();
+        let Some(&root) = equal.first() else { return Vec::new() };
         let entry = |row: usize, column: usize| {
             let unit = if row == column { root * root } else { Complex::from(0.0) };
             unit - root * self.damping[(row, column)] - self.stiffness[(row, column)]
         };
-        let decomposition = DMatrix::from_fn(f, f, entry).svd(true, true);
-        let mut order: Vec<usize> = (0..f).collect();
-        order.sort_by(|&a, &b| decomposition.singular_values[a].total_cmp(&decomposition.singular_values[b]));
-        let at = order.get(repeated.min(f.saturating_sub(1))).copied().unwrap_or(0);
-        let right = decomposition.v_t.map(|v| v.row(at).adjoint());
-        let right = right.unwrap_or_else(|| DVector::zeros(f));
-        let left = decomposition.u.map_or_else(|| DVector::zeros(f), |u| u.column(at).clone_owned());
-        Mode { vectors: [right.clone(), left], ..self.mode(linear, root, &right) }
+        let small = DEFECT * root.norm_sqr().max(1.0);
+        let [right, left] = null_vectors(&DMatrix::from_fn(f, f, entry), equal.len().min(f), small);
+        let pairs = right.into_iter().zip(left).cycle();
+        let mode = |(root, [right, left]): (&Complex<f64>, [DVector<Complex<f64>>; 2])| Mode {
+            vectors: [right.clone(), left],
+            ..self.mode(linear, *root, &right)
+        };
+        equal.iter().zip(pairs.map(|(right, left)| [right, left])).map(mode).collect()
     }
 
     fn mode(&self, linear: &Linearization, root: Complex<f64>, y: &DVector<Complex<f64>>) -> Mode {

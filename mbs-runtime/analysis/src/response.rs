@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::{Error, Linearization};
+use crate::{Error, Linearization, complex};
 
 /// y after a step of one input, at rest before.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Linearization {
             unit - s * self.a[(f + row, f + column)] - self.a[(f + row, column)]
         };
         let right = self.b.rows(f, f).map(Complex::from);
-        let solved = DMatrix::from_fn(f, f, entry).lu().solve(&right);
+        let solved = complex::solved(&DMatrix::from_fn(f, f, entry), &right);
         let infinite = Complex::new(f64::INFINITY, f64::NAN);
         let z = solved.unwrap_or_else(|| DMatrix::from_element(f, self.b.ncols(), infinite));
         let [of_z, of_rates] = [0, f].map(|first| self.c.columns(first, f).map(Complex::from));

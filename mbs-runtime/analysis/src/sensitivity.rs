@@ -3,6 +3,7 @@
 use mbs_runtime::equations::Described;
 use nalgebra::{Complex, DMatrix, DVector};
 
+use crate::complex;
 use crate::derivative::scale;
 use crate::difference::derivative;
 use crate::family::{Family, Varied};
@@ -205,7 +206,6 @@ fn of_equal(
     if under.norm() < 1e-6 * lambda.norm() {
         return none;
     }
-    let reduced = under.lu().solve(&over);
-    let eigenvalues = reduced.and_then(|reduced| nalgebra::Schur::try_new(reduced, f64::EPSILON, 1000));
-    eigenvalues.map_or(none, |schur| schur.unpack().1.diagonal().iter().copied().collect())
+    let reduced = complex::solved(&under, &over);
+    reduced.and_then(|reduced| complex::eigenvalues(&reduced)).unwrap_or(none)
 }
