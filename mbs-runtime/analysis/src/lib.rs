@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![doc = include_str!("flap.svg")]
 //!
+//! The page on linear systems, modes and responses is [`linear`].
+//!
 //! # What it asks a mechanism
 //!
 //! Everything works on the equations of a mechanism on slices
