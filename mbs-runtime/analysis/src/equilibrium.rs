@@ -77,6 +77,8 @@ const SMALL: f64 = 1e-11;
 const REST: f64 = 1e-9;
 /// or with less than this many scales per s².
 const STILL: f64 = 1e-11;
+/// Relaxation leaves an unstable equilibrium by this many scales.
+const PUSH: f64 = 1e-2;
 /// A step of Newton's method is halved at most so often.
 const HALVINGS: u32 = 6;
 /// The search ends where a coordinate is this many scales away.
@@ -114,7 +116,7 @@ impl Equilibrium {
 /// method takes steps of a bounded length, so that the branch of the start is kept, and a pseudo
 /// inverse, so that a direction without forces does not matter. Relaxation follows ż = z̈ in
 /// implicit steps that grow as the acceleration falls (pseudo-transient continuation): towards a
-/// stable equilibrium, past unstable ones.
+/// stable equilibrium, past unstable ones, from which it is pushed if it begins there.
 ///
 /// Drives are held where they are at `t`. Derivatives are five-point differences, about 10⁻¹¹ of
 /// their size, which bounds the rate of convergence and not the result; stiffnesses are good to
@@ -198,6 +200,18 @@ fn find(rest: &Rest<'_>, start: DVector<f64>, is_relaxed: bool) -> Result<(DVect
     let (mut best, strongest) = ((now.size, q.clone()), now.size);
     for iteration in 1..=ITERATIONS {
         let rate = rest.stiffness_rate(&q, &tangent);
+        if is_relaxed
+            && now.size <= STILL
+            && let Some(falling) = falling(&rate)
+        {
+            // nothing moves it from where it balances, so that it is pushed
+            let step = &tangent.directions * falling;
+            let length = step.component_div(&rest.scales()).amax();
+            (q, _) = moved(rest, &q, &step, PUSH / length)?;
+            tangent = rest.tangent(&q);
+            now = residual(rest, &q, &tangent);
+            continue;
+        }
         let shift = if is_relaxed { shift(&rate, now.size, pace) } else { 0.0 };
         let system = DMatrix::identity(rate.nrows(), rate.nrows()) * shift - &rate;
         let Some(z) = solved(&system, &now.minimal) else { break };
@@ -246,6 +260,22 @@ fn shift(rate: &DMatrix<f64>, acceleration: f64, pace: f64) -> f64 {
     let fastest = symmetric.symmetric_eigenvalues().iter().copied().fold(0.0, f64::max);
     let size = rate.amax();
     if fastest > ZERO * size { 2.0 * fastest } else { size.max(acceleration) / pace }
+}
+
+/// The direction in which a mechanism falls away fastest, if it does, by the power method.
+fn falling(rate: &DMatrix<f64>) -> Option<DVector<f64>> {
+    const STEPS: usize = 30;
+    let (size, f) = (rate.amax(), rate.nrows());
+    let symmetric = (rate + rate.transpose()) * 0.5;
+    let shifted = &symmetric + DMatrix::from_diagonal_element(f, f, size * f as f64);
+    // not across any direction, as a vector of ones may be
+    let mut direction = DVector::from_fn(f, |at, _| 1.0 + 0.1 * at as f64);
+    for _ in 0..STEPS {
+        direction = &shifted * direction;
+        direction /= direction.norm();
+    }
+    let grows = direction.dot(&(&symmetric * &direction));
+    (grows > ZERO * size && grows.is_finite()).then_some(direction)
 }
 
 /// Where a share of a step along the tangent leads on the constraints, and what accelerates there.

@@ -145,6 +145,14 @@ fn a_pendulum_hangs_and_stands() {
     assert!(fallen.is_stable());
 }
 
+/// Exactly on top nothing moves it: relaxation pushes it.
+#[test]
+fn relaxation_leaves_where_a_pendulum_balances() {
+    let search = Search { strategy: Strategy::Relaxation, ..from(&[0.0, 0.4, FRAC_PI_2]) };
+    let fallen = equilibrium(&Pendulum::declared(), &search).expect("it falls");
+    assert!(fallen.is_stable() && (fallen.q[1] + 0.4).abs() < 1e-10);
+}
+
 /// Where it begins level, gravity acts fully and has no stiffness.
 #[test]
 fn a_pendulum_that_begins_level_comes_to_hang() {
