@@ -52,6 +52,9 @@ pub enum Error {
     /// What an analysis said.
     #[error("{0}")]
     Analysis(#[source] mbs_analysis::Error),
+    /// No equilibrium to linearize about.
+    #[error("{0}; or linearize elsewhere: --here at rest at the start, --after 0.1s in motion")]
+    NoEquilibrium(#[source] mbs_analysis::Error),
     /// What is wrong with a declaration.
     #[cfg(feature = "live")]
     #[error("{0}")]

@@ -93,7 +93,11 @@ impl<'a> Operating<'a> {
         let q = positions(&*run, t, from)?;
         let strategy = if matches.get_flag("relax") { Strategy::Relaxation } else { Strategy::Automatic };
         let search = Search { from: Some(q.clone()), inputs: Some(start.inputs.clone()), t, strategy };
-        let rest = if matches.get_flag("here") { None } else { Some(equilibrium(run.described(), &search)?) };
+        let found = if matches.get_flag("here") { None } else { Some(equilibrium(run.described(), &search)) };
+        let rest = found.transpose().map_err(|error| match error {
+            error @ mbs_analysis::Error::NoEquilibrium { .. } => Error::NoEquilibrium(error),
+            other => other.into(),
+        })?;
         let point =
             rest.as_ref().map_or_else(|| OperatingPoint::at_rest(t, &q, &start.inputs), OperatingPoint::from);
         Ok(Self { name, model, run, point, rest, search, start })

@@ -152,6 +152,7 @@ fn what_cannot_be_asked() {
     refuses(&format!("modes {OSCILLATOR} --sensitivity k"), &["no parameter `k`"]);
     refuses(&format!("modes {OSCILLATOR} --here --sensitivity mass"), &["--sensitivity", "--here"]);
     refuses("modes slider-crank", &["no degree of freedom"]);
+    refuses("modes geared-motor", &["no equilibrium", "--here", "--after"]);
     refuses("bode double-pendulum", &["no inputs", "--parameters"]);
     for (range, part) in
         [("0Hz..5Hz", "above 0"), ("-1..5", "above 0"), ("5..1", "smaller"), ("1m..2m", "length")]
