@@ -146,7 +146,7 @@ impl Derivatives<'_> {
             gamma -= &driven;
             if gamma.amax() > 0.0 {
                 let opposed = -gamma;
-                mechanism.constrained(at, inputs, opposed.as_slice(), acceleration.as_mut_slice());
+                mechanism.accelerations(at, inputs, opposed.as_slice(), acceleration.as_mut_slice());
             }
         }
         let mut outputs = DVector::zeros(info.outputs.len());

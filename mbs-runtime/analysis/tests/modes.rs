@@ -305,10 +305,10 @@ fn a_suspension_has_the_modes_of_its_differenced_accelerations() -> Result<(), E
         v[0] += change[2];
         v[3] += change[3];
         let rows = mechanism.info().constraints.len();
-        let mut numbers = vec![0.0; Room::<f64>::len(4, rows, 0)];
+        let mut numbers = vec![0.0; Room::<f64>::len(mechanism.info(), 0)];
         let keep: &[&str] = &["y", "phi"];
-        project(mechanism, 0.0, &mut q, &mut v, [keep, keep], &mut Room::within(&mut numbers, 4, rows))
-            .expect("near");
+        let mut room = Room::within(&mut numbers, mechanism.info());
+        project(mechanism, 0.0, &mut q, &mut v, [keep, keep], &mut room).expect("near");
         let (mut a, mut lambda) = (vec![0.0; 4], vec![0.0; rows]);
         mechanism.reactions(At { t: 0.0, q: &q, v: &v }, &[], &mut a, &mut lambda);
         [a[0], a[3]]

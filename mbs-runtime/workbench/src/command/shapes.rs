@@ -87,10 +87,9 @@ impl<'a> Shapes<'a> {
         let linear: Vec<f64> = moved.map(|(q, shape)| q + size * (shape.re * cos - shape.im * sin)).collect();
         let info = self.operating.info();
         let keep: Vec<&'static str> = self.independent.iter().map(|at| info.coordinates[*at].name).collect();
-        let (n, m) = (linear.len(), info.constraints.len());
-        let (mut q, mut v, mut numbers) =
-            (linear.clone(), vec![0.0; n], vec![0.0; Room::<f64>::len(n, m, 0)]);
-        let mut room = Room::within(&mut numbers, n, m);
+        let (mut q, mut v) = (linear.clone(), vec![0.0; linear.len()]);
+        let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
+        let mut room = Room::within(&mut numbers, info);
         match project(self.operating.run.equations(), point.t, &mut q, &mut v, [&keep, &[]], &mut room) {
             Ok(()) => q,
             Err(_) => linear,
