@@ -244,6 +244,7 @@ macro_rules! lane_by_lane {
 
 impl<T: Lane, const N: usize> Real for Lanes<T, N> {
     type Pair = Two<Self>;
+    const ZERO: Self = Self([T::ZERO; N]);
     const EPSILON: Self = Self([T::EPSILON; N]);
 
     #[inline(always)]

@@ -118,6 +118,7 @@ mod components;
 mod derivation;
 mod described;
 mod diagnosis;
+mod dual;
 pub mod equations;
 mod error;
 pub mod explicit;
@@ -155,6 +156,7 @@ pub use adaptive::{
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use derivation::{Derivation, Elimination, Formula};
+pub use dual::Dual;
 pub use error::Error;
 pub use info::{Constraint, DeclaredEvent, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};

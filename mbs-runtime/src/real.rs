@@ -8,7 +8,8 @@ use crate::spline::Spline;
 
 /// A real scalar: what a generated solver needs to know of its number type.
 ///
-/// Implemented for `f32`, `f64` and vectors of either ([`Lanes`](crate::Lanes)). With the feature `std` the elementary
+/// Implemented for `f32`, `f64`, vectors of either ([`Lanes`](crate::Lanes)) and numbers with
+/// their partial derivatives ([`Dual`](crate::Dual)). With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
 /// 10⁵ rad are this crate's own, inlined, within 2 units in the last place up to
@@ -29,8 +30,17 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// 0
+    const ZERO: Self;
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
+    /// How many orders of derivatives it carries beside its value: an iteration that has ended
+    /// by value is continued by as many corrections.
+    #[doc(hidden)]
+    const ORDER: usize = 0;
+    /// How many first derivatives it carries.
+    #[doc(hidden)]
+    const PARTIALS: usize = 0;
     /// Two of them at once; [`Two<Self>`](crate::Two) will do.
     type Pair: Pair<Self>;
 
@@ -97,6 +107,40 @@ pub trait Real:
     fn interpolate(self, spline: &Spline, order: u8) -> Self {
         spline.derivative_at(order, self)
     }
+
+    /// Whether it is the other number with all of its derivatives.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        self == other
+    }
+    /// The number as a constant.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    fn without_partials(self) -> Self {
+        self
+    }
+    /// Its value with the derivatives of another number.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    fn with_partials_of(self, _other: Self) -> Self {
+        self
+    }
+    /// A first derivative; 0 where there is none.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn partial(self, _index: usize) -> f64 {
+        0.0
+    }
+    /// The number with an amount added to a first derivative.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    fn plus_partial(self, _index: usize, _change: f64) -> Self {
+        self
+    }
 }
 
 /// Inlined within its range, which few mechanisms leave.
@@ -143,6 +187,7 @@ macro_rules! elementary {
 macro_rules! real {
     ($float:ident, $Pair:ty, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
         impl Real for $float {
+            const ZERO: Self = 0.0;
             const EPSILON: Self = $float::EPSILON;
             type Pair = $Pair;
 

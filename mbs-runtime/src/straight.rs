@@ -60,6 +60,7 @@ macro_rules! of_the_scalar {
 
 impl<T: Lane> Real for Straight<T> {
     type Pair = Two<Self>;
+    const ZERO: Self = Self(T::ZERO);
     const EPSILON: Self = Self(T::EPSILON);
 
     #[inline(always)]

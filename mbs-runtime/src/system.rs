@@ -3,10 +3,11 @@
 use crate::equations::{At, Described, Equations, read, write};
 use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Simulation, Sketch};
+use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Real, Simulation, Sketch};
 
 /// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
-/// knew, or a run of a mechanism that was read from a text.
+/// knew, or a run of a mechanism that was read from a text. `T` is its scalar: `f64`, or a
+/// [`Dual`](crate::Dual) for derivatives.
 ///
 /// The trait is object-safe, and vectors are slices in the order of
 /// [`Info`](crate::Info): `q`, `v` and `acceleration` have a number per coordinate,
@@ -41,12 +42,12 @@ use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Simu
 /// assert!((lowest(&mut swing, 1000)? + 1.0).abs() < 1e-5);
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
-pub trait System: Send {
+pub trait System<T: Real = f64>: Send {
     /// Names, dimensions and the equations of the mechanism.
-    fn equations(&self) -> &dyn Equations<f64>;
+    fn equations(&self) -> &dyn Equations<T>;
 
     /// What the mechanism measures and shows, of any state.
-    fn described(&self) -> &dyn Described<f64>;
+    fn described(&self) -> &dyn Described<T>;
 
     /// The equations and their elimination, for people to read.
     fn derivation(&self) -> &Derivation;
@@ -55,22 +56,22 @@ pub trait System: Send {
     fn sketch(&self) -> &Sketch;
 
     /// Writes the parameters that it was made with.
-    fn parameters(&self, parameters: &mut [f64]);
+    fn parameters(&self, parameters: &mut [T]);
 
     /// Time in s.
-    fn time(&self) -> f64;
+    fn time(&self) -> T;
 
     /// Writes positions and velocities.
-    fn state(&self, q: &mut [f64], v: &mut [f64]);
+    fn state(&self, q: &mut [T], v: &mut [T]);
 
     /// Writes the inputs as they are now.
-    fn inputs(&self, inputs: &mut [f64]);
+    fn inputs(&self, inputs: &mut [T]);
 
     /// Sets the inputs, which are held over the steps that follow.
-    fn set_inputs(&mut self, inputs: &[f64]);
+    fn set_inputs(&mut self, inputs: &[T]);
 
     /// The step in s.
-    fn step_size(&self) -> f64;
+    fn step_size(&self) -> T;
 
     /// Steps taken since the start.
     fn steps(&self) -> u64;
@@ -108,23 +109,23 @@ pub trait System: Send {
     ///
     /// # Errors
     /// As [`Simulation::reactions`].
-    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error>;
+    fn reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error>;
 
     /// Writes what the declaration measures, given q̈ and λ of the present state.
     ///
     /// # Errors
     /// [`Error::Undefined`] if one of them is not finite; all are written.
-    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error>;
+    fn outputs(&self, acceleration: &[T], multipliers: &[T], outputs: &mut [T]) -> Result<(), Error>;
 
     /// ‖Φ‖ and ‖Φ̇‖, the Euclidean norms.
-    fn violations(&self) -> [f64; 2];
+    fn violations(&self) -> [T; 2];
 
     /// Kinetic and potential energy in J, of another state of the mechanism too.
-    fn energies(&self, at: At<'_, f64>) -> [f64; 2];
+    fn energies(&self, at: At<'_, T>) -> [T; 2];
 
     /// Writes x and y of every point of the [sketch](Self::sketch) in m, one after the
     /// other.
-    fn points(&self, t: f64, q: &[f64], points: &mut [f64]);
+    fn points(&self, t: T, q: &[T], points: &mut [T]);
 
     /// The steps of a run to a tolerance, of which [`steps`](Self::steps) counts the samples;
     /// nothing of one with a constant step.
@@ -133,7 +134,7 @@ pub trait System: Send {
     }
 
     /// The largest pivot growth so far; see [`Simulation::worst_growth`].
-    fn worst_growth(&self) -> f64;
+    fn worst_growth(&self) -> T;
 
     /// Where it was; see [`Simulation::worst_place`].
     fn worst_place(&self) -> Option<WorstPlace>;
@@ -142,12 +143,12 @@ pub trait System: Send {
     fn digits_left(&self) -> f64;
 }
 
-impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
-    fn equations(&self) -> &dyn Equations<f64> {
+impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
+    fn equations(&self) -> &dyn Equations<M::Real> {
         self.mechanism()
     }
 
-    fn described(&self) -> &dyn Described<f64> {
+    fn described(&self) -> &dyn Described<M::Real> {
         self.mechanism()
     }
 
@@ -159,29 +160,29 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         M::SKETCH
     }
 
-    fn parameters(&self, parameters: &mut [f64]) {
+    fn parameters(&self, parameters: &mut [M::Real]) {
         Described::parameters(self.mechanism(), parameters);
     }
 
-    fn time(&self) -> f64 {
+    fn time(&self) -> M::Real {
         self.time()
     }
 
-    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+    fn state(&self, q: &mut [M::Real], v: &mut [M::Real]) {
         let state = self.state();
         write(state.q, q);
         write(state.v, v);
     }
 
-    fn inputs(&self, inputs: &mut [f64]) {
+    fn inputs(&self, inputs: &mut [M::Real]) {
         write(*self.inputs(), inputs);
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) {
+    fn set_inputs(&mut self, inputs: &[M::Real]) {
         *self.inputs_mut() = read(inputs);
     }
 
-    fn step_size(&self) -> f64 {
+    fn step_size(&self) -> M::Real {
         self.step_size()
     }
 
@@ -199,15 +200,20 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         if is_fused_for::<M, X>() && X::EXPLICIT.is_held() { self.step() } else { self.step_in_stages() }
     }
 
-    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+    fn reactions(&self, acceleration: &mut [M::Real], multipliers: &mut [M::Real]) -> Result<(), Error> {
         let solved = self.reactions()?;
         write(solved.acceleration, acceleration);
         write(solved.multipliers, multipliers);
         Ok(())
     }
 
-    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
-        let growth = f64::default();
+    fn outputs(
+        &self,
+        acceleration: &[M::Real],
+        multipliers: &[M::Real],
+        outputs: &mut [M::Real],
+    ) -> Result<(), Error> {
+        let growth = M::Real::default();
         let reactions =
             Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
         let measured = self.mechanism().outputs(&self.state(), self.inputs(), &reactions);
@@ -215,19 +221,19 @@ impl<M: Mechanism<Real = f64>, X: Method> System for Simulation<M, X> {
         self.check_outputs(measured)
     }
 
-    fn violations(&self) -> [f64; 2] {
+    fn violations(&self) -> [M::Real; 2] {
         [self.violation(), self.velocity_violation()]
     }
 
-    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+    fn energies(&self, at: At<'_, M::Real>) -> [M::Real; 2] {
         [Equations::kinetic_energy(self.mechanism(), at), Described::potential_energy(self.mechanism(), at)]
     }
 
-    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+    fn points(&self, t: M::Real, q: &[M::Real], points: &mut [M::Real]) {
         Described::points(self.mechanism(), t, q, points);
     }
 
-    fn worst_growth(&self) -> f64 {
+    fn worst_growth(&self) -> M::Real {
         self.worst_growth()
     }
 

@@ -1,10 +1,11 @@
 //! Shared pieces of the cross-checks: the slider-crank and the N-pendulum written
-//! out by hand, chains of any length, numbers that carry derivatives, random
-//! states, random declarations.
+//! out by hand, chains of any length, numbers that carry derivatives,
+//! derivatives from differences, random states, random declarations.
 
 pub mod by_hand;
 pub mod by_hand_on_pairs;
 pub mod chains;
+pub mod differences;
 pub mod fuzzing;
 pub mod jet;
 pub mod linkages;

@@ -2,7 +2,7 @@
 //! through air, and against the virtual work of their forces.
 
 use mbs_runtime::{Components, Error, Mechanism, Reactions, Simulation, State, mechanism};
-use tests::jet::Jet;
+use tests::jet::{Jet, first, line};
 use tests::random::Random;
 
 mechanism! {
@@ -123,12 +123,12 @@ fn elements_do_the_virtual_work_of_their_forces() {
     let mut random = Random::new(11);
     for _ in 0..200 {
         let (q, v): ([f64; 6], [f64; 6]) = (random.around_zero(2.0), random.around_zero(2.0));
-        let along = |direction: [f64; 6]| std::array::from_fn(|i| Jet::line(q[i], direction[i]));
+        let along = |direction: [f64; 6]| std::array::from_fn(|i| line(q[i], direction[i]));
         let moving = places(along(v));
-        let slide = 0.3 * 5.0 * (moving.slide.first / 0.7).tanh() + 0.6 * moving.slide.first;
-        let turn = 2.0 * (moving.angle.first / 0.9).tanh() + 0.2 * moving.angle.first;
-        let motor = 3.0 * (0.7 + moving.angle.first / 4.0);
-        let wind = [moving.tip[0].first - 1.0, moving.tip[1].first - 2.0];
+        let slide = 0.3 * 5.0 * (first(moving.slide) / 0.7).tanh() + 0.6 * first(moving.slide);
+        let turn = 2.0 * (first(moving.angle) / 0.9).tanh() + 0.2 * first(moving.angle);
+        let motor = 3.0 * (0.7 + first(moving.angle) / 4.0);
+        let wind = [first(moving.tip[0]) - 1.0, first(moving.tip[1]) - 2.0];
         let drag = wind.map(|w| -0.5 * 1.2 * 0.5 * 0.8 * wind[0].hypot(wind[1]) * w);
         let (s, c) = q[2].sin_cos();
         let thrust = [2.0 * c - 3.0 * s, 2.0 * s + 3.0 * c];
@@ -141,11 +141,11 @@ fn elements_do_the_virtual_work_of_their_forces() {
         for (i, force) in forces.into_iter().enumerate() {
             let moved = places(along(std::array::from_fn(|j| f64::from(u8::from(i == j)))));
             let works = [
-                -slide * moved.slide.first,
-                -turn * moved.angle.first,
-                -motor * moved.angle.first,
-                drag[0] * moved.tip[0].first + drag[1] * moved.tip[1].first,
-                thrust[0] * moved.mark[0].first + thrust[1] * moved.mark[1].first,
+                -slide * first(moved.slide),
+                -turn * first(moved.angle),
+                -motor * first(moved.angle),
+                drag[0] * first(moved.tip[0]) + drag[1] * first(moved.tip[1]),
+                thrust[0] * first(moved.mark[0]) + thrust[1] * first(moved.mark[1]),
             ];
             near("Q", force, works.iter().sum());
             powers = std::array::from_fn(|k| powers[k] + works[k] * v[i]);
@@ -156,7 +156,7 @@ fn elements_do_the_virtual_work_of_their_forces() {
         for (ours, theirs) in measured.into_iter().zip(powers) {
             near("power", ours, theirs);
         }
-        near("speed", outputs.fast, moving.tip[0].first.hypot(moving.tip[1].first));
+        near("speed", outputs.fast, first(moving.tip[0]).hypot(first(moving.tip[1])));
     }
 }
 

@@ -7,7 +7,7 @@ use core::f64::consts::{PI, TAU};
 use mbs_runtime::{Components, Error, Kinematics, Real, Simulation, mechanism};
 use nalgebra::{DMatrix, DVector};
 use tests::check_against_jets;
-use tests::jet::Jet;
+use tests::jet::{Jet, value};
 
 mechanism! {
     /// Profiles and laws in constraints, away from where they switch.
@@ -58,9 +58,9 @@ fn spline_by_hand<const N: usize>(points: [(f64, f64); N], period: f64, x: Jet) 
             (points[behind].1 - points[at].1) / width(at) - (points[at].1 - points[before].1) / width(before);
     }
     let curvatures = matrix.lu().solve(&rhs).expect("diagonally dominant");
-    let turns = ((x.value - points[0].0) / period).floor();
+    let turns = ((value(x) - points[0].0) / period).floor();
     let x = x - Jet::from_f64(turns * period);
-    let at = (0..N).rev().find(|&at| points[at].0 <= x.value).unwrap_or(0);
+    let at = (0..N).rev().find(|&at| points[at].0 <= value(x)).unwrap_or(0);
     let h = width(at);
     let (y0, y1, m0, m1) = (points[at].1, points[(at + 1) % N].1, curvatures[at], curvatures[(at + 1) % N]);
     let n = Jet::from_f64;

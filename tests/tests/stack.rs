@@ -94,6 +94,7 @@ macro_rules! binary {
 }
 
 impl Real for Probe {
+    const ZERO: Self = Self(0.0);
     const EPSILON: Self = Self(f64::EPSILON);
     type Pair = mbs_runtime::Two<Self>;
 

@@ -70,6 +70,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
                 return None;
             }
         }
+        converge_partials(dynamics, t_next, &mut to.q, there);
         growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: Some(&to.v) }, there);
         subtract(&mut to.v, there);
         growth = growth + dynamics.acceleration(t_next, &to.q, &to.v, inputs, &mut to.a);
@@ -125,6 +126,21 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
             ([square, _], _) => Real::sqrt(square / count),
         };
         if ratio.is_finite() { ratio } else { f64::NAN }
+    }
+}
+
+/// Positions whose value has converged get the derivatives of the point on the constraints, an
+/// order with each correction; nothing is done for scalars without derivatives.
+#[inline(always)]
+pub fn converge_partials<D: Dynamics>(
+    dynamics: &D,
+    t: D::Real,
+    q: &mut D::States,
+    delta: &mut D::States,
+) {
+    for _ in 0..D::Real::ORDER {
+        dynamics.correction(t, &Beside { q, v: None }, delta);
+        vectors::zip_map(q.as_mut(), delta.as_ref(), |q, delta| q.with_partials_of(q - delta));
     }
 }
 

@@ -155,14 +155,14 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     /// Looks for the first event in the last step. If there is one, the step ends right behind it,
     /// and whatever has happened by then is due.
     fn look_back(&mut self, watched: &mut Watched<'_, D>) -> Result<(), Error> {
-        let mut first: Option<D::Real> = None;
+        let mut first: Option<(D::Real, usize)> = None;
         for index in 0..watched.count {
             if let Some(bracket) = self.bracket(index, watched) {
                 let t = self.locate(index, bracket, watched);
-                first = first.filter(|earlier| *earlier <= t).or(Some(t));
+                first = first.filter(|(earlier, _)| *earlier <= t).or(Some((t, index)));
             }
         }
-        let Some(first) = first else { return Ok(()) };
+        let Some((first, which)) = first else { return Ok(()) };
         (self.due, self.due_rising) = (0, 0);
         for (index, bit) in (0..watched.count).zip((0..).map_while(|at| 1_u64.checked_shl(at))) {
             if let Some(bracket) = self.bracket(index, watched)
@@ -172,6 +172,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
                 self.due_rising |= if bracket.is_rising { bit } else { 0 };
             }
         }
+        let first = self.differentiated(first, which, watched);
         self.end_at(first)
     }
 
@@ -295,28 +296,11 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         }
         last_change([low, high], stepped)
     }
-
-    /// Ends the last step at `t`, which lies in it.
-    fn end_at(&mut self, t: D::Real) -> Result<(), Error> {
-        if t >= self.now.t {
-            return Ok(());
-        }
-        let Self { dynamics, inputs, before, now, next, attempt, .. } = self;
-        let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
-        if growth.is_some_and(|growth| is_healthy(growth, next)) {
-            core::mem::swap(now, next);
-            return Ok(());
-        }
-        let start = before.clone();
-        self.rewind_to(t.to_f64())?;
-        self.before = start;
-        self.solve()
-    }
 }
 
 impl<D: Dynamics> Watched<'_, D> {
     /// One of the values.
-    fn value(
+    pub(super) fn value(
         &mut self,
         index: usize,
         (dynamics, inputs): (&D, &D::Inputs),

@@ -7,11 +7,12 @@ mod control;
 mod dense;
 mod dynamics;
 mod effort;
+mod ending;
 mod events;
 mod sampled;
 mod typed;
 
-use attempt::{Attempt, copy, is_healthy};
+use attempt::{Attempt, converge_partials, copy, is_healthy};
 pub use builder::AdaptiveBuilder;
 use control::Control;
 pub use control::Tolerances;
@@ -30,7 +31,7 @@ use crate::equations::At;
 use crate::explicit::{Beside, subtract};
 use crate::run::{Run, note_risen};
 use crate::watch::{Watch, WorstPlace};
-use crate::{Dopri5, Error, Gains, Real, Scheme};
+use crate::{Dopri5, Error, Gains, Real, Scheme, vectors};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
@@ -262,13 +263,20 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             return Err(Error::EndTime { end: t.to_f64(), now: before.t.to_f64() });
         }
         let (mut q, mut v) = (now.q.clone(), now.v.clone());
-        if t < now.t {
+        // the end of a step at an event moves with derivatives of its own
+        let is_end = t >= now.t;
+        if !is_end || (!t.is_same(now.t) && now.t > before.t) {
             before.interpolate(now, t, &mut q, &mut v);
             let mut delta = before.q.clone();
             dynamics.correction(t, &Beside { q: &q, v: None }, &mut delta);
             subtract(&mut q, &delta);
+            converge_partials(dynamics, t, &mut q, &mut delta);
             dynamics.correction(t, &Beside { q: &q, v: Some(&v) }, &mut delta);
             subtract(&mut v, &delta);
+            if is_end {
+                vectors::zip_map(q.as_mut(), now.q.as_ref(), |q, now| now.with_partials_of(q));
+                vectors::zip_map(v.as_mut(), now.v.as_ref(), |v, now| now.with_partials_of(v));
+            }
         }
         Ok((q, v))
     }

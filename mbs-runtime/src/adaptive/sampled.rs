@@ -8,7 +8,7 @@ use crate::diagnosis::{Solution, check_defined, check_solution};
 use crate::equations::{At, Described, Equations, check_outputs};
 use crate::simulation::clock;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
+use crate::{Derivation, Error, Real, Scheme, Sketch, System, vectors};
 
 /// A run to a tolerance whose state is looked at on a grid of times: a [`System`] whose `step`
 /// leads to the next of these times.
@@ -42,12 +42,12 @@ use crate::{Derivation, Error, Scheme, Sketch, System, vectors};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone)]
-pub struct Sampled<D: Dynamics<Real = f64>, S: Scheme> {
+pub struct Sampled<D: Dynamics, S: Scheme> {
     run: Adaptive<D, S>,
     interval: f64,
     start_time: f64,
     samples: u64,
-    t: f64,
+    t: D::Real,
     q: D::Coordinates,
     v: D::Coordinates,
     /// The event at which the run is, while what is seen is before it.
@@ -79,13 +79,13 @@ pub enum Measured {
 
 impl Threshold {
     /// The difference of a state from it; no number for a quantity that does not exist.
-    fn difference<D: Dynamics<Real = f64>>(&self, dynamics: &D, inputs: &D::Inputs, at: At<'_, f64>) -> f64 {
+    fn difference<D: Dynamics>(&self, dynamics: &D, inputs: &D::Inputs, at: At<'_, D::Real>) -> D::Real {
         let found = match self.measured {
             Measured::Position(index) => at.q.get(index).copied(),
             Measured::Velocity(index) => at.v.get(index).copied(),
             Measured::Output(index) => {
                 let (mut a, mut multipliers) = (dynamics.declared_start().1, dynamics.no_feedback());
-                let mut outputs = [f64::NAN; MOST_EVENTS];
+                let mut outputs = [D::Real::from_f64(f64::NAN); MOST_EVENTS];
                 let (a, multipliers) = (a.as_mut(), multipliers.as_mut());
                 let mechanism = dynamics.described();
                 dynamics.with_inputs(&mut inputs.clone(), |inputs| {
@@ -98,11 +98,11 @@ impl Threshold {
                 outputs.get(index).copied()
             }
         };
-        found.unwrap_or(f64::NAN) - self.value
+        found.unwrap_or(D::Real::from_f64(f64::NAN)) - D::Real::from_f64(self.value)
     }
 }
 
-impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
+impl<D: Dynamics, S: Scheme> Sampled<D, S> {
     /// A run looked at every `interval` seconds, from where it is.
     ///
     /// # Errors
@@ -113,8 +113,9 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
         }
         let (t, q_now, v_now) = (run.now.t, run.now.q.clone(), run.now.v.clone());
         let [q, v] = run.all.clone();
+        let start_time = t.to_f64();
         let mut sampled =
-            Self { run, interval, start_time: t, samples: 0, t, q, v, ahead: None, threshold: None };
+            Self { run, interval, start_time, samples: 0, t, q, v, ahead: None, threshold: None };
         sampled.put(t, &q_now, &v_now);
         Ok(sampled)
     }
@@ -144,7 +145,7 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
                     *found = extra.difference(dynamics, inputs, at);
                 }
             },
-            room: &mut [f64::NAN; MOST_EVENTS],
+            room: &mut [D::Real::from_f64(f64::NAN); MOST_EVENTS],
         };
         run.step_or_event(&mut watched)
     }
@@ -154,13 +155,13 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
         &self.run
     }
 
-    fn with_inputs<R>(&self, what: impl FnOnce(&[f64]) -> R) -> R {
+    fn with_inputs<R>(&self, what: impl FnOnce(&[D::Real]) -> R) -> R {
         let mut inputs = self.run.inputs.clone();
         self.run.dynamics.with_inputs(&mut inputs, |inputs| what(inputs))
     }
 
     /// The moment that is shown.
-    fn put(&mut self, t: f64, q: &D::States, v: &D::States) {
+    fn put(&mut self, t: D::Real, q: &D::States, v: &D::States) {
         let Self { run: Adaptive { dynamics, all, .. }, .. } = self;
         dynamics.complete(t, q, v, all);
         self.t = t;
@@ -169,12 +170,12 @@ impl<D: Dynamics<Real = f64>, S: Scheme> Sampled<D, S> {
         vectors::copy(self.v.as_mut(), v.as_ref());
     }
 
-    fn at(&self) -> At<'_, f64> {
+    fn at(&self) -> At<'_, D::Real> {
         At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
     }
 }
 
-impl<D: Dynamics<Real = f64>, S: Scheme> fmt::Debug for Sampled<D, S> {
+impl<D: Dynamics, S: Scheme> fmt::Debug for Sampled<D, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { run, interval, t, .. } = self;
         f.debug_struct("Sampled")
@@ -185,12 +186,12 @@ impl<D: Dynamics<Real = f64>, S: Scheme> fmt::Debug for Sampled<D, S> {
     }
 }
 
-impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
-    fn equations(&self) -> &dyn Equations<f64> {
+impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
+    fn equations(&self) -> &dyn Equations<D::Real> {
         self.run.dynamics.equations()
     }
 
-    fn described(&self) -> &dyn Described<f64> {
+    fn described(&self) -> &dyn Described<D::Real> {
         self.run.dynamics.described()
     }
 
@@ -202,41 +203,41 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         self.run.dynamics.described().sketch()
     }
 
-    fn parameters(&self, parameters: &mut [f64]) {
+    fn parameters(&self, parameters: &mut [D::Real]) {
         self.run.dynamics.described().parameters(parameters);
     }
 
-    fn time(&self) -> f64 {
+    fn time(&self) -> D::Real {
         self.t
     }
 
-    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+    fn state(&self, q: &mut [D::Real], v: &mut [D::Real]) {
         vectors::copy(q, self.q.as_ref());
         vectors::copy(v, self.v.as_ref());
     }
 
-    fn inputs(&self, inputs: &mut [f64]) {
+    fn inputs(&self, inputs: &mut [D::Real]) {
         self.with_inputs(|own| vectors::copy(inputs, own));
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) {
+    fn set_inputs(&mut self, inputs: &[D::Real]) {
         let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
         let is_new = dynamics.with_inputs(own, |own| {
-            let is_new = own.iter().zip(inputs).any(|(own, input)| own != input);
+            let is_new = own.iter().zip(inputs).any(|(own, input)| !own.is_same(*input));
             vectors::copy(own, inputs);
             is_new
         });
         if is_new {
             // what lies behind this moment was computed with others; the moment is within the
             // last step, so that there is no error
-            let _ = self.run.rewind_to(self.t);
+            let _ = self.run.rewind_to(self.t.to_f64());
             self.run.is_solved = false;
             (self.ahead, self.run.due) = (None, 0);
         }
     }
 
-    fn step_size(&self) -> f64 {
-        self.interval
+    fn step_size(&self) -> D::Real {
+        D::Real::from_f64(self.interval)
     }
 
     fn steps(&self) -> u64 {
@@ -244,7 +245,7 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
     }
 
     fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        clock::steps_to::<f64>(self.start_time, self.interval, self.samples, end)
+        clock::steps_to::<D::Real>(self.start_time, self.interval, self.samples, end)
     }
 
     fn step(&mut self) -> Result<(), Error> {
@@ -261,9 +262,10 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
                 self.put(self.run.now.t, &q, &v);
                 return Ok(Some(event));
             }
-            if self.run.now.t >= t {
-                let (q, v) = self.run.interpolate(t)?;
-                self.put(t, &q, &v);
+            let at = D::Real::from_f64(t);
+            if self.run.now.t >= at {
+                let (q, v) = self.run.interpolate(at)?;
+                self.put(at, &q, &v);
                 self.samples += 1;
                 return Ok(None);
             }
@@ -271,7 +273,7 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         }
     }
 
-    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
+    fn reactions(&self, acceleration: &mut [D::Real], multipliers: &mut [D::Real]) -> Result<(), Error> {
         let At { t, q, .. } = self.at();
         let mechanism = self.run.dynamics.described();
         let growth =
@@ -283,13 +285,18 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         check_defined(t, "the multiplier of constraint", multipliers, name)
     }
 
-    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
+    fn outputs(
+        &self,
+        acceleration: &[D::Real],
+        multipliers: &[D::Real],
+        outputs: &mut [D::Real],
+    ) -> Result<(), Error> {
         let mechanism = self.run.dynamics.described();
         self.with_inputs(|inputs| mechanism.outputs(self.at(), inputs, [acceleration, multipliers], outputs));
         check_outputs(mechanism.info(), self.t, outputs)
     }
 
-    fn violations(&self) -> [f64; 2] {
+    fn violations(&self) -> [D::Real; 2] {
         let mut rows = self.run.dynamics.no_feedback();
         let equations = self.run.dynamics.equations();
         equations.phi(self.t, self.q.as_ref(), rows.as_mut());
@@ -298,12 +305,12 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         [violation, vectors::norm(rows.as_ref())]
     }
 
-    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+    fn energies(&self, at: At<'_, D::Real>) -> [D::Real; 2] {
         let mechanism = self.run.dynamics.described();
         [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
     }
 
-    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
         self.run.dynamics.described().points(t, q, points);
     }
 
@@ -311,7 +318,7 @@ impl<D: Dynamics<Real = f64>, S: Scheme> System for Sampled<D, S> {
         Some(*self.run.effort())
     }
 
-    fn worst_growth(&self) -> f64 {
+    fn worst_growth(&self) -> D::Real {
         self.run.worst_growth()
     }
 

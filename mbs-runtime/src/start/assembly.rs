@@ -71,6 +71,7 @@ pub(super) fn newton<T: Real>(
         let rounding = T::from_f64(4.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
         if vectors::largest(delta).1 <= rounding {
             vectors::add(q, delta);
+            converge_partials(equations, t, q, [delta, phi, residual], correct)?;
             return check_redundant(equations, t, q, phi);
         }
         damped(equations, t, q, delta, next, phi);
@@ -79,9 +80,30 @@ pub(super) fn newton<T: Real>(
     // Newton may circle at rounding level, where Φ itself is at rounding.
     let rounding = T::from_f64(64.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
     if violation <= rounding {
+        converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }
     Err(not_assembled(equations, t, row, violation))
+}
+
+/// Positions whose value has converged get the derivatives of the solution, an order with each
+/// full correction: the map of Newton's iteration has no slope there, so that what the
+/// derivatives of q were before does not matter. Nothing is done for scalars without derivatives.
+fn converge_partials<T: Real>(
+    equations: &dyn Equations<T>,
+    t: T,
+    q: &mut [T],
+    [delta, phi, residual]: [&mut [T]; 3],
+    mut correct: impl FnMut(&[T], &[T], &mut [T]) -> Result<(), Error>,
+) -> Result<(), Error> {
+    for _ in 0..T::ORDER {
+        equations.phi(t, q, phi);
+        vectors::copy(residual, phi);
+        vectors::negate(residual);
+        correct(q, residual, delta)?;
+        vectors::zip_map(q, delta, |q, delta| q.with_partials_of(q + delta));
+    }
+    Ok(())
 }
 
 /// Redundant constraints take no part in the corrections: with parameters for

@@ -12,6 +12,9 @@ use crate::{Error, Info, Real, vectors};
 /// and the velocities of those called `velocities`; see
 /// [`start::project`](crate::start::project).
 ///
+/// Derivatives of positions and velocities are made consistent as they are themselves: they
+/// change least where they are not kept, so that the constraints keep their derivatives too.
+///
 /// # Errors
 /// [`Error::NoCoordinate`], [`Error::NonFinite`], [`Error::NotAssembled`],
 /// [`Error::Inconsistent`]; q and v are left where the iteration was.
@@ -39,6 +42,12 @@ pub fn project<T: Real>(
         search.least(&mut jacobian, of_positions, residual, delta);
         Ok(())
     })?;
+    if T::PARTIALS > 0 {
+        equations.phi(t, q, residual);
+        let mut jacobian = Jacobian::new(equations, t, q, unit, phi_t);
+        search.find_partials(&mut jacobian, of_positions, residual, phi, [delta, next]);
+        vectors::add(q, next);
+    }
     let mut jacobian = Jacobian::new(equations, t, q, unit, phi_t);
     // two refinements, because one solution is as good as its rounding
     for _ in 0..3 {
@@ -46,6 +55,11 @@ pub fn project<T: Real>(
         vectors::negate(residual);
         search.least(&mut jacobian, of_velocities, residual, delta);
         vectors::add(v, delta);
+    }
+    if T::PARTIALS > 0 {
+        equations.phi_dot(At { t, q, v }, residual);
+        search.find_partials(&mut jacobian, of_velocities, residual, phi, [delta, next]);
+        vectors::add(v, next);
     }
     check_projected(equations, At { t, q, v }, room)
 }
@@ -95,7 +109,8 @@ struct Search<'a, T> {
 
 impl<T: Real> Search<'_, T> {
     /// The Δ of Φ_q Δ = `residual` for which Σ (Δⱼ/wⱼ)² is least, with the mobilities w; 0
-    /// where they are 0.
+    /// where they are 0. Without derivatives: those of an iteration are not those of what it
+    /// converges to.
     fn least(&mut self, jacobian: &mut Jacobian<'_, T>, mobility: &[T], residual: &[T], delta: &mut [T]) {
         let y = delta;
         vectors::fill(y, T::default());
@@ -121,7 +136,25 @@ impl<T: Real> Search<'_, T> {
             let turn = vectors::dot(self.slope, self.slope) / steepness;
             vectors::zip_map(self.direction, self.slope, |d, slope| slope + turn * d);
         }
-        vectors::zip_map(y, mobility, |y, w| y * w);
+        vectors::zip_map(y, mobility, |y, w| (y * w).without_partials());
+    }
+
+    /// The least change of the first derivatives, as the derivatives of `found`, that makes those
+    /// of a `violation` vanish whose value is 0. `residual` and `delta` are room.
+    fn find_partials(
+        &mut self,
+        jacobian: &mut Jacobian<'_, T>,
+        mobility: &[T],
+        violation: &[T],
+        residual: &mut [T],
+        [delta, found]: [&mut [T]; 2],
+    ) {
+        vectors::fill(found, T::default());
+        for index in 0..T::PARTIALS {
+            vectors::zip_map(residual, violation, |_, violation| T::from_f64(-violation.partial(index)));
+            self.least(jacobian, mobility, residual, delta);
+            vectors::zip_map(found, delta, |found, delta| found.plus_partial(index, delta.to_f64()));
+        }
     }
 
     fn find_slope(&mut self, jacobian: &mut Jacobian<'_, T>, mobility: &[T]) {

@@ -6,12 +6,11 @@
 
 mod balance;
 mod drift;
-mod dual;
 mod model;
 mod random;
 mod texts;
 
-use mbs_runtime::{Components, Mechanism, State};
+use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
     AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DoublePendulum, Excavator,
     FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
@@ -20,7 +19,6 @@ use models::{
     SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
-use crate::dual::Dual;
 use crate::model::{Model, model};
 
 /// How a mechanism is to be tested.

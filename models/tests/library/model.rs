@@ -50,15 +50,15 @@ macro_rules! model {
                 acceleration: &Self::Coordinates,
             ) -> [f64; 2] {
                 let parameters = self.parameters().into_array();
-                let constants = std::array::from_fn(|i| Dual::new(parameters[i], 0.0));
-                let dual = $Name::<Dual>::new(Components::from_array(constants)).unwrap();
+                let constants = std::array::from_fn(|i| Dual::constant(parameters[i]));
+                let dual = $Name::<Dual<f64, 1>>::new(Components::from_array(constants)).unwrap();
                 let (q, v, a) = (at.q.into_array(), at.v.into_array(), acceleration.into_array());
                 let along = State {
-                    t: Dual::new(at.t, 1.0),
-                    q: Components::from_array(std::array::from_fn(|i| Dual::new(q[i], v[i]))),
-                    v: Components::from_array(std::array::from_fn(|i| Dual::new(v[i], a[i]))),
+                    t: Dual::new(at.t, [1.0]),
+                    q: Components::from_array(std::array::from_fn(|i| Dual::new(q[i], [v[i]]))),
+                    v: Components::from_array(std::array::from_fn(|i| Dual::new(v[i], [a[i]]))),
                 };
-                [dual.kinetic_energy(&along).rate, dual.potential_energy(&along).rate]
+                [dual.kinetic_energy(&along), dual.potential_energy(&along)].map(|energy| energy.partials[0])
             }
         }
     };

@@ -6,8 +6,8 @@
 use core::panic::PanicInfo;
 
 use mbs_runtime::{
-    Adaptive, Baumgarte, Direction, Held, Kinematics, Mechanism, PerStage, Projected, Real, Rk4, Simulation,
-    State, Tolerances, mechanism,
+    Adaptive, Baumgarte, Direction, Dual, Held, Kinematics, Mechanism, PerStage, Projected, Real, Rk4,
+    Simulation, State, Tolerances, mechanism,
 };
 
 mechanism! {
@@ -69,6 +69,7 @@ pub unsafe extern "C" fn entry(out: *mut f64) {
     let put = |at: usize, x: f64| unsafe { out.add(at).write_volatile(x) };
     put(0, run::<f64>(&value).unwrap_or(f64::NAN));
     put(1, run::<f32>(&value).unwrap_or(f64::NAN));
+    put(3, run::<Dual<f64, 2>>(&value).unwrap_or(f64::NAN));
     #[cfg(feature = "reachable-panic")]
     put(2, [1.0, 2.0, 3.0][value(2) as usize]);
 }

@@ -1,0 +1,62 @@
+//! The end of a step at an event.
+
+use super::attempt::is_healthy;
+use super::events::Watched;
+use super::{Adaptive, Dynamics};
+use crate::{Error, Real, Scheme, vectors};
+
+impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+    /// Ends the last step at `t`, which lies in it.
+    pub(super) fn end_at(&mut self, t: D::Real) -> Result<(), Error> {
+        // a time with derivatives moves the end even where its value does not
+        if t >= self.now.t && D::Real::ORDER == 0 {
+            return Ok(());
+        }
+        let Self { dynamics, inputs, before, now, next, attempt, .. } = self;
+        let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
+        if growth.is_some_and(|growth| is_healthy(growth, next)) {
+            core::mem::swap(now, next);
+            return Ok(());
+        }
+        let start = before.clone();
+        self.rewind_to(t.to_f64())?;
+        self.before = start;
+        self.solve()
+    }
+
+    /// The time of an event with its first derivatives. The watched value g vanishes at it
+    /// whatever the variables p are:
+    ///
+    /// ```text
+    /// g(t(p), p) = 0      dt/dp = −(∂g/∂p)/ġ
+    /// ```
+    ///
+    /// Where g only touches zero, ġ = 0 and the derivatives are not finite.
+    pub(super) fn differentiated(
+        &mut self,
+        t: D::Real,
+        index: usize,
+        watched: &mut Watched<'_, D>,
+    ) -> D::Real {
+        if D::Real::PARTIALS == 0 {
+            return t;
+        }
+        let t = t.without_partials();
+        let Self { dynamics, inputs, before, next, attempt, all, .. } = self;
+        let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
+        if !growth.is_some_and(|growth| is_healthy(growth, next)) {
+            return t;
+        }
+        let value = watched.value(index, (dynamics, inputs), next, all);
+        // ġ is the derivative along the motion, for which the first partial has room
+        let along = |x: D::Real, rate: D::Real| x.without_partials().plus_partial(0, rate.to_f64());
+        vectors::zip_map(next.q.as_mut(), next.v.as_ref(), along);
+        vectors::zip_map(next.v.as_mut(), next.a.as_ref(), along);
+        next.t = along(t, D::Real::from_f64(1.0));
+        let rate = watched.value(index, (dynamics, inputs), next, all).partial(0);
+        (0..D::Real::PARTIALS).fold(t, |t, at| {
+            let change = value.partial(at);
+            if change == 0.0 { t } else { t.plus_partial(at, -change / rate) }
+        })
+    }
+}
