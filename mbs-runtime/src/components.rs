@@ -53,6 +53,16 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
         Self::from_array(array)
     }
 
+    /// The same numbers in the vector of another scalar, as parameters of a mechanism over
+    /// [`Dual`](crate::Dual) are made from those of the mechanism: constants, to begin with.
+    fn over<C: Components>(self) -> C {
+        let mut array = C::splat(C::Real::ZERO).into_array();
+        for (to, from) in array.as_mut().iter_mut().zip(self.into_array().as_ref()) {
+            *to = C::Real::from_f64(from.to_f64());
+        }
+        C::from_array(array)
+    }
+
     /// The component called `name`, if there is one.
     fn get(self, name: &str) -> Option<Self::Real> {
         let at = Self::NAMES.iter().position(|n| *n == name)?;

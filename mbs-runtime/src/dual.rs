@@ -33,7 +33,8 @@ use crate::{Real, Two};
 /// not move may stand there. Others become infinite or NaN; they do not stop a run, whose
 /// decisions are those of values.
 ///
-/// A dual of duals, `Dual<Dual<f64, 1>, 1>`, carries second derivatives.
+/// A dual of duals, `Dual<Dual<f64, 1>, 1>`, carries second derivatives. See
+/// [`gradients`](crate::gradients) for runs.
 ///
 /// # Example
 /// ```

@@ -153,6 +153,22 @@ pub enum Error {
         /// Its name.
         name: &'static str,
     },
+    /// A variable that a sum over a run was to be differentiated by, but does not exist.
+    NoVariable {
+        /// A parameter, a coordinate or an input.
+        what: &'static str,
+        /// Its name.
+        name: &'static str,
+    },
+    /// A vector of the wrong length.
+    Length {
+        /// What it is.
+        what: &'static str,
+        /// How many numbers were given.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
     /// The positions could not be brought onto Φ = 0.
     NotAssembled {
         /// When, in s.
@@ -263,6 +279,15 @@ impl fmt::Display for Error {
                 )
             }
             Self::NoCoordinate { name } => write!(f, "there is no coordinate `{name}` to keep"),
+            Self::NoVariable { what, name } => {
+                write!(
+                    f,
+                    "there is no {what} `{name}` to differentiate by; check its name in the declaration"
+                )
+            }
+            Self::Length { what, found, expected } => {
+                write!(f, "{what} has room for {found} numbers, but there are {expected}")
+            }
             Self::NotAssembled { t, constraint, violation } => write!(
                 f,
                 "the mechanism cannot be assembled at t = {t} s: constraint `{constraint}` stays violated \

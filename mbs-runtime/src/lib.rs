@@ -122,6 +122,7 @@ mod dual;
 pub mod equations;
 mod error;
 pub mod explicit;
+pub mod gradients;
 mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}

@@ -2,10 +2,11 @@
 
 use super::Simulation;
 use crate::equations::Arrays;
+use crate::gradients::{Seeds, Sum};
 use crate::room::OnStack;
 use crate::start::{self, preparation::Start};
 use crate::watch::Watch;
-use crate::{Baumgarte, Components, Error, Held, Mechanism, Method, Real, State};
+use crate::{Baumgarte, Components, Dual, Error, Held, Mechanism, Method, Real, State};
 
 /// The choices before a simulation starts; see [`Simulation::builder`].
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +15,8 @@ pub struct Builder<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> {
     step: f64,
     baumgarte: Baumgarte<X>,
     inputs: M::Inputs,
-    state: State<M::Coordinates>,
+    /// In place of the declared start.
+    state: Option<State<M::Coordinates>>,
     start: Start,
     allow_unstable: bool,
 }
@@ -26,7 +28,7 @@ impl<M: Mechanism> Builder<M> {
             step,
             baumgarte: Baumgarte::deadbeat(step),
             inputs: M::Inputs::default(),
-            state: mechanism.declared_start(),
+            state: None,
             start: Start::Declared,
             allow_unstable: false,
         }
@@ -121,7 +123,7 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
     /// ```
     #[must_use]
     pub fn from_state(mut self, state: State<M::Coordinates>) -> Self {
-        self.state = state;
+        self.state = Some(state);
         if matches!(self.start, Start::Declared) {
             self.start = Start::Given;
         }
@@ -151,6 +153,57 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
         self
     }
 
+    /// The same run over another scalar, with these parameters: over [`Dual`](crate::Dual), a run
+    /// with its derivatives. The state that was given and the inputs become constants.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_runtime::{Components, Dual, Mechanism, Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let pendulum = Pendulum::declared();
+    /// let mut parameters: PendulumParameters<Dual<f64, 1>> = pendulum.parameters().over();
+    /// parameters.length = Dual::variable(1.0, 0);
+    /// let mut run = Simulation::builder(pendulum, 1e-3).over(parameters)?.build()?;
+    /// run.advance_to(0.4)?;
+    /// let shorter = PendulumParameters { length: 1.0 - 1e-6 };
+    /// let mut other = Simulation::new(Pendulum::new(shorter)?, 1e-3)?;
+    /// other.advance_to(0.4)?;
+    /// let difference = (run.state().q.x.value - other.state().q.x) / 1e-6;
+    /// assert!((run.state().q.x.partials[0] - difference).abs() < 1e-5);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Mechanism::new`].
+    pub fn over<T: Real>(
+        self,
+        parameters: <M::Over<T> as Mechanism>::Parameters,
+    ) -> Result<Builder<M::Over<T>, X>, Error> {
+        let Self { step, baumgarte, inputs, state, start, allow_unstable, .. } = self;
+        Ok(Builder {
+            mechanism: M::Over::<T>::new(parameters)?,
+            step,
+            baumgarte,
+            inputs: inputs.over(),
+            state: state.map(|State { t, q, v }| State {
+                t: T::from_f64(t.to_f64()),
+                q: q.over(),
+                v: v.over(),
+            }),
+            start,
+            allow_unstable,
+        })
+    }
+
     /// Starts.
     ///
     /// # Errors
@@ -174,7 +227,8 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
             });
         }
         let inputs = self.inputs.into_array();
-        let Arrays { t, mut q, mut v } = Arrays::of(&self.state);
+        let Arrays { t, mut q, mut v } =
+            Arrays::of(&self.state.unwrap_or_else(|| self.mechanism.declared_start()));
         let preparation = start::preparation::Preparation {
             start: self.start,
             inputs: inputs.as_ref(),
@@ -199,3 +253,75 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
         })
     }
 }
+
+impl<M: Mechanism<Real = f64>, X: Method> Builder<M, X> {
+    /// A sum over the run that starts here, with its derivatives by variables in `gradient`.
+    ///
+    /// `term` is what the start and the end of every step add to the sum; it is given the run over
+    /// duals of `N` partial derivatives, and makes a dual of what it finds there. The run is made
+    /// once for every `N` variables. See [`gradients`](crate::gradients).
+    ///
+    /// # Example
+    /// The work of a damper, and what a stiffer spring, a stronger damper and a longer pull would
+    /// change:
+    /// ```
+    /// use mbs_runtime::gradients::{Sum, Variable};
+    /// use mbs_runtime::{Dual, Mechanism, Simulation, mechanism};
+    ///
+    /// mechanism! {
+    ///     pub Oscillator {
+    ///         dof = 1;
+    ///         param stiffness = 100 [N/m];
+    ///         param damping = 2 [N*s/m];
+    ///         body block (x) { mass = 1 [kg]; }
+    ///         force spring on x = -stiffness*x;
+    ///         force damper on x = -damping*der(x);
+    ///         start { x = 0.1 [m]; }
+    ///     }
+    /// }
+    ///
+    /// let variables =
+    ///     [Variable::Parameter("stiffness"), Variable::Parameter("damping"), Variable::Position("x")];
+    /// let mut gradient = [0.0; 3];
+    /// let step = 1e-3;
+    /// let work = Simulation::builder(Oscillator::declared(), step).gradient(
+    ///     &Sum::new(1000, &variables),
+    ///     |run: &Simulation<Oscillator<Dual<f64, 3>>>| {
+    ///         let (v, damping) = (run.state().v.x, run.mechanism().parameters().damping);
+    ///         Ok(Dual::constant(step) * damping * v * v)
+    ///     },
+    ///     &mut gradient,
+    /// )?;
+    /// assert!((work - 0.43).abs() < 0.01); // of 0.5 J in the spring
+    /// assert!((gradient[2] - 2.0 * work / 0.1).abs() < 1e-9);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoVariable`], [`Error::Length`] for a `gradient` that has not a number for each
+    /// variable, [`Error::Undefined`] for a derivative that is not finite; those of
+    /// [`build`](Self::build), of [`Simulation::step`], and of `term`.
+    pub fn gradient<const N: usize>(
+        self,
+        sum: &Sum<'_>,
+        term: impl FnMut(&Simulation<M::Over<Dual<f64, N>>, X>) -> Result<Dual<f64, N>, Error>,
+        gradient: &mut [f64],
+    ) -> Result<f64, Error> {
+        let start = |seeds: Seeds<'_, N>| {
+            let mut parameters =
+                self.mechanism.parameters().over::<Parameters<M::Over<Dual<f64, N>>>>().into_array();
+            seeds.parameters(parameters.as_mut());
+            let mut builder = self.over(Components::from_array(parameters))?;
+            let state = builder.state.unwrap_or_else(|| builder.mechanism.declared_start());
+            let Arrays { t, mut q, mut v } = Arrays::of(&state);
+            seeds.start(q.as_mut(), v.as_mut());
+            builder.state = Some(Arrays { t, q, v }.state());
+            builder.build()
+        };
+        let mut inputs = self.inputs.over::<Inputs<M::Over<Dual<f64, N>>>>().into_array();
+        sum.differentiate(M::INFO, start, term, inputs.as_mut(), gradient)
+    }
+}
+
+type Parameters<M> = <M as Mechanism>::Parameters;
+type Inputs<M> = <M as Mechanism>::Inputs;

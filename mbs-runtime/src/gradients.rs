@@ -1,0 +1,189 @@
+#![doc = include_str!("gradients.md")]
+
+use crate::{Dual, Error, Info, Real, System};
+
+/// What a sum over a run is differentiated by, by its name in the declaration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// A parameter, which changes the mechanism and its start.
+    Parameter(&'static str),
+    /// The position that a coordinate is given at the start, before that is made consistent.
+    Position(&'static str),
+    /// The velocity that it is given there.
+    Velocity(&'static str),
+    /// An input, from the step with the number `from` on, before the one with the number `until`;
+    /// the first step has the number 0.
+    Input {
+        /// Its name.
+        name: &'static str,
+        /// The first step on which it acts,
+        from: u64,
+        /// and the first one on which it does not.
+        until: u64,
+    },
+}
+
+impl Variable {
+    /// An input over the whole run.
+    pub const fn input(name: &'static str) -> Self {
+        Self::Input { name, from: 0, until: u64::MAX }
+    }
+
+    /// What it is, its name, and its place in [`Info`].
+    fn find(self, info: &Info) -> Result<usize, Error> {
+        let (what, name, quantities) = match self {
+            Self::Parameter(name) => ("parameter", name, info.parameters),
+            Self::Position(name) | Self::Velocity(name) => ("coordinate", name, info.coordinates),
+            Self::Input { name, .. } => ("input", name, info.inputs),
+        };
+        let found = quantities.iter().position(|quantity| quantity.name == name);
+        found.ok_or(Error::NoVariable { what, name })
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Parameter(name)
+            | Self::Position(name)
+            | Self::Velocity(name)
+            | Self::Input { name, .. } => name,
+        }
+    }
+}
+
+/// A sum over a run that is to be differentiated: how long the run is, what goes in, and by which
+/// variables.
+#[derive(Clone, Copy)]
+pub struct Sum<'a> {
+    steps: u64,
+    variables: &'a [Variable],
+    signal: Option<&'a Signal>,
+}
+
+/// The value of an input, by the number of the step and by its place in [`Info`].
+type Signal = dyn Fn(u64, usize) -> f64;
+
+impl<'a> Sum<'a> {
+    /// A sum over the start of a run and the ends of so many steps.
+    pub const fn new(steps: u64, variables: &'a [Variable]) -> Self {
+        Self { steps, variables, signal: None }
+    }
+
+    /// The same with inputs that change: `signal` gives the value of an input over a step, by the
+    /// number of the step and the place of the input in [`Info`]. Without it they are those of the
+    /// builder.
+    #[must_use]
+    pub const fn driven_by(self, signal: &'a Signal) -> Self {
+        Self { signal: Some(signal), ..self }
+    }
+
+    /// The value of the sum, with its derivatives by the variables in `gradient`.
+    ///
+    /// `start` makes the run with some of the variables, `term` is what a state adds to the sum,
+    /// and `inputs` has a number per input. For those who write runs of their own; a
+    /// [`Builder`](crate::Builder) has [`gradient`](crate::Builder::gradient).
+    ///
+    /// # Errors
+    /// Those of the run and of `term`, and of [`Builder::gradient`](crate::Builder::gradient).
+    pub fn differentiate<R: System<Dual<f64, N>>, const N: usize>(
+        &self,
+        info: &Info,
+        start: impl Fn(Seeds<'_, N>) -> Result<R, Error>,
+        mut term: impl FnMut(&R) -> Result<Dual<f64, N>, Error>,
+        inputs: &mut [Dual<f64, N>],
+        gradient: &mut [f64],
+    ) -> Result<f64, Error> {
+        const { assert!(N > 0, "at least one derivative is computed at once") };
+        let (found, expected) = (gradient.len(), self.variables.len());
+        if found != expected {
+            return Err(Error::Length { what: "the gradient", found, expected });
+        }
+        for variable in self.variables {
+            variable.find(info)?;
+        }
+        let mut value = f64::NAN;
+        // without variables there is one run, for the value
+        for chunk in 0..expected.div_ceil(N).max(1) {
+            let first = chunk * N;
+            let variables = self.variables.get(first..).unwrap_or_default();
+            let seeds = Seeds { info, variables: variables.get(..N).unwrap_or(variables) };
+            let (sum, t) = self.run(seeds, start(seeds)?, &mut term, inputs)?;
+            value = sum.value;
+            let places = gradient.iter_mut().skip(first).zip(seeds.variables);
+            for ((place, variable), partial) in places.zip(sum.partials) {
+                if !partial.is_finite() {
+                    let (what, name) = ("the derivative of the sum by", variable.name());
+                    return Err(Error::Undefined { t, what, name, value: partial });
+                }
+                *place = partial;
+            }
+        }
+        Ok(value)
+    }
+
+    /// The sum with the derivatives by some of the variables, and the time of its end.
+    fn run<R: System<Dual<f64, N>>, const N: usize>(
+        &self,
+        seeds: Seeds<'_, N>,
+        mut run: R,
+        term: &mut impl FnMut(&R) -> Result<Dual<f64, N>, Error>,
+        inputs: &mut [Dual<f64, N>],
+    ) -> Result<(Dual<f64, N>, f64), Error> {
+        run.inputs(inputs);
+        seeds.set_inputs(&mut run, 0, self.signal, inputs);
+        let mut sum = term(&run)?;
+        for step in 0..self.steps {
+            seeds.set_inputs(&mut run, step, self.signal, inputs);
+            run.step()?;
+            sum = sum + term(&run)?;
+        }
+        Ok((sum, run.time().value))
+    }
+}
+
+/// The variables by which a run differentiates, one partial derivative each.
+#[derive(Clone, Copy, Debug)]
+pub struct Seeds<'a, const N: usize> {
+    info: &'a Info,
+    variables: &'a [Variable],
+}
+
+impl<const N: usize> Seeds<'_, N> {
+    /// Makes variables of parameters.
+    pub fn parameters(&self, parameters: &mut [Dual<f64, N>]) {
+        self.plant(parameters, |variable| matches!(variable, Variable::Parameter(_)));
+    }
+
+    /// Makes variables of the positions and velocities of a start.
+    pub fn start(&self, q: &mut [Dual<f64, N>], v: &mut [Dual<f64, N>]) {
+        self.plant(q, |variable| matches!(variable, Variable::Position(_)));
+        self.plant(v, |variable| matches!(variable, Variable::Velocity(_)));
+    }
+
+    /// Gives a run the inputs of a step.
+    fn set_inputs(
+        &self,
+        run: &mut impl System<Dual<f64, N>>,
+        step: u64,
+        signal: Option<&Signal>,
+        inputs: &mut [Dual<f64, N>],
+    ) {
+        for (at, input) in inputs.iter_mut().enumerate() {
+            *input = Dual::constant(signal.map_or(input.value, |signal| signal(step, at)));
+        }
+        self.plant(inputs, |variable| {
+            matches!(variable, Variable::Input { from, until, .. } if from <= step && step < until)
+        });
+        run.set_inputs(inputs);
+    }
+
+    /// Makes variables of the numbers that some variables name.
+    fn plant(&self, numbers: &mut [Dual<f64, N>], is_meant: impl Fn(Variable) -> bool) {
+        let variables = self.variables.iter().enumerate();
+        for (partial, variable) in variables.filter(|(_, variable)| is_meant(**variable)) {
+            let place = variable.find(self.info).ok().and_then(|at| numbers.get_mut(at));
+            if let Some(number) = place {
+                *number = number.plus_partial(partial, 1.0);
+            }
+        }
+    }
+}
