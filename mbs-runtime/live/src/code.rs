@@ -38,12 +38,13 @@ pub enum Fixed {
 impl Fixed {
     /// The number for these parameters and what depends on them; no number where there is
     /// none.
-    pub fn value(self, parameters: &[f64], hoisted: &[f64]) -> f64 {
-        match self {
-            Self::Number(number) => number,
-            Self::Hoisted(at) => hoisted.get(at).copied().unwrap_or(f64::NAN),
-            Self::Parameter(at) => parameters.get(at).copied().unwrap_or(f64::NAN),
-        }
+    pub fn value<T: Real>(self, parameters: &[T], hoisted: &[T]) -> T {
+        let number = match self {
+            Self::Number(number) => return T::from_f64(number),
+            Self::Hoisted(at) => hoisted.get(at),
+            Self::Parameter(at) => parameters.get(at),
+        };
+        number.copied().unwrap_or(T::from_f64(f64::NAN))
     }
 }
 

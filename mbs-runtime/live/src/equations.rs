@@ -3,138 +3,120 @@
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::worst;
 use mbs_runtime::equations::{At, Described, Equations};
-use mbs_runtime::{Derivation, Gains, Info, Sketch};
+use mbs_runtime::{Derivation, Gains, Info, Real, Sketch};
 
 use crate::Live;
 use crate::arguments::Arguments;
 
-impl Equations<f64> for Live {
+impl<T: Real> Equations<T> for Live<T> {
     fn info(&self) -> &Info {
         self.declared_info()
     }
 
-    fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]) {
+    fn phi(&self, t: T, q: &[T], phi: &mut [T]) {
         self.call(FunctionId::Phi, &position(t, q), [phi]);
     }
 
-    fn phi_dot(&self, at: At<'_, f64>, phi_dot: &mut [f64]) {
+    fn phi_dot(&self, at: At<'_, T>, phi_dot: &mut [T]) {
         self.call(FunctionId::PhiDot, &state(at), [phi_dot]);
     }
 
-    fn complete(&self, states: At<'_, f64>, q: &mut [f64], v: &mut [f64]) {
+    fn complete(&self, states: At<'_, T>, q: &mut [T], v: &mut [T]) {
         self.call(FunctionId::Complete, &state(states), [q, v]);
     }
 
     fn stabilized(
         &self,
-        states: At<'_, f64>,
-        inputs: &[f64],
-        gains: &Gains<f64>,
-        acceleration: &mut [f64],
-        feedback: &mut [f64],
-    ) -> f64 {
+        states: At<'_, T>,
+        inputs: &[T],
+        gains: &Gains<T>,
+        acceleration: &mut [T],
+        feedback: &mut [T],
+    ) -> T {
         let arguments = Arguments { inputs: single(inputs), gains: both(gains), ..state(states) };
         self.solve(|growth| {
             self.call(FunctionId::Stabilized, &arguments, [acceleration, feedback, growth]);
         })
     }
 
-    fn constrained(
-        &self,
-        states: At<'_, f64>,
-        inputs: &[f64],
-        feedback: &[f64],
-        acceleration: &mut [f64],
-    ) -> f64 {
+    fn constrained(&self, states: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T {
         let arguments = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(states) };
         self.solve(|growth| self.call(FunctionId::Constrained, &arguments, [acceleration, growth]))
     }
 
-    fn accelerations(
-        &self,
-        at: At<'_, f64>,
-        inputs: &[f64],
-        feedback: &[f64],
-        acceleration: &mut [f64],
-    ) -> f64 {
-        let mut multipliers = vec![f64::NAN; feedback.len()];
+    fn accelerations(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T {
+        let mut multipliers = vec![T::from_f64(f64::NAN); feedback.len()];
         let given = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(at) };
         self.solve(|growth| {
             self.call(FunctionId::Reactions, &given, [acceleration, &mut multipliers, growth]);
         })
     }
 
-    fn position_correction(&self, t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64 {
+    fn position_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
         let arguments = Arguments { feedback: single(residual), ..position(t, q) };
         self.solve(|growth| self.call(FunctionId::PositionCorrection, &arguments, [correction, growth]))
     }
 
-    fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64 {
+    fn velocity_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
         let arguments = Arguments { feedback: single(residual), ..position(t, q) };
         self.solve(|growth| self.call(FunctionId::VelocityCorrection, &arguments, [correction, growth]))
     }
 
-    fn projection(&self, t: f64, q: &[f64], violation: &[f64], correction: &mut [f64]) -> f64 {
+    fn projection(&self, t: T, q: &[T], violation: &[T], correction: &mut [T]) -> T {
         let arguments = Arguments { feedback: single(violation), ..position(t, q) };
         self.solve(|growth| self.call(FunctionId::Projection, &arguments, [correction, growth]))
     }
 
-    fn worst_pivot(&self, t: f64, q: &[f64]) -> Option<(usize, f64)> {
+    fn worst_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
         self.worst_of(FunctionId::Pivots, t, q)
     }
 
-    fn worst_start_pivot(&self, t: f64, q: &[f64]) -> Option<(usize, f64)> {
+    fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
         self.worst_of(FunctionId::StartPivots, t, q)
     }
 
-    fn kinetic_energy(&self, at: At<'_, f64>) -> f64 {
-        let mut energy = [f64::NAN];
+    fn kinetic_energy(&self, at: At<'_, T>) -> T {
+        let mut energy = [T::from_f64(f64::NAN)];
         self.call(FunctionId::KineticEnergy, &state(at), [&mut energy]);
         energy[0]
     }
 }
 
-impl Described<f64> for Live {
-    fn reactions(
-        &self,
-        at: At<'_, f64>,
-        inputs: &[f64],
-        acceleration: &mut [f64],
-        multipliers: &mut [f64],
-    ) -> f64 {
-        let no_feedback = vec![0.0; self.declared_info().constraints.len()];
+impl<T: Real> Described<T> for Live<T> {
+    fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T {
+        let no_feedback = vec![T::ZERO; self.declared_info().constraints.len()];
         let given = Arguments { inputs: single(inputs), feedback: single(&no_feedback), ..state(at) };
         self.solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]))
     }
 
     fn outputs(
         &self,
-        at: At<'_, f64>,
-        inputs: &[f64],
-        [acceleration, multipliers]: [&[f64]; 2],
-        outputs: &mut [f64],
+        at: At<'_, T>,
+        inputs: &[T],
+        [acceleration, multipliers]: [&[T]; 2],
+        outputs: &mut [T],
     ) {
         let [acceleration, multipliers] = [acceleration, multipliers].map(single);
         let given = Arguments { inputs: single(inputs), acceleration, multipliers, ..state(at) };
         self.call(FunctionId::Outputs, &given, [outputs]);
     }
 
-    fn events(&self, at: At<'_, f64>, inputs: &[f64], values: &mut [f64]) {
+    fn events(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
         let given = Arguments { inputs: single(inputs), ..state(at) };
         self.call(FunctionId::Events, &given, [values]);
     }
 
-    fn potential_energy(&self, at: At<'_, f64>) -> f64 {
-        let mut energy = [f64::NAN];
+    fn potential_energy(&self, at: At<'_, T>) -> T {
+        let mut energy = [T::from_f64(f64::NAN)];
         self.call(FunctionId::PotentialEnergy, &state(at), [&mut energy]);
         energy[0]
     }
 
-    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+    fn points(&self, t: T, q: &[T], points: &mut [T]) {
         self.call(FunctionId::Points, &position(t, q), [points]);
     }
 
-    fn parameters(&self, parameters: &mut [f64]) {
+    fn parameters(&self, parameters: &mut [T]) {
         parameters.iter_mut().zip(Self::parameters(self)).for_each(|(to, from)| *to = *from);
     }
 
@@ -147,37 +129,37 @@ impl Described<f64> for Live {
     }
 }
 
-impl Live {
+impl<T: Real> Live<T> {
     /// The growth that a function gives which solves.
-    fn solve(&self, call: impl FnOnce(&mut [f64])) -> f64 {
-        let mut growth = [f64::NAN];
+    fn solve(&self, call: impl FnOnce(&mut [T])) -> T {
+        let mut growth = [T::from_f64(f64::NAN)];
         call(&mut growth);
         growth[0]
     }
 
-    fn worst_of(&self, pivots: FunctionId, t: f64, q: &[f64]) -> Option<(usize, f64)> {
-        let mut growths = vec![f64::NAN; self.programs().function(pivots).outputs.len()];
+    fn worst_of(&self, pivots: FunctionId, t: T, q: &[T]) -> Option<(usize, T)> {
+        let mut growths = vec![T::from_f64(f64::NAN); self.programs().function(pivots).outputs.len()];
         self.call(pivots, &position(t, q), [&mut growths]);
         worst(&growths)
     }
 }
 
 /// A vector of single numbers, as functions are given it.
-pub(crate) fn single(vector: &[f64]) -> &[[f64; 1]] {
+pub(crate) fn single<T>(vector: &[T]) -> &[[T; 1]] {
     vector.as_chunks().0
 }
 
 /// The gains as functions are given them.
-pub(crate) fn both(gains: &Gains<f64>) -> [[f64; 1]; 2] {
+pub(crate) const fn both<T: Real>(gains: &Gains<T>) -> [[T; 1]; 2] {
     [[gains.minus_two_alpha], [gains.minus_beta_squared]]
 }
 
 /// Time and positions as functions are given them.
-pub(crate) fn position(t: f64, q: &[f64]) -> Arguments<'_> {
+pub(crate) fn position<T: Real>(t: T, q: &[T]) -> Arguments<'_, T> {
     Arguments { t: [t], q: single(q), ..Arguments::default() }
 }
 
 /// Time, positions and velocities as functions are given them.
-pub(crate) fn state<'a>(at: At<'a, f64>) -> Arguments<'a> {
+pub(crate) fn state<T: Real>(at: At<'_, T>) -> Arguments<'_, T> {
     Arguments { v: single(at.v), ..position(at.t, at.q) }
 }

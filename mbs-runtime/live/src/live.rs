@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
-use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, Tableau};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Real, Sketch, Stabilization, Tableau};
 use mbs_symbolic::Inconsistency;
 
 use crate::arguments::Arguments;
@@ -17,7 +17,8 @@ use crate::statics::{self, Tables};
 ///
 /// It is [`Equations`](mbs_runtime::equations::Equations): what is written for these runs
 /// with it as with a mechanism of `mechanism!`, and gives the same to the last bit. A copy
-/// shares the compiled programs.
+/// shares the compiled programs. `T` is its scalar: `f64`, or by [`over`](Self::over) a
+/// [`Dual`](mbs_runtime::Dual) for derivatives.
 ///
 /// # Example
 /// ```
@@ -44,10 +45,10 @@ use crate::statics::{self, Tables};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone)]
-pub struct Live {
+pub struct Live<T = f64> {
     programs: Arc<Programs>,
-    parameters: Vec<f64>,
-    hoisted: Vec<f64>,
+    parameters: Vec<T>,
+    hoisted: Vec<T>,
 }
 
 /// What a declaration is compiled to, whatever its parameters are.
@@ -114,13 +115,44 @@ impl Live {
         let parameters = programs.tables.info.parameters.iter().map(|parameter| parameter.default).collect();
         Self::prepared(Arc::new(programs), parameters)
     }
+}
 
+impl<T: Real> Live<T> {
     /// Computes what depends on parameters alone.
-    fn prepared(programs: Arc<Programs>, parameters: Vec<f64>) -> Self {
-        let mut hoisted = vec![f64::NAN; programs.function(FunctionId::Hoisted).outputs.len()];
+    fn prepared(programs: Arc<Programs>, parameters: Vec<T>) -> Self {
+        let mut hoisted = vec![T::from_f64(f64::NAN); programs.function(FunctionId::Hoisted).outputs.len()];
         let bare = Self { programs, parameters, hoisted: Vec::new() };
         bare.call(FunctionId::Hoisted, &Arguments::default(), [&mut hoisted]);
         Self { hoisted, ..bare }
+    }
+
+    /// The same mechanism over another scalar, its parameters as constants. Nothing is compiled
+    /// again.
+    ///
+    /// # Example
+    /// How the acceleration from the side changes with gravity:
+    /// ```
+    /// use mbs_live::Text;
+    /// use mbs_runtime::Dual;
+    /// use mbs_runtime::equations::{At, Equations};
+    ///
+    /// let text = "Fall {
+    ///     dof = 1;
+    ///     param g = 9.81 [m/s^2];
+    ///     gravity = (0, -g);
+    ///     body ball (y) { mass = 1 [kg]; }
+    ///     start { y = 1 [m]; }
+    /// }";
+    /// let ball = Text::declaration("fall.mbs", text).compile()?;
+    /// let ball = ball.over().with_parameters(|values| values[0] = Dual::<f64, 1>::variable(9.81, 0))?;
+    /// let (still, mut a) = ([Dual::default()], [Dual::default()]);
+    /// ball.constrained(At { t: Dual::default(), q: &still, v: &still }, &[], &[], &mut a);
+    /// assert_eq!((a[0].value, a[0].partials), (-9.81, [-1.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn over<S: Real>(&self) -> Live<S> {
+        let parameters = self.parameters.iter().map(|x| S::from_f64(x.to_f64())).collect();
+        Live::prepared(Arc::clone(&self.programs), parameters)
     }
 
     /// The same mechanism with other parameters: `change` is given those that it has, in SI
@@ -130,11 +162,12 @@ impl Live {
     /// [`Error::Parameter`] if one is not finite, if a mass or an inertia comes out
     /// negative, or if a declared condition does not hold; as the `new` of a mechanism of
     /// `mechanism!`.
-    pub fn with_parameters(&self, change: impl FnOnce(&mut [f64])) -> Result<Self, Error> {
+    pub fn with_parameters(&self, change: impl FnOnce(&mut [T])) -> Result<Self, Error> {
         let mut parameters = self.parameters.clone();
         change(&mut parameters);
         for (&value, parameter) in parameters.iter().zip(self.declared_info().parameters) {
             if !value.is_finite() {
+                let value = value.to_f64();
                 let requirement = "it has to be finite";
                 return Err(Error::Parameter { name: parameter.name, value, requirement });
             }
@@ -146,9 +179,9 @@ impl Live {
 
     fn check_conditions(&self) -> Result<(), Error> {
         let code = self.programs.function(FunctionId::Conditions);
-        let mut found = vec![f64::NAN; code.outputs.len()];
+        let mut found = vec![T::from_f64(f64::NAN); code.outputs.len()];
         self.call(FunctionId::Conditions, &Arguments::default(), [&mut found]);
-        let number = |at: usize| found.get(at).copied().unwrap_or(f64::NAN);
+        let number = |at: usize| found.get(at).map_or(f64::NAN, |found| found.to_f64());
         for condition in &self.programs.conditions {
             if !condition.comparison.holds(number(condition.difference)) {
                 return Err(Error::Parameter {
@@ -162,21 +195,22 @@ impl Live {
     }
 
     /// The parameters, in SI units and in the order of [`Info::parameters`].
-    pub fn parameters(&self) -> &[f64] {
+    pub fn parameters(&self) -> &[T] {
         &self.parameters
     }
 
     /// Time, positions and velocities of the declared start, nothing made consistent.
-    pub fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
+    pub fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
         let n = self.declared_info().coordinates.len();
-        let (mut q, mut v, mut t) = (vec![f64::NAN; n], vec![f64::NAN; n], [f64::NAN]);
+        let unknown = T::from_f64(f64::NAN);
+        let (mut q, mut v, mut t) = (vec![unknown; n], vec![unknown; n], [unknown]);
         self.call(FunctionId::Start, &Arguments::default(), [&mut q, &mut v, &mut t]);
         (t[0], q, v)
     }
 
     /// Whether both were compiled by the same call of
     /// [`Text::compile`](crate::Text::compile), so that they differ in parameters only.
-    pub fn shares_programs_with(&self, other: &Self) -> bool {
+    pub fn shares_programs_with<S>(&self, other: &Live<S>) -> bool {
         Arc::ptr_eq(&self.programs, &other.programs)
     }
 
@@ -215,7 +249,7 @@ impl Live {
     }
 
     /// What a slot holds that does not change from run to run.
-    pub(crate) fn fixed(&self, fixed: Fixed) -> f64 {
+    pub(crate) fn fixed(&self, fixed: Fixed) -> T {
         fixed.value(&self.parameters, &self.hoisted)
     }
 
@@ -223,8 +257,8 @@ impl Live {
     pub(crate) fn call<const VECTORS: usize>(
         &self,
         function: FunctionId,
-        arguments: &Arguments<'_>,
-        results: [&mut [f64]; VECTORS],
+        arguments: &Arguments<'_, T>,
+        results: [&mut [T]; VECTORS],
     ) {
         let code = self.programs.function(function);
         let mut values = code.memory(|fixed| [self.fixed(fixed)]);
@@ -234,9 +268,9 @@ impl Live {
     }
 }
 
-impl fmt::Debug for Live {
+impl<T: fmt::Debug> fmt::Debug for Live<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let info = self.declared_info();
+        let info = &self.programs.tables.info;
         let parameters = info.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(parameter, value)| (parameter.name, value));
         f.debug_struct(info.name).field("parameters", &parameters.collect::<Vec<_>>()).finish_non_exhaustive()

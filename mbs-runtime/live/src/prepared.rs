@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{At, Described, Equations, Room};
 use mbs_runtime::explicit::Beside;
-use mbs_runtime::{Dynamics, Error, Scheme};
+use mbs_runtime::{Dynamics, Error, Real, Scheme};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -15,28 +15,28 @@ use crate::instruction::execute;
 /// A live mechanism that [`Adaptive`](mbs_runtime::Adaptive) can integrate; see
 /// [`Run::adaptive`](crate::Run::adaptive).
 #[derive(Clone, Debug)]
-pub struct Prepared {
-    live: Live,
-    room: RefCell<Memory>,
+pub struct Prepared<T = f64> {
+    live: Live<T>,
+    room: RefCell<Memory<T>>,
 }
 
 /// Slots of the functions that are called in every step, and vectors between them.
 #[derive(Clone, Debug)]
-struct Memory {
-    acceleration: Vec<[f64; 1]>,
-    complete: Vec<[f64; 1]>,
-    phi: Vec<[f64; 1]>,
-    phi_dot: Vec<[f64; 1]>,
-    projection: Vec<[f64; 1]>,
+struct Memory<T> {
+    acceleration: Vec<[T; 1]>,
+    complete: Vec<[T; 1]>,
+    phi: Vec<[T; 1]>,
+    phi_dot: Vec<[T; 1]>,
+    projection: Vec<[T; 1]>,
     /// All coordinates, velocities and corrections.
-    all: [Vec<f64>; 3],
-    violation: Vec<f64>,
-    no_feedback: Vec<f64>,
+    all: [Vec<T>; 3],
+    violation: Vec<T>,
+    no_feedback: Vec<T>,
 }
 
-impl Prepared {
+impl<T: Real> Prepared<T> {
     /// A mechanism with room for its functions.
-    pub fn new(live: &Live) -> Self {
+    pub fn new(live: &Live<T>) -> Self {
         let slots = |function| live.programs().function(function).memory(|fixed| [live.fixed(fixed)]);
         let info = live.declared_info();
         let (n, m) = (info.coordinates.len(), info.constraints.len());
@@ -46,15 +46,15 @@ impl Prepared {
             phi: slots(FunctionId::Phi),
             phi_dot: slots(FunctionId::PhiDot),
             projection: slots(FunctionId::Projection),
-            all: [(); 3].map(|()| vec![0.0; n]),
-            violation: vec![0.0; m],
-            no_feedback: vec![0.0; m],
+            all: [(); 3].map(|()| vec![T::ZERO; n]),
+            violation: vec![T::ZERO; m],
+            no_feedback: vec![T::ZERO; m],
         };
         Self { live: live.clone(), room: RefCell::new(room) }
     }
 
     /// The mechanism.
-    pub fn mechanism(&self) -> &Live {
+    pub fn mechanism(&self) -> &Live<T> {
         &self.live
     }
 
@@ -62,9 +62,9 @@ impl Prepared {
     fn run<const VECTORS: usize>(
         &self,
         function: FunctionId,
-        slots: &mut [[f64; 1]],
-        arguments: &Arguments<'_>,
-        results: [&mut [f64]; VECTORS],
+        slots: &mut [[T; 1]],
+        arguments: &Arguments<'_, T>,
+        results: [&mut [T]; VECTORS],
     ) {
         let programs = self.live.programs();
         let code = programs.function(function);
@@ -74,77 +74,70 @@ impl Prepared {
     }
 }
 
-impl Dynamics for Prepared {
-    type Real = f64;
-    type Coordinates = Vec<f64>;
-    type States = Vec<f64>;
-    type Constraints = Vec<f64>;
-    type Inputs = Vec<f64>;
+impl<T: Real> Dynamics for Prepared<T> {
+    type Real = T;
+    type Coordinates = Vec<T>;
+    type States = Vec<T>;
+    type Constraints = Vec<T>;
+    type Inputs = Vec<T>;
 
-    fn equations(&self) -> &dyn Equations<f64> {
+    fn equations(&self) -> &dyn Equations<T> {
         &self.live
     }
 
-    fn described(&self) -> &dyn Described<f64> {
+    fn described(&self) -> &dyn Described<T> {
         &self.live
     }
 
-    fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
+    fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
         self.live.declared_start()
     }
 
-    fn states(&self, all: &Vec<f64>) -> Vec<f64> {
-        let mut states = vec![0.0; self.live.declared_info().states.len()];
+    fn states(&self, all: &Vec<T>) -> Vec<T> {
+        let mut states = vec![T::ZERO; self.live.declared_info().states.len()];
         self.live.states(all, &mut states);
         states
     }
 
-    fn complete(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, [q_all, v_all]: &mut [Vec<f64>; 2]) {
+    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, [q_all, v_all]: &mut [Vec<T>; 2]) {
         let slots = &mut self.room.borrow_mut().complete;
         self.run(FunctionId::Complete, slots, &state(At { t, q, v }), [q_all, v_all]);
     }
 
-    fn no_feedback(&self) -> Vec<f64> {
-        vec![0.0; self.live.declared_info().constraints.len()]
+    fn no_feedback(&self) -> Vec<T> {
+        vec![T::ZERO; self.live.declared_info().constraints.len()]
     }
 
-    fn default_inputs(&self) -> Vec<f64> {
-        self.live.declared_info().inputs.iter().map(|input| input.default).collect()
+    fn default_inputs(&self) -> Vec<T> {
+        self.live.declared_info().inputs.iter().map(|input| T::from_f64(input.default)).collect()
     }
 
-    fn with_inputs<R>(&self, inputs: &mut Vec<f64>, what: impl FnOnce(&mut [f64]) -> R) -> R {
+    fn with_inputs<R>(&self, inputs: &mut Vec<T>, what: impl FnOnce(&mut [T]) -> R) -> R {
         what(inputs)
     }
 
     fn with_room<S: Scheme>(
         &self,
-        what: impl FnOnce(&mut Room<'_, f64>) -> Result<(), Error>,
+        what: impl FnOnce(&mut Room<'_, T>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let info = self.live.declared_info();
-        let mut numbers = vec![0.0; Room::<f64>::len(info, S::TABLEAU.stage_count())];
+        let mut numbers = vec![T::ZERO; Room::<T>::len(info, S::TABLEAU.stage_count())];
         what(&mut Room::within(&mut numbers, info))
     }
 
-    fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
+    fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]) {
         self.live.events(at, inputs, values);
     }
 
-    fn acceleration(
-        &self,
-        t: f64,
-        q: &Vec<f64>,
-        v: &Vec<f64>,
-        inputs: &Vec<f64>,
-        acceleration: &mut Vec<f64>,
-    ) -> f64 {
+    fn acceleration(&self, t: T, q: &Vec<T>, v: &Vec<T>, inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
         let Memory { acceleration: slots, no_feedback, .. } = &mut *self.room.borrow_mut();
         let at = Arguments { inputs: single(inputs), feedback: single(no_feedback), ..state(At { t, q, v }) };
-        let mut growth = [f64::NAN];
+        let mut growth = [T::from_f64(f64::NAN)];
         self.run(FunctionId::Constrained, slots, &at, [acceleration, &mut growth]);
         growth[0]
     }
 
-    fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {
+    fn correction(&self, t: T, at: &Beside<'_, Vec<T>>, delta: &mut Vec<T>) -> T {
         let Memory { complete, phi, phi_dot, projection, all: [q, v, correction], violation, .. } =
             &mut *self.room.borrow_mut();
         // positions do not depend on velocities
@@ -155,7 +148,7 @@ impl Dynamics for Prepared {
             Some(_) => self.run(FunctionId::PhiDot, phi_dot, &state(At { t, q, v }), [&mut *violation]),
         }
         let given = Arguments { feedback: single(violation), ..position(t, q) };
-        let mut growth = [f64::NAN];
+        let mut growth = [T::from_f64(f64::NAN)];
         self.run(FunctionId::Projection, projection, &given, [&mut *correction, &mut growth]);
         self.live.states(correction, delta);
         growth[0]

@@ -1,5 +1,6 @@
 //! A live mechanism in motion.
 
+mod derivatives;
 mod pack;
 
 pub use pack::Pack;
@@ -9,7 +10,7 @@ use mbs_runtime::equations::{
     self, At, Described, Equations, Preparation, Room, Start, Watch, check_outputs,
 };
 use mbs_runtime::{
-    Adaptive, AdaptiveBuilder, Baumgarte, Derivation, Error, Explicit, Gains, Held, Method, Projected,
+    Adaptive, AdaptiveBuilder, Baumgarte, Derivation, Error, Explicit, Gains, Held, Method, Projected, Real,
     Sketch, System, WorstPlace,
 };
 
@@ -17,7 +18,8 @@ use crate::arguments::Arguments;
 use crate::equations::{single, state};
 use crate::{Live, Prepared, Stepper};
 
-/// A live mechanism being integrated in time; what one does with it is [`System`].
+/// A live mechanism being integrated in time; what one does with it is [`System`]. `T` is its
+/// scalar: `f64`, or by [`over`](Builder::over) a [`Dual`](mbs_runtime::Dual) for derivatives.
 ///
 /// # Example
 /// ```
@@ -40,35 +42,35 @@ use crate::{Live, Prepared, Stepper};
 /// assert!(q[1] < -0.8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Run {
-    mechanism: Live,
-    gains: Gains<f64>,
+pub struct Run<T = f64> {
+    mechanism: Live<T>,
+    gains: Gains<T>,
     method: Explicit,
     keeps_constraints: bool,
-    inputs: Vec<f64>,
-    step: f64,
-    start_time: f64,
+    inputs: Vec<T>,
+    step: T,
+    start_time: T,
     steps: u64,
-    t: f64,
+    t: T,
     /// What is integrated, and its velocities.
-    q: Vec<f64>,
-    v: Vec<f64>,
+    q: Vec<T>,
+    v: Vec<T>,
     /// How many there are.
     multipliers: usize,
-    watch: Watch<f64>,
-    stepper: Stepper,
-    room: Vec<f64>,
+    watch: Watch<T>,
+    stepper: Stepper<T>,
+    room: Vec<T>,
 }
 
 /// The choices before a run starts; see [`Run::builder`].
-pub struct Builder {
-    mechanism: Live,
+pub struct Builder<T = f64> {
+    mechanism: Live<T>,
     step: f64,
     method: Explicit,
     /// α and β in 1/s
     gains: [f64; 2],
-    inputs: Vec<f64>,
-    state: Option<(f64, Vec<f64>, Vec<f64>)>,
+    inputs: Vec<T>,
+    state: Option<(T, Vec<T>, Vec<T>)>,
     start: Start,
     allow_unstable: bool,
 }
@@ -89,18 +91,18 @@ macro_rules! on_slices {
     };
 }
 
-impl Run {
+impl<T: Real> Run<T> {
     /// Choices to make before the start. Without any: the declared start, made consistent,
     /// steps of `step` seconds of the declared scheme, deadbeat feedback held over each step,
     /// inputs at 0.
-    pub fn builder(mechanism: &Live, step: f64) -> Builder {
+    pub fn builder(mechanism: &Live<T>, step: f64) -> Builder<T> {
         let method = Explicit::held(mechanism.declared_scheme());
         Builder {
             mechanism: mechanism.clone(),
             step,
             method,
             gains: method.deadbeat(step),
-            inputs: vec![0.0; mechanism.declared_info().inputs.len()],
+            inputs: vec![T::ZERO; mechanism.declared_info().inputs.len()],
             state: None,
             start: Start::Declared,
             allow_unstable: false,
@@ -131,18 +133,19 @@ impl Run {
     /// assert!((x[0] - 2.0_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn adaptive(mechanism: &Live) -> AdaptiveBuilder<Prepared> {
+    pub fn adaptive(mechanism: &Live<T>) -> AdaptiveBuilder<Prepared<T>> {
         Adaptive::builder(Prepared::new(mechanism))
     }
 
     /// What is integrated.
-    fn states(&self) -> At<'_, f64> {
+    fn states(&self) -> At<'_, T> {
         At { t: self.t, q: &self.q, v: &self.v }
     }
 
     /// All coordinates and velocities.
-    fn completed(&self) -> [Vec<f64>; 2] {
-        let mut all = [(); 2].map(|()| vec![f64::NAN; self.mechanism.declared_info().coordinates.len()]);
+    fn completed(&self) -> [Vec<T>; 2] {
+        let mut all =
+            [(); 2].map(|()| vec![T::from_f64(f64::NAN); self.mechanism.declared_info().coordinates.len()]);
         let [q, v] = &mut all;
         self.mechanism.complete(self.states(), q, v);
         all
@@ -153,23 +156,23 @@ impl Run {
     ///
     /// # Errors
     /// As [`System::reactions`].
-    pub fn raw_reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
-        let mut feedback = vec![f64::NAN; self.multipliers];
-        let mut unread = vec![f64::NAN; self.q.len()];
+    pub fn raw_reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error> {
+        let mut feedback = vec![T::from_f64(f64::NAN); self.multipliers];
+        let mut unread = vec![T::from_f64(f64::NAN); self.q.len()];
         self.mechanism.stabilized(self.states(), &self.inputs, &self.gains, &mut unread, &mut feedback);
         self.reactions_with(&feedback, acceleration, multipliers)
     }
 
     fn reactions_with(
         &self,
-        feedback: &[f64],
-        acceleration: &mut [f64],
-        multipliers: &mut [f64],
+        feedback: &[T],
+        acceleration: &mut [T],
+        multipliers: &mut [T],
     ) -> Result<(), Error> {
         let [q, v] = self.completed();
         let at = At { t: self.t, q: &q, v: &v };
         let arguments = Arguments { inputs: single(&self.inputs), feedback: single(feedback), ..state(at) };
-        let mut growth = [f64::NAN];
+        let mut growth = [T::from_f64(f64::NAN)];
         self.mechanism.call(
             FunctionId::Reactions,
             &arguments,
@@ -179,12 +182,12 @@ impl Run {
     }
 }
 
-impl System for Run {
-    fn equations(&self) -> &dyn Equations<f64> {
+impl<T: Real> System<T> for Run<T> {
+    fn equations(&self) -> &dyn Equations<T> {
         &self.mechanism
     }
 
-    fn described(&self) -> &dyn Described<f64> {
+    fn described(&self) -> &dyn Described<T> {
         &self.mechanism
     }
 
@@ -196,27 +199,27 @@ impl System for Run {
         self.mechanism.sketch()
     }
 
-    fn parameters(&self, parameters: &mut [f64]) {
+    fn parameters(&self, parameters: &mut [T]) {
         copy(parameters, self.mechanism.parameters());
     }
 
-    fn time(&self) -> f64 {
+    fn time(&self) -> T {
         self.t
     }
 
-    fn state(&self, q: &mut [f64], v: &mut [f64]) {
+    fn state(&self, q: &mut [T], v: &mut [T]) {
         self.mechanism.complete(self.states(), q, v);
     }
 
-    fn inputs(&self, inputs: &mut [f64]) {
+    fn inputs(&self, inputs: &mut [T]) {
         copy(inputs, &self.inputs);
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) {
+    fn set_inputs(&mut self, inputs: &[T]) {
         copy(&mut self.inputs, inputs);
     }
 
-    fn step_size(&self) -> f64 {
+    fn step_size(&self) -> T {
         self.step
     }
 
@@ -225,11 +228,11 @@ impl System for Run {
     }
 
     fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        equations::steps_to::<f64>(self.start_time, self.step, self.steps, end)
+        equations::steps_to::<T>(self.start_time.to_f64(), self.step.to_f64(), self.steps, end)
     }
 
     fn step(&mut self) -> Result<(), Error> {
-        let t_next = self.start_time + (self.steps + 1) as f64 * self.step;
+        let t_next = self.start_time + T::from_f64((self.steps + 1) as f64) * self.step;
         let run = on_slices!(self);
         let mut room = Room::within(&mut self.room, self.mechanism.declared_info());
         let growth = self.stepper.step(run.at, run.inputs, &run.gains, run.step, t_next);
@@ -249,34 +252,34 @@ impl System for Run {
         Ok(())
     }
 
-    fn reactions(&self, acceleration: &mut [f64], multipliers: &mut [f64]) -> Result<(), Error> {
-        self.reactions_with(&vec![0.0; multipliers.len()], acceleration, multipliers)
+    fn reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error> {
+        self.reactions_with(&vec![T::ZERO; multipliers.len()], acceleration, multipliers)
     }
 
-    fn outputs(&self, acceleration: &[f64], multipliers: &[f64], outputs: &mut [f64]) -> Result<(), Error> {
+    fn outputs(&self, acceleration: &[T], multipliers: &[T], outputs: &mut [T]) -> Result<(), Error> {
         let [q, v] = self.completed();
         let at = At { t: self.t, q: &q, v: &v };
         Described::outputs(&self.mechanism, at, &self.inputs, [acceleration, multipliers], outputs);
         check_outputs(self.mechanism.declared_info(), self.t, outputs)
     }
 
-    fn violations(&self) -> [f64; 2] {
-        let (mut rows, [q, v]) = (vec![f64::NAN; self.multipliers], self.completed());
+    fn violations(&self) -> [T; 2] {
+        let (mut rows, [q, v]) = (vec![T::from_f64(f64::NAN); self.multipliers], self.completed());
         self.mechanism.phi(self.t, &q, &mut rows);
         let violation = norm(&rows);
         self.mechanism.phi_dot(At { t: self.t, q: &q, v: &v }, &mut rows);
         [violation, norm(&rows)]
     }
 
-    fn energies(&self, at: At<'_, f64>) -> [f64; 2] {
+    fn energies(&self, at: At<'_, T>) -> [T; 2] {
         [self.mechanism.kinetic_energy(at), self.mechanism.potential_energy(at)]
     }
 
-    fn points(&self, t: f64, q: &[f64], points: &mut [f64]) {
+    fn points(&self, t: T, q: &[T], points: &mut [T]) {
         self.mechanism.points(t, q, points);
     }
 
-    fn worst_growth(&self) -> f64 {
+    fn worst_growth(&self) -> T {
         self.watch.worst
     }
 
@@ -290,16 +293,16 @@ impl System for Run {
 }
 
 /// As many numbers as there are in both.
-fn copy(to: &mut [f64], from: &[f64]) {
+fn copy<T: Copy>(to: &mut [T], from: &[T]) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
 }
 
 /// Euclidean norm, summed up in the order in which the core does it.
-fn norm(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
+fn norm<T: Real>(x: &[T]) -> T {
+    x.iter().fold(T::ZERO, |sum, &x| sum + x * x).sqrt()
 }
 
-impl Builder {
+impl<T: Real> Builder<T> {
     /// The method of integration, with the gains that are deadbeat for it.
     #[must_use]
     pub fn method(self, method: Explicit) -> Self {
@@ -320,7 +323,7 @@ impl Builder {
 
     /// Starts at `t` seconds from positions and velocities that have to be consistent.
     #[must_use]
-    pub fn from_state(mut self, at: At<'_, f64>) -> Self {
+    pub fn from_state(mut self, at: At<'_, T>) -> Self {
         self.state = Some((at.t, at.q.to_vec(), at.v.to_vec()));
         if self.start == Start::Declared {
             self.start = Start::Given;
@@ -337,7 +340,7 @@ impl Builder {
 
     /// The inputs of the first step, one number each in SI units.
     #[must_use]
-    pub fn inputs(mut self, inputs: &[f64]) -> Self {
+    pub fn inputs(mut self, inputs: &[T]) -> Self {
         self.inputs.iter_mut().zip(inputs).for_each(|(input, value)| *input = *value);
         self
     }
@@ -353,9 +356,11 @@ impl Builder {
     ///
     /// # Errors
     /// As the builder of a [`Simulation`](mbs_runtime::Simulation).
-    pub fn build(self) -> Result<Run, Error> {
+    pub fn build(self) -> Result<Run<T>, Error> {
         let Self { mechanism, step, method, gains, inputs, state, start, allow_unstable } = self;
-        if !(step > 0.0 && step.is_finite()) {
+        // as the scalar holds it
+        let h = T::from_f64(step);
+        if !(h > T::ZERO && h.is_finite()) {
             return Err(Error::Step { step });
         }
         let [alpha, beta] = gains;
@@ -370,12 +375,14 @@ impl Builder {
         }
         let info = mechanism.declared_info();
         let (t, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
-        [&mut q, &mut v].into_iter().for_each(|all| all.resize(info.coordinates.len(), f64::NAN));
-        let mut numbers = vec![0.0; Room::<f64>::len(info, method.tableau.stage_count())];
+        [&mut q, &mut v]
+            .into_iter()
+            .for_each(|all| all.resize(info.coordinates.len(), T::from_f64(f64::NAN)));
+        let mut numbers = vec![T::ZERO; Room::<T>::len(info, method.tableau.stage_count())];
         let mut room = Room::within(&mut numbers, info);
-        let preparation = Preparation { start, inputs: &inputs, step, keeps_constraints };
+        let preparation = Preparation { start, inputs: &inputs, step: h, keeps_constraints };
         let length = preparation.prepare(&mechanism, t, &mut q, &mut v, &mut room)?;
-        let mut states = [(); 2].map(|()| vec![0.0; info.states.len()]);
+        let mut states = [(); 2].map(|()| vec![T::ZERO; info.states.len()]);
         states.iter_mut().zip([&q, &v]).for_each(|(states, all)| mechanism.states(all, states));
         let [q, v] = states;
         Ok(Run {
@@ -383,7 +390,7 @@ impl Builder {
             method,
             keeps_constraints,
             inputs,
-            step,
+            step: h,
             start_time: t,
             steps: 0,
             t,

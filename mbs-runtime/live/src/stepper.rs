@@ -1,7 +1,7 @@
 //! Steps of one live mechanism.
 
 use mbs_runtime::equations::At;
-use mbs_runtime::{Explicit, Gains};
+use mbs_runtime::{Explicit, Gains, Real};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -19,7 +19,7 @@ use crate::steps::Steps;
 /// ```
 /// use mbs_live::{Stepper, Text};
 /// use mbs_runtime::equations::At;
-/// use mbs_runtime::{Explicit, Gains};
+/// use mbs_runtime::{Explicit, Gains, Real};
 ///
 /// let text = "Oscillator {
 ///     dof = 1;
@@ -39,11 +39,11 @@ use crate::steps::Steps;
 /// assert!((q[0] - 2.0_f64.cos()).abs() < 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Stepper(Steps<f64, 1>);
+pub struct Stepper<T = f64>(Steps<T, 1>);
 
-impl Stepper {
+impl<T: Real> Stepper<T> {
     /// Steps of this method.
-    pub fn new(mechanism: &Live, method: Explicit) -> Self {
+    pub fn new(mechanism: &Live<T>, method: Explicit) -> Self {
         let run = |instructions: &_, splines: &_, values: &mut _| execute(instructions, splines, values);
         Self(Steps::new(mechanism.programs(), method, run, |fixed| [mechanism.fixed(fixed)]))
     }
@@ -51,7 +51,7 @@ impl Stepper {
     /// A step of length `h` seconds from a state to the time `t_next`; its growth, that of
     /// all stages added. Vectors have a component per coordinate that is integrated
     /// ([`Info::states`](mbs_runtime::Info::states)), or per input.
-    pub fn step(&mut self, at: At<'_, f64>, inputs: &[f64], gains: &Gains<f64>, h: f64, t_next: f64) -> f64 {
+    pub fn step(&mut self, at: At<'_, T>, inputs: &[T], gains: &Gains<T>, h: T, t_next: T) -> T {
         self.0.step(&Arguments {
             inputs: single(inputs),
             gains: both(gains),
@@ -63,12 +63,12 @@ impl Stepper {
     }
 
     /// The positions that are integrated after the last step.
-    pub fn q(&self) -> &[f64] {
+    pub fn q(&self) -> &[T] {
         self.0.q.as_flattened()
     }
 
     /// Their velocities after the last step.
-    pub fn v(&self) -> &[f64] {
+    pub fn v(&self) -> &[T] {
         self.0.v.as_flattened()
     }
 }
