@@ -1,5 +1,6 @@
 //! What there is to know of a mechanism beside its equations.
 
+use crate::differentiable::Differentiable;
 use crate::equations::{At, Equations, read, write};
 use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
 
@@ -29,6 +30,11 @@ pub trait Described<T: Real>: Equations<T> {
 
     /// What a picture of it shows.
     fn sketch(&self) -> &Sketch;
+
+    /// The same with equations that can be had over duals, if it has them.
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        None
+    }
 }
 
 impl<M: Mechanism> Described<M::Real> for M {

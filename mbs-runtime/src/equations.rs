@@ -9,6 +9,7 @@
 //! ([`Info::states`]). SI units, angles in rad.
 
 pub use crate::described::Described;
+pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};
 pub use crate::reach::reach;
 pub use crate::room::Room;
 pub use crate::run::{Correction, Run, check_outputs, correction};

@@ -118,6 +118,7 @@ mod components;
 mod derivation;
 mod described;
 mod diagnosis;
+mod differentiable;
 mod dual;
 pub mod equations;
 mod error;

@@ -1,9 +1,11 @@
 //! A live mechanism as [`Equations`]: a function of the compiled mechanism behind each method.
 
+use std::any::Any;
+
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::worst;
-use mbs_runtime::equations::{At, Described, Equations};
-use mbs_runtime::{Derivation, Gains, Info, Real, Sketch};
+use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials};
+use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -126,6 +128,24 @@ impl<T: Real> Described<T> for Live<T> {
 
     fn sketch(&self) -> &Sketch {
         Self::sketch(self)
+    }
+
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        let live: &dyn Any = self;
+        live.downcast_ref::<Live>().map(|live| live as &dyn Differentiable)
+    }
+}
+
+impl Differentiable for Live {
+    fn with_partials(
+        &self,
+        parameters: &[Partials],
+        what: &mut dyn FnMut(&dyn Described<Partials>),
+    ) -> Result<(), Error> {
+        let given =
+            |own: &mut [Partials]| own.iter_mut().zip(parameters).for_each(|(own, given)| *own = *given);
+        what(&self.over().with_parameters(given)?);
+        Ok(())
     }
 }
 

@@ -1,0 +1,121 @@
+//! Equations over duals, of a mechanism of which only an object is known.
+
+use crate::equations::{At, Described, Equations, read};
+use crate::{Derivation, Dual, Error, Gains, Info, Mechanism, Sketch};
+
+/// How many partial derivatives [`Differentiable`] equations carry at once.
+pub const PARTIALS: usize = 4;
+
+/// A number with [`PARTIALS`] partial derivatives.
+pub type Partials = Dual<f64, PARTIALS>;
+
+/// A mechanism whose equations can be had over duals, although only an object is known of it: the
+/// derivatives of accelerations, reactions and outputs by positions, velocities, inputs, time and
+/// parameters, for tools.
+///
+/// Texts are. A type is if it stands in [`Differentiated`], because its equations are compiled
+/// once more for that. [`Described::differentiable`] says whether an object is.
+///
+/// # Example
+/// How the acceleration of a swing from the side changes with its length, and along its path:
+/// ```
+/// use mbs_runtime::equations::{At, Described, Differentiable, Differentiated, Partials};
+/// use mbs_runtime::mechanism;
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #     }
+/// # }
+/// let swing = Differentiated(Pendulum::declared());
+/// let object: &dyn Described<f64> = &swing;
+///
+/// let tools = object.differentiable().expect("it was made to be");
+/// let length = Partials::constant(1.0);
+/// let still = [Partials::constant(0.0); 2];
+/// // along the path x = cos s, y = sin s the acceleration is −g sin s in the one direction and
+/// // −g cos s in the other
+/// let q = [Partials::constant(1.0), Partials::variable(0.0, 0)];
+/// let (mut a, mut multipliers) = ([Partials::default(); 2], [Partials::default()]);
+/// tools.with_partials(&[length], &mut |equations| {
+///     let at = At { t: Partials::default(), q: &q, v: &still };
+///     equations.reactions(at, &[], &mut a, &mut multipliers);
+/// })?;
+/// assert_eq!((a[0].value, a[1].value), (0.0, -9.81));
+/// assert!((a[0].partials[0] - 9.81).abs() < 1e-14);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+pub trait Differentiable: Described<f64> {
+    /// Does something with the equations over duals, with these parameters: constants, or
+    /// variables.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    fn with_partials(
+        &self,
+        parameters: &[Partials],
+        what: &mut dyn FnMut(&dyn Described<Partials>),
+    ) -> Result<(), Error>;
+}
+
+/// A mechanism of `mechanism!` that is [`Differentiable`]. Its equations are compiled for duals
+/// too, which takes about as long as the rest of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Differentiated<M>(pub M);
+
+impl<M: Mechanism<Real = f64>> Differentiable for Differentiated<M> {
+    fn with_partials(
+        &self,
+        parameters: &[Partials],
+        what: &mut dyn FnMut(&dyn Described<Partials>),
+    ) -> Result<(), Error> {
+        what(&M::Over::<Partials>::new(read(parameters))?);
+        Ok(())
+    }
+}
+
+/// Methods that are those of the mechanism inside.
+macro_rules! of_the_mechanism {
+    ($($Trait:ident::$name:ident($($argument:ident: $Type:ty),*) $(-> $Result:ty)?;)*) => {$(
+        fn $name(&self, $($argument: $Type),*) $(-> $Result)? {
+            $Trait::$name(&self.0, $($argument),*)
+        }
+    )*};
+}
+
+impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
+    of_the_mechanism! {
+        Equations::info() -> &Info;
+        Equations::phi(t: f64, q: &[f64], phi: &mut [f64]);
+        Equations::phi_dot(at: At<'_, f64>, phi_dot: &mut [f64]);
+        Equations::stabilized(at: At<'_, f64>, inputs: &[f64], gains: &Gains<f64>, a: &mut [f64], feedback: &mut [f64]) -> f64;
+        Equations::constrained(at: At<'_, f64>, inputs: &[f64], feedback: &[f64], a: &mut [f64]) -> f64;
+        Equations::position_correction(t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64;
+        Equations::velocity_correction(t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64;
+        Equations::projection(t: f64, q: &[f64], violation: &[f64], correction: &mut [f64]) -> f64;
+        Equations::worst_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
+        Equations::worst_start_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
+        Equations::kinetic_energy(at: At<'_, f64>) -> f64;
+    }
+}
+
+impl<M: Mechanism<Real = f64>> Described<f64> for Differentiated<M> {
+    of_the_mechanism! {
+        Described::reactions(at: At<'_, f64>, inputs: &[f64], a: &mut [f64], multipliers: &mut [f64]) -> f64;
+        Described::outputs(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], outputs: &mut [f64]);
+        Described::events(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
+        Described::potential_energy(at: At<'_, f64>) -> f64;
+        Described::points(t: f64, q: &[f64], points: &mut [f64]);
+        Described::parameters(parameters: &mut [f64]);
+        Described::derivation() -> &Derivation;
+        Described::sketch() -> &Sketch;
+    }
+
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        Some(self)
+    }
+}
