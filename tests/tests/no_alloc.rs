@@ -1,16 +1,17 @@
 //! Not one allocation in 10⁶ steps: driven and free, with both kinds of
-//! feedback, with reactions, outputs and points, and on the way into an error.
+//! feedback, with reactions, outputs and points, with derivatives, and on the way into an error.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use mbs_live::{Run, Text};
 use mbs_runtime::{
-    Adaptive, Baumgarte, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rk4, Sampled, Simulation,
-    System as _, start,
+    Adaptive, Baumgarte, Components, Dual, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rk4,
+    Sampled, Simulation, System as _, start,
 };
 use models::slider_crank::SliderCrank;
-use models::slider_crank_free::SliderCrankFree;
+use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeParameters};
 
 /// Counts on its own thread, so that the test harness does not disturb.
 struct Counting;
@@ -73,6 +74,33 @@ fn steps_do_not_allocate() {
     assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<Held>::deadbeat(H)), 0);
     assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<PerStage>::deadbeat(H)), 0);
     assert_eq!(count_steps(SliderCrankFree::declared(), Baumgarte::<Projected<Rk4>>::NONE), 0);
+}
+
+/// Steps of duals, starts and runs to a tolerance with them; steps of a text with them.
+#[test]
+fn derivatives_do_not_allocate() {
+    let declared = SliderCrankFree::declared();
+    let allocated = allocations(|| {
+        let mut parameters: SliderCrankFreeParameters<_> = declared.parameters().over();
+        parameters.l1 = Dual::<f64, 4>::variable(0.06, 0);
+        let builder = Simulation::builder(declared, H).over(parameters).expect("lengths");
+        let mut run = builder.build().expect("a start");
+        for _ in 0..STEPS / 100 {
+            run.step().expect("a step");
+            let _ = std::hint::black_box((run.outputs(), run.step_with_reactions()));
+        }
+        let mut run = Adaptive::builder(*run.mechanism()).build().expect("a start");
+        run.advance_to(1.0).expect("a regular motion");
+    });
+    assert_eq!(allocated, 0);
+
+    let text = "Block { dof = 1; param k = 4 [N/m]; body block (x) { mass = 1 [kg]; }
+        force spring on x = -k*x; start { x = 1 [m]; } }";
+    let block = Text::declaration("block.mbs", text).compile().expect("a declaration");
+    let by_stiffness = |values: &mut [Dual<f64, 4>]| values[0] = Dual::variable(4.0, 0);
+    let builder = Run::builder(&block, H).over(by_stiffness).expect("a stiffness");
+    let mut run = builder.build().expect("a start");
+    assert_eq!(allocations(|| run.advance(10_000).expect("a regular motion")), 0);
 }
 
 #[test]
