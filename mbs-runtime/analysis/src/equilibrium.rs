@@ -118,9 +118,11 @@ impl Equilibrium {
 /// implicit steps that grow as the acceleration falls (pseudo-transient continuation): towards a
 /// stable equilibrium, past unstable ones, from which it is pushed if it begins there.
 ///
-/// Drives are held where they are at `t`. Derivatives are five-point differences, about 10⁻¹¹ of
-/// their size, which bounds the rate of convergence and not the result; stiffnesses are good to
-/// ten digits.
+/// Drives are held where they are at `t`. Derivatives are exact for a mechanism that is
+/// [`differentiable`](Described::differentiable): a text, or a type in
+/// [`Differentiated`](mbs_runtime::equations::Differentiated). For other types they are five-point
+/// differences, about 10⁻¹¹ of their size, which bounds the rate of convergence and not the result;
+/// stiffnesses are good to ten digits then.
 ///
 /// # Errors
 /// [`Error::NoFreedom`], [`Error::NoEquilibrium`], [`Error::Length`]; of the mechanism

@@ -25,6 +25,7 @@ mod linearization;
 mod modes;
 mod point;
 mod response;
+mod rest;
 mod sensitivity;
 mod signal;
 mod tangent;

@@ -3,8 +3,8 @@
 use mbs_runtime::equations::{At, Described};
 use nalgebra::{DMatrix, DVector};
 
-use crate::Error;
 use crate::difference::five_point;
+use crate::{Error, rest};
 
 /// A mechanism at rest, with its inputs and its time held.
 pub struct Rest<'a> {
@@ -87,19 +87,8 @@ impl<'a> Rest<'a> {
 
     /// q̈ from rest, and λ, with drives that stand still: Φ_q q̈ = 0.
     pub fn acceleration(&self, q: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
-        let info = self.mechanism.info();
-        let (n, m) = (q.len(), info.constraints.len());
-        let still = vec![0.0; n];
-        let at = At { t: self.t, q: q.as_slice(), v: &still };
-        let (mut a, mut multipliers) = (DVector::zeros(n), DVector::zeros(m));
-        self.mechanism.reactions(at, self.inputs, a.as_mut_slice(), multipliers.as_mut_slice());
-        // what the acceleration of drives adds is taken away
-        let gamma = self.along(q, &a);
-        if gamma.amax() > 0.0 {
-            let feedback: Vec<f64> = gamma.iter().map(|gamma| -gamma).collect();
-            self.mechanism.accelerations(at, self.inputs, &feedback, a.as_mut_slice());
-        }
-        (a, multipliers)
+        let (a, multipliers) = rest::acceleration(self.mechanism, self.t, q.as_slice(), self.inputs);
+        (DVector::from_vec(a), DVector::from_vec(multipliers))
     }
 
     /// Φ
@@ -177,8 +166,14 @@ impl<'a> Rest<'a> {
         })
     }
 
-    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions.
+    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions: by the chain rule
+    /// where the equations can be had over duals, else by the five-point formula.
     pub fn stiffness_rate(&self, q: &DVector<f64>, tangent: &Tangent) -> DMatrix<f64> {
+        if let Some(rates) = rest::rates(self, q, &tangent.directions) {
+            let columns: Vec<_> =
+                rates.column_iter().map(|rate| tangent.minimal(&rate.into_owned())).collect();
+            return DMatrix::from_fn(columns.len(), columns.len(), |row, column| columns[column][row]);
+        }
         let scales = self.scales();
         let directions = &tangent.directions;
         let mut reduced = DMatrix::zeros(directions.ncols(), directions.ncols());

@@ -4,6 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use mbs_analysis::{Error, Search, Stability, Strategy, equilibrium};
+use mbs_runtime::equations::{Described, Differentiated};
 use mbs_runtime::mechanism;
 
 mechanism! {
@@ -251,4 +252,17 @@ fn what_cannot_rest_is_refused() {
     assert!(matches!(error, Error::NoFreedom { mechanism: "Driven" }), "{error}");
     let error = equilibrium(&Spring::declared(), &from(&[1.0, 2.0])).expect_err("too many");
     assert!(error.to_string().contains("2 numbers"), "{error}");
+}
+
+/// Where the equations can be had over duals, stiffnesses are exact: κ = 3g/2l of a rod, to a few
+/// roundings of its terms. Without, they are differences, good to ten digits.
+#[test]
+fn a_differentiable_mechanism_has_exact_stiffnesses() {
+    let expected = 1.5 * 9.81 / 0.8;
+    let of = |mechanism: &dyn Described<f64>| {
+        let rest = equilibrium(mechanism, &Search::default()).unwrap();
+        (rest.stiffness[0] - expected).abs() / expected
+    };
+    let pendulum = Pendulum::declared();
+    assert!(of(&pendulum) < 1e-10 && of(&Differentiated(pendulum)) < 32.0 * f64::EPSILON);
 }
