@@ -81,11 +81,7 @@ impl<T: Real, const N: usize> Dual<T, N> {
     /// f(x) from f and f′ at x.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = slope * partials[at];
-        }
-        Self { value, partials }.with_still(slope, self.partials)
+        Self { value, partials: T::scaled(slope, &self.partials) }.with_still(slope, self.partials)
     }
 
     /// f(x, y) from f and its partial derivatives at (x, y).
@@ -182,11 +178,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, y: Self) -> Self {
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = partials[at] + y.partials[at];
-        }
-        Self { value: self.value + y.value, partials }
+        Self { value: self.value + y.value, partials: T::sum(&self.partials, &y.partials) }
     }
 }
 
@@ -194,11 +186,7 @@ impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, y: Self) -> Self {
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = partials[at] - y.partials[at];
-        }
-        Self { value: self.value - y.value, partials }
+        Self { value: self.value - y.value, partials: T::difference(&self.partials, &y.partials) }
     }
 }
 
@@ -206,10 +194,7 @@ impl<T: Real, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, y: Self) -> Self {
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = partials[at] * y.value + self.value * y.partials[at];
-        }
+        let partials = T::combined(y.value, &self.partials, self.value, &y.partials);
         Self { value: self.value * y.value, partials }
     }
 }
@@ -218,12 +203,9 @@ impl<T: Real, const N: usize> Div for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, y: Self) -> Self {
-        // the division of the partials need not wait for that of the value
+        // two divisions that do not wait for each other
         let (value, inverse) = (self.value / y.value, T::from_f64(1.0) / y.value);
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = (partials[at] - value * y.partials[at]) * inverse;
-        }
+        let partials = T::combined(inverse, &self.partials, -(value * inverse), &y.partials);
         Self { value, partials }
     }
 }
@@ -232,11 +214,7 @@ impl<T: Real, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        let mut partials = self.partials;
-        for at in 0..N {
-            partials[at] = -partials[at];
-        }
-        Self { value: -self.value, partials }
+        Self { value: -self.value, partials: T::scaled(-T::from_f64(1.0), &self.partials) }
     }
 }
 

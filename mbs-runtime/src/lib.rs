@@ -38,6 +38,7 @@
 //!
 //! * [`language`]: what can be declared, and what is generated;
 //! * [`methods`]: schemes, what keeps the constraints, runs to a tolerance;
+//! * [`gradients`]: derivatives of runs by parameters, start and inputs;
 //! * [`Simulation`]: integration in time with a constant step; [`Builder`] has the choices;
 //! * [`Adaptive`]: integration to a tolerance;
 //! * [`Baumgarte`]: feedback, its gains and when they are stable;
@@ -136,6 +137,7 @@ mod mechanism;
 mod method;
 mod pack;
 mod pair;
+mod partials;
 mod reach;
 mod real;
 mod room;

@@ -4,6 +4,7 @@ use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::pair::{Pair, Two, Vector};
+use crate::partials;
 use crate::spline::Spline;
 
 /// A real scalar: what a generated solver needs to know of its number type.
@@ -128,6 +129,30 @@ pub trait Real:
     fn with_partials_of(self, _other: Self) -> Self {
         self
     }
+    /// a x + b y of partial derivatives in this scalar.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn combined<const N: usize>(a: Self, x: &[Self; N], b: Self, y: &[Self; N]) -> [Self; N] {
+        core::array::from_fn(|at| a * x[at] + b * y[at])
+    }
+    /// x + y of partial derivatives.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sum<const N: usize>(x: &[Self; N], y: &[Self; N]) -> [Self; N] {
+        core::array::from_fn(|at| x[at] + y[at])
+    }
+    /// x − y of partial derivatives.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn difference<const N: usize>(x: &[Self; N], y: &[Self; N]) -> [Self; N] {
+        core::array::from_fn(|at| x[at] - y[at])
+    }
+    /// a x of partial derivatives.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn scaled<const N: usize>(a: Self, x: &[Self; N]) -> [Self; N] {
+        core::array::from_fn(|at| a * x[at])
+    }
     /// A first derivative; 0 where there is none.
     #[doc(hidden)]
     #[inline(always)]
@@ -184,8 +209,30 @@ macro_rules! elementary {
     )*};
 }
 
+/// Partial derivatives in vector registers.
+macro_rules! in_pairs {
+    () => {
+        #[inline(always)]
+        fn combined<const N: usize>(a: Self, x: &[Self; N], b: Self, y: &[Self; N]) -> [Self; N] {
+            partials::combined(a, x, b, y)
+        }
+        #[inline(always)]
+        fn sum<const N: usize>(x: &[Self; N], y: &[Self; N]) -> [Self; N] {
+            partials::sum(x, y)
+        }
+        #[inline(always)]
+        fn difference<const N: usize>(x: &[Self; N], y: &[Self; N]) -> [Self; N] {
+            partials::difference(x, y)
+        }
+        #[inline(always)]
+        fn scaled<const N: usize>(a: Self, x: &[Self; N]) -> [Self; N] {
+            partials::scaled(a, x)
+        }
+    };
+}
+
 macro_rules! real {
-    ($float:ident, $Pair:ty, $sincos:ident, $atan2:ident, $pow:ident; $($elementary:tt)*) => {
+    ($float:ident, $Pair:ty, $sincos:ident, $atan2:ident, $pow:ident; $($own:ident!())?; $($elementary:tt)*) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const EPSILON: Self = $float::EPSILON;
@@ -249,13 +296,14 @@ macro_rules! real {
                 if self > other { 1.0 } else { 0.0 }
             }
             elementary!($float: $($elementary)*);
+            $($own!();)?
         }
     };
 }
 
-real!(f64, Vector, sin_cos_f64, atan2, pow;
+real!(f64, Vector, sin_cos_f64, atan2, pow; in_pairs!();
     tan = tan, asin = asin, acos = acos, atan = atan,
     sqrt = sqrt, exp = exp, ln = log, tanh = tanh);
-real!(f32, Two<f32>, sin_cos_f32, atan2f, powf;
+real!(f32, Two<f32>, sin_cos_f32, atan2f, powf; ;
     tan = tanf, asin = asinf, acos = acosf, atan = atanf,
     sqrt = sqrtf, exp = expf, ln = logf, tanh = tanhf);
