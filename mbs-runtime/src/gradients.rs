@@ -1,4 +1,5 @@
 #![doc = include_str!("gradients.md")]
+#![doc = include_str!("gradients.svg")]
 
 use crate::{Dual, Error, Info, Real, System};
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use mbs_runtime::gradients::{Sum, Variable};
-use mbs_runtime::{Dual, Error, Held, Mechanism, Rk4, Simulation, mechanism};
+use mbs_runtime::{Dual, Error, Held, Rk4, Simulation, mechanism};
 
 mechanism! {
     /// m ẍ + c ẋ + k x = F

@@ -128,7 +128,7 @@ fn equations_of(live: &Live) {
         });
         let duals = Arguments { numbers: numbers.collect(), n: given.n, inputs: given.inputs };
         let mut found = [vec![], vec![], vec![]];
-        let tools = Described::differentiable(live).expect("texts are differentiable");
+        let tools = Described::differentiable(live).unwrap();
         tools.with_partials(duals.parameters(), &mut |equations| found = solved(equations, &duals)).unwrap();
         for at in first..(first + PARTIALS).min(given.numbers.len()) {
             let step = step(&given, at);
