@@ -37,6 +37,7 @@
 #![forbid(unsafe_code)]
 
 mod abbreviated;
+mod adjoint;
 mod algebra;
 mod arena;
 mod collected;
