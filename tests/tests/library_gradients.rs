@@ -1,16 +1,21 @@
 //! For every mechanism of the library, from its text: the derivatives of accelerations,
 //! multipliers and outputs by time, positions, velocities, inputs and parameters are those of
 //! differences, and so are the derivatives of the state after a step and after a short run by the
-//! parameters.
+//! parameters; forward by duals and backward by the transposed programs they are the same.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 use std::fs;
 use std::path::Path;
 
+use mbs_codegen::FunctionId;
+use mbs_codegen::compiled::{Compiled, Input};
 use mbs_live::{Live, Run, Text};
 use mbs_runtime::equations::{At, Described, Equations, PARTIALS, Partials};
 use mbs_runtime::{Dual, System};
+use mbs_symbolic::{Operand, Program};
+use proc_macro2::{TokenStream, TokenTree};
 use tests::differences::{Slope, slopes};
+use tests::random::Random;
 
 /// Steps before the state at which equations are differentiated.
 const STEPS: u64 = 33;
@@ -18,6 +23,12 @@ const STEPS: u64 = 33;
 const H: f64 = 0.47e-3;
 
 fn library() -> Vec<Live> {
+    let compiled = |(path, source): (String, String)| Text::rust(path, source).compile().unwrap();
+    sources().into_iter().map(compiled).collect()
+}
+
+/// The files that declare a mechanism, and their texts.
+fn sources() -> Vec<(String, String)> {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src");
     let mut found = Vec::new();
     for entry in fs::read_dir(sources).unwrap() {
@@ -26,7 +37,7 @@ fn library() -> Vec<Live> {
         // chains are made by a macro
         let source = source.replace("$(#[$($attribute)*])*", "").replace("$Name", "Chain").replace("$n", "6");
         if source.contains("mechanism! {") && !path.ends_with("lib.rs") {
-            found.push(Text::rust(path.display().to_string(), source).compile().unwrap());
+            found.push((path.display().to_string(), source));
         }
     }
     assert!(found.len() > 30, "{}", found.len());
@@ -211,5 +222,121 @@ fn steps_and_runs_have_the_derivatives_of_differences() {
     for live in library() {
         run_of(&live, 1);
         run_of(&live, STEPS);
+    }
+}
+
+/// What stands in `mechanism! { … }`.
+fn declaration(tokens: TokenStream) -> Option<TokenStream> {
+    let mut before = [false; 2];
+    for tree in tokens {
+        match tree {
+            TokenTree::Group(group) if before == [true, true] => return Some(group.stream()),
+            TokenTree::Group(group) => {
+                if let Some(found) = declaration(group.stream()) {
+                    return Some(found);
+                }
+                before = [false; 2];
+            }
+            TokenTree::Ident(word) => before = [word == "mechanism", false],
+            TokenTree::Punct(sign) => before = [before[0], before[0] && sign.as_char() == '!'],
+            TokenTree::Literal(_) => before = [false; 2],
+        }
+    }
+    None
+}
+
+/// Where an input of a program stands among the arguments.
+fn place(input: Input, given: &Arguments<f64>) -> usize {
+    match input {
+        Input::Time => 0,
+        Input::Position(at) => 1 + at,
+        Input::Velocity(at) => 1 + given.n + at,
+        Input::Input(at) => 1 + 2 * given.n + at,
+        Input::Parameter(at) => 1 + 2 * given.n + given.inputs + at,
+        other => panic!("{other:?} is no argument of the reactions"),
+    }
+}
+
+/// The derivatives of Σ wₖ resultₖ of a program by its symbols, added to those by the arguments, and
+/// by what is hoisted.
+fn backward(
+    (compiled, program): (&Compiled, &Program),
+    weights: &[f64],
+    hoisted: &[f64],
+    given: &Arguments<f64>,
+    gradient: &mut [f64],
+) -> Vec<f64> {
+    let mut symbols: Vec<Operand> = program
+        .instructions
+        .iter()
+        .flat_map(|step| [step.a, step.b])
+        .chain(program.outputs.clone())
+        .collect();
+    symbols.retain(|operand| matches!(operand, Operand::Symbol(_)));
+    symbols.sort_unstable();
+    symbols.dedup();
+    // feedback is none
+    let is_argument = |operand: &Operand| !matches!(compiled.input_of(*operand), Some(Input::Feedback(_)));
+    symbols.retain(is_argument);
+    let values = (0..hoisted.len()).map(Operand::Hoisted);
+    let by: Vec<Operand> = symbols.iter().copied().chain(values).collect();
+    let weights: Vec<Operand> = weights.iter().map(|weight| Operand::Number((*weight).into())).collect();
+    let both = program.with_adjoint(&weights, &by).unwrap();
+    let number = |symbol| match compiled.input(symbol) {
+        Input::Feedback(_) => 0.0,
+        input => given.numbers[place(input, given)],
+    };
+    let found = both.evaluate(&number, hoisted);
+    let (by_symbols, by_hoisted) = found[program.outputs.len()..].split_at(symbols.len());
+    for (symbol, derivative) in symbols.iter().zip(by_symbols) {
+        gradient[place(compiled.input_of(*symbol).unwrap(), given)] += derivative;
+    }
+    by_hoisted.to_vec()
+}
+
+/// A weighted sum of all accelerations and multipliers, by every argument: forward in as many
+/// evaluations as there are arguments over four, backward in one.
+#[test]
+fn transposed_programs_have_the_derivatives_of_duals() {
+    for ((path, source), live) in sources().into_iter().zip(library()) {
+        let tokens = declaration(source.parse().unwrap()).unwrap();
+        let compiled = mbs_codegen::analyse(tokens).unwrap_or_else(|_| panic!("{path} compiles"));
+        let given = arguments(&live);
+        let [a, multipliers, _] = solved(&live, &given);
+        let mut random = Random::new(8);
+        let weights: Vec<f64> = (0..a.len() + multipliers.len()).map(|_| random.between(-1.0, 1.0)).collect();
+
+        let of_hoisted = compiled.program(FunctionId::Hoisted);
+        let parameter = |symbol| given.numbers[place(compiled.input(symbol), &given)];
+        let hoisted = of_hoisted.evaluate(&parameter, &[]);
+        let reactions = compiled.program(FunctionId::Reactions);
+        let mut gradient = vec![0.0; given.numbers.len()];
+        // the growth of pivots has no weight
+        let all = [&weights[..], &[0.0]].concat();
+        let by_hoisted = backward((&compiled, reactions), &all, &hoisted, &given, &mut gradient);
+        backward((&compiled, of_hoisted), &by_hoisted, &[], &given, &mut gradient);
+
+        let mut worst = 0.0_f64;
+        for (at, found) in gradient.iter().enumerate() {
+            let numbers = given.numbers.iter().enumerate();
+            let numbers =
+                numbers.map(|(other, &x)| Partials::variable(x, if other == at { 0 } else { PARTIALS }));
+            let duals = Arguments { numbers: numbers.collect(), n: given.n, inputs: given.inputs };
+            let mut terms = Vec::new();
+            let tools = Described::differentiable(&live).unwrap();
+            tools
+                .with_partials(duals.parameters(), &mut |equations| {
+                    let [a, multipliers, _] = solved(equations, &duals);
+                    let results = a.iter().chain(&multipliers).zip(&weights);
+                    terms = results.map(|(result, weight)| weight * result.partials[0]).collect();
+                })
+                .unwrap();
+            let (forward, size) =
+                (terms.iter().sum::<f64>(), terms.iter().map(|term| term.abs()).sum::<f64>());
+            let deviation = (forward - found).abs() / (1.0 + size);
+            assert!(deviation < 1e-10, "{}, {at}: {forward:e} forward, {found:e} backward", live.info().name);
+            worst = worst.max(deviation);
+        }
+        println!("{}: {} derivatives, apart by {worst:.1e}", live.info().name, gradient.len());
     }
 }
