@@ -165,7 +165,7 @@ fn assembled_positions_have_converged_derivatives() {
 #[test]
 fn projected_starts_have_the_derivatives_of_the_constraints() {
     fn projected<M: Mechanism>(mechanism: &M) -> Vec<M::Real> {
-        let guess = *Simulation::new(*mechanism, 1e-3).unwrap().state();
+        let guess = Simulation::new(*mechanism, 1e-3).unwrap().state();
         let plain = guess.q.into_array().as_ref().iter().map(|q| q.to_f64()).collect::<Vec<_>>();
         let mut constant = guess.q.into_array();
         let number = M::Real::from_f64;

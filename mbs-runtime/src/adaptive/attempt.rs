@@ -132,12 +132,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
 /// Positions whose value has converged get the derivatives of the point on the constraints, an
 /// order with each correction; nothing is done for scalars without derivatives.
 #[inline(always)]
-pub fn converge_partials<D: Dynamics>(
-    dynamics: &D,
-    t: D::Real,
-    q: &mut D::States,
-    delta: &mut D::States,
-) {
+pub fn converge_partials<D: Dynamics>(dynamics: &D, t: D::Real, q: &mut D::States, delta: &mut D::States) {
     for _ in 0..D::Real::ORDER {
         dynamics.correction(t, &Beside { q, v: None }, delta);
         vectors::zip_map(q.as_mut(), delta.as_ref(), |q, delta| q.with_partials_of(q - delta));

@@ -277,11 +277,11 @@ fn element(r: &mut Random, name: &str) -> String {
             let _ = write!(block, "{property} = {value}; ");
         }
     }
-    let along = if word == "friction" { format!(" along {}", vector(r)) } else { String::new() };
-    match word {
-        "drag" => format!("{word} {name} on {} {{ {block}}}", place(r)),
-        _ => format!("{word} {name} ({}, {}){along} {{ {block}}}", place(r), place(r)),
+    if word == "drag" {
+        return format!("{word} {name} on {} {{ {block}}}", place(r));
     }
+    let along = if word == "friction" { format!(" along {}", vector(r)) } else { String::new() };
+    format!("{word} {name} ({}, {}){along} {{ {block}}}", place(r), place(r))
 }
 
 /// How the mechanism is to be solved.
