@@ -271,11 +271,9 @@ fn element(r: &mut Random, name: &str) -> String {
         _ => &["stiffness", "torque"],
     };
     let mut block = String::new();
-    for property in properties {
-        if !r.once_in(4) {
-            let value = if r.once_in(8) { vector(r) } else { formula(r, 2) };
-            let _ = write!(block, "{property} = {value}; ");
-        }
+    for property in properties.iter().filter(|_| !r.once_in(4)).collect::<Vec<_>>() {
+        let value = if r.once_in(8) { vector(r) } else { formula(r, 2) };
+        let _ = write!(block, "{property} = {value}; ");
     }
     if word == "drag" {
         return format!("{word} {name} on {} {{ {block}}}", place(r));
