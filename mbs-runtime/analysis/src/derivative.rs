@@ -1,7 +1,10 @@
 //! Derivatives of the equations of a mechanism along directions in which its state, its inputs and
-//! its parameters change. Nothing else in this crate knows how they are found.
+//! its parameters change. Nothing else in this crate knows how they are found: by the chain rule
+//! where the equations can be had over duals, else by differences, which also tell where there is
+//! no derivative.
 
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::Real;
+use mbs_runtime::equations::{At, Described, Partials};
 use nalgebra::DVector;
 
 use crate::difference::derivative;
@@ -13,6 +16,11 @@ use crate::{Error, OperatingPoint};
 const LONGEST: f64 = 0.02;
 /// and so many each by half of the one before.
 const LEVELS: usize = 8;
+
+/// Differences that leave a larger share of a derivative open than this may hide a corner.
+const CORNER: f64 = 1e-6;
+/// Roundings in a derivative that the chain rule gives.
+const ROUNDINGS: f64 = 64.0;
 
 /// What the equations say at a state, or how that changes along a direction.
 #[derive(Clone, Debug)]
@@ -61,9 +69,13 @@ impl Direction {
 impl Derivatives<'_> {
     /// What the equations say at the point.
     pub fn values(&self) -> Values {
+        self.split(&self.joined())
+    }
+
+    fn joined(&self) -> DVector<f64> {
         let point = self.point;
         let [q, v, inputs] = [&point.q, &point.v, &point.inputs].map(|list| DVector::from_column_slice(list));
-        self.at(self.mechanism, &q, &v, &inputs)
+        self.at(self.mechanism, [&q, &v, &inputs])
     }
 
     /// The derivative along a direction, and an estimate of its error in every number.
@@ -78,7 +90,17 @@ impl Derivatives<'_> {
             }
             other => other?,
         };
-        Ok([self.split(&value), self.split(&error)])
+        let Some(exact) = self.exact(direction) else {
+            return Ok([self.split(&value), self.split(&error)]);
+        };
+        // a corner, of which the chain rule knows one side, shows in the differences alone
+        let sizes = self.joined().abs() * self.size(direction) + exact.abs();
+        let open = (&exact - &value).zip_map(&error, |apart, error| error.max(apart.abs()));
+        let error = DVector::from_fn(exact.len(), |at, _| match open[at] <= CORNER * sizes[at] {
+            true => ROUNDINGS * f64::EPSILON * exact[at].abs(),
+            false => open[at],
+        });
+        Ok([self.split(&exact), self.split(&error)])
     }
 
     /// How far one unit along a direction leads, measured by the scales.
@@ -109,50 +131,43 @@ impl Derivatives<'_> {
             let v = DVector::from_column_slice(&point.v) + &direction.v * share;
             let inputs = DVector::from_column_slice(&point.inputs) + &direction.inputs * share;
             let (Some(at), Some(varied)) = (direction.parameter, &self.varied) else {
-                return Ok(joined(&self.at(self.mechanism, &q, &v, &inputs)));
+                return Ok(self.at(self.mechanism, [&q, &v, &inputs]));
             };
             let mut found = DVector::zeros(0);
-            varied.moved(at, share, &mut |mechanism| found = joined(&self.at(mechanism, &q, &v, &inputs)))?;
+            varied.moved(at, share, &mut |mechanism| found = self.at(mechanism, [&q, &v, &inputs]))?;
             Ok(found)
         };
         derivative(there, step, LEVELS, is_one_sided)
     }
 
-    fn at(
-        &self,
-        mechanism: &dyn Described<f64>,
-        q: &DVector<f64>,
-        v: &DVector<f64>,
-        inputs: &DVector<f64>,
-    ) -> Values {
-        let info = mechanism.info();
-        let (n, m, t) = (info.coordinates.len(), info.constraints.len(), self.point.t);
-        let at = At { t, q: q.as_slice(), v: v.as_slice() };
-        let inputs = inputs.as_slice();
-        let (mut phi, mut phi_dot) = (DVector::zeros(m), DVector::zeros(m));
-        mechanism.phi(t, at.q, phi.as_mut_slice());
-        mechanism.phi_dot(at, phi_dot.as_mut_slice());
-        let (mut acceleration, mut multipliers) = (DVector::zeros(n), DVector::zeros(m));
-        mechanism.reactions(at, inputs, acceleration.as_mut_slice(), multipliers.as_mut_slice());
-        if self.point.drives == Drives::Held {
-            // Φ_t, and what Φ_tt and Φ_tq v do to the accelerations. What is taken away with them,
-            // (Φ_q v)_q v, is of second order at rest.
-            let still = vec![0.0; n];
-            let mut driven = DVector::zeros(m);
-            mechanism.phi_dot(At { v: &still, ..at }, driven.as_mut_slice());
-            let mut gamma = DVector::zeros(m);
-            mechanism.phi_dot(At { v: acceleration.as_slice(), ..at }, gamma.as_mut_slice());
-            phi_dot -= &driven;
-            gamma -= &driven;
-            if gamma.amax() > 0.0 {
-                let opposed = -gamma;
-                mechanism.accelerations(at, inputs, opposed.as_slice(), acceleration.as_mut_slice());
-            }
-        }
-        let mut outputs = DVector::zeros(info.outputs.len());
-        let reactions = [acceleration.as_slice(), multipliers.as_slice()];
-        mechanism.outputs(at, inputs, reactions, outputs.as_mut_slice());
-        Values { phi, phi_dot, acceleration, multipliers, outputs }
+    /// What a mechanism says at a state, as one vector.
+    fn at(&self, mechanism: &dyn Described<f64>, [q, v, inputs]: [&DVector<f64>; 3]) -> DVector<f64> {
+        let at = At { t: self.point.t, q: q.as_slice(), v: v.as_slice() };
+        DVector::from_vec(evaluated(mechanism, at, inputs.as_slice(), self.point.drives))
+    }
+
+    /// The derivative along a direction by the chain rule; nothing for a mechanism whose equations
+    /// cannot be had over duals.
+    fn exact(&self, direction: &Direction) -> Option<DVector<f64>> {
+        let mechanism = self.mechanism.differentiable()?;
+        let point = self.point;
+        let moving = |from: &[f64], rate: &DVector<f64>| -> Vec<Partials> {
+            from.iter().zip(rate).map(|(x, rate)| Partials::constant(*x).plus_partial(0, *rate)).collect()
+        };
+        let mut parameters = vec![0.0; mechanism.info().parameters.len()];
+        mechanism.parameters(&mut parameters);
+        let changed = |at: usize| f64::from(u8::from(direction.parameter == Some(at)));
+        let parameters = moving(&parameters, &DVector::from_fn(parameters.len(), |at, _| changed(at)));
+        let (q, v) = (moving(&point.q, &direction.q), moving(&point.v, &direction.v));
+        let inputs = moving(&point.inputs, &direction.inputs);
+        let mut found = DVector::zeros(0);
+        let look = &mut |equations: &dyn Described<Partials>| {
+            let at = At { t: Partials::constant(point.t), q: &q, v: &v };
+            let all = evaluated(equations, at, &inputs, point.drives);
+            found = DVector::from_iterator(all.len(), all.iter().map(|x| x.partial(0)));
+        };
+        // the parameters are those that it has
+        mechanism.with_partials(&parameters, look).ok().map(|()| found)
     }
 
     fn split(&self, all: &DVector<f64>) -> Values {
@@ -169,13 +184,31 @@ impl Derivatives<'_> {
     }
 }
 
-fn joined(values: &Values) -> DVector<f64> {
-    let Values { phi, phi_dot, acceleration, multipliers, outputs } = values;
-    let parts = [phi, phi_dot, acceleration, multipliers, outputs];
-    DVector::from_iterator(
-        parts.iter().map(|part| part.len()).sum(),
-        parts.iter().flat_map(|part| part.iter()).copied(),
-    )
+/// Φ, Φ̇, q̈, λ and the outputs at a state, one after the other.
+fn evaluated<T: Real>(mechanism: &dyn Described<T>, at: At<'_, T>, inputs: &[T], drives: Drives) -> Vec<T> {
+    let info = mechanism.info();
+    let zeros = |count: usize| vec![T::ZERO; count];
+    let (n, m) = (info.coordinates.len(), info.constraints.len());
+    let (mut phi, mut phi_dot) = (zeros(m), zeros(m));
+    mechanism.phi(at.t, at.q, &mut phi);
+    mechanism.phi_dot(at, &mut phi_dot);
+    let (mut acceleration, mut multipliers) = (zeros(n), zeros(m));
+    mechanism.reactions(at, inputs, &mut acceleration, &mut multipliers);
+    if drives == Drives::Held {
+        // Φ_t, and what Φ_tt and Φ_tq v do to the accelerations. What is taken away with them,
+        // (Φ_q v)_q v, is of second order at rest.
+        let (still, mut driven, mut gamma) = (zeros(n), zeros(m), zeros(m));
+        mechanism.phi_dot(At { v: &still, ..at }, &mut driven);
+        mechanism.phi_dot(At { v: &acceleration, ..at }, &mut gamma);
+        let opposed: Vec<T> = driven.iter().zip(&gamma).map(|(driven, gamma)| *driven - *gamma).collect();
+        phi_dot.iter_mut().zip(&driven).for_each(|(rate, driven)| *rate = *rate - *driven);
+        if opposed.iter().any(|x| !x.is_same(T::ZERO)) {
+            mechanism.accelerations(at, inputs, &opposed, &mut acceleration);
+        }
+    }
+    let mut outputs = zeros(info.outputs.len());
+    mechanism.outputs(at, inputs, [&acceleration, &multipliers], &mut outputs);
+    [phi, phi_dot, acceleration, multipliers, outputs].concat()
 }
 
 /// The size of a quantity: that of its value, or one of its declared units where it is 0.

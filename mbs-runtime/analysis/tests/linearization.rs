@@ -6,6 +6,7 @@
 use mbs_analysis::nalgebra::DMatrix;
 use mbs_analysis::{Error, OperatingPoint, Ports, Search, equilibrium, linearize, of_type};
 use mbs_live::Text;
+use mbs_runtime::equations::Differentiated;
 use mbs_runtime::{Simulation, System, mechanism};
 
 mechanism! {
@@ -151,8 +152,15 @@ fn a_text_is_linearized_as_its_type() -> Result<(), Error> {
     let ports = Ports { parameters: vec!["l".into(), "m".into()], ..Ports::default() };
     let typed = Ports { family: Some(&of_a_type), ..ports.clone() };
     let live_ports = Ports { family: Some(&of_a_text), ..ports };
-    let typed = linearize(&CartRod::declared(), &point, &typed)?;
-    assert_eq!(typed, linearize(&live, &point, &live_ports)?);
+    let exact = linearize(&Differentiated(CartRod::declared()), &point, &typed)?;
+    assert_eq!(exact, linearize(&live, &point, &live_ports)?);
+    // a type without equations over duals is differenced, as exactly as it says
+    let differenced = linearize(&CartRod::declared(), &point, &typed)?;
+    assert!(exact.uncertainty < 1e-13 && differenced.uncertainty < 1e-11);
+    let allowed = 10.0 * differenced.uncertainty;
+    for (exact, differenced) in [(&exact.a, &differenced.a), (&exact.b, &differenced.b)] {
+        assert!((exact - differenced).amax() <= allowed * exact.amax());
+    }
     Ok(())
 }
 
