@@ -39,17 +39,19 @@ pub struct Reduction {
 /// Chooses the coordinates that are integrated: all, or with `states = reduced;` those that no
 /// row gives, whose symbols are then those of states.
 pub fn reduce(model: &mut Model, equations: &Equations, rows: &Rows, inputs: &mut Inputs) -> Reduction {
-    if model.solver.has_reduced_states() {
-        Reduction::new(model, equations, rows, inputs)
-    } else {
-        Reduction { values: HashMap::new(), given: BTreeSet::new(), rows: BTreeSet::new() }
+    let given = match model.solver.has_reduced_states() {
+        true => given(model, equations, rows),
+        false => Given::default(),
+    };
+    if given.rows.is_empty() {
+        return Reduction { values: HashMap::new(), given: BTreeSet::new(), rows: BTreeSet::new() };
     }
+    Reduction::new(model, given, inputs)
 }
 
 impl Reduction {
-    fn new(model: &mut Model, equations: &Equations, rows: &Rows, inputs: &mut Inputs) -> Self {
-        let given = given(model, equations, rows);
-        let coordinates: BTreeSet<usize> = given.iter().map(|given| given.coordinate).collect();
+    fn new(model: &mut Model, given: Given, inputs: &mut Inputs) -> Self {
+        let coordinates: BTreeSet<usize> = given.rows.keys().copied().collect();
         let states: Vec<usize> =
             (0..model.coordinates.len()).filter(|at| !coordinates.contains(at)).collect();
         inputs.reduce(model, &states);
@@ -59,16 +61,11 @@ impl Reduction {
             values.insert(coordinate.position, model.arena.variable(state.position));
             values.insert(coordinate.velocity, model.arena.variable(state.velocity));
         }
-        // those that were given later are left in the earlier ones
-        for given in given.iter().rev() {
-            let coordinate = &model.coordinates[given.coordinate];
-            let symbols = [coordinate.position, coordinate.velocity];
-            for (symbol, value) in symbols.into_iter().zip([given.position, given.velocity]) {
-                let value = model.arena.substitute(value, &values);
-                values.insert(symbol, short(&mut model.arena, value));
-            }
-        }
-        Self { values, given: coordinates, rows: given.iter().map(|given| given.row).collect() }
+        let symbols: Vec<Symbol> = coordinates.iter().flat_map(|&at| symbols_of(model, at)).collect();
+        let by_others: Vec<Expr> = symbols.iter().map(|symbol| given.values[symbol]).collect();
+        let by_states = model.arena.substitute_all(&by_others, &values);
+        values.extend(symbols.into_iter().zip(by_states));
+        Self { values, given: coordinates, rows: given.rows.into_values().collect() }
     }
 
     /// The coordinates that constraints give, and what they are by the others.
@@ -92,12 +89,13 @@ impl Reduction {
     }
 }
 
-/// A coordinate that a row gives, by those that no row has given before.
+/// What rows give.
+#[derive(Default)]
 struct Given {
-    coordinate: usize,
-    row: usize,
-    position: Expr,
-    velocity: Expr,
+    /// The row of each coordinate.
+    rows: BTreeMap<usize, usize>,
+    /// Their positions and velocities, by those of coordinates that no row gives.
+    values: HashMap<Symbol, Expr>,
 }
 
 /// What depends on coordinates: linearly with these coefficients, or otherwise.
@@ -122,6 +120,10 @@ impl Dependence {
             }
         }
         dependence
+    }
+
+    fn contains(&self, coordinate: usize) -> bool {
+        self.linear.contains_key(&coordinate) || self.otherwise.contains(&coordinate)
     }
 
     /// The same with what a coordinate depends on in its place.
@@ -154,12 +156,10 @@ impl Dependence {
     }
 }
 
-/// The coordinates that rows give, in the order of the rows.
-fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Vec<Given> {
-    let mut given = Vec::new();
+/// The coordinates that rows give, and what they are by the others.
+fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
+    let mut given = Given::default();
     let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
-    // what coordinates are by those that were not given when they were
-    let (mut positions, mut velocities) = (HashMap::new(), HashMap::new());
     for &row in &rows.basis {
         let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
         for (&coordinate, known) in &dependences {
@@ -170,22 +170,32 @@ fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Vec<Given> {
         let best = dependence.candidates().max_by_key(|&(at, _)| (is_length(at), at));
         let Some((coordinate, coefficient)) = best else { continue };
         let dependence = dependence.solved(coordinate, coefficient);
-        for other in dependences.values_mut() {
-            other.replace(coordinate, &dependence);
+
+        let symbols = symbols_of(model, coordinate);
+        let solved = [equations.phi[row], equations.phi_dot[row]].into_iter().zip(symbols);
+        let solved = solved.map(|(row, x)| (x, solve(&mut model.arena, row, &given.values, x, coefficient)));
+        let solved: HashMap<Symbol, Expr> = solved.collect();
+        // what was given before by this one is given by the others
+        for (&before, known) in dependences.iter_mut().filter(|(_, known)| known.contains(coordinate)) {
+            for symbol in symbols_of(model, before) {
+                if let Some(value) = given.values.get_mut(&symbol) {
+                    let by_others = model.arena.substitute(*value, &solved);
+                    *value = short(&mut model.arena, by_others);
+                }
+            }
+            known.replace(coordinate, &dependence);
         }
         dependences.insert(coordinate, dependence);
-
-        let symbols = &model.coordinates[coordinate];
-        let (position_symbol, velocity_symbol) = (symbols.position, symbols.velocity);
-        let position = solve(&mut model.arena, equations.phi[row], &positions, position_symbol, coefficient);
-        positions.insert(position_symbol, position);
-        velocities.insert(position_symbol, position);
-        let velocity =
-            solve(&mut model.arena, equations.phi_dot[row], &velocities, velocity_symbol, coefficient);
-        velocities.insert(velocity_symbol, velocity);
-        given.push(Given { coordinate, row, position, velocity });
+        given.values.extend(solved);
+        given.rows.insert(coordinate, row);
     }
     given
+}
+
+/// The symbols of a position and its velocity.
+fn symbols_of(model: &Model, coordinate: usize) -> [Symbol; 2] {
+    let coordinate = &model.coordinates[coordinate];
+    [coordinate.position, coordinate.velocity]
 }
 
 /// The x of 0 = `row`, which is linear in it, with what is known before in its place.

@@ -164,7 +164,8 @@ impl Derivatives<'_> {
         let look = &mut |equations: &dyn Described<Partials>| {
             let at = At { t: Partials::constant(point.t), q: &q, v: &v };
             let all = evaluated(equations, at, &inputs, point.drives);
-            found = DVector::from_iterator(all.len(), all.iter().map(|x| x.partial(0)));
+            // +0 makes no negative zero of a slope
+            found = DVector::from_iterator(all.len(), all.iter().map(|x| x.partial(0) + 0.0));
         };
         // the parameters are those that it has
         mechanism.with_partials(&parameters, look).ok().map(|()| found)
