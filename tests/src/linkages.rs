@@ -70,7 +70,7 @@ pub fn declaration(number: u64) -> String {
     linkage.drives();
     let Linkage { text, start, coordinates, rows, .. } = linkage;
     let dof = coordinates - rows;
-    let states = if number % 2 == 0 { "all" } else { "reduced" };
+    let states = if number.is_multiple_of(2) { "all" } else { "reduced" };
     format!(
         "pub Random{number} {{\ndof = {dof};\nstates = {states};\ngravity = (0, -9.81) [m/s^2];\n{text}start {{ {start}}}\n}}\n"
     )
