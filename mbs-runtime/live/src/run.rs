@@ -15,7 +15,7 @@ use crate::arguments::Arguments;
 use crate::equations::{single, state};
 use crate::{Live, Prepared, Stepper};
 
-/// A live mechanism being integrated in time; what one does with it is [`System`]. `T` is its
+/// A live mechanism being integrated in time; what one does with it is [`System`](mbs_runtime::System). `T` is its
 /// scalar: `f64`, or by [`over`](Builder::over) a [`Dual`](mbs_runtime::Dual) for derivatives.
 ///
 /// # Example
@@ -155,7 +155,7 @@ impl<T: Real> Run<T> {
     /// stage of a step sees them.
     ///
     /// # Errors
-    /// As [`System::reactions`].
+    /// As [`System::reactions`](mbs_runtime::System::reactions).
     pub fn raw_reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error> {
         let mut feedback = vec![T::from_f64(f64::NAN); self.multipliers];
         let mut unread = vec![T::from_f64(f64::NAN); self.q.len()];
