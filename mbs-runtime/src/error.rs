@@ -71,6 +71,24 @@ pub enum Error {
         /// The step in s that would have been tried next.
         step: f64,
     },
+    /// The positions at the end of a step could not be brought onto the constraints by a method
+    /// that needs a shorter step for it.
+    NotConverged {
+        /// When, in s.
+        t: f64,
+        /// The step in s.
+        step: f64,
+    },
+    /// A force that depends on velocities or reactions, for a method that takes none.
+    VelocityForce {
+        /// A coordinate along which it acts.
+        coordinate: &'static str,
+    },
+    /// Reduced states, for a method that integrates all coordinates.
+    ReducedStates {
+        /// Its word.
+        method: &'static str,
+    },
     /// A gain of feedback where the constraints are kept by projection.
     NoUseOfGain {
         /// `alpha` or `beta`.
@@ -223,6 +241,21 @@ impl fmt::Display for Error {
                 f,
                 "the tolerance cannot be met at t = {t} s: the next step would be {step:.1e} s long; the motion \
                  has a jump there, or the tolerance is below the rounding of the forces"
+            ),
+            Self::NotConverged { t, step } => write!(
+                f,
+                "the positions at the end of the step from t = {t} s do not converge to the constraints; \
+                 take a step shorter than {step} s"
+            ),
+            Self::VelocityForce { coordinate } => write!(
+                f,
+                "a force along `{coordinate}` depends on velocities or reactions, and RATTLE takes forces of \
+                 positions, time and inputs alone; leave dampers and friction out, or take another method"
+            ),
+            Self::ReducedStates { method } => write!(
+                f,
+                "the method `{method}` integrates all coordinates; leave `states = reduced;` out of the \
+                 declaration, or take another method"
             ),
             Self::NoUseOfGain { name, value } => write!(
                 f,

@@ -29,6 +29,9 @@ pub struct Info {
     /// Which constraints repeat others, as indices: they are not solved for, but
     /// met with the others.
     pub redundant: &'static [usize],
+    /// Along which coordinates forces act that depend on velocities or on reactions, as indices:
+    /// dampers, friction. All other forces are functions of positions, time, inputs and parameters.
+    pub velocity_forces: &'static [usize],
     /// The pivots that can vanish.
     pub pivots: &'static [Pivot],
     /// The pivots of the corrections of a start that can vanish.
@@ -177,6 +180,7 @@ impl Info {
         constraints: &'static [Constraint],
         states: &'static [usize],
         redundant: &'static [usize],
+        velocity_forces: &'static [usize],
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
         functions: &'static [Function],
@@ -193,6 +197,7 @@ impl Info {
             constraints,
             states,
             redundant,
+            velocity_forces,
             pivots,
             start_pivots,
             functions,

@@ -130,6 +130,7 @@ mod info;
 pub mod language {}
 #[doc = include_str!("methods.md")]
 #[doc = include_str!("precision.svg")]
+#[doc = include_str!("energy.svg")]
 pub mod methods {}
 mod kinematics;
 pub mod lanes;
@@ -138,6 +139,7 @@ mod method;
 mod pack;
 mod pair;
 mod partials;
+mod rattle;
 mod reach;
 mod real;
 mod room;
@@ -151,6 +153,7 @@ pub mod start;
 mod straight;
 mod system;
 mod vectors;
+mod view;
 mod watch;
 
 pub use adaptive::{
@@ -167,13 +170,17 @@ pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 #[cfg(feature = "macro")]
 pub use mbs_macro::mechanism;
-pub use mbs_schemes::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, SCHEMES, Stabilization, Tableau};
+pub use mbs_schemes::{
+    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, Explicit, HEUN, RATTLE, RATTLE4, RK4, SCHEMES,
+    Stabilization, Tableau,
+};
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
 pub use method::{
     Bs3, Dop853, Dopri5, Held, Heun, Method, MethodVisitor, PerStage, Projected, Rk4, Scheme, with_type,
 };
 pub use pack::Pack;
 pub use pair::{Pair, Single, Two};
+pub use rattle::{Rattle, RattleBuilder};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

@@ -65,6 +65,7 @@ impl Pendulums {
             constraints,
             states.leak(),
             &[],
+            &[],
             pivots,
             pivots,
             &[],

@@ -5,10 +5,10 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use mbs_live::{Run, Text};
+use mbs_live::{Prepared, Run, Text};
 use mbs_runtime::{
-    Adaptive, Baumgarte, Components, Dual, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rk4,
-    Sampled, Simulation, System as _, start,
+    Adaptive, Baumgarte, Components, Dual, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rattle,
+    Rk4, Sampled, Simulation, System as _, start,
 };
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeParameters};
@@ -114,6 +114,23 @@ fn runs_to_a_tolerance_do_not_allocate() {
         assert!(run.step().is_err());
     });
     assert_eq!(allocated, 0);
+}
+
+#[test]
+fn steps_of_rattle_do_not_allocate() {
+    let allocated = allocations(|| {
+        let mut run = Rattle::builder(SliderCrankFree::declared(), H).build().expect("a start");
+        run.advance_to(10.0).expect("a regular motion");
+        run.inputs_mut().crank_torque = f64::NAN;
+        assert!(run.step().is_err());
+    });
+    assert_eq!(allocated, 0);
+
+    let text = "Block { dof = 1; body block (x, y) { mass = 1 [kg]; }
+        force spring on x = -4 [N/m]*x; constraint line: y = 2*x; start { x = 1 [m]; } }";
+    let block = Text::declaration("block.mbs", text).compile().expect("a declaration");
+    let mut run = Rattle::builder(Prepared::new(&block), H).build().expect("a start");
+    assert_eq!(allocations(|| run.advance_to(5.0).expect("a regular motion")), 0);
 }
 
 #[test]

@@ -33,12 +33,14 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod composition;
 mod explicit;
 mod response;
 mod roots;
 mod schemes;
 mod tableau;
 
+pub use composition::{COMPOSITIONS, Composition, RATTLE, RATTLE4};
 pub use explicit::{Explicit, Stabilization};
 pub use response::Response;
 pub use schemes::{BS3, DOP853, DOPRI5, HEUN, MOST_STAGES, RK4, SCHEMES};

@@ -153,4 +153,19 @@ impl<T: Real> Dynamics for Prepared<T> {
         self.live.states(correction, delta);
         growth[0]
     }
+
+    fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T {
+        let Memory { complete, phi, projection, all: [at, unread, correction], violation, .. } =
+            &mut *self.room.borrow_mut();
+        // positions do not depend on velocities
+        self.run(FunctionId::Complete, complete, &state(At { t, q, v: q }), [&mut *at, &mut *unread]);
+        self.run(FunctionId::Phi, phi, &position(t, at), [&mut *violation]);
+        let (t, q) = from;
+        self.run(FunctionId::Complete, complete, &state(At { t, q, v: q }), [&mut *at, &mut *unread]);
+        let given = Arguments { feedback: single(violation), ..position(t, at) };
+        let mut growth = [T::from_f64(f64::NAN)];
+        self.run(FunctionId::Projection, projection, &given, [&mut *correction, &mut growth]);
+        self.live.states(correction, delta);
+        growth[0]
+    }
 }

@@ -91,6 +91,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.constraints.iter().map(constraint)),
         leak(compiled.states.iter().copied()),
         leak(compiled.redundant.iter().copied()),
+        leak(compiled.velocity_forces.iter().copied()),
         leak(compiled.pivots.iter().map(pivot)),
         leak(compiled.start_pivots.iter().map(pivot)),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),

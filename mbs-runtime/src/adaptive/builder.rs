@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use super::attempt::{Attempt, copy, is_healthy};
-use super::{Adaptive, Control, Dynamics, Effort, Moment, Tolerances};
-use crate::equations::{Preparation, Start};
+use super::{Adaptive, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
+use crate::equations::Start;
 use crate::watch::Watch;
 use crate::{Components, Dopri5, Error, Mechanism, Real, Scheme, State};
 
@@ -14,11 +14,8 @@ const NOMINAL_STEP: f64 = 1e-3;
 /// The choices before a run to a tolerance starts; see [`Adaptive::builder`].
 #[derive(Clone)]
 pub struct AdaptiveBuilder<D: Dynamics, S: Scheme = Dopri5> {
-    dynamics: D,
+    beginning: Beginning<D>,
     tolerances: Tolerances,
-    inputs: D::Inputs,
-    state: (D::Real, D::Coordinates, D::Coordinates),
-    start: Start,
     scheme: PhantomData<S>,
 }
 
@@ -26,14 +23,8 @@ impl<D: Dynamics> Adaptive<D> {
     /// Choices to make before the start. Without any: the declared start, made consistent, the
     /// pair 5(4) of Dormand and Prince, the default [`Tolerances`] and inputs.
     pub fn builder(mechanism: D) -> AdaptiveBuilder<D> {
-        AdaptiveBuilder {
-            tolerances: Tolerances::default(),
-            inputs: mechanism.default_inputs(),
-            state: mechanism.declared_start(),
-            start: Start::Declared,
-            scheme: PhantomData,
-            dynamics: mechanism,
-        }
+        let (beginning, tolerances) = (Beginning::new(mechanism), Tolerances::default());
+        AdaptiveBuilder { beginning, tolerances, scheme: PhantomData }
     }
 }
 
@@ -42,8 +33,8 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
     /// [`Dopri5`] or [`Dop853`](crate::Dop853) for fine ones, from about 10⁻⁸ on.
     #[must_use]
     pub fn scheme<R: Scheme>(self) -> AdaptiveBuilder<D, R> {
-        let Self { dynamics, tolerances, inputs, state, start, .. } = self;
-        AdaptiveBuilder { dynamics, tolerances, inputs, state, start, scheme: PhantomData }
+        let Self { beginning, tolerances, .. } = self;
+        AdaptiveBuilder { beginning, tolerances, scheme: PhantomData }
     }
 
     /// The tolerances.
@@ -54,20 +45,23 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
 
     /// The inputs of the first step.
     #[must_use]
-    pub fn inputs(self, inputs: D::Inputs) -> Self {
-        Self { inputs, ..self }
+    pub fn inputs(mut self, inputs: D::Inputs) -> Self {
+        self.beginning.inputs = inputs;
+        self
     }
 
     /// Starts at `t` from positions and velocities that have to be consistent.
     #[must_use]
-    pub fn from_vectors(self, t: D::Real, q: D::Coordinates, v: D::Coordinates) -> Self {
-        Self { state: (t, q, v), start: Start::Given, ..self }
+    pub fn from_vectors(mut self, t: D::Real, q: D::Coordinates, v: D::Coordinates) -> Self {
+        (self.beginning.state, self.beginning.start) = ((t, q, v), Start::Given);
+        self
     }
 
     /// Keeps the start as it is, consistent or not; the first step leads to the constraints.
     #[must_use]
-    pub fn as_declared(self) -> Self {
-        Self { start: Start::Unchecked, ..self }
+    pub fn as_declared(mut self) -> Self {
+        self.beginning.start = Start::Unchecked;
+        self
     }
 
     /// Starts.
@@ -79,16 +73,9 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
         let scheme = S::TABLEAU.word;
         let estimate = S::TABLEAU.estimate.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
-        let Self { dynamics, tolerances, mut inputs, state: (t, mut q, mut v), start, .. } = self;
-        let mut length = D::Real::default();
-        dynamics.with_inputs(&mut inputs, |inputs| {
-            let step = D::Real::from_f64(NOMINAL_STEP);
-            let preparation = Preparation { start, inputs, step, keeps_constraints: true };
-            dynamics.with_room::<S>(|room| {
-                length = preparation.prepare(dynamics.equations(), t, q.as_mut(), v.as_mut(), room)?;
-                Ok(())
-            })
-        })?;
+        let Self { mut beginning, tolerances, .. } = self;
+        let length = beginning.prepare::<S>(NOMINAL_STEP)?;
+        let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
         let moment = Moment { t, a: states.clone(), q: states, v: rates };
         let stages = S::stages(moment.q.clone());

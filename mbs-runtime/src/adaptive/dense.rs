@@ -1,6 +1,7 @@
 //! The motion within a step, from what is known at both of its ends.
 
 use crate::Real;
+use crate::equations::At;
 
 /// Time, q, v and q̈ at an end of a step.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,11 @@ pub struct Moment<T, V> {
 }
 
 impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
+    /// Time, positions and velocities.
+    pub fn at(&self) -> At<'_, T> {
+        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+
     /// Writes positions and velocities at a time between this moment and `end`: the quintic that
     /// has q, v and q̈ of both, and its derivative.
     ///
@@ -47,6 +53,7 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
             *v = (v0 + s * (a0 + s * (three * cubic + s * slope))) / h;
         }
     }
+
     /// q, hv and h²q̈ of every coordinate.
     fn scaled(&self, h: T) -> impl Iterator<Item = [T; 3]> {
         let [q, v, a] = [&self.q, &self.v, &self.a].map(|vector| vector.as_ref().iter().copied());

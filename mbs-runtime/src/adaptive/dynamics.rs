@@ -75,6 +75,20 @@ pub trait Dynamics: Clone + Send {
         at: &Beside<'_, Self::States>,
         delta: &mut Self::States,
     ) -> Self::Real;
+
+    /// The correction of the positions `q` at `t` along the gradients of the constraints at
+    /// another time and place, `from`: with Φ_q, Φ and M all of them,
+    ///
+    /// ```text
+    /// Δ = M⁻¹ Φ_q(from)ᵀ μ,  Φ_q(from) Δ = Φ(q, t)
+    /// ```
+    fn correction_along(
+        &self,
+        from: (Self::Real, &Self::States),
+        t: Self::Real,
+        q: &Self::States,
+        delta: &mut Self::States,
+    ) -> Self::Real;
 }
 
 impl<M: Mechanism> Dynamics for M {
@@ -153,5 +167,23 @@ impl<M: Mechanism> Dynamics for M {
     #[inline(always)]
     fn correction(&self, t: M::Real, at: &Beside<'_, Self::States>, delta: &mut Self::States) -> M::Real {
         correct(self, t, at, delta)
+    }
+
+    fn correction_along(
+        &self,
+        from: (M::Real, &Self::States),
+        t: M::Real,
+        q: &Self::States,
+        delta: &mut Self::States,
+    ) -> M::Real {
+        // positions do not depend on velocities
+        let complete = |(t, q): (M::Real, &Self::States)| {
+            let [q, v] = [*q, *q].map(Components::from_array);
+            Mechanism::complete(self, &State { t, q, v }).q
+        };
+        let violation = Mechanism::phi(self, t, &complete((t, q)));
+        let solved = Mechanism::projection(self, from.0, &complete(from), &violation);
+        *delta = M::states(solved.acceleration).into_array();
+        solved.growth
     }
 }

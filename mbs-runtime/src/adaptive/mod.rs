@@ -1,7 +1,9 @@
 //! Runs to a tolerance: steps as long as an estimate of their error permits.
 
 mod attempt;
+mod beginning;
 mod builder;
+mod cause;
 mod change;
 mod control;
 mod dense;
@@ -12,11 +14,14 @@ mod events;
 mod sampled;
 mod typed;
 
-use attempt::{Attempt, converge_partials, copy, is_healthy};
+use attempt::{Attempt, converge_partials};
+pub(crate) use attempt::{copy, is_healthy};
+pub(crate) use beginning::Beginning;
 pub use builder::AdaptiveBuilder;
+pub(crate) use cause::cause;
 use control::Control;
 pub use control::Tolerances;
-use dense::Moment;
+pub(crate) use dense::Moment;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
 pub use events::{Direction, Event, MOST_EVENTS};
@@ -24,14 +29,13 @@ pub use sampled::{Measured, Sampled, Threshold};
 
 use core::fmt;
 
-use mbs_schemes::{Estimate, Explicit, Tableau};
+use mbs_schemes::{Estimate, Tableau};
 
 use crate::diagnosis::check_inputs;
-use crate::equations::At;
 use crate::explicit::{Beside, subtract};
-use crate::run::{Run, note_risen};
+use crate::run::note_risen;
 use crate::watch::{Watch, WorstPlace};
-use crate::{Dopri5, Error, Gains, Real, Scheme, vectors};
+use crate::{Dopri5, Error, Real, Scheme, vectors};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
@@ -230,29 +234,8 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     fn cause(&mut self) -> Error {
         let Self { dynamics, inputs, now, next, control, watch, .. } = self;
         // steps that only look for the error are not steps of the run
-        let (t, mut watch) = (now.t.to_f64(), *watch);
-        let nothing = D::Real::default();
-        let found = dynamics.with_inputs(inputs, |inputs| {
-            dynamics.with_room::<S>(|room| {
-                let mut h = 16.0 * D::Real::EPSILON.to_f64() * (1.0 + t.abs());
-                while h < LONGEST {
-                    let step = D::Real::from_f64(h);
-                    let run = Run {
-                        equations: dynamics.equations(),
-                        at: now.at(),
-                        inputs,
-                        gains: Gains { minus_two_alpha: nothing, minus_beta_squared: nothing },
-                        step,
-                        method: Explicit::projected(Self::TABLEAU),
-                        keeps_constraints: true,
-                    };
-                    run.step(now.t + step, [next.q.as_mut(), next.v.as_mut()], &mut watch, room)?;
-                    h *= 4.0;
-                }
-                Ok(())
-            })
-        });
-        found.err().unwrap_or(Error::StepTooShort { t, step: control.next })
+        let found = cause::<D, S>(dynamics, inputs, now, next, *watch, LONGEST);
+        found.unwrap_or(Error::StepTooShort { t: now.t.to_f64(), step: control.next })
     }
 
     /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
@@ -352,11 +335,5 @@ impl<D: Dynamics, S: Scheme> fmt::Debug for Adaptive<D, S> {
         let mut shown = f.debug_struct("Adaptive");
         shown.field("scheme", &scheme).field("t", &now.t).field("tolerances", tolerances);
         shown.field("effort", effort).finish_non_exhaustive()
-    }
-}
-
-impl<T: Real, V: AsRef<[T]>> Moment<T, V> {
-    fn at(&self) -> At<'_, T> {
-        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
     }
 }

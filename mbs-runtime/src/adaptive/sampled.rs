@@ -4,9 +4,9 @@ use core::fmt;
 
 use super::events::Watched;
 use super::{Adaptive, Direction, Dynamics, Effort, Event, MOST_EVENTS};
-use crate::diagnosis::{Solution, check_defined, check_solution};
-use crate::equations::{At, Described, Equations, check_outputs};
+use crate::equations::{At, Described, Equations};
 use crate::simulation::clock;
+use crate::view::View;
 use crate::watch::WorstPlace;
 use crate::{Derivation, Error, Real, Scheme, Sketch, System, vectors};
 
@@ -155,9 +155,10 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         &self.run
     }
 
-    fn with_inputs<R>(&self, what: impl FnOnce(&[D::Real]) -> R) -> R {
-        let mut inputs = self.run.inputs.clone();
-        self.run.dynamics.with_inputs(&mut inputs, |inputs| what(inputs))
+    /// What is seen.
+    fn view(&self) -> View<'_, D> {
+        let at = At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() };
+        View { dynamics: &self.run.dynamics, inputs: &self.run.inputs, at }
     }
 
     /// The moment that is shown.
@@ -168,10 +169,6 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         let [q, v] = &self.run.all;
         vectors::copy(self.q.as_mut(), q.as_ref());
         vectors::copy(self.v.as_mut(), v.as_ref());
-    }
-
-    fn at(&self) -> At<'_, D::Real> {
-        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
     }
 }
 
@@ -217,7 +214,7 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn inputs(&self, inputs: &mut [D::Real]) {
-        self.with_inputs(|own| vectors::copy(inputs, own));
+        self.view().with_inputs(|own| vectors::copy(inputs, own));
     }
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
@@ -274,15 +271,7 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn reactions(&self, acceleration: &mut [D::Real], multipliers: &mut [D::Real]) -> Result<(), Error> {
-        let At { t, q, .. } = self.at();
-        let mechanism = self.run.dynamics.described();
-        let growth =
-            self.with_inputs(|inputs| mechanism.reactions(self.at(), inputs, acceleration, multipliers));
-        let info = mechanism.info();
-        let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
-        let name = |row| info.constraint_name(row);
-        check_solution(&solution, || mechanism.worst_pivot(t, q))?;
-        check_defined(t, "the multiplier of constraint", multipliers, name)
+        self.view().reactions(acceleration, multipliers)
     }
 
     fn outputs(
@@ -291,18 +280,11 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
         multipliers: &[D::Real],
         outputs: &mut [D::Real],
     ) -> Result<(), Error> {
-        let mechanism = self.run.dynamics.described();
-        self.with_inputs(|inputs| mechanism.outputs(self.at(), inputs, [acceleration, multipliers], outputs));
-        check_outputs(mechanism.info(), self.t, outputs)
+        self.view().outputs(acceleration, multipliers, outputs)
     }
 
     fn violations(&self) -> [D::Real; 2] {
-        let mut rows = self.run.dynamics.no_feedback();
-        let equations = self.run.dynamics.equations();
-        equations.phi(self.t, self.q.as_ref(), rows.as_mut());
-        let violation = vectors::norm(rows.as_ref());
-        equations.phi_dot(self.at(), rows.as_mut());
-        [violation, vectors::norm(rows.as_ref())]
+        self.view().violations()
     }
 
     fn energies(&self, at: At<'_, D::Real>) -> [D::Real; 2] {

@@ -1,12 +1,12 @@
-//! Runs to a tolerance, of mechanisms whose type is no longer known.
+//! Runs to a tolerance and of RATTLE, of mechanisms whose type is no longer known.
 
 use std::sync::Arc;
 
 use mbs_runtime::equations::{At, Correction, Described, Equations, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
-    Adaptive, Components, Dynamics, Error, Mechanism, Method, MethodVisitor, Sampled, Scheme, State, System,
-    Tolerances, with_type,
+    Adaptive, Components, Composition, Dynamics, Error, Mechanism, Method, MethodVisitor, Rattle, Sampled,
+    Scheme, State, System, Tolerances, with_type,
 };
 
 use crate::settings::{Start, StartKind};
@@ -18,6 +18,23 @@ where
 {
     let name = start.method.tableau.word;
     with_type(start.method, Started { dynamics, tolerances, start }).unwrap_or(Err(Error::Scheme { name }))
+}
+
+/// Starts a run of RATTLE.
+pub(crate) fn rattle<D>(
+    dynamics: D,
+    composition: &'static Composition,
+    start: &Start,
+) -> Result<Box<dyn System>, Error>
+where
+    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+{
+    let mut builder =
+        Rattle::builder(dynamics, start.step).composition(composition).inputs(start.inputs.clone());
+    if start.kind == StartKind::Declared {
+        builder = builder.as_declared();
+    }
+    Ok(Box::new(builder.build()?))
 }
 
 struct Started<'a, D> {
@@ -143,5 +160,18 @@ impl Dynamics for Erased {
         let mut violation = self.no_feedback.clone();
         let room = Correction { all: [&mut q, &mut v, &mut all], violation: &mut violation };
         correction(&*self.mechanism, t, at.q, at.v.map(Vec::as_slice), room, delta)
+    }
+
+    fn correction_along(&self, from: (f64, &Vec<f64>), t: f64, q: &Vec<f64>, delta: &mut Vec<f64>) -> f64 {
+        let [mut all, mut unread, mut correction] = [(); 3].map(|()| self.start.1.clone());
+        let mut violation = self.no_feedback.clone();
+        // positions do not depend on velocities
+        self.mechanism.complete(At { t, q, v: q }, &mut all, &mut unread);
+        self.mechanism.phi(t, &all, &mut violation);
+        let (t, q) = from;
+        self.mechanism.complete(At { t, q, v: q }, &mut all, &mut unread);
+        let growth = self.mechanism.projection(t, &all, &violation, &mut correction);
+        self.mechanism.states(&correction, delta);
+        growth
     }
 }

@@ -117,6 +117,9 @@ impl Model for FromText {
         if let Some(tolerances) = start.tolerances {
             return adaptive::start(Prepared::new(&live), tolerances, start);
         }
+        if let Some(composition) = start.composition {
+            return adaptive::rattle(Prepared::new(&live), composition, start);
+        }
         Ok(Box::new(run(&live, start)?))
     }
 

@@ -111,6 +111,10 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::start(Erased::new(mechanism), tolerances, start);
         }
+        if let Some(composition) = start.composition {
+            let mechanism = M::new(components(&start.parameters))?;
+            return adaptive::rattle(Erased::new(mechanism), composition, start);
+        }
         let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
     }

@@ -1,6 +1,6 @@
 //! What a run is asked to do.
 
-use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances};
+use mbs_runtime::{Composition, DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances};
 
 use crate::{Error, Model, Signals, Until};
 
@@ -35,6 +35,8 @@ pub struct Settings {
     pub beta: Option<f64>,
     /// The scheme of the steps; `None` for the one that the mechanism declares.
     pub scheme: Option<&'static Tableau>,
+    /// RATTLE in place of a scheme, for forces of positions alone: what a step is composed of.
+    pub composition: Option<&'static Composition>,
     /// What keeps the constraints.
     /// `None` for projection of a run to a tolerance, and for held feedback of one with a
     /// constant step.
@@ -63,6 +65,7 @@ impl Default for Settings {
             alpha: None,
             beta: None,
             scheme: None,
+            composition: None,
             stabilization: None,
             tolerances: None,
             until: None,
@@ -81,6 +84,8 @@ pub struct Start {
     pub inputs: Vec<f64>,
     /// The scheme, and what keeps the constraints.
     pub method: Explicit,
+    /// RATTLE in its place.
+    pub composition: Option<&'static Composition>,
     /// α in 1/s.
     pub alpha: f64,
     /// β in 1/s.
@@ -102,12 +107,15 @@ impl Start {
     ///
     /// # Errors
     /// A step that is not positive, a name that the mechanism does not have, feedback or gains
-    /// where the constraints are kept by projection.
+    /// where the constraints are kept by projection, RATTLE with what it has no use for.
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let info = model.info();
         let step = settings.step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(mbs_runtime::Error::Step { step }.into());
+        }
+        if settings.composition.is_some() {
+            suits_composition(settings)?;
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
@@ -115,6 +123,7 @@ impl Start {
             parameters: assigned("parameter", info.parameters, &settings.parameters)?,
             inputs: assigned("input", info.inputs, &settings.inputs)?,
             method,
+            composition: settings.composition,
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
@@ -127,6 +136,27 @@ impl Start {
             kind: settings.start,
             allow_unstable: settings.allow_unstable,
         })
+    }
+}
+
+/// Refuses what RATTLE has no use for: it keeps the constraints itself, and its step is constant.
+fn suits_composition(settings: &Settings) -> Result<(), Error> {
+    let Settings { stabilization, alpha, beta, tolerances, until, .. } = settings;
+    let refused = [
+        (stabilization.is_some(), "feedback"),
+        (alpha.is_some(), "alpha"),
+        (beta.is_some(), "beta"),
+        (tolerances.is_some(), "tolerance"),
+        (until.is_some(), "until"),
+    ];
+    match refused.into_iter().find(|(is_given, _)| *is_given) {
+        None => Ok(()),
+        Some((_, name)) => Err(Error::Name {
+            name: name.into(),
+            reason: "RATTLE takes constant steps and keeps the constraints itself, so it has no use for \
+                     feedback, gains, tolerances or events; leave it out, or take another method"
+                .into(),
+        }),
     }
 }
 

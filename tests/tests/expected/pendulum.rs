@@ -1139,6 +1139,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         ],
         &[0, 1],
         &[],
+        &[],
         &[
             ::mbs_runtime::Pivot {
                 constraint: "rod",

@@ -4,8 +4,8 @@ use mbs_symbolic::Program;
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Link, Parameter,
-    Pivot, Sketch, Written,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link,
+    Parameter, Pivot, Sketch, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Direction, Model};
@@ -31,6 +31,7 @@ impl Compiled {
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
             redundant: plan.rows.redundant.to_vec(),
+            velocity_forces: velocity_forces(&model, equations, &plan),
             start,
             splines: model.arena.splines().to_vec(),
             jacobian: plan.phi_q_places.clone(),
@@ -80,6 +81,15 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::Points => &plan.points,
         FunctionId::Complete => &plan.complete,
     }
+}
+
+/// The coordinates along which Q has terms in v or λ.
+fn velocity_forces(model: &Model, equations: &Equations, plan: &Plan) -> Vec<usize> {
+    let is_of_motion =
+        |symbol| matches!(plan.inputs.of(symbol), Some(Input::Velocity(_) | Input::Multiplier(_)));
+    let depends = |force| model.arena.symbols_in(force).into_iter().any(is_of_motion);
+    let forces = equations.total_forces.iter().enumerate();
+    forces.filter(|(_, force)| depends(**force)).map(|(coordinate, _)| coordinate).collect()
 }
 
 /// Where the x of a body has its y behind it.

@@ -94,6 +94,9 @@ pub struct Compiled {
     /// Constraints that repeat what others say, by position; they share the multipliers
     /// with these by the minimum norm.
     pub redundant: Vec<usize>,
+    /// The coordinates, by position, along which forces act that depend on velocities or on
+    /// reactions.
+    pub velocity_forces: Vec<usize>,
     /// q, v and t of the start with declared parameters, before guesses are corrected.
     pub start: Vec<f64>,
     /// Functions given by a table, in the order of their handles.

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
+use mbs_runtime::{
+    COMPOSITIONS, Composition, Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances,
+};
 
 use crate::quantity::TIME;
 use crate::{Error, Model, Settings, Signals, StartKind, Unit, Until, quantity};
@@ -58,9 +60,10 @@ pub(super) fn of_a_run() -> Vec<Arg> {
         option(
             "method",
             "SCHEME",
-            "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]",
+            "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]; rattle and \
+             rattle4 keep the energy where no force depends on velocities",
         )
-        .value_parser(PossibleValuesParser::new(SCHEMES.map(|scheme| scheme.word))),
+        .value_parser(PossibleValuesParser::new(methods())),
         option(
             "rtol",
             "NUMBER",
@@ -84,6 +87,12 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             .help("Accept gains under which the violation grows"),
     ];
     of_values().into_iter().chain(others).collect()
+}
+
+/// The words of all methods.
+fn methods() -> impl Iterator<Item = &'static str> {
+    let schemes = SCHEMES.into_iter().map(|scheme| scheme.word);
+    schemes.chain(COMPOSITIONS.into_iter().map(|composition| composition.word))
 }
 
 /// The mechanism's defaults with the parameters and inputs that are given.
@@ -112,13 +121,19 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     let (looks, condition) = (condition.is_ok(), condition.ok().flatten());
     let until = condition.map(|text| Until::parse(info, text)).transpose()?;
     let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| matches.contains_id(name));
-    let has_events = looks && !info.events.is_empty() && !has_feedback && defaults.stabilization.is_none();
+    let composition = Composition::find(choice("method"));
+    let has_events = looks
+        && !info.events.is_empty()
+        && !has_feedback
+        && defaults.stabilization.is_none()
+        && composition.is_none();
     let for_events = (until.is_some() || has_events).then(Tolerances::default);
     let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances).or(for_events);
-    // a run to a tolerance has no use for the feedback that is declared, nor has projection
-    let declared = defaults.stabilization.filter(|_| tolerances.is_none());
+    // a run to a tolerance has no use for the feedback that is declared, nor have projection and RATTLE
+    let is_fed_back = tolerances.is_none() && composition.is_none();
+    let declared = defaults.stabilization.filter(|_| is_fed_back);
     let stabilization = Stabilization::find(choice("feedback")).or(declared);
-    let has_gains = tolerances.is_none() && stabilization != Some(Stabilization::Projection);
+    let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
     let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
     Ok(Settings {
         step: value("step", TIME)?.unwrap_or(defaults.step),
@@ -127,6 +142,7 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         alpha: value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
         beta: value("beta", RATE)?.or(declared_gain(defaults.beta)),
         scheme: Tableau::find(choice("method")).or(defaults.scheme),
+        composition,
         stabilization,
         tolerances,
         until,

@@ -61,6 +61,16 @@ fn a_method_of_ones_choice() {
     let (heun, rk4) = (error("slider-crank-free", ""), error("slider-crank-free", "--method rk4"));
     assert!(heun > 1e-3 && rk4 < 4e-7, "{heun} {rk4}");
 
+    // RATTLE of fourth order, under a constant torque
+    assert!(error("slider-crank-free", "--method rattle4") < 1e-6);
+    let refused = |options: &str| {
+        let output = mbs(folder.path(), &format!("simulate {options}"));
+        assert!(!output.status.success());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    assert!(refused("spring-mass-damper --method rattle").contains("`x` depends on velocities"));
+    assert!(refused("double-pendulum --method rattle --feedback held").contains("`feedback` cannot be used"));
+
     // declared in a file, and taken back
     let source = include_str!("../../../src/slider_crank_free.rs");
     let source = source.replace("dof = 1;", "dof = 1; method = rk4;");

@@ -1,0 +1,113 @@
+//! Runs of RATTLE as a [`System`].
+
+use super::Rattle;
+use crate::equations::{At, Described, Equations};
+use crate::simulation::clock;
+use crate::view::View;
+use crate::watch::WorstPlace;
+use crate::{Derivation, Dynamics, Error, Real, Sketch, System, vectors};
+
+impl<D: Dynamics> Rattle<D> {
+    /// What is seen.
+    fn view(&self) -> View<'_, D> {
+        let [q, v] = &self.all;
+        let at = At { t: self.now.t, q: q.as_ref(), v: v.as_ref() };
+        View { dynamics: &self.dynamics, inputs: &self.inputs, at }
+    }
+}
+
+impl<D: Dynamics> System<D::Real> for Rattle<D> {
+    fn equations(&self) -> &dyn Equations<D::Real> {
+        self.dynamics.equations()
+    }
+
+    fn described(&self) -> &dyn Described<D::Real> {
+        self.dynamics.described()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.dynamics.described().derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.dynamics.described().sketch()
+    }
+
+    fn parameters(&self, parameters: &mut [D::Real]) {
+        self.dynamics.described().parameters(parameters);
+    }
+
+    fn time(&self) -> D::Real {
+        self.now.t
+    }
+
+    fn state(&self, q: &mut [D::Real], v: &mut [D::Real]) {
+        let At { q: own_q, v: own_v, .. } = self.view().at;
+        vectors::copy(q, own_q);
+        vectors::copy(v, own_v);
+    }
+
+    fn inputs(&self, inputs: &mut [D::Real]) {
+        self.view().with_inputs(|own| vectors::copy(inputs, own));
+    }
+
+    fn set_inputs(&mut self, inputs: &[D::Real]) {
+        let Self { dynamics, inputs: own, .. } = self;
+        dynamics.with_inputs(own, |own| vectors::copy(own, inputs));
+        self.is_solved = false;
+    }
+
+    fn step_size(&self) -> D::Real {
+        self.step
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn steps_to(&self, end: f64) -> Result<u64, Error> {
+        clock::steps_to::<D::Real>(self.start_time, self.step.to_f64(), self.steps, end)
+    }
+
+    fn step(&mut self) -> Result<(), Error> {
+        self.step()
+    }
+
+    fn reactions(&self, acceleration: &mut [D::Real], multipliers: &mut [D::Real]) -> Result<(), Error> {
+        self.view().reactions(acceleration, multipliers)
+    }
+
+    fn outputs(
+        &self,
+        acceleration: &[D::Real],
+        multipliers: &[D::Real],
+        outputs: &mut [D::Real],
+    ) -> Result<(), Error> {
+        self.view().outputs(acceleration, multipliers, outputs)
+    }
+
+    fn violations(&self) -> [D::Real; 2] {
+        self.view().violations()
+    }
+
+    fn energies(&self, at: At<'_, D::Real>) -> [D::Real; 2] {
+        let mechanism = self.dynamics.described();
+        [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
+    }
+
+    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
+        self.dynamics.described().points(t, q, points);
+    }
+
+    fn worst_growth(&self) -> D::Real {
+        self.watch.worst
+    }
+
+    fn worst_place(&self) -> Option<WorstPlace> {
+        self.watch.worst_place(self.dynamics.equations().info())
+    }
+
+    fn digits_left(&self) -> f64 {
+        self.watch.digits_left()
+    }
+}
