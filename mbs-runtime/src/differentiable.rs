@@ -95,6 +95,7 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::complete(states: At<'_, f64>, q: &mut [f64], v: &mut [f64]);
         Equations::stabilized(states: At<'_, f64>, inputs: &[f64], gains: &Gains<f64>, a: &mut [f64], feedback: &mut [f64]) -> f64;
         Equations::constrained(states: At<'_, f64>, inputs: &[f64], feedback: &[f64], a: &mut [f64]) -> f64;
+        Equations::implicit(states: At<'_, f64>, inputs: &[f64], shift: f64, predicted: &[f64], a: &mut [f64]) -> f64;
         Equations::accelerations(at: At<'_, f64>, inputs: &[f64], feedback: &[f64], a: &mut [f64]) -> f64;
         Equations::position_correction(t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64;
         Equations::velocity_correction(t: f64, q: &[f64], residual: &[f64], correction: &mut [f64]) -> f64;

@@ -65,6 +65,16 @@ pub trait Equations<T: Real> {
     /// Solves for q̈ of the states with γ + `feedback` below.
     fn constrained(&self, states: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
 
+    /// q̈ of the states in an implicit stage; see [`Mechanism::implicit`].
+    fn implicit(
+        &self,
+        states: At<'_, T>,
+        inputs: &[T],
+        shift: T,
+        predicted: &[T],
+        acceleration: &mut [T],
+    ) -> T;
+
     /// Solves for q̈ of all coordinates with γ + `feedback` below.
     fn accelerations(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T;
 
@@ -138,6 +148,19 @@ impl<M: Mechanism> Equations<M::Real> for M {
         acceleration: &mut [M::Real],
     ) -> M::Real {
         let solved = Mechanism::constrained(self, &states.state(), &read(inputs), &read(feedback));
+        write(solved.acceleration, acceleration);
+        solved.growth
+    }
+
+    fn implicit(
+        &self,
+        states: At<'_, M::Real>,
+        inputs: &[M::Real],
+        shift: M::Real,
+        predicted: &[M::Real],
+        acceleration: &mut [M::Real],
+    ) -> M::Real {
+        let solved = Mechanism::implicit(self, &states.state(), &read(inputs), shift, &read(predicted));
         write(solved.acceleration, acceleration);
         solved.growth
     }

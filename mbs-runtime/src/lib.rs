@@ -71,7 +71,7 @@
 //! # Method and limits
 //!
 //! Schemes are explicit: the step has to resolve the fastest motion, and stiff springs need
-//! small ones. [`Heun`]'s method, the default, is of second order, others are of up to eighth;
+//! small ones, or [`TrBdf2`]. [`Heun`]'s method, the default, is of second order, others are of up to eighth;
 //! see [`methods`]. The feedback keeps the constraint violation small, proportional to the
 //! error of a step (h³ with Heun's method), it does not remove it; the
 //! [`Builder::baumgarte`] gains must be [stable](Baumgarte::is_stable) for the
@@ -116,6 +116,7 @@ mod adaptive;
 pub mod arrays;
 mod baumgarte;
 mod components;
+mod constant;
 mod derivation;
 mod described;
 mod diagnosis;
@@ -131,6 +132,7 @@ pub mod language {}
 #[doc = include_str!("methods.md")]
 #[doc = include_str!("precision.svg")]
 #[doc = include_str!("energy.svg")]
+#[doc = include_str!("stiff.svg")]
 pub mod methods {}
 mod kinematics;
 pub mod lanes;
@@ -139,7 +141,6 @@ mod method;
 mod pack;
 mod pair;
 mod partials;
-mod rattle;
 mod reach;
 mod real;
 mod room;
@@ -162,6 +163,7 @@ pub use adaptive::{
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
+pub use constant::{ConstantStep, ConstantStepBuilder, Kernel, Rattle, RattleStep, TrBdf2, TrBdf2Step};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
@@ -180,7 +182,6 @@ pub use method::{
 };
 pub use pack::Pack;
 pub use pair::{Pair, Single, Two};
-pub use rattle::{Rattle, RattleBuilder};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

@@ -176,6 +176,27 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         feedback: &Self::Constraints,
     ) -> Accelerations<Self::States>;
 
+    /// q̈ of the states in an implicit stage, by one step of Newton's method from the acceleration
+    /// `predicted`, without feedback:
+    ///
+    /// ```text
+    /// (M + D) q̈ + Φ_qᵀ λ = Q + D p,  Φ_q q̈ = γ,    D = −s ∂Q/∂v − s² ∂Q/∂q
+    /// ```
+    ///
+    /// with p the prediction, s the `shift`, which is the share of the step that the stage has of
+    /// its own slope, and everything taken `at` where p leads to. D is made symmetric. Where no
+    /// force depends on positions or velocities it is 0.
+    #[inline]
+    fn implicit(
+        &self,
+        at: &State<Self::States>,
+        inputs: &Self::Inputs,
+        _shift: Self::Real,
+        _predicted: &Self::States,
+    ) -> Accelerations<Self::States> {
+        self.constrained(at, inputs, &Self::Constraints::splat(Self::Real::default()))
+    }
+
     /// A whole step of the declared [`Scheme`](Self::Scheme) of length `h`, from `at` to
     /// `t_next`, as one program: sines and cosines of all stages, the solutions and the
     /// update, in the operations of [`stabilized`](Self::stabilized) and

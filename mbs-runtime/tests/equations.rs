@@ -139,6 +139,10 @@ impl Equations<f64> for Pendulums {
     ) -> f64 {
         self.accelerations(at, inputs, feedback, acceleration)
     }
+    // no force depends on positions or velocities
+    fn implicit(&self, at: At<'_, f64>, inputs: &[f64], _: f64, _: &[f64], acceleration: &mut [f64]) -> f64 {
+        self.accelerations(at, inputs, &vec![0.0; self.lengths.len()], acceleration)
+    }
     fn accelerations(&self, at: At<'_, f64>, _: &[f64], feedback: &[f64], acceleration: &mut [f64]) -> f64 {
         let v = at.v;
         let gamma = |i: usize| -(v[2 * i].powi(2) + v[2 * i + 1].powi(2)) / self.lengths[i];

@@ -2,6 +2,7 @@
 //! out by hand, chains of any length, numbers that carry derivatives,
 //! derivatives from differences, random states, random declarations.
 
+pub mod bushing;
 pub mod by_hand;
 pub mod by_hand_on_pairs;
 pub mod chains;

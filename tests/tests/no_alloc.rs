@@ -6,12 +6,14 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use mbs_live::{Prepared, Run, Text};
+use mbs_runtime::TrBdf2;
 use mbs_runtime::{
     Adaptive, Baumgarte, Components, Dual, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rattle,
     Rk4, Sampled, Simulation, System as _, start,
 };
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeParameters};
+use tests::bushing::Crank;
 
 /// Counts on its own thread, so that the test harness does not disturb.
 struct Counting;
@@ -131,6 +133,17 @@ fn steps_of_rattle_do_not_allocate() {
     let block = Text::declaration("block.mbs", text).compile().expect("a declaration");
     let mut run = Rattle::builder(Prepared::new(&block), H).build().expect("a start");
     assert_eq!(allocations(|| run.advance_to(5.0).expect("a regular motion")), 0);
+    let mut run = TrBdf2::builder(Prepared::new(&block), H).build().expect("a start");
+    assert_eq!(allocations(|| run.advance_to(5.0).expect("a regular motion")), 0);
+}
+
+#[test]
+fn implicit_steps_do_not_allocate() {
+    let allocated = allocations(|| {
+        let mut run = TrBdf2::builder(Crank::declared(), H).build().expect("a start");
+        run.advance_to(1.0).expect("a regular motion");
+    });
+    assert_eq!(allocated, 0);
 }
 
 #[test]

@@ -45,6 +45,8 @@ fn names(argument: Argument) -> &'static [&'static str] {
         Argument::Gains => &["minus_two_alpha", "minus_beta_squared"],
         Argument::Feedback => &["feedback"],
         Argument::Reactions => &["acceleration", "multipliers"],
+        Argument::Shift => &["shift"],
+        Argument::Predicted => &["predicted"],
     }
 }
 
@@ -62,6 +64,8 @@ fn read(compiled: &Compiled, operand: Operand) -> String {
             Input::Acceleration(at) => format!("acceleration[{at}]"),
             Input::Multiplier(at) => format!("multipliers[{at}]"),
             Input::Feedback(at) => format!("feedback[{at}]"),
+            Input::Predicted(at) => format!("predicted[{at}]"),
+            Input::Shift => "shift".to_owned(),
             Input::MinusTwoAlpha => "minus_two_alpha".to_owned(),
             Input::MinusBetaSquared => "minus_beta_squared".to_owned(),
             Input::Step => "h".to_owned(),

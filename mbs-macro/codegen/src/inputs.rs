@@ -28,6 +28,10 @@ pub enum Input {
     Multiplier(usize),
     /// An amount added to γ of a constraint; of corrections, its residual.
     Feedback(usize),
+    /// The predicted acceleration of a coordinate that is integrated,
+    Predicted(usize),
+    /// and the share s of a step that an implicit stage has of its own slope.
+    Shift,
     /// −2α
     MinusTwoAlpha,
     /// −β²
@@ -49,6 +53,8 @@ pub struct State {
     /// coordinate, unless other coordinates are not integrated.
     pub position: Symbol,
     pub velocity: Symbol,
+    /// Its predicted acceleration in an implicit stage.
+    pub predicted: Symbol,
 }
 
 /// All inputs of programs, and the symbols of those that a method adds.
@@ -65,6 +71,7 @@ pub struct Inputs {
     pub step: Symbol,
     pub half_step: Symbol,
     pub next_time: Symbol,
+    pub shift: Symbol,
 }
 
 impl Inputs {
@@ -84,14 +91,27 @@ impl Inputs {
         let step = add("(h)", Input::Step);
         let half_step = add("(h/2)", Input::HalfStep);
         let next_time = add("(t+h)", Input::NextTime);
+        let shift = add("(s)", Input::Shift);
         let time = model.time;
         let states = model.coordinates.iter().enumerate().map(|(coordinate, it)| State {
             coordinate,
             position: it.position,
             velocity: it.velocity,
+            predicted: add(&format!("predicted({})", it.quantity.name), Input::Predicted(coordinate)),
         });
         let states = states.collect();
-        Self { all, time, states, minus_two_alpha, minus_beta_squared, feedback, step, half_step, next_time }
+        Self {
+            all,
+            time,
+            states,
+            minus_two_alpha,
+            minus_beta_squared,
+            feedback,
+            step,
+            half_step,
+            next_time,
+            shift,
+        }
     }
 
     /// Integrates these coordinates alone, which get symbols of their own.
@@ -103,8 +123,10 @@ impl Inputs {
                 let name = model.arena.name(symbol).to_owned();
                 model.arena.symbol(&name, Stage::Variable)
             });
-            self.all.extend([Input::StatePosition(at), Input::StateVelocity(at)]);
-            self.states.push(State { coordinate, position, velocity });
+            let name = format!("predicted({})", of.quantity.name);
+            let predicted = model.arena.symbol(&name, Stage::Variable);
+            self.all.extend([Input::StatePosition(at), Input::StateVelocity(at), Input::Predicted(at)]);
+            self.states.push(State { coordinate, position, velocity, predicted });
         }
     }
 

@@ -36,6 +36,7 @@ mod plan;
 mod quantity;
 mod reactive;
 mod reduction;
+mod stiff;
 mod syntax;
 pub mod target;
 mod validate;

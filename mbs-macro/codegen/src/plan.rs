@@ -19,6 +19,7 @@ use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::reactive::Circular;
 use crate::reduction::Reduction;
+use crate::stiff::Stiffness;
 use correction::correction;
 pub use step::{FusedStep, Kinds};
 use system::{Problem, cheapest};
@@ -62,6 +63,10 @@ pub struct Plan {
     pub stabilized: Program,
     /// q̈ of the states, growth
     pub constrained: Program,
+    /// q̈ of the states in an implicit stage, growth
+    pub implicit: Program,
+    /// Whether that is another system than that of an explicit stage.
+    pub has_stiffness: bool,
     /// q̈, λ, growth
     pub reactions: Program,
     /// Δq, growth
@@ -174,6 +179,11 @@ pub fn plan(
         .collect();
     let stabilized = solver.stabilized(model, problem);
     let constrained = solver.constrained(model, problem);
+    let stiffness = Stiffness::new(model, equations, &inputs, &reduction);
+    let implicit = match stiffness.is_none() {
+        true => solver.without_feedback(model, problem),
+        false => system::implicit(model, problem, &stiffness, strategy)?.without_feedback(model, problem),
+    };
     let reactions = solver.reactions(model, problem);
     let reactions_in_states = reduction.in_states(&mut model.arena, &reactions);
     let projection = solver.projection(model, rows, &inputs);
@@ -204,6 +214,8 @@ pub fn plan(
         potential_energy: program(&[equations.potential_energy])?,
         stabilized: program(&stabilized)?,
         constrained: program(&constrained)?,
+        implicit: program(&implicit)?,
+        has_stiffness: !stiffness.is_none(),
         reactions: program(&reactions)?,
         position_correction: program(&positions)?,
         velocity_correction: program(&velocities)?,

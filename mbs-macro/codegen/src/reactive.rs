@@ -57,20 +57,21 @@ pub struct Forces {
 #[derive(Debug)]
 pub struct Circular(pub usize);
 
-/// Solves for the loads that depend on multipliers.
+/// Solves for the loads that depend on multipliers, beside all `others`.
 ///
 /// # Errors
 /// A load that nothing determines.
 pub fn forces(
     model: &mut Model,
+    others: &[Expr],
     equations: &Equations,
     factorization: &Factorization,
 ) -> Result<Forces, Circular> {
-    let mut values = equations.forces.clone();
+    let mut values = others.to_vec();
     if model.reactive_loads.is_empty() {
         return Ok(Forces { values, growth: model.arena.zero() });
     }
-    let without = reactions_without(model, equations, factorization);
+    let without = reactions_without(model, others, equations, factorization);
     let responses: Vec<_> =
         (0..model.reactive_loads.len()).map(|at| response(model, factorization, at)).collect();
     let steps = steps(model, &responses);
@@ -221,8 +222,13 @@ fn eliminate<'a>(
 }
 
 /// λ₀: the multipliers without the loads that depend on them.
-fn reactions_without(model: &mut Model, equations: &Equations, factorization: &Factorization) -> Multipliers {
-    let forces = equations.forces.iter().enumerate();
+fn reactions_without(
+    model: &mut Model,
+    others: &[Expr],
+    equations: &Equations,
+    factorization: &Factorization,
+) -> Multipliers {
+    let forces = others.iter().enumerate();
     let mut rhs: BTreeMap<Unknown, Expr> = forces.map(|(at, &f)| (Unknown::Coordinate(at), f)).collect();
     rhs.extend(equations.gamma.iter().enumerate().map(|(at, &gamma)| (Unknown::Row(at), gamma)));
     multipliers_for(model, factorization, &rhs)

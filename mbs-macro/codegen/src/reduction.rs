@@ -79,6 +79,27 @@ impl Reduction {
         if self.values.is_empty() { roots.to_vec() } else { arena.substitute_all(roots, &self.values) }
     }
 
+    /// The predicted accelerations of all coordinates: of those that a row gives, that of their
+    /// formula.
+    pub fn predicted(&self, model: &mut Model, inputs: &Inputs) -> Vec<Expr> {
+        let arena = &mut model.arena;
+        let mut direction = HashMap::from([(inputs.time, arena.one())]);
+        let mut predicted = vec![arena.zero(); model.coordinates.len()];
+        for state in &inputs.states {
+            let acceleration = arena.variable(state.predicted);
+            direction.insert(state.position, arena.variable(state.velocity));
+            direction.insert(state.velocity, acceleration);
+            predicted[state.coordinate] = acceleration;
+        }
+        for &at in &self.given {
+            if let Some(&velocity) = self.values.get(&model.coordinates[at].velocity) {
+                let acceleration = arena.derivative(velocity, &direction);
+                predicted[at] = arena.share(acceleration);
+            }
+        }
+        predicted
+    }
+
     /// All coordinates and velocities as functions of the states.
     pub fn complete(&self, model: &mut Model) -> Vec<Expr> {
         let positions = model.coordinates.iter().map(|coordinate| coordinate.position);

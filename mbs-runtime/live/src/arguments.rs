@@ -18,7 +18,7 @@ pub struct Arguments<'a, T = f64, const C: usize = 1> {
     pub gains: [[T; C]; 2],
     /// Amounts added to γ; of corrections, the residual.
     pub feedback: &'a [[T; C]],
-    /// q̈
+    /// q̈; of an implicit stage, what is predicted of it
     pub acceleration: &'a [[T; C]],
     /// λ
     pub multipliers: &'a [[T; C]],
@@ -26,6 +26,8 @@ pub struct Arguments<'a, T = f64, const C: usize = 1> {
     pub step: [T; C],
     /// t + h in s
     pub t_next: [T; C],
+    /// The share of the step that an implicit stage has of its own slope, in s.
+    pub shift: [T; C],
 }
 
 impl<T: Real, const C: usize> Default for Arguments<'_, T, C> {
@@ -42,6 +44,7 @@ impl<T: Real, const C: usize> Default for Arguments<'_, T, C> {
             multipliers: &[],
             step: none,
             t_next: none,
+            shift: none,
         }
     }
 }
@@ -53,6 +56,7 @@ pub(crate) enum Given {
     Step,
     HalfStep,
     NextTime,
+    Shift,
     MinusTwoAlpha,
     MinusBetaSquared,
     Position(usize),
@@ -72,6 +76,7 @@ impl<T: Real, const C: usize> Arguments<'_, T, C> {
             Given::Step => return self.step,
             Given::HalfStep => return self.step.map(|step| T::from_f64(0.5) * step),
             Given::NextTime => return self.t_next,
+            Given::Shift => return self.shift,
             Given::MinusTwoAlpha => return self.gains[0],
             Given::MinusBetaSquared => return self.gains[1],
             Given::Position(at) => (self.q, at),

@@ -119,6 +119,8 @@ pub fn role(compiled: &Compiled, operand: Operand) -> Role {
             Input::Acceleration(at) => Given::Acceleration(at),
             Input::Multiplier(at) => Given::Multiplier(at),
             Input::Feedback(at) => Given::Feedback(at),
+            Input::Predicted(at) => Given::Acceleration(at),
+            Input::Shift => Given::Shift,
         },
     };
     Role::Given(given)

@@ -46,6 +46,23 @@ impl<T: Real> Equations<T> for Live<T> {
         self.solve(|growth| self.call(FunctionId::Constrained, &arguments, [acceleration, growth]))
     }
 
+    fn implicit(
+        &self,
+        states: At<'_, T>,
+        inputs: &[T],
+        shift: T,
+        predicted: &[T],
+        acceleration: &mut [T],
+    ) -> T {
+        let arguments = Arguments {
+            inputs: single(inputs),
+            shift: [shift],
+            acceleration: single(predicted),
+            ..state(states)
+        };
+        self.solve(|growth| self.call(FunctionId::Implicit, &arguments, [acceleration, growth]))
+    }
+
     fn accelerations(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], acceleration: &mut [T]) -> T {
         let mut multipliers = vec![T::from_f64(f64::NAN); feedback.len()];
         let given = Arguments { inputs: single(inputs), feedback: single(feedback), ..state(at) };

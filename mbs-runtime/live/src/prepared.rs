@@ -24,6 +24,7 @@ pub struct Prepared<T = f64> {
 #[derive(Clone, Debug)]
 struct Memory<T> {
     acceleration: Vec<[T; 1]>,
+    implicit: Vec<[T; 1]>,
     complete: Vec<[T; 1]>,
     phi: Vec<[T; 1]>,
     phi_dot: Vec<[T; 1]>,
@@ -42,6 +43,7 @@ impl<T: Real> Prepared<T> {
         let (n, m) = (info.coordinates.len(), info.constraints.len());
         let room = Memory {
             acceleration: slots(FunctionId::Constrained),
+            implicit: slots(FunctionId::Implicit),
             complete: slots(FunctionId::Complete),
             phi: slots(FunctionId::Phi),
             phi_dot: slots(FunctionId::PhiDot),
@@ -134,6 +136,26 @@ impl<T: Real> Dynamics for Prepared<T> {
         let at = Arguments { inputs: single(inputs), feedback: single(no_feedback), ..state(At { t, q, v }) };
         let mut growth = [T::from_f64(f64::NAN)];
         self.run(FunctionId::Constrained, slots, &at, [acceleration, &mut growth]);
+        growth[0]
+    }
+
+    fn implicit(
+        &self,
+        t: T,
+        [q, v]: [&Vec<T>; 2],
+        inputs: &Vec<T>,
+        (shift, predicted): (T, &Vec<T>),
+        acceleration: &mut Vec<T>,
+    ) -> T {
+        let slots = &mut self.room.borrow_mut().implicit;
+        let at = Arguments {
+            inputs: single(inputs),
+            shift: [shift],
+            acceleration: single(predicted),
+            ..state(At { t, q, v })
+        };
+        let mut growth = [T::from_f64(f64::NAN)];
+        self.run(FunctionId::Implicit, slots, &at, [acceleration, &mut growth]);
         growth[0]
     }
 

@@ -67,6 +67,17 @@ pub trait Dynamics: Clone + Send {
         acceleration: &mut Self::States,
     ) -> Self::Real;
 
+    /// q̈ of what is integrated in an implicit stage, by one step of Newton's method from a
+    /// prediction; see [`Mechanism::implicit`].
+    fn implicit(
+        &self,
+        t: Self::Real,
+        at: [&Self::States; 2],
+        inputs: &Self::Inputs,
+        predicted: (Self::Real, &Self::States),
+        acceleration: &mut Self::States,
+    ) -> Self::Real;
+
     /// The correction of the positions or velocities that are integrated, which leads to the
     /// constraints; see [`explicit::project`](crate::explicit::project).
     fn correction(
@@ -162,6 +173,21 @@ impl<M: Mechanism> Dynamics for M {
         let Accelerations { acceleration: solved, growth } = self.constrained(&at, inputs, &none);
         *acceleration = solved.into_array();
         growth
+    }
+
+    fn implicit(
+        &self,
+        t: M::Real,
+        [q, v]: [&Self::States; 2],
+        inputs: &M::Inputs,
+        (shift, predicted): (M::Real, &Self::States),
+        acceleration: &mut Self::States,
+    ) -> M::Real {
+        let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
+        let predicted = Components::from_array(*predicted);
+        let solved = Mechanism::implicit(self, &at, inputs, shift, &predicted);
+        *acceleration = solved.acceleration.into_array();
+        solved.growth
     }
 
     #[inline(always)]

@@ -1,15 +1,15 @@
-//! Runs to a tolerance and of RATTLE, of mechanisms whose type is no longer known.
+//! Runs to a tolerance, and with a constant step of other methods than schemes, of mechanisms whose type is no longer known.
 
 use std::sync::Arc;
 
 use mbs_runtime::equations::{At, Correction, Described, Equations, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
-    Adaptive, Components, Composition, Dynamics, Error, Mechanism, Method, MethodVisitor, Rattle, Sampled,
-    Scheme, State, System, Tolerances, with_type,
+    Adaptive, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method, MethodVisitor,
+    Rattle, Sampled, Scheme, State, System, Tolerances, TrBdf2, with_type,
 };
 
-use crate::settings::{Start, StartKind};
+use crate::settings::{ConstantMethod, Start, StartKind};
 
 /// Starts a run with the scheme that is asked for, looked at in steps of the given length.
 pub(crate) fn start<D>(dynamics: D, tolerances: Tolerances, start: &Start) -> Result<Box<dyn System>, Error>
@@ -20,17 +20,29 @@ where
     with_type(start.method, Started { dynamics, tolerances, start }).unwrap_or(Err(Error::Scheme { name }))
 }
 
-/// Starts a run of RATTLE.
-pub(crate) fn rattle<D>(
+/// Starts a run with a constant step of a method of its own.
+pub(crate) fn constant<D>(
     dynamics: D,
-    composition: &'static Composition,
+    method: ConstantMethod,
     start: &Start,
 ) -> Result<Box<dyn System>, Error>
 where
     D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
 {
-    let mut builder =
-        Rattle::builder(dynamics, start.step).composition(composition).inputs(start.inputs.clone());
+    match method {
+        ConstantMethod::Rattle(composition) => {
+            begun(Rattle::builder(dynamics, start.step).composition(composition), start)
+        }
+        ConstantMethod::TrBdf2 => begun(TrBdf2::builder(dynamics, start.step), start),
+    }
+}
+
+fn begun<D, K>(builder: ConstantStepBuilder<D, K>, start: &Start) -> Result<Box<dyn System>, Error>
+where
+    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+    K: Kernel<D> + 'static,
+{
+    let mut builder = builder.inputs(start.inputs.clone());
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();
     }
@@ -153,6 +165,17 @@ impl Dynamics for Erased {
         acceleration: &mut Vec<f64>,
     ) -> f64 {
         self.mechanism.constrained(At { t, q, v }, inputs, &self.no_feedback, acceleration)
+    }
+
+    fn implicit(
+        &self,
+        t: f64,
+        [q, v]: [&Vec<f64>; 2],
+        inputs: &Vec<f64>,
+        (shift, predicted): (f64, &Vec<f64>),
+        acceleration: &mut Vec<f64>,
+    ) -> f64 {
+        self.mechanism.implicit(At { t, q, v }, inputs, shift, predicted, acceleration)
     }
 
     fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {

@@ -78,7 +78,7 @@ pub use models::Models;
 pub use picture::{Motion, Picture};
 pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary, write_csv};
 pub use run::StartValue;
-pub use settings::{Settings, Start, StartKind};
+pub use settings::{ConstantMethod, Settings, Start, StartKind};
 pub use signals::Signals;
 pub use table::Table;
 pub use unit::Unit;

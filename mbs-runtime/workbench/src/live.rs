@@ -117,8 +117,8 @@ impl Model for FromText {
         if let Some(tolerances) = start.tolerances {
             return adaptive::start(Prepared::new(&live), tolerances, start);
         }
-        if let Some(composition) = start.composition {
-            return adaptive::rattle(Prepared::new(&live), composition, start);
+        if let Some(method) = start.constant {
+            return adaptive::constant(Prepared::new(&live), method, start);
         }
         Ok(Box::new(run(&live, start)?))
     }

@@ -111,9 +111,9 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::start(Erased::new(mechanism), tolerances, start);
         }
-        if let Some(composition) = start.composition {
+        if let Some(method) = start.constant {
             let mechanism = M::new(components(&start.parameters))?;
-            return adaptive::rattle(Erased::new(mechanism), composition, start);
+            return adaptive::constant(Erased::new(mechanism), method, start);
         }
         let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))

@@ -1,6 +1,8 @@
 //! What a run is asked to do.
 
-use mbs_runtime::{Composition, DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances};
+use mbs_runtime::{
+    COMPOSITIONS, Composition, DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances,
+};
 
 use crate::{Error, Model, Signals, Until};
 
@@ -12,6 +14,36 @@ pub enum StartKind {
     Consistent,
     /// The declared start as it is.
     Declared,
+}
+
+/// A method of which runs with a constant step are made that are more than the stages of an
+/// explicit scheme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ConstantMethod {
+    /// RATTLE, for forces that do not depend on velocities, with what a step is composed of.
+    Rattle(&'static Composition),
+    /// TR-BDF2, for stiff forces.
+    TrBdf2,
+}
+
+impl ConstantMethod {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        COMPOSITIONS.into_iter().map(Self::Rattle).chain([Self::TrBdf2])
+    }
+
+    /// The one with this word.
+    pub fn find(word: &str) -> Option<Self> {
+        Self::all().find(|method| method.word() == word)
+    }
+
+    /// The word that asks for it on the command line.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Rattle(composition) => composition.word,
+            Self::TrBdf2 => "trbdf2",
+        }
+    }
 }
 
 /// A run of a mechanism. Values are in SI units.
@@ -35,8 +67,8 @@ pub struct Settings {
     pub beta: Option<f64>,
     /// The scheme of the steps; `None` for the one that the mechanism declares.
     pub scheme: Option<&'static Tableau>,
-    /// RATTLE in place of a scheme, for forces of positions alone: what a step is composed of.
-    pub composition: Option<&'static Composition>,
+    /// A method with a constant step in place of a scheme.
+    pub constant: Option<ConstantMethod>,
     /// What keeps the constraints.
     /// `None` for projection of a run to a tolerance, and for held feedback of one with a
     /// constant step.
@@ -65,7 +97,7 @@ impl Default for Settings {
             alpha: None,
             beta: None,
             scheme: None,
-            composition: None,
+            constant: None,
             stabilization: None,
             tolerances: None,
             until: None,
@@ -84,8 +116,8 @@ pub struct Start {
     pub inputs: Vec<f64>,
     /// The scheme, and what keeps the constraints.
     pub method: Explicit,
-    /// RATTLE in its place.
-    pub composition: Option<&'static Composition>,
+    /// A method with a constant step in its place.
+    pub constant: Option<ConstantMethod>,
     /// α in 1/s.
     pub alpha: f64,
     /// β in 1/s.
@@ -107,15 +139,15 @@ impl Start {
     ///
     /// # Errors
     /// A step that is not positive, a name that the mechanism does not have, feedback or gains
-    /// where the constraints are kept by projection, RATTLE with what it has no use for.
+    /// where the constraints are kept by projection, a method with a constant step and what it has no use for.
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let info = model.info();
         let step = settings.step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(mbs_runtime::Error::Step { step }.into());
         }
-        if settings.composition.is_some() {
-            suits_composition(settings)?;
+        if let Some(constant) = settings.constant {
+            has_no_other(constant, settings)?;
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
@@ -123,7 +155,7 @@ impl Start {
             parameters: assigned("parameter", info.parameters, &settings.parameters)?,
             inputs: assigned("input", info.inputs, &settings.inputs)?,
             method,
-            composition: settings.composition,
+            constant: settings.constant,
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
@@ -139,8 +171,9 @@ impl Start {
     }
 }
 
-/// Refuses what RATTLE has no use for: it keeps the constraints itself, and its step is constant.
-fn suits_composition(settings: &Settings) -> Result<(), Error> {
+/// Refuses what methods with a constant step have no use for, since they keep the constraints
+/// themselves.
+fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error> {
     let Settings { stabilization, alpha, beta, tolerances, until, .. } = settings;
     let refused = [
         (stabilization.is_some(), "feedback"),
@@ -153,9 +186,12 @@ fn suits_composition(settings: &Settings) -> Result<(), Error> {
         None => Ok(()),
         Some((_, name)) => Err(Error::Name {
             name: name.into(),
-            reason: "RATTLE takes constant steps and keeps the constraints itself, so it has no use for \
-                     feedback, gains, tolerances or events; leave it out, or take another method"
-                .into(),
+            reason: format!(
+                "the method `{}` takes constant steps and keeps the constraints itself, so it has no use for \
+                 feedback, gains, tolerances or events; leave it out, or take another method",
+                method.word()
+            )
+            .into(),
         }),
     }
 }

@@ -111,8 +111,8 @@ impl<'a> Evaluator<'a> {
             Input::Feedback(at) => given.feedback[at],
             Input::MinusTwoAlpha => given.gains[0],
             Input::MinusBetaSquared => given.gains[1],
-            // of fused steps alone
-            Input::Step | Input::HalfStep | Input::NextTime => f64::NAN,
+            // of fused steps and of implicit stages alone
+            Input::Step | Input::HalfStep | Input::NextTime | Input::Shift | Input::Predicted(_) => f64::NAN,
         }
     }
 }

@@ -31,6 +31,7 @@ impl Compiled {
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
             redundant: plan.rows.redundant.to_vec(),
+            has_stiffness: plan.has_stiffness,
             velocity_forces: velocity_forces(&model, equations, &plan),
             start,
             splines: model.arena.splines().to_vec(),
@@ -80,6 +81,7 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::StartPivots => &plan.start_pivots,
         FunctionId::Points => &plan.points,
         FunctionId::Complete => &plan.complete,
+        FunctionId::Implicit => &plan.implicit,
     }
 }
 

@@ -57,6 +57,8 @@ pub enum FunctionId {
     Points,
     /// q and v of all coordinates, from those that are integrated.
     Complete,
+    /// q̈ of the states in an implicit stage, one step of Newton's method from a predicted one.
+    Implicit,
 }
 
 /// What a function is given. All are given the parameters and what depends on them alone.
@@ -80,6 +82,10 @@ pub enum Argument {
     Feedback,
     /// q̈ and λ
     Reactions,
+    /// s of an implicit stage,
+    Shift,
+    /// and its predicted q̈ of the states.
+    Predicted,
 }
 
 /// What some of the outputs of a function are.
@@ -117,11 +123,12 @@ pub enum Results {
 struct Row(FunctionId, &'static str, &'static [Argument], &'static [Results]);
 
 use Argument::{
-    Feedback, Gains, Inputs, Positions, Reactions, StatePositions, StateVelocities, Time, Velocities,
+    Feedback, Gains, Inputs, Positions, Predicted, Reactions, Shift, StatePositions, StateVelocities, Time,
+    Velocities,
 };
 use Results::{Constraints, Coordinates, Growth, Scalar, States};
 
-const TABLE: [Row; 25] = [
+const TABLE: [Row; 26] = [
     Row(FunctionId::Hoisted, "new", &[], &[Results::Hoisted]),
     Row(FunctionId::Phi, "phi", &[Time, Positions], &[Constraints]),
     Row(FunctionId::PhiDot, "phi_dot", &[Time, Positions, Velocities], &[Constraints]),
@@ -182,6 +189,12 @@ const TABLE: [Row; 25] = [
         &[Time, StatePositions, StateVelocities],
         &[Coordinates, Coordinates],
     ),
+    Row(
+        FunctionId::Implicit,
+        "implicit",
+        &[Time, StatePositions, StateVelocities, Inputs, Shift, Predicted],
+        &[States, Growth],
+    ),
 ];
 
 /// The functions that people are told the cost of.
@@ -227,7 +240,8 @@ pub struct Count {
 impl Compiled {
     /// What the functions take that people ask for.
     pub fn counts(&self) -> Vec<Count> {
-        FunctionId::all().take(COUNTED).map(|function| self.count(function)).collect()
+        let implicit = self.has_stiffness.then_some(FunctionId::Implicit);
+        FunctionId::all().take(COUNTED).chain(implicit).map(|function| self.count(function)).collect()
     }
 
     /// What a function takes.

@@ -94,6 +94,9 @@ pub struct Compiled {
     /// Constraints that repeat what others say, by position; they share the multipliers
     /// with these by the minimum norm.
     pub redundant: Vec<usize>,
+    /// Whether forces depend on positions or velocities, so that an implicit stage is more than
+    /// an explicit one.
+    pub has_stiffness: bool,
     /// The coordinates, by position, along which forces act that depend on velocities or on
     /// reactions.
     pub velocity_forces: Vec<usize>,

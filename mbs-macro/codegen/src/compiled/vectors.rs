@@ -27,6 +27,8 @@ pub enum Vector {
     Multipliers,
     /// Amounts added to γ.
     Feedback,
+    /// Predicted accelerations of what is integrated.
+    Predicted,
 }
 
 impl Input {
@@ -42,11 +44,13 @@ impl Input {
             Self::Acceleration(at) => (Vector::Accelerations, at),
             Self::Multiplier(at) => (Vector::Multipliers, at),
             Self::Feedback(at) => (Vector::Feedback, at),
+            Self::Predicted(at) => (Vector::Predicted, at),
             Self::Time
             | Self::MinusTwoAlpha
             | Self::MinusBetaSquared
             | Self::Step
             | Self::HalfStep
+            | Self::Shift
             | Self::NextTime => return None,
         };
         Some(Component { vector, place })
@@ -60,7 +64,7 @@ impl Compiled {
             Vector::Parameters => self.parameters.len(),
             Vector::Inputs => self.inputs.len(),
             Vector::Positions | Vector::Velocities | Vector::Accelerations => self.coordinates.len(),
-            Vector::StatePositions | Vector::StateVelocities => self.states.len(),
+            Vector::StatePositions | Vector::StateVelocities | Vector::Predicted => self.states.len(),
             Vector::Multipliers | Vector::Feedback => self.constraints.len(),
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Expr, Factorization, Hoisted, Kkt, Strategy, Undetermined, Unknown, factor_within, lower,
+    Expr, Factorization, Hoisted, Kkt, Strategy, Undetermined, Unknown, factor, factor_within, lower,
 };
 
 use super::{Unsolvable, minimum_norm};
@@ -13,6 +13,7 @@ use crate::inputs::Inputs;
 use crate::model::{Direction, Model};
 use crate::reactive::{self, Forces};
 use crate::reduction::Reduction;
+use crate::stiff::Stiffness;
 
 /// The constrained system with the coordinates in `held` left out.
 pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
@@ -91,7 +92,7 @@ pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsol
         };
         let factorization = factor_within(&mut model.arena, &kkt, strategy, most)?;
         let Some(factorization) = factorization else { continue };
-        let forces = reactive::forces(model, equations, &factorization)?;
+        let forces = reactive::forces(model, &equations.forces, equations, &factorization)?;
         let solver = Solver { strategy, factorization, forces };
         if best.is_none() && at == last {
             // nothing to compare with
@@ -105,6 +106,21 @@ pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsol
         }
     }
     best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
+}
+
+/// The elimination of an implicit stage, in the order that is cheapest for the others.
+pub fn implicit(
+    model: &mut Model,
+    problem: Problem<'_>,
+    stiffness: &Stiffness,
+    strategy: Strategy,
+) -> Result<Solver, Unsolvable> {
+    let Problem { equations, rows, .. } = problem;
+    let mut kkt = system(model, equations, rows, &BTreeSet::new());
+    stiffness.add_to(model, &mut kkt);
+    let factorization = factor(&mut model.arena, &kkt, strategy)?;
+    let forces = reactive::forces(model, &stiffness.forces, equations, &factorization)?;
+    Ok(Solver { strategy, factorization, forces })
 }
 
 impl Solver {
@@ -132,6 +148,15 @@ impl Solver {
         });
         let feedback: Vec<Expr> = feedback.collect();
         let solution = self.solution(model, problem, &feedback);
+        let mut roots = accelerations_of_states(model, problem, &solution);
+        roots.push(self.growth(model));
+        in_states(model, problem, &roots)
+    }
+
+    /// q̈ of the states and the growth, without feedback.
+    pub fn without_feedback(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
+        let none = vec![model.arena.zero(); model.constraints.len()];
+        let solution = self.solution(model, problem, &none);
         let mut roots = accelerations_of_states(model, problem, &solution);
         roots.push(self.growth(model));
         in_states(model, problem, &roots)

@@ -69,11 +69,9 @@ impl<'a> Work<'a> {
         let mut matrix = kkt.clone();
         let unit = unit::of_masses(arena, &matrix);
         let per_unit = arena.powi(unit, -1);
-        for unknown in kkt.unknowns() {
-            if let Some(mass) = matrix.get(unknown, unknown) {
-                let mass = arena.mul(mass, per_unit);
-                matrix.set(arena, unknown, unknown, mass);
-            }
+        for (a, b, mass) in kkt.masses() {
+            let mass = arena.mul(mass, per_unit);
+            matrix.set(arena, a, b, mass);
         }
         let gross = matrix.unknowns().filter_map(|u| Some((u, matrix.get(u, u)?))).collect();
         let is_open = strategy == Strategy::NullSpace;

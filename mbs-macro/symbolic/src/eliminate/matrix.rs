@@ -83,6 +83,16 @@ impl Kkt {
         self.couplings.get(&a)?.get(&b).copied()
     }
 
+    /// The entries over two coordinates or one, each once.
+    pub(super) fn masses(&self) -> impl Iterator<Item = (Unknown, Unknown, Expr)> + '_ {
+        let is_coordinate = |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(_));
+        let rows = self.couplings.iter().filter(move |(unknown, _)| is_coordinate(unknown));
+        rows.flat_map(move |(&a, couplings)| {
+            let others = couplings.range(a..).filter(move |(b, _)| is_coordinate(b));
+            others.map(move |(&b, &mass)| (a, b, mass))
+        })
+    }
+
     /// Whether this unknown is left.
     pub(super) fn contains(&self, unknown: Unknown) -> bool {
         self.couplings.contains_key(&unknown)

@@ -4,12 +4,10 @@ use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_runtime::{
-    COMPOSITIONS, Composition, Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances,
-};
+use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{Error, Model, Settings, Signals, StartKind, Unit, Until, quantity};
+use crate::{ConstantMethod, Error, Model, Settings, Signals, StartKind, Unit, Until, quantity};
 
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -61,7 +59,7 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "method",
             "SCHEME",
             "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]; rattle and \
-             rattle4 keep the energy where no force depends on velocities",
+             rattle4 keep the energy where no force depends on velocities, trbdf2 takes stiff forces",
         )
         .value_parser(PossibleValuesParser::new(methods())),
         option(
@@ -92,7 +90,7 @@ pub(super) fn of_a_run() -> Vec<Arg> {
 /// The words of all methods.
 fn methods() -> impl Iterator<Item = &'static str> {
     let schemes = SCHEMES.into_iter().map(|scheme| scheme.word);
-    schemes.chain(COMPOSITIONS.into_iter().map(|composition| composition.word))
+    schemes.chain(ConstantMethod::all().map(ConstantMethod::word))
 }
 
 /// The mechanism's defaults with the parameters and inputs that are given.
@@ -121,16 +119,16 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     let (looks, condition) = (condition.is_ok(), condition.ok().flatten());
     let until = condition.map(|text| Until::parse(info, text)).transpose()?;
     let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| matches.contains_id(name));
-    let composition = Composition::find(choice("method"));
+    let constant = ConstantMethod::find(choice("method"));
     let has_events = looks
         && !info.events.is_empty()
         && !has_feedback
         && defaults.stabilization.is_none()
-        && composition.is_none();
+        && constant.is_none();
     let for_events = (until.is_some() || has_events).then(Tolerances::default);
     let tolerances = tolerances(matches, value("max-step", TIME)?)?.or(defaults.tolerances).or(for_events);
-    // a run to a tolerance has no use for the feedback that is declared, nor have projection and RATTLE
-    let is_fed_back = tolerances.is_none() && composition.is_none();
+    // feedback that is declared is of use where constraints are not kept otherwise
+    let is_fed_back = tolerances.is_none() && constant.is_none();
     let declared = defaults.stabilization.filter(|_| is_fed_back);
     let stabilization = Stabilization::find(choice("feedback")).or(declared);
     let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
@@ -142,7 +140,7 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
         alpha: value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
         beta: value("beta", RATE)?.or(declared_gain(defaults.beta)),
         scheme: Tableau::find(choice("method")).or(defaults.scheme),
-        composition,
+        constant,
         stabilization,
         tolerances,
         until,

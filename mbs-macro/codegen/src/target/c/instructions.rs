@@ -21,6 +21,7 @@ fn before(vector: Vector) -> &'static str {
         Vector::Accelerations => "reactions->acceleration.",
         Vector::Multipliers => "reactions->multipliers.",
         Vector::Feedback => "feedback->",
+        Vector::Predicted => "predicted->",
     }
 }
 
@@ -165,6 +166,7 @@ impl Target<'_> {
             Input::Step => "h",
             Input::HalfStep => "half_h",
             Input::NextTime => "t_next",
+            Input::Shift => "shift",
             _ => "t",
         };
         name.to_owned()

@@ -43,7 +43,7 @@ struct Output {
 /// # Errors
 /// A program is not written as it was checked.
 pub fn all(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
-    FunctionId::all().map(|id| kernel(target, id)).collect()
+    FunctionId::all().filter(|id| *id != FunctionId::Implicit).map(|id| kernel(target, id)).collect()
 }
 
 fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
@@ -149,6 +149,8 @@ fn argument_of(argument: Argument) -> (String, &'static str) {
         Argument::Gains => ("gains", "gains"),
         Argument::Feedback => ("constraints", "feedback"),
         Argument::Reactions => ("reactions", "reactions"),
+        Argument::Shift => return ("NAME_real ".to_owned(), "shift"),
+        Argument::Predicted => ("STATES", "predicted"),
     };
     (format!("const struct NAME_{of} *"), name)
 }

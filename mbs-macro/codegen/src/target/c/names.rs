@@ -77,7 +77,7 @@ impl Names {
             Vector::Parameters => &self.structs[PARAMETERS],
             Vector::Inputs => &self.structs[INPUTS],
             Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.structs[COORDINATES],
-            Vector::StatePositions | Vector::StateVelocities => self.states(),
+            Vector::StatePositions | Vector::StateVelocities | Vector::Predicted => self.states(),
             Vector::Multipliers | Vector::Feedback => &self.structs[CONSTRAINTS],
         }
     }

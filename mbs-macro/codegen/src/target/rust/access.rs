@@ -107,6 +107,7 @@ impl Access {
         let Names { mechanism, parameters, runtime, state, stepped, reactions, .. } = names;
         let state = if self.is_of_step { stepped } else { state };
         let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
+        let states = &names.states.of_t;
         let uses = |wanted: &dyn Fn(Operand) -> bool| operands.iter().any(|&operand| wanted(operand));
         let means = |wanted: fn(Input) -> bool| {
             uses(&|operand| matches!(operand, Operand::Symbol(symbol) if wanted(compiled.input(symbol))))
@@ -133,6 +134,9 @@ impl Access {
                 .then(|| argument(quote!(gains: &#runtime::Gains<T>), quote!(gains))),
             (means(|meaning| matches!(meaning, Input::Feedback(_))) && !of(Kind::Arrays))
                 .then(|| argument(quote!(feedback: &#rows), quote!(feedback))),
+            means(|meaning| meaning == Input::Shift).then(|| argument(quote!(shift: T), quote!(shift))),
+            means(|meaning| matches!(meaning, Input::Predicted(_)))
+                .then(|| argument(quote!(predicted: &#states), quote!(predicted))),
             means(|meaning| matches!(meaning, Input::Multiplier(_) | Input::Acceleration(_)))
                 .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),
         ]

@@ -295,12 +295,25 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
         quote!(#statements #runtime::Reactions { acceleration: #acceleration, multipliers: #multipliers, growth: #growth })
     };
     let inline = inlining(compiled);
+    // the trait has that of an explicit stage
+    let implicit = compiled.has_stiffness.then(|| {
+        let body = body(compiled, names, FunctionId::Implicit, &Access::of_step());
+        let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), of_states(&body));
+        quote! {
+            #[inline]
+            fn implicit(&self, at: &#stepped, inputs: &#inputs, shift: T, predicted: &#states) -> #runtime::Accelerations<#states> {
+                #statements
+                #runtime::Accelerations { acceleration: #acceleration, growth: #growth }
+            }
+        }
+    });
     // Corrections call what they solve for a residual; programs know it as feedback.
     quote! {
         #inline
         fn stabilized(&self, at: &#stepped, inputs: &#inputs, gains: &#runtime::Gains<T>) -> #runtime::Stabilized<#states, #rows> { #stabilized }
         #inline
         fn constrained(&self, at: &#stepped, inputs: &#inputs, feedback: &#rows) -> #runtime::Accelerations<#states> { #constrained }
+        #implicit
         #inline
         fn reactions(&self, at: &#state, inputs: &#inputs, feedback: &#rows) -> #reactions { #reactions_body }
         fn position_correction(&self, t: T, q: &#q, feedback: &#rows) -> #runtime::Accelerations<#q> { #position_correction }

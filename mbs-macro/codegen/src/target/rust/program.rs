@@ -305,6 +305,11 @@ pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> To
             let name = row(at);
             quote!(feedback.#name)
         }
+        Input::Predicted(at) => {
+            let name = coordinate(compiled.states[at]);
+            quote!(predicted.#name)
+        }
+        Input::Shift => quote!(shift),
         Input::MinusTwoAlpha => quote!(gains.minus_two_alpha),
         Input::MinusBetaSquared => quote!(gains.minus_beta_squared),
         Input::Step => quote!(h),

@@ -22,7 +22,9 @@ impl Vector {
             | Self::StatePositions
             | Self::StateVelocities
             | Self::Feedback => true,
-            Self::Parameters | Self::Inputs | Self::Accelerations | Self::Multipliers => false,
+            Self::Parameters | Self::Inputs | Self::Accelerations | Self::Multipliers | Self::Predicted => {
+                false
+            }
         }
     }
 
@@ -37,6 +39,7 @@ impl Vector {
             Self::Accelerations => "acceleration",
             Self::Multipliers => "multiplier",
             Self::Feedback => "feedback",
+            Self::Predicted => "predicted",
         };
         format_ident!("{name}_array")
     }
@@ -53,6 +56,7 @@ impl Vector {
             Self::Accelerations => quote!(reactions.acceleration),
             Self::Multipliers => quote!(reactions.multipliers),
             Self::Feedback => quote!(*feedback),
+            Self::Predicted => quote!(*predicted),
         }
     }
 }

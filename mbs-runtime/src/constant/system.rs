@@ -1,13 +1,13 @@
-//! Runs of RATTLE as a [`System`].
+//! Runs with a constant step as a [`System`].
 
-use super::Rattle;
+use super::{ConstantStep, Kernel};
 use crate::equations::{At, Described, Equations};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
 use crate::{Derivation, Dynamics, Error, Real, Sketch, System, vectors};
 
-impl<D: Dynamics> Rattle<D> {
+impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// What is seen.
     fn view(&self) -> View<'_, D> {
         let [q, v] = &self.all;
@@ -16,7 +16,7 @@ impl<D: Dynamics> Rattle<D> {
     }
 }
 
-impl<D: Dynamics> System<D::Real> for Rattle<D> {
+impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
     fn equations(&self) -> &dyn Equations<D::Real> {
         self.dynamics.equations()
     }

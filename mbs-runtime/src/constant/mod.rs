@@ -1,15 +1,17 @@
-//! RATTLE: steps that keep the energy of mechanisms without friction.
+//! Runs with a constant step of methods that are more than the stages of an explicit scheme.
 
 mod builder;
-mod substep;
+mod kernel;
+mod rattle;
 mod system;
+mod trbdf2;
 
-pub use builder::RattleBuilder;
+pub use builder::ConstantStepBuilder;
+pub use kernel::Kernel;
+pub use rattle::{Rattle, RattleStep};
+pub use trbdf2::{TrBdf2, TrBdf2Step};
 
 use core::fmt;
-
-use mbs_schemes::Composition;
-use substep::Substep;
 
 use crate::adaptive::{Moment, cause, copy, is_healthy};
 use crate::diagnosis::check_inputs;
@@ -18,68 +20,19 @@ use crate::simulation::clock;
 use crate::watch::Watch;
 use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
 
-/// A mechanism being integrated by RATTLE, with a constant step.
-///
-/// With a = M⁻¹ Q(q) and h the step,
-///
-/// ```text
-/// v½ = v + h/2 a(q) − M⁻¹ Φ_q(q)ᵀ μ,    q⁺ = q + h v½,    Φ(q⁺) = 0
-/// v⁺ = v½ + h/2 a(q⁺) − M⁻¹ Φ_q(q⁺)ᵀ ν,                    Φ̇(q⁺, v⁺) = 0
-/// ```
-///
-/// The positions are found by simplified Newton steps to rounding, the velocities by one solution.
-/// The method is of second order, symmetric and symplectic: in a mechanism whose forces have a
-/// potential and whose constraints do not depend on time the energy oscillates by O(h²) and does
-/// not drift, however long the run is. Composed of five steps
-/// ([`composition`](RattleBuilder::composition)) it is of fourth order.
-///
-/// Forces must not depend on velocities. Forces and drives that depend on time, and inputs, are
-/// permitted: they do work, and the method keeps its order. A run evaluates the forces once a step
-/// and solves five to eight times with the elimination of the accelerations, about three times the
-/// work of Heun's method. Take it for long runs whose energy matters, and an
-/// [`Adaptive`](crate::Adaptive) run where the accuracy of one motion does.
-///
-/// # Example
-/// ```
-/// use mbs_runtime::{Rattle, mechanism};
-///
-/// mechanism! {
-///     pub Pendulum {
-///         dof = 1;
-///         param length = 1 [m];
-///         gravity = (0, -9.81) [m/s^2];
-///         body bob (x, y) { mass = 2 [kg]; }
-///         constraint rod: x^2 + y^2 = length^2;
-///         start { x = length; guess y = 0; }
-///     }
-/// }
-///
-/// let mut swing = Rattle::builder(Pendulum::declared(), 1e-2).build()?;
-/// let mut largest: f64 = 0.0;
-/// for _ in 0..100_000 {
-///     swing.step()?;
-///     largest = largest.max(swing.energy().abs());
-/// }
-/// // a thousand seconds later: of 20 J that move to and fro
-/// assert!(largest < 1e-2 && swing.violation() < 1e-14);
-/// # Ok::<(), mbs_runtime::Error>(())
-/// ```
-///
-/// # Source
-/// H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34; Hairer, Lubich, Wanner, Geometric Numerical
-/// Integration, VII.1.4 (symplecticity) and V.3.2 (composition).
+/// A mechanism being integrated with a constant step by a method of its own: a [`Rattle`] or a
+/// [`TrBdf2`] run.
 #[derive(Clone)]
-pub struct Rattle<D: Dynamics> {
+pub struct ConstantStep<D: Dynamics, K: Kernel<D>> {
     dynamics: D,
     inputs: D::Inputs,
-    composition: &'static Composition,
+    kernel: K,
     step: D::Real,
     start_time: f64,
     steps: u64,
     now: Moment<D::Real, D::States>,
     /// The end of the step that is tried.
     next: Moment<D::Real, D::States>,
-    substep: Substep<D::States>,
     /// All coordinates and velocities of the present state.
     all: [D::Coordinates; 2],
     /// Whether the acceleration of the present state is that of the present inputs.
@@ -87,31 +40,22 @@ pub struct Rattle<D: Dynamics> {
     watch: Watch<D::Real>,
 }
 
-impl<D: Dynamics> Rattle<D> {
+impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// Advances by one step.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if the positions do not lead to the constraints, which a shorter
-    /// step mends; [`Error::OutOfReach`], [`Error::Singular`], [`Error::NonFinite`],
+    /// [`Error::NotConverged`] if there is no such step, and a shorter one mends it; [`Error::OutOfReach`], [`Error::Singular`], [`Error::NonFinite`],
     /// [`Error::Input`]. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
         self.solve()?;
-        let Self { dynamics, inputs, composition, step, start_time, steps, now, next, substep, .. } = self;
+        let Self { dynamics, inputs, kernel, step, start_time, steps, now, next, .. } = self;
         let start = D::Real::from_f64(*start_time);
         let t_next = start + D::Real::from_f64((*steps + 1) as f64) * *step;
         copy(&mut next.q, &now.q);
         copy(&mut next.v, &now.v);
         copy(&mut next.a, &now.a);
         next.t = now.t;
-        let (mut growth, mut taken) = (Some(D::Real::default()), 0.0);
-        for (at, &share) in composition.shares.iter().enumerate() {
-            taken += share;
-            let is_last = at + 1 == composition.shares.len();
-            let t = if is_last { t_next } else { now.t + D::Real::from_f64(taken) * *step };
-            let h = D::Real::from_f64(share) * *step;
-            let found = substep.take(&*dynamics, inputs, h, t, next);
-            growth = growth.zip(found).map(|(sum, growth)| sum + growth);
-        }
+        let growth = kernel.step(&*dynamics, inputs, *step, t_next, next);
         match growth.filter(|growth| is_healthy(*growth, next)) {
             Some(growth) => self.accept(growth),
             None => Err(self.cause()),
@@ -144,10 +88,9 @@ impl<D: Dynamics> Rattle<D> {
         if self.is_solved {
             return Ok(());
         }
-        let Self { dynamics, inputs, now, .. } = self;
+        let Self { dynamics, inputs, kernel, step, now, .. } = self;
         dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.equations().info(), inputs))?;
-        let Moment { t, q, v, a } = now;
-        let growth = dynamics.acceleration(*t, q, v, inputs, a);
+        let growth = kernel.accelerate(&*dynamics, inputs, *step, now);
         if !is_healthy(growth, now) {
             return Err(self.cause());
         }
@@ -194,7 +137,7 @@ impl<D: Dynamics> Rattle<D> {
     }
 }
 
-impl<M: Mechanism> Rattle<M> {
+impl<M: Mechanism, K: Kernel<M>> ConstantStep<M, K> {
     /// The mechanism.
     pub fn mechanism(&self) -> &M {
         &self.dynamics
@@ -219,11 +162,11 @@ impl<M: Mechanism> Rattle<M> {
     }
 }
 
-impl<D: Dynamics> fmt::Debug for Rattle<D> {
+impl<D: Dynamics, K: Kernel<D>> fmt::Debug for ConstantStep<D, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { now, step, steps, composition, .. } = self;
-        let mut shown = f.debug_struct("Rattle");
-        shown.field("composition", &composition.word).field("t", &now.t).field("step", step);
+        let Self { now, step, steps, kernel, .. } = self;
+        let mut shown = f.debug_struct("ConstantStep");
+        shown.field("method", &kernel.word()).field("t", &now.t).field("step", step);
         shown.field("steps", steps).finish_non_exhaustive()
     }
 }

@@ -1,0 +1,85 @@
+//! The choices before a run with a constant step starts.
+
+use super::{ConstantStep, Kernel};
+use crate::adaptive::{Beginning, Moment};
+use crate::equations::Start;
+use crate::watch::Watch;
+use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
+
+/// The choices before a run with a constant step starts; see [`Rattle::builder`](crate::Rattle)
+/// and [`TrBdf2::builder`](crate::TrBdf2).
+#[derive(Clone)]
+pub struct ConstantStepBuilder<D: Dynamics, K: Kernel<D>> {
+    beginning: Beginning<D>,
+    step: f64,
+    pub(super) kernel: K,
+}
+
+impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
+    pub(super) fn new(mechanism: D, step: f64, kernel: K) -> Self {
+        Self { beginning: Beginning::new(mechanism), step, kernel }
+    }
+
+    /// The inputs of the first step.
+    #[must_use]
+    pub fn inputs(mut self, inputs: D::Inputs) -> Self {
+        self.beginning.inputs = inputs;
+        self
+    }
+
+    /// Starts at `t` from positions and velocities that have to be consistent.
+    #[must_use]
+    pub fn from_vectors(mut self, t: D::Real, q: D::Coordinates, v: D::Coordinates) -> Self {
+        (self.beginning.state, self.beginning.start) = ((t, q, v), Start::Given);
+        self
+    }
+
+    /// Keeps the start as it is, consistent or not; the first step leads to the constraints.
+    #[must_use]
+    pub fn as_declared(mut self) -> Self {
+        self.beginning.start = Start::Unchecked;
+        self
+    }
+
+    /// Starts.
+    ///
+    /// # Errors
+    /// Of RATTLE [`Error::VelocityForce`] for forces that depend on velocities or reactions, and
+    /// [`Error::ReducedStates`] for a mechanism that does not integrate all of its coordinates;
+    /// [`Error::Step`], and those of the start of a [`Simulation`](crate::Simulation).
+    pub fn build(self) -> Result<ConstantStep<D, K>, Error> {
+        let Self { mut beginning, step, kernel } = self;
+        kernel.check(beginning.dynamics.equations().info())?;
+        let h = D::Real::from_f64(step);
+        if !(h > D::Real::default() && h.is_finite()) {
+            return Err(Error::Step { step });
+        }
+        let length = beginning.prepare::<Heun>(step)?;
+        let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
+        let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
+        let now = Moment { t, a: states.clone(), q: states, v: rates };
+        let mut run = ConstantStep {
+            next: now.clone(),
+            now,
+            all: [q, v],
+            dynamics,
+            inputs,
+            kernel,
+            step: h,
+            start_time: t.to_f64(),
+            steps: 0,
+            is_solved: false,
+            watch: Watch::new(length),
+        };
+        run.solve()?;
+        Ok(run)
+    }
+}
+
+impl<M: Mechanism, K: Kernel<M>> ConstantStepBuilder<M, K> {
+    /// Starts from a state that has to be [`check`](crate::start::check)ed for consistency.
+    #[must_use]
+    pub fn from_state(self, state: State<M::Coordinates>) -> Self {
+        self.from_vectors(state.t, state.q.into_array(), state.v.into_array())
+    }
+}

@@ -1,0 +1,187 @@
+//! TR-BDF2: implicit steps for stiff springs and dampers, in straight lines.
+
+use super::{ConstantStep, ConstantStepBuilder, Kernel};
+use crate::adaptive::{Moment, copy};
+use crate::explicit::{Beside, project};
+use crate::{Dynamics, Error, Info, Real, vectors};
+
+/// A mechanism being integrated by TR-BDF2, with a constant step: for springs, bushings and dampers
+/// that are too stiff for the step of an explicit method.
+///
+/// Half a trapezoidal step leads to t + γh with γ = 2 − √2, a backward difference over both to
+/// t + h. With d = γ/2, w = √2/4 and a(q, v) the accelerations of the constrained mechanism,
+///
+/// ```text
+/// v₂ = v + d h (a + a₂),              q₂ = q + d h (v + v₂)
+/// v⁺ = v + h (w a + w a₂ + d a₃),     q⁺ = q + h (w v + w v₂ + d v⁺)
+/// ```
+///
+/// where a₂ and a₃ are accelerations at the states that they lead to. Each is found by one step of
+/// Newton's method from the acceleration before ([`Mechanism::implicit`](crate::Mechanism::implicit)),
+/// with the exact derivatives of the forces: one elimination, of
+/// M − d h ∂Q/∂v − d²h² ∂Q/∂q in place of M. The end is projected onto the constraints, positions
+/// and velocities once each. So a step has no loop and no branch, and always takes the same number
+/// of operations.
+///
+/// The method is of second order and L-stable: what is too fast for the step is damped within some
+/// steps, and the slow motion is followed as if the stiff spring were a constraint. Both stages are
+/// of second order themselves, which linearly implicit (Rosenbrock) schemes lack: on a pendulum
+/// whose rod has 10⁹ N/m, turning by 0.01 rad in a step, these lose the motion within a turn, and
+/// TR-BDF2 is off by 5 · 10⁻⁶.
+///
+/// Take it where a stiff force and not the motion limits the step. Vibrations that a step does not
+/// resolve are lost, and the energy with them. A force whose derivative is not symmetric and that is
+/// stiff (a follower, a spring that acts on one body only) may not be followed; forces between two
+/// bodies are symmetric. Friction as a stiff function of reactions is not treated as stiff.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{TrBdf2, mechanism};
+///
+/// mechanism! {
+///     /// A weight on a rod as stiff as steel.
+///     pub Pendulum {
+///         dof = 2;
+///         param length = 1 [m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body bob (x, y) { mass = 2 [kg]; }
+///         point hook on ground = (0, 0);
+///         spring rod (ground.hook, bob) { stiffness = 1e8 [N/m]; length = length; }
+///         start { x = length; y = 0; }
+///     }
+/// }
+///
+/// // an explicit method would need steps below 0.28 ms
+/// let mut swing = TrBdf2::builder(Pendulum::declared(), 5e-3).build()?;
+/// swing.advance_to(2.0)?;
+/// let stretch = swing.state().q.x.hypot(swing.state().q.y) - 1.0;
+/// // three times the weight at the bottom stretches the rod by 0.6 µm
+/// assert!(stretch.abs() < 1e-6);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+///
+/// # Source
+/// R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436-451; M. E. Hosea, L. F. Shampine, Appl. Numer.
+/// Math. 20 (1996) 21-37. On stiff springs as the limit of constraints: Ch. Lubich, BIT 33 (1993)
+/// 280-303.
+pub type TrBdf2<D> = ConstantStep<D, TrBdf2Step<<D as Dynamics>::States>>;
+
+/// γ/2 with γ = 2 − √2: the share that a stage has of its own slope.
+const OWN: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
+/// √2/4: the shares of the slopes before in the last stage.
+const BEFORE: f64 = 0.5 * core::f64::consts::FRAC_1_SQRT_2;
+
+/// The vectors of a step of TR-BDF2.
+#[derive(Clone)]
+pub struct TrBdf2Step<V> {
+    /// Positions and velocities without the share of the stage itself,
+    base: [V; 2],
+    /// and with what is predicted of it.
+    there: [V; 2],
+    /// v₂ and a₂,
+    second: [V; 2],
+    /// and a₃.
+    last: V,
+    /// Whether there is an acceleration from before.
+    is_started: bool,
+}
+
+impl<D: Dynamics> TrBdf2<D> {
+    /// Choices to make before the start. Without any: the declared start, made consistent, steps
+    /// of `step` seconds, inputs at their defaults.
+    pub fn builder(mechanism: D, step: f64) -> ConstantStepBuilder<D, TrBdf2Step<D::States>> {
+        let vector = || mechanism.states(&mechanism.declared_start().1);
+        let pair = || [vector(), vector()];
+        let kernel =
+            TrBdf2Step { base: pair(), there: pair(), second: pair(), last: vector(), is_started: false };
+        ConstantStepBuilder::new(mechanism, step, kernel)
+    }
+}
+
+impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
+    fn word(&self) -> &'static str {
+        "trbdf2"
+    }
+
+    fn check(&self, _: &Info) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn step(
+        &mut self,
+        dynamics: &D,
+        inputs: &D::Inputs,
+        h: D::Real,
+        t_next: D::Real,
+        moment: &mut Moment<D::Real, D::States>,
+    ) -> Option<D::Real> {
+        let Self { base, there, second: [v2, a2], last, .. } = self;
+        let [own, before] = [OWN, BEFORE].map(|share| D::Real::from_f64(share) * h);
+        let Moment { t, q, v, a } = moment;
+
+        // the trapezoidal rule to t + γh
+        add_to(&mut base[0], q, own, [&*v]);
+        add_to(&mut base[1], v, own, [&*a]);
+        predict(base, own, a, there);
+        let t2 = *t + own + own;
+        let mut growth = dynamics.implicit(t2, [&there[0], &there[1]], inputs, (own, a), a2);
+        add_to(v2, &base[1], own, [&*a2]);
+
+        // the backward difference to t + h
+        add_to(&mut base[0], q, before, [&*v, &*v2]);
+        add_to(&mut base[1], v, before, [&*a, &*a2]);
+        predict(base, own, a2, there);
+        growth = growth + dynamics.implicit(t_next, [&there[0], &there[1]], inputs, (own, a2), last);
+        add_to(v, &base[1], own, [&*last]);
+        add_to(q, &base[0], own, [&*v]);
+
+        *t = t_next;
+        copy(a, last);
+        let correct =
+            |at: Beside<'_, D::States>, delta: &mut D::States| dynamics.correction(t_next, &at, delta);
+        Some(growth + project(q, v, last, correct))
+    }
+
+    /// At the start the acceleration of an explicit method. Where inputs change, a stage at the moment
+    /// itself, twice: what changed acts on what is slow, and what is too fast for the step keeps the
+    /// acceleration that it had, in which an explicit one would magnify roundings by the stiffness.
+    fn accelerate(
+        &mut self,
+        dynamics: &D,
+        inputs: &D::Inputs,
+        h: D::Real,
+        moment: &mut Moment<D::Real, D::States>,
+    ) -> D::Real {
+        let (own, predicted) = (D::Real::from_f64(OWN) * h, &mut self.last);
+        let Moment { t, q, v, a } = moment;
+        if !core::mem::replace(&mut self.is_started, true) {
+            return dynamics.acceleration(*t, q, v, inputs, a);
+        }
+        let mut growth = D::Real::default();
+        for _ in 0..2 {
+            copy(predicted, a);
+            growth = growth + dynamics.implicit(*t, [q, v], inputs, (own, predicted), a);
+        }
+        growth
+    }
+}
+
+/// sum = x + share Σ slopes
+fn add_to<T: Real, V: AsRef<[T]> + AsMut<[T]>, const N: usize>(
+    sum: &mut V,
+    x: &V,
+    share: T,
+    slopes: [&V; N],
+) {
+    copy(sum, x);
+    for slope in slopes {
+        vectors::add_scaled(sum.as_mut(), share, slope.as_ref());
+    }
+}
+
+/// The state to which a predicted acceleration leads.
+fn predict<T: Real, V: AsRef<[T]> + AsMut<[T]>>(base: &[V; 2], own: T, predicted: &V, there: &mut [V; 2]) {
+    let ([base_q, base_v], [q, v]) = (base, there);
+    add_to(v, base_v, own, [predicted]);
+    add_to(q, base_q, own, [&*v]);
+}
