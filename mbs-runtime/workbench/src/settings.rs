@@ -190,8 +190,7 @@ fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error
                 "the method `{}` takes constant steps and keeps the constraints itself, so it has no use for \
                  feedback, gains, tolerances or events; leave it out, or take another method",
                 method.word()
-            )
-            .into(),
+            ),
         }),
     }
 }
