@@ -1,8 +1,9 @@
 //! Kinematic analysis of the driven slider-crank is the closed form over two
-//! turns: θ2 = −asin(l1/l2 sin θ1) and its time derivatives.
-#![allow(clippy::expect_used, reason = "helpers of tests")]
+//! turns: θ2 = −asin(l1/l2 sin θ1) and its time derivatives. It stays on its branch over any
+//! distance, ends where a mechanism cannot be closed, and gives reactions and outputs.
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-use mbs_runtime::{Components, Error, Kinematics};
+use mbs_runtime::{Components, Error, Kinematics, Simulation};
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::SliderCrankFree;
 use tests::by_hand;
@@ -68,4 +69,62 @@ fn kinematics_is_the_closed_form() {
 #[test]
 fn kinematics_wants_drives() {
     assert_eq!(Kinematics::new(SliderCrankFree::declared()).expect_err("free"), Error::NotDriven { dof: 1 });
+}
+
+/// A hundred turns away at once, and back: the rod stays on its side.
+#[test]
+fn far_instants_are_on_the_same_branch() {
+    let mut kinematics = Kinematics::new(SliderCrank::declared()).expect("fully driven");
+    let turn = core::f64::consts::TAU / SliderCrank::<f64>::declared().parameters().omega;
+    for t in [0.1 * turn, 100.1 * turn, 0.1 * turn] {
+        let motion = kinematics.at(t).expect("a regular position");
+        let (sin, cos) = (0.2 * core::f64::consts::PI).sin_cos();
+        let x3 = 0.06 * cos + (0.18 * 0.18 - 0.06 * sin * 0.06 * sin).sqrt();
+        // 630 rad have an ulp of 1e-13
+        assert!((motion.state.q.x3 - x3).abs() < 1e-13);
+    }
+}
+
+/// What the drive takes is what a run says.
+#[test]
+fn reactions_and_outputs() {
+    let mut kinematics = Kinematics::new(SliderCrank::declared()).expect("fully driven");
+    let run = Simulation::new(SliderCrank::declared(), 1e-4).expect("it starts");
+    let motion = kinematics.at(0.0).expect("a regular position");
+    let none = Default::default();
+    let outputs = kinematics.outputs(&motion, &none).expect("defined");
+    let expected = run.outputs().expect("defined");
+    assert!((outputs.drive_torque - expected.drive_torque).abs() < 1e-12);
+    let reactions = kinematics.reactions(&motion, &none).expect("regular");
+    let of_run = run.reactions().expect("regular").multipliers.into_array();
+    for (x, y) in reactions.multipliers.into_array().iter().zip(of_run.iter()) {
+        assert!((x - y).abs() < 1e-10);
+    }
+}
+
+mbs_runtime::mechanism! {
+    /// A rod that is pulled out of a bearing that is too near.
+    pub Pulled {
+        dof = 0;
+        body end (x, y) { mass = 1 [kg]; }
+        distance rod (end, ground) = 0.5 [m];
+        drive pull: x = 0.3 [m] + 0.1 [m/s]*t;
+        start { guess x = 0.3 [m]; guess y = 0.4 [m]; }
+    }
+}
+
+/// x = l after 2 s, where y is 0: nothing is beyond, and the error says when that is.
+#[test]
+fn a_motion_ends_where_it_cannot_be_followed() {
+    let mut kinematics = Kinematics::new(Pulled::declared()).expect("fully driven");
+    assert!((kinematics.at(1.0).expect("within reach").state.q.y - 0.3).abs() < 1e-14);
+    let error = kinematics.at(5.0).expect_err("out of reach");
+    let t = match error {
+        Error::NotAssembled { t, .. } | Error::Singular { t, .. } => t,
+        other => panic!("{other}"),
+    };
+    assert!((t - 2.0).abs() < 1e-5, "{error}");
+    // and it can go back from there
+    assert!((kinematics.at(0.0).expect("within reach").state.q.y - 0.4).abs() < 1e-13);
+    assert!(matches!(kinematics.at(f64::NAN), Err(Error::Time { .. })));
 }
