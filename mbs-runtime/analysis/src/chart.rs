@@ -49,7 +49,7 @@ impl<'a> Chart<'a> {
         });
         let independent = match names {
             Some(names) => asked(info, &moves, names)?,
-            None => chosen(info, &moves),
+            None => chosen(info, moves.clone(), 0),
         };
         let rows = tangent.directions.select_rows(&independent);
         let Some(inverse) = rows.try_inverse() else { return Err(dependent(info, &independent)) };
@@ -83,11 +83,22 @@ impl<'a> Chart<'a> {
     }
 }
 
+/// The coordinates that determine the others together with given ones.
+pub fn beside(rest: &Rest<'_>, q: &DVector<f64>, given: &[usize]) -> Vec<usize> {
+    let (tangent, scales) = (rest.tangent(q), rest.scales());
+    let directions = &tangent.directions;
+    let mut left =
+        DMatrix::from_fn(q.len(), directions.ncols(), |row, column| directions[(row, column)] / scales[row]);
+    for at in given {
+        take(&mut left, *at);
+    }
+    chosen(rest.mechanism.info(), left, given.len())
+}
+
 /// Greedily by what is left of the rows of N, without the directions of rows that were taken.
-fn chosen(info: &Info, moves: &DMatrix<f64>) -> Vec<usize> {
-    let mut left = moves.clone();
+fn chosen(info: &Info, mut left: DMatrix<f64>, given: usize) -> Vec<usize> {
     let mut taken = Vec::new();
-    for _ in 0..moves.ncols() {
+    for _ in given..left.ncols() {
         let sizes: Vec<f64> = left.row_iter().map(|row| row.norm()).collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let is_long = |at: &usize| sizes[*at] >= SHARE * largest;

@@ -95,8 +95,8 @@ pub enum Error {
         /// The coordinate.
         coordinate: &'static str,
     },
-    /// A frequency or a time that has no response.
-    #[error("{what} = {value} {unit} has no response: it has to be finite and above 0")]
+    /// A number that has to be positive.
+    #[error("{what} = {value} {unit}: it has to be finite and above 0")]
     Range {
         /// What it is.
         what: &'static str,
@@ -114,6 +114,95 @@ pub enum Error {
         /// Decades between the largest and the smallest entry that is not 0.
         decades: f64,
     },
+    /// A motion of another number of coordinates than the mechanism has degrees of freedom.
+    #[error(
+        "the motion of {} is prescribed, but the mechanism has {dof} degree(s) of freedom: prescribe as many \
+         coordinates as that, each once; the others follow",
+        listed(.coordinates)
+    )]
+    Prescribed {
+        /// The coordinates that are prescribed.
+        coordinates: Vec<String>,
+        /// The degrees of freedom.
+        dof: i32,
+    },
+    /// Samples through which no curve leads.
+    #[error("no curve leads through the samples: {reason}")]
+    Samples {
+        /// Why not.
+        reason: &'static str,
+    },
+    /// A prescribed position to which the mechanism cannot be led.
+    #[error(
+        "{}: the mechanism can be led to {place}; there `{coordinate}` can move while what is prescribed stands \
+         still (a dead centre or a change point), so that `{constraint}` can be met no further, or on several \
+         branches; prescribe a motion that ends before, or another coordinate",
+        reached(*.sample)
+    )]
+    Unreachable {
+        /// Which sample of the motion, counted from 1; 0 for the position from which it begins.
+        sample: usize,
+        /// How far it can be led.
+        place: String,
+        /// The constraint that ties what is prescribed.
+        constraint: &'static str,
+        /// The coordinate that can move.
+        coordinate: &'static str,
+    },
+    /// Inputs that cannot produce a motion.
+    #[error(
+        "sample {sample} (t = {t:.6} s) takes {effort:.6e} (SI) along `{coordinate}` more than {} can produce \
+         there; take inputs that act along it, or prescribe a motion that they can make",
+        listed(.inputs)
+    )]
+    Unproducible {
+        /// Which sample of the motion, counted from 1.
+        sample: usize,
+        /// When, in s.
+        t: f64,
+        /// The coordinate along which most is missing.
+        coordinate: &'static str,
+        /// The force or torque that is missing there, in SI units.
+        effort: f64,
+        /// The inputs that there are.
+        inputs: Vec<String>,
+    },
+    /// A mechanism whose motion no input can change.
+    #[error(
+        "`{mechanism}` has no inputs that could produce a motion; declare one, such as `input torque [N*m];`, or \
+         ask for the forces along the prescribed coordinates themselves"
+    )]
+    NoInputs {
+        /// The name of the mechanism.
+        mechanism: &'static str,
+    },
+    /// Coordinates that rest nowhere near while others are led.
+    #[error(
+        "sample {sample} of the travel: {} find no equilibrium near the one before, at {place}; the mechanism \
+         snaps through there, or nothing holds them",
+        listed(.coordinates)
+    )]
+    Snap {
+        /// Which sample, counted from 1.
+        sample: usize,
+        /// The coordinates that are not led.
+        coordinates: Vec<String>,
+        /// How far the mechanism was led.
+        place: String,
+    },
+    /// A drive that does nothing, or is none.
+    #[error("`{name}` is not a drive that moves: a mechanism is led along a coordinate, or a drive of it")]
+    NoDrive {
+        /// The constraint that was named.
+        name: String,
+    },
+}
+
+fn reached(sample: usize) -> String {
+    if sample == 0 {
+        return "the motion cannot begin".into();
+    }
+    format!("sample {sample} of the motion cannot be reached")
 }
 
 fn listed(names: &[String]) -> String {

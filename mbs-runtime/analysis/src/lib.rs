@@ -1,7 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![doc = include_str!("flap.svg")]
 //!
-//! The page on linear systems, modes and responses is [`linear`].
+//! The page on linear systems, modes and responses is [`linear`], that on inverse dynamics and statics
+//! [`prescribed`].
 //!
 //! # What it asks a mechanism
 //!
@@ -13,31 +14,42 @@
 
 mod chart;
 mod complex;
+mod curve;
 mod derivative;
 mod difference;
 mod equilibrium;
 mod error;
 mod family;
+mod guided;
+mod inverse;
+mod jacobian;
 #[doc = include_str!("linear.md")]
 #[doc = include_str!("car.svg")]
 pub mod linear {}
 mod linearization;
 mod modes;
 mod point;
+#[doc = include_str!("prescribed.md")]
+#[doc = include_str!("tailgate.svg")]
+pub mod prescribed {}
 mod response;
 mod rest;
 mod sensitivity;
 mod signal;
 mod tangent;
+mod travel;
 
 pub use nalgebra;
 
+pub use curve::{Curve, Moment, Time};
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
 pub use family::{Family, of_type};
+pub use inverse::{By, Instant, Prescription, inverse};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};
 pub use response::{StepResponse, phases};
 pub use sensitivity::{Sensitivities, sensitivities};
 pub use signal::{Signal, Variable};
+pub use travel::{Along, Position, Travel, travel};
