@@ -9,7 +9,9 @@ use mbs_runtime::Mechanism;
 
 #[cfg(feature = "live")]
 use crate::Settings;
-use crate::command::{bode, completions, equilibrium, explain, linearize, list, modes, new, simulate, sweep};
+use crate::command::{
+    bode, completions, equilibrium, explain, inverse, linearize, list, modes, new, simulate, sweep, travel,
+};
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
 use crate::console::complain;
@@ -28,7 +30,7 @@ const NO_READER: u8 = 141;
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
 /// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `equilibrium`, `linearize`,
-/// `modes`, `bode`, `new`, and whatever the embedding program adds.
+/// `modes`, `bode`, `inverse`, `travel`, `new`, and whatever the embedding program adds.
 ///
 /// # Example
 /// ```no_run
@@ -160,6 +162,8 @@ impl App {
             .subcommand(linearize::command())
             .subcommand(modes::command())
             .subcommand(bode::command())
+            .subcommand(inverse::command())
+            .subcommand(travel::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
@@ -176,6 +180,8 @@ impl App {
             Some(("linearize", matches)) => linearize::run(&self.models, matches),
             Some(("modes", matches)) => modes::run(&self.models, matches),
             Some(("bode", matches)) => bode::run(&self.models, matches),
+            Some(("inverse", matches)) => inverse::run(&self.models, matches).map(silent),
+            Some(("travel", matches)) => travel::run(&self.models, matches).map(silent),
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use mbs_runtime::{Info, System};
+use mbs_runtime::{Dimension, Info, System};
 
 use crate::quantity::TIME;
-use crate::{Error, Settings, quantity};
+use crate::{Error, Settings, Unit, quantity};
 
 /// Values of inputs over time, with straight lines between the instants; before the first
 /// and after the last one they stay.
@@ -26,49 +26,9 @@ impl Signals {
     /// [`Error::File`] if it cannot be read, [`Error::Unknown`] for a heading that is no
     /// input, [`Error::Value`] for what is no number, and where time does not ascend.
     pub fn read(path: &Path, info: &Info) -> Result<Self, Error> {
-        let unreadable = |error: csv::Error| Error::file("read", path)(error.into());
-        let mut table = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
-        let headings = table.headers().map_err(unreadable)?.clone();
-        let named = |heading: &str| match heading.split_once('[') {
-            Some((name, unit)) => (name.trim().to_owned(), unit.trim_end_matches(']').trim().to_owned()),
-            None => (heading.to_owned(), String::new()),
-        };
-        let mut columns = headings.iter().map(named);
-        let (_, time_unit) = columns.next().unwrap_or_default();
-        let columns: Vec<_> = columns.collect();
-        let mut signals = Self::default();
-        for (name, _) in &columns {
-            if !info.inputs.iter().any(|input| input.name == *name) {
-                return Err(Error::unknown("input", name, info.inputs.iter().map(|input| input.name)));
-            }
-            if signals.inputs.iter().any(|(other, _)| other == name) {
-                let reason = format!("{} has two columns of that name", path.display());
-                return Err(Error::Name { name: name.clone(), reason });
-            }
-            signals.inputs.push((name.clone(), Vec::new()));
-        }
-        for (row, record) in table.records().enumerate() {
-            let record = record.map_err(unreadable)?;
-            let place = |what: &str| format!("{}, row {}: {what}", path.display(), row + 1);
-            let cell = |at: usize| record.get(at).unwrap_or_default();
-            let time = quantity::parse(&place("time"), &with_unit(cell(0), &time_unit), TIME)?;
-            if signals.times.last().is_some_and(|last| *last >= time) {
-                let reason = "time has to rise from row to row".into();
-                return Err(Error::Value { what: place("time"), text: cell(0).into(), reason });
-            }
-            signals.times.push(time);
-            for (at, ((name, unit), (_, values))) in columns.iter().zip(&mut signals.inputs).enumerate() {
-                let input = info.inputs.iter().find(|input| input.name == *name);
-                let text = with_unit(cell(at + 1), unit);
-                let value = input.map(|input| quantity::parse_as(input, &text)).transpose();
-                values.push(value.map_err(|error| error.about(place(name)))?.unwrap_or(f64::NAN));
-            }
-        }
-        if signals.times.is_empty() || signals.inputs.is_empty() {
-            let reason = "it needs a column for time, one for an input, and a row".into();
-            return Err(Error::Name { name: path.display().to_string(), reason });
-        }
-        Ok(signals)
+        let known: Vec<Known> = info.inputs.iter().map(|q| (q.name, q.dimension, Unit::of(q))).collect();
+        let (times, inputs) = over_time(path, "input", &known)?;
+        Ok(Self { times, inputs })
     }
 
     /// The names of the inputs.
@@ -86,6 +46,69 @@ impl Signals {
             (None, None) => f64::NAN,
         }
     }
+}
+
+/// What a column of a table may be: its name, its dimension, and the unit of bare numbers.
+pub(crate) type Known = (&'static str, Dimension, Unit);
+
+/// The columns of a table by name, in SI units.
+pub(crate) type Columns = Vec<(String, Vec<f64>)>;
+
+/// Reads a table with time in its first column and quantities of one kind in the others.
+pub(crate) fn over_time(
+    path: &Path,
+    kind: &'static str,
+    known: &[Known],
+) -> Result<(Vec<f64>, Columns), Error> {
+    let unreadable = |error: csv::Error| Error::file("read", path)(error.into());
+    let mut table = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
+    let headings = table.headers().map_err(unreadable)?.clone();
+    let named = |heading: &str| match heading.split_once('[') {
+        Some((name, unit)) => (name.trim().to_owned(), unit.trim_end_matches(']').trim().to_owned()),
+        None => (heading.to_owned(), String::new()),
+    };
+    let mut headings = headings.iter().map(named);
+    let (_, time_unit) = headings.next().unwrap_or_default();
+    let mut columns: Vec<(&Known, String)> = Vec::new();
+    for (name, unit) in headings {
+        let Some(quantity) = known.iter().find(|(known, ..)| *known == name) else {
+            return Err(Error::unknown(kind, name, known.iter().map(|(name, ..)| *name)));
+        };
+        if columns.iter().any(|((other, ..), _)| *other == name) {
+            let reason = format!("{} has two columns of that name", path.display());
+            return Err(Error::Name { name, reason });
+        }
+        columns.push((quantity, unit));
+    }
+    let mut times: Vec<f64> = Vec::new();
+    let mut values: Columns =
+        columns.iter().map(|((name, ..), _)| ((*name).to_owned(), Vec::new())).collect();
+    for (row, record) in table.records().enumerate() {
+        let record = record.map_err(unreadable)?;
+        let place = |what: &str| format!("{}, row {}: {what}", path.display(), row + 1);
+        let cell = |at: usize| record.get(at).unwrap_or_default();
+        let time = quantity::parse(&place("time"), &with_unit(cell(0), &time_unit), TIME)?;
+        if times.last().is_some_and(|last| *last >= time) {
+            let reason = "time has to rise from row to row".into();
+            return Err(Error::Value { what: place("time"), text: cell(0).into(), reason });
+        }
+        times.push(time);
+        for (at, (((name, dimension, usual), unit), (_, list))) in columns.iter().zip(&mut values).enumerate()
+        {
+            let text = with_unit(cell(at + 1), unit);
+            let value = quantity::parse_in(name, &text, *dimension, usual);
+            list.push(value.map_err(|error| error.about(place(name)))?);
+        }
+    }
+    if times.is_empty() || values.is_empty() {
+        let reason = format!("it needs a column for time, one for {} {kind}, and a row", article(kind));
+        return Err(Error::Name { name: path.display().to_string(), reason });
+    }
+    Ok((times, values))
+}
+
+fn article(kind: &str) -> &'static str {
+    if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
 fn with_unit(number: &str, unit: &str) -> String {

@@ -27,7 +27,12 @@ impl Unit {
 
     /// The unit of a coordinate, which is a length or an angle: m or rad.
     pub fn of_coordinate(coordinate: &Quantity) -> Self {
-        let Self { name, scale } = Self::si(coordinate.dimension);
+        Self::of_place(coordinate.dimension)
+    }
+
+    /// The unit of what is a length or an angle: m or rad.
+    pub(crate) fn of_place(dimension: Dimension) -> Self {
+        let Self { name, scale } = Self::si(dimension);
         Self { name: if name.is_empty() { "rad".into() } else { name }, scale }
     }
 

@@ -9,6 +9,7 @@ use mbs_runtime::{Info, System};
 use serde_json::{Map, Value, json};
 
 use super::json::number;
+use super::operating::refuse_signals;
 use super::options::{self, option};
 use crate::figure::Figure;
 use crate::models::Models;
@@ -53,10 +54,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let (name, model) = (found.name(), found.model());
     let sketch = matches.get_one::<PathBuf>("sketch");
     sketch.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    if matches.get_many::<String>("input").unwrap_or_default().any(|text| text.starts_with('@')) {
-        let reason = "inputs that change with time have no equilibrium; give a value, such as force=3N";
-        return Err(Error::Name { name: "--input @FILE".into(), reason: reason.into() });
-    }
+    refuse_signals(matches, "inputs that change with time have no equilibrium")?;
     let start = Start::of(model, &options::values(model, matches)?)?;
     let run = model.start(&start)?;
     let t = match matches.get_one::<String>("at") {

@@ -10,6 +10,8 @@ pub(crate) mod equilibrium;
 pub(crate) mod explain;
 #[cfg(feature = "live")]
 pub(crate) mod export;
+mod extremes;
+pub(crate) mod inverse;
 mod json;
 pub(crate) mod linearize;
 pub(crate) mod list;
@@ -22,5 +24,6 @@ mod responses;
 mod shapes;
 pub(crate) mod simulate;
 pub(crate) mod sweep;
+pub(crate) mod travel;
 #[cfg(feature = "live")]
 pub(crate) mod watch;

@@ -73,10 +73,7 @@ pub(super) struct Operating<'a> {
 impl<'a> Operating<'a> {
     /// The point that a command line asks for.
     pub fn of(name: &'a str, model: &'a dyn Model, matches: &ArgMatches) -> Result<Self, Error> {
-        if matches.get_many::<String>("input").unwrap_or_default().any(|text| text.starts_with('@')) {
-            let reason = "inputs are constants of an operating point; give a value, such as force=3N";
-            return Err(Error::Name { name: "--input @FILE".into(), reason: reason.into() });
-        }
+        refuse_signals(matches, "inputs are constants of an operating point")?;
         let settings = options::values(model, matches)?;
         let start = Start::of(model, &settings)?;
         if let Some(text) = matches.get_one::<String>("after") {
@@ -222,6 +219,15 @@ pub(super) fn warnings(linear: &Linearization) -> Warnings {
         "the accelerations are not smooth at this point (a stop, or friction that changes its sign): their \
          derivatives are known to {digits} digits"
     )]
+}
+
+/// Refuses inputs that change with time.
+pub(super) fn refuse_signals(matches: &ArgMatches, why: &str) -> Result<(), Error> {
+    if matches.get_many::<String>("input").unwrap_or_default().any(|text| text.starts_with('@')) {
+        let reason = format!("{why}; give a value, such as force=3N");
+        return Err(Error::Name { name: "--input @FILE".into(), reason });
+    }
+    Ok(())
 }
 
 /// The mechanism that a command line names.

@@ -5,6 +5,7 @@
 mod answers;
 mod files;
 mod linear;
+mod prescribed;
 mod runs;
 mod sweeps;
 mod texts;

@@ -1,0 +1,326 @@
+//! `mbs inverse`: what a prescribed motion takes.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use mbs_analysis::{By, Curve, Instant, Prescription, inverse};
+use mbs_runtime::{Info, Quantity};
+use serde_json::json;
+
+use super::equilibrium::positions;
+use super::extremes;
+use super::operating;
+use super::options::{self, option};
+use crate::figure::{Axis, Figure, Panel, Series};
+use crate::models::Models;
+use crate::quantity::{self, TIME};
+use crate::settings::Start;
+use crate::signals::{Known, over_time};
+use crate::unit::axis;
+use crate::{Column, Error, Unit, names, say, write_csv};
+
+const EXAMPLES: &str = "\
+Examples:
+  mbs inverse pendulum --move angle=-90deg..90deg --over 1s --plot effort.svg
+  mbs inverse four-bar-free --move theta2=0deg..270deg --over 0.5s --inputs crank_torque --out torque.csv
+  mbs inverse my.mbs --motion measured.csv --inputs '*'
+  mbs inverse toggle-press --over 2s --plot press.svg    # its drive prescribes the motion
+
+Without --inputs it is the force or the torque along each prescribed coordinate that is found.";
+
+pub(crate) fn command() -> Command {
+    let file = |name: &'static str, value: &'static str, help: &'static str| {
+        option(name, value, help).value_parser(value_parser!(PathBuf))
+    };
+    Command::new("inverse")
+        .about("Find the inputs, or the forces along coordinates, that a prescribed motion takes")
+        .after_help(EXAMPLES)
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
+        .args(options::of_values())
+        .arg(
+            option("from", "NAME=VALUE", "Begin on the branch of this value of a coordinate; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(
+            option(
+                "move",
+                "NAME=FROM..TO",
+                "Move a coordinate from rest to rest by a 3-4-5 polynomial; repeatable",
+            )
+            .action(ArgAction::Append),
+        )
+        .arg(file(
+            "motion",
+            "FILE.csv",
+            "Move coordinates by splines through samples, with time and coordinates in columns",
+        ))
+        .arg(option("over", "TIME", "How long it lasts [default: 1s, or as long as the file]"))
+        .arg(
+            option("samples", "COUNT", "At how many instants [default: 201]")
+                .value_parser(value_parser!(u32).range(2..=1_000_000)),
+        )
+        .arg(
+            option("inputs", "NAME,…", "The inputs that produce the motion, also patterns with *")
+                .value_delimiter(',')
+                .action(ArgAction::Append),
+        )
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
+        .arg(file("plot", "FILE.svg|.png", "Draw the motion and what it takes"))
+        .arg(file("out", "FILE.csv", "Write positions, rates, accelerations, inputs, forces and outputs"))
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+    let found = operating::named(models, matches)?;
+    let (name, model) = (found.name(), found.model());
+    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
+    options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
+    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
+    operating::refuse_signals(matches, "inputs are found here, or keep their values")?;
+    let info = model.info();
+    let start = Start::of(model, &options::values(model, matches)?)?;
+    let run = model.start(&start)?;
+    let t = run.time();
+    let over = matches.get_one::<String>("over").map(|text| duration(text)).transpose()?;
+    let wanted = Wanted::of(info, matches, [t, over.unwrap_or(1.0)], over)?;
+    let count = matches.get_one::<u32>("samples").copied().unwrap_or(SAMPLES);
+    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
+    let prescription = Prescription {
+        curves: wanted.curves,
+        by: by(info, matches)?,
+        inputs: Some(start.inputs.clone()),
+        from: Some(positions(&*run, t, from)?),
+        t,
+    };
+    let [from, to] = wanted.span;
+    let times: Vec<f64> =
+        (0..count).map(|at| from + (to - from) * f64::from(at) / f64::from(count - 1)).collect();
+    let instants = inverse(run.described(), &prescription, &times)?;
+    let shown = Shown::of(info, &prescription, &instants);
+    if let Some(path) = plot {
+        shown.figure(&format!("{name}: what the motion takes")).save(path)?;
+    }
+    if let Some(path) = out {
+        write_csv(path, &shown.columns)?;
+    }
+    if matches.get_flag("json") {
+        return say(json!({
+            "mechanism": name, "from_s": from, "to_s": to, "samples": count,
+            "prescribed": shown.prescribed, "takes": extremes::json(shown.takes()),
+            "outputs": extremes::json(shown.outputs()),
+        }));
+    }
+    say(extremes::table(name, shown.takes().chain(shown.outputs())).to_string().trim_end())?;
+    let files = [plot, out].into_iter().flatten();
+    files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
+}
+
+const SAMPLES: u32 = 201;
+
+/// The motion that a command line prescribes.
+struct Wanted {
+    curves: Vec<(String, Curve)>,
+    span: [f64; 2],
+}
+
+impl Wanted {
+    fn of(info: &Info, matches: &ArgMatches, [t, usual]: [f64; 2], over: Option<f64>) -> Result<Self, Error> {
+        let mut curves = Vec::new();
+        let mut span = [t, t + usual];
+        if let Some(path) = matches.get_one::<PathBuf>("motion") {
+            let (times, columns) = samples(path, info)?;
+            if let [first, .., last] = times.as_slice() {
+                span = [*first, over.map_or(*last, |over| first + over)];
+            }
+            for (name, values) in columns {
+                let curve = Curve::spline(&times, &values).map_err(|error| Error::Name {
+                    name: path.display().to_string(),
+                    reason: error.to_string(),
+                })?;
+                curves.push((name, curve));
+            }
+        }
+        for text in matches.get_many::<String>("move").unwrap_or_default() {
+            let (coordinate, [from, to]) = coordinate_range(info, text)?;
+            let curve = Curve::rest_to_rest(from, to, span[0], span[1] - span[0])?;
+            curves.push((coordinate.name.to_owned(), curve));
+        }
+        Ok(Self { curves, span })
+    }
+}
+
+fn samples(path: &Path, info: &Info) -> Result<(Vec<f64>, crate::signals::Columns), Error> {
+    let known: Vec<Known> =
+        info.coordinates.iter().map(|q| (q.name, q.dimension, Unit::of_coordinate(q))).collect();
+    over_time(path, "coordinate", &known)
+}
+
+fn duration(text: &str) -> Result<f64, Error> {
+    let over = quantity::parse("over", text, TIME)?;
+    if over > 0.0 {
+        return Ok(over);
+    }
+    Err(Error::Value { what: "over".into(), text: text.into(), reason: "it has to be above 0".into() })
+}
+
+/// `NAME=FROM..TO` of a coordinate.
+pub(super) fn coordinate_range<'a>(info: &'a Info, text: &str) -> Result<(&'a Quantity, [f64; 2]), Error> {
+    let (name, range) = quantity::split_setting(text)?;
+    let coordinate = info
+        .coordinates
+        .iter()
+        .find(|q| q.name == name)
+        .ok_or_else(|| Error::unknown("coordinate", name, info.coordinates.iter().map(|q| q.name)))?;
+    let (from, to) = range.split_once("..").ok_or_else(|| Error::Value {
+        what: name.into(),
+        text: range.into(),
+        reason: format!("that is not a range; write {name}=FROM..TO, for instance 0deg..90deg"),
+    })?;
+    let unit = Unit::of_coordinate(coordinate);
+    let value = |text: &str| quantity::parse_in(name, text, coordinate.dimension, &unit);
+    Ok((coordinate, [value(from)?, value(to)?]))
+}
+
+/// What produces the motion: the inputs that fit the patterns, or nothing but forces along coordinates.
+fn by(info: &Info, matches: &ArgMatches) -> Result<By, Error> {
+    let Some(patterns) = matches.get_many::<String>("inputs") else { return Ok(By::Efforts) };
+    let mut found: Vec<String> = Vec::new();
+    for pattern in patterns {
+        let mut fitting = info.inputs.iter().filter(|input| names::fits(pattern, input.name)).peekable();
+        if fitting.peek().is_none() {
+            return Err(Error::unknown("input", pattern, info.inputs.iter().map(|input| input.name)));
+        }
+        let new: Vec<String> =
+            fitting.filter(|q| !found.iter().any(|name| name == q.name)).map(|q| q.name.to_owned()).collect();
+        found.extend(new);
+    }
+    Ok(By::Inputs(found))
+}
+
+/// A motion and what it takes, as columns in their units.
+struct Shown {
+    columns: Vec<Column>,
+    /// The names of the prescribed coordinates, or of the drives.
+    prescribed: Vec<String>,
+    takes: Vec<String>,
+    outputs: Vec<String>,
+}
+
+impl Shown {
+    fn of(info: &Info, prescription: &Prescription, instants: &[Instant]) -> Self {
+        let mut columns = vec![column("t".into(), &Unit::si(TIME), instants.iter().map(|instant| instant.t))];
+        let all = |part: fn(&Instant) -> &[f64], at: usize| {
+            instants.iter().map(move |instant| part(instant).get(at).copied().unwrap_or(f64::NAN))
+        };
+        for (at, q) in info.coordinates.iter().enumerate() {
+            columns.push(column(q.name.into(), &Unit::of_coordinate(q), all(|x| &x.q, at)));
+        }
+        for (at, q) in info.coordinates.iter().enumerate() {
+            let unit = Unit::of_coordinate(q).per_second();
+            columns.push(column(format!("der({})", q.name), &unit, all(|x| &x.v, at)));
+        }
+        for (at, q) in info.coordinates.iter().enumerate() {
+            let unit = format!("{}/s^2", Unit::of_coordinate(q).name());
+            let mut accelerations = Column::new(format!("der(der({}))", q.name), unit);
+            accelerations.values = all(|x| &x.acceleration, at).collect();
+            columns.push(accelerations);
+        }
+        let mut takes = Vec::new();
+        for (at, input) in info.inputs.iter().enumerate() {
+            columns.push(column(input.name.into(), &Unit::of(input), all(|x| &x.inputs, at)));
+            match &prescription.by {
+                By::Inputs(names) if names.iter().any(|name| name == input.name) => {
+                    takes.push(input.name.into())
+                }
+                By::AllInputs => takes.push(input.name.into()),
+                By::Inputs(_) | By::Efforts => {}
+            }
+        }
+        if prescription.by == By::Efforts {
+            for (at, (name, _)) in prescription.curves.iter().enumerate() {
+                let Some(q) = info.coordinates.iter().find(|q| q.name == name) else { continue };
+                let effort = column(
+                    format!("effort({name})"),
+                    &Unit::of_multiplier(q.dimension),
+                    all(|x| &x.efforts, at),
+                );
+                takes.push(effort.name.clone());
+                columns.push(effort);
+            }
+        }
+        for (at, row) in info.constraints.iter().enumerate() {
+            let unit = Unit::of_multiplier(row.dimension);
+            columns.push(column(format!("lambda({})", row.name), &unit, all(|x| &x.multipliers, at)));
+            // what a drive exerts is what the motion takes
+            if row.is_drive {
+                let effort = all(|x| &x.multipliers, at).map(|multiplier| -multiplier);
+                takes.push(format!("effort({})", row.name));
+                columns.push(column(format!("effort({})", row.name), &unit, effort));
+            }
+        }
+        let mut outputs = Vec::new();
+        for (at, output) in info.outputs.iter().enumerate() {
+            outputs.push(output.name.to_owned());
+            columns.push(column(output.name.into(), &Unit::of(output), all(|x| &x.outputs, at)));
+        }
+        let prescribed = prescription.curves.iter().map(|(name, _)| name.clone()).collect();
+        Self { columns, prescribed, takes, outputs }
+    }
+
+    fn named<'a>(&'a self, names: &'a [String]) -> impl Iterator<Item = &'a Column> {
+        names.iter().filter_map(|name| self.columns.iter().find(|column| column.name == *name))
+    }
+
+    fn takes(&self) -> impl Iterator<Item = &Column> {
+        self.named(&self.takes)
+    }
+
+    fn outputs(&self) -> impl Iterator<Item = &Column> {
+        self.named(&self.outputs)
+    }
+
+    fn figure(&self, title: &str) -> Figure {
+        let times = self.columns.first().map_or(&[][..], |time| &time.values);
+        let parts = [
+            ("prescribed", self.named(&self.prescribed).collect::<Vec<_>>()),
+            ("takes", self.takes().collect()),
+            ("outputs", self.outputs().collect()),
+        ];
+        let mut figure = Figure::new(title).panel_height(300);
+        for (part, columns) in parts {
+            for panel in panels(part, Axis::new("time", "s"), times, &columns) {
+                figure = figure.panel(panel);
+            }
+        }
+        figure
+    }
+}
+
+/// A panel for each unit.
+pub(super) fn panels(part: &str, x: Axis, places: &[f64], columns: &[&Column]) -> Vec<Panel> {
+    let mut units: Vec<&str> = Vec::new();
+    for column in columns {
+        if !units.contains(&column.unit.as_str()) {
+            units.push(&column.unit);
+        }
+    }
+    let panel = |unit: &str| {
+        let shared: Vec<&&Column> = columns.iter().filter(|column| column.unit == unit).collect();
+        let label = match shared.as_slice() {
+            [alone] => alone.name.as_str(),
+            _ => part,
+        };
+        let name =
+            |column: &Column| if shared.len() == 1 { String::new() } else { column.name.replace('_', " ") };
+        let curves: Vec<Series> =
+            shared.iter().map(|column| Series::xy(name(column), places, &column.values)).collect();
+        Panel::lines(x.clone(), axis(label, unit), curves)
+    };
+    units.into_iter().map(panel).collect()
+}
+
+/// A column of values in SI units, in the unit in which they are shown.
+pub(super) fn column(name: String, unit: &Unit, values: impl Iterator<Item = f64>) -> Column {
+    let mut column = Column::new(name, unit.name());
+    column.values = values.map(|x| unit.shown(x)).collect();
+    column
+}

@@ -1,0 +1,312 @@
+//! `mbs travel`: the force along a slow motion, and mechanical advantage.
+
+use std::path::PathBuf;
+
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use mbs_analysis::{Along, Position, Travel, travel};
+use mbs_runtime::Info;
+use serde_json::{Value, json};
+
+use super::equilibrium::positions;
+use super::extremes;
+use super::inverse::{column, coordinate_range, panels};
+use super::json::number;
+use super::operating;
+use super::options::{self, option};
+use crate::figure::Figure;
+use crate::models::Models;
+use crate::number::significant;
+use crate::quantity::{self, TIME};
+use crate::settings::Start;
+use crate::unit::axis;
+use crate::{Column, Error, Unit, say, write_csv};
+
+const EXAMPLES: &str = "\
+Examples:
+  mbs travel pendulum --along angle=-180deg..180deg --plot effort.svg
+  mbs travel slider-crank-free --along theta1=5deg..175deg --advantage x3 --plot advantage.svg
+  mbs travel toggle-press --along actuator=0s..1s --input work=5kN --advantage y3 --out press.csv
+
+Everything rests at every position: springs and gravity act, dampers and friction do not.";
+
+/// Advantages are drawn up to so many times the least one, because they have no bound near a dead centre.
+const DRAWN: f64 = 20.0;
+
+pub(crate) fn command() -> Command {
+    let file = |name: &'static str, value: &'static str, help: &'static str| {
+        option(name, value, help).value_parser(value_parser!(PathBuf))
+    };
+    Command::new("travel")
+        .about("Find the force or the torque along a slow motion over position, and mechanical advantage")
+        .after_help(EXAMPLES)
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
+        .args(options::of_values())
+        .arg(
+            option(
+                "along",
+                "NAME=FROM..TO",
+                "Move this coordinate, or this drive between two times of its law",
+            )
+            .required(true),
+        )
+        .arg(
+            option("samples", "COUNT", "At how many positions [default: 201]")
+                .value_parser(value_parser!(u32).range(2..=1_000_000)),
+        )
+        .arg(
+            option(
+                "advantage",
+                "NAME,…",
+                "The coordinates along which a load acts, for mechanical advantage",
+            )
+            .value_delimiter(',')
+            .action(ArgAction::Append),
+        )
+        .arg(
+            option("from", "NAME=VALUE", "Begin on the branch of this value of a coordinate; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(option("at", "TIME", "Hold drives and forces where they are at this time [default: 0s]"))
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
+        .arg(file("plot", "FILE.svg|.png", "Draw the force over the position"))
+        .arg(file("out", "FILE.csv", "Write forces, positions, reactions and outputs"))
+}
+
+pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
+    let found = operating::named(models, matches)?;
+    let (name, model) = (found.name(), found.model());
+    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
+    options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
+    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
+    operating::refuse_signals(matches, "inputs are constants of a slow motion")?;
+    let info = model.info();
+    let lead = Lead::of(info, matches)?;
+    let loads = lead.loads(info, matches)?;
+    let start = Start::of(model, &options::values(model, matches)?)?;
+    let run = model.start(&start)?;
+    let t = match matches.get_one::<String>("at") {
+        Some(text) => quantity::parse("at", text, TIME)?,
+        None => run.time(),
+    };
+    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
+    let request = Travel {
+        along: lead.along.clone(),
+        samples: lead.samples.clone(),
+        inputs: Some(start.inputs.clone()),
+        from: Some(positions(&*run, t, from)?),
+        t,
+    };
+    let found = travel(run.described(), &request)?;
+    let shown = Shown::of(info, &lead, &loads, &found);
+    if let Some(path) = plot {
+        shown.figure(&format!("{name}: effort over travel")).save(path)?;
+    }
+    if let Some(path) = out {
+        write_csv(path, &shown.columns)?;
+    }
+    if matches.get_flag("json") {
+        return say(shown.json(name));
+    }
+    let table = extremes::table(name, shown.first());
+    say(table.to_string().trim_end())?;
+    shown.rests.iter().try_for_each(|rest| say(rest.words(&shown.unit, &lead.name)))?;
+    let files = [plot, out].into_iter().flatten();
+    files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
+}
+
+/// What is moved.
+struct Lead {
+    along: Along,
+    name: String,
+    samples: Vec<f64>,
+}
+
+impl Lead {
+    fn of(info: &Info, matches: &ArgMatches) -> Result<Self, Error> {
+        let text = matches.get_one::<String>("along").map_or("", String::as_str);
+        let count = matches.get_one::<u32>("samples").copied().unwrap_or(201);
+        let (name, range) = quantity::split_setting(text)?;
+        let is_drive = info.constraints.iter().any(|row| row.name == name && row.is_drive);
+        let [from, to] = if is_drive {
+            let wrong = || Error::Value {
+                what: name.into(),
+                text: range.into(),
+                reason: format!(
+                    "a drive moves between two times; write {name}=FROM..TO, for instance 0s..1s"
+                ),
+            };
+            let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+            [quantity::parse(name, from, TIME)?, quantity::parse(name, to, TIME)?]
+        } else {
+            coordinate_range(info, text)
+                .map_err(|error| match error {
+                    Error::Unknown { name, mut known, .. } => {
+                        known.extend(
+                            info.constraints.iter().filter(|row| row.is_drive).map(|row| row.name.to_owned()),
+                        );
+                        Error::Unknown { kind: "coordinate or drive", name, known }
+                    }
+                    other => other,
+                })?
+                .1
+        };
+        let at = |at: u32| from + (to - from) * f64::from(at) / f64::from(count - 1);
+        let along = if is_drive { Along::Drive(name.to_owned()) } else { Along::Coordinate(name.to_owned()) };
+        Ok(Self { along, name: name.to_owned(), samples: (0..count).map(at).collect() })
+    }
+
+    /// The coordinates along which loads act.
+    fn loads(&self, info: &Info, matches: &ArgMatches) -> Result<Vec<usize>, Error> {
+        let names = matches.get_many::<String>("advantage").unwrap_or_default();
+        let place = |name: &String| {
+            let found = info.coordinates.iter().position(|q| q.name == name);
+            found.ok_or_else(|| Error::unknown("coordinate", name, info.coordinates.iter().map(|q| q.name)))
+        };
+        let places = names.map(place).collect::<Result<Vec<_>, _>>()?;
+        // a drive takes the place of a degree of freedom
+        let free = match self.along {
+            Along::Coordinate(_) => info.dof - 1,
+            Along::Drive(_) => info.dof,
+        };
+        if free > 0 && !places.is_empty() {
+            let reason = format!(
+                "its {free} further degree(s) of freedom give way, so that geometry alone gives no mechanical advantage"
+            );
+            return Err(Error::Name { name: "--advantage".into(), reason });
+        }
+        Ok(places)
+    }
+
+    /// The unit of the position and that of the force along it.
+    fn units(&self, info: &Info) -> [Unit; 2] {
+        let coordinates = info.coordinates.iter().map(|q| (q.name, q.dimension));
+        let mut places = coordinates.chain(info.constraints.iter().map(|row| (row.name, row.dimension)));
+        let found = places.find(|(name, _)| *name == self.name);
+        let dimension = found.map_or(TIME, |(_, dimension)| dimension);
+        [Unit::of_place(dimension), Unit::of_multiplier(dimension)]
+    }
+}
+
+/// A position in which no force is needed.
+struct Balance {
+    travel: f64,
+    is_stable: bool,
+}
+
+impl Balance {
+    fn words(&self, unit: &str, name: &str) -> String {
+        let stable = if self.is_stable { "it is driven back there" } else { "it falls away there" };
+        format!("balanced at {name} = {} {unit}: {stable}", significant(self.travel, 6))
+    }
+}
+
+/// Positions and forces as columns in their units.
+struct Shown {
+    columns: Vec<Column>,
+    /// The first ones: the position, the force, the advantages.
+    first: usize,
+    unit: String,
+    rests: Vec<Balance>,
+}
+
+impl Shown {
+    fn of(info: &Info, lead: &Lead, loads: &[usize], found: &[Position]) -> Self {
+        let [length, force] = lead.units(info);
+        let all = |part: fn(&Position) -> &[f64], at: usize| {
+            found.iter().map(move |position| part(position).get(at).copied().unwrap_or(f64::NAN))
+        };
+        let name = match lead.along {
+            Along::Coordinate(_) => lead.name.clone(),
+            Along::Drive(_) => format!("travel({})", lead.name),
+        };
+        let mut columns = vec![
+            column(name.clone(), &length, found.iter().map(|position| position.travel)),
+            column(format!("effort({})", lead.name), &force, found.iter().map(|position| position.effort)),
+        ];
+        for load in loads {
+            let Some(q) = info.coordinates.get(*load) else { continue };
+            let advantage = |position: &Position| position.advantage(*load).unwrap_or(f64::NAN);
+            let unit = quotient(&Unit::of_multiplier(q.dimension), &force);
+            let mut list = Column::new(format!("advantage({})", q.name), unit);
+            list.values = found.iter().map(advantage).collect();
+            columns.push(list);
+        }
+        let first = columns.len();
+        if matches!(lead.along, Along::Drive(_)) {
+            columns.push(column("t".into(), &Unit::si(TIME), found.iter().map(|position| position.t)));
+        }
+        for (at, q) in info.coordinates.iter().enumerate().filter(|(_, q)| q.name != name) {
+            columns.push(column(q.name.into(), &Unit::of_coordinate(q), all(|x| &x.q, at)));
+        }
+        for (at, row) in info.constraints.iter().enumerate() {
+            let unit = Unit::of_multiplier(row.dimension);
+            columns.push(column(format!("lambda({})", row.name), &unit, all(|x| &x.multipliers, at)));
+        }
+        for (at, output) in info.outputs.iter().enumerate() {
+            columns.push(column(output.name.into(), &Unit::of(output), all(|x| &x.outputs, at)));
+        }
+        let rests = match lead.along {
+            Along::Coordinate(_) => rests(found),
+            Along::Drive(_) => Vec::new(),
+        };
+        Self { columns, first, unit: length.name().to_owned(), rests }
+    }
+
+    fn first(&self) -> impl Iterator<Item = &Column> {
+        self.columns.iter().take(self.first)
+    }
+
+    fn figure(&self, title: &str) -> Figure {
+        let mut first = self.first();
+        let Some(x) = first.next() else { return Figure::new(title) };
+        let mut figure = Figure::new(title).panel_height(340);
+        for column in first {
+            let mut drawn = column.clone();
+            if column.name.starts_with("advantage(") {
+                let least = column.values.iter().fold(f64::INFINITY, |least, x| least.min(x.abs()));
+                drawn.values.iter_mut().filter(|x| x.abs() > DRAWN * least).for_each(|x| *x = f64::NAN);
+            }
+            for panel in panels("", axis(&x.name, &x.unit), &x.values, &[&drawn]) {
+                figure = figure.panel(panel);
+            }
+        }
+        figure
+    }
+
+    fn json(&self, name: &str) -> Value {
+        let values = |column: &Column| {
+            let values: Vec<Value> = column.values.iter().map(|x| number(*x)).collect();
+            (column.name.clone(), json!({ "unit": column.unit, "values": values }))
+        };
+        let balance = |rest: &Balance| json!({ "at": number(rest.travel), "is_stable": rest.is_stable });
+        json!({
+            "mechanism": name,
+            "columns": self.columns.iter().map(values).collect::<serde_json::Map<_, _>>(),
+            "balanced": self.rests.iter().map(balance).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// Where the force along a coordinate changes its sign, by straight lines between positions. Where it
+/// rises, the mechanism is driven back if nothing holds it.
+fn rests(found: &[Position]) -> Vec<Balance> {
+    let between = |pair: &[Position]| {
+        let [a, b] = pair else { return None };
+        let is_balanced = (a.effort < 0.0) != (b.effort < 0.0) && a.effort != b.effort;
+        is_balanced.then(|| {
+            let share = a.effort / (a.effort - b.effort);
+            let is_stable = (b.effort > a.effort) == (b.travel > a.travel);
+            Balance { travel: a.travel + (b.travel - a.travel) * share, is_stable }
+        })
+    };
+    found.windows(2).filter_map(between).collect()
+}
+
+/// The unit of an advantage: none between two forces, or two torques.
+fn quotient(load: &Unit, force: &Unit) -> String {
+    if load.name() == force.name() {
+        return String::new();
+    }
+    // N over N·m, or N·m over N
+    if load.name() == "N" { "1/m".into() } else { "m".into() }
+}
