@@ -153,6 +153,18 @@ pub enum Error {
         /// Infinite or NaN.
         value: f64,
     },
+    /// A derivative in reverse of a mechanism that was compiled without transposed programs.
+    NoTranspose {
+        /// The mechanism.
+        mechanism: &'static str,
+    },
+    /// Less memory than the states take of which a derivative in reverse goes back.
+    Memory {
+        /// How much may be taken, in bytes.
+        allowed: usize,
+        /// How much is needed.
+        needed: usize,
+    },
     /// A start that was given violates a constraint.
     Inconsistent {
         /// When, in s.
@@ -311,6 +323,15 @@ impl fmt::Display for Error {
                      freedom"
                 )
             }
+            Self::NoTranspose { mechanism } => write!(
+                f,
+                "`{mechanism}` was compiled without transposed programs, so that a run of it cannot be \
+                 differentiated in reverse; compile it with `Text::compile_with_transposes`"
+            ),
+            Self::Memory { allowed, needed } => write!(
+                f,
+                "going back through the run takes {needed} bytes for states, and {allowed} may be taken"
+            ),
             Self::NoCoordinate { name } => write!(f, "there is no coordinate `{name}` to keep"),
             Self::NoVariable { what, name } => {
                 write!(

@@ -30,8 +30,11 @@ impl Variable {
         Self::Input { name, from: 0, until: u64::MAX }
     }
 
-    /// What it is, its name, and its place in [`Info`].
-    fn find(self, info: &Info) -> Result<usize, Error> {
+    /// Its place in [`Info`].
+    ///
+    /// # Errors
+    /// [`Error::NoVariable`].
+    pub fn find(self, info: &Info) -> Result<usize, Error> {
         let (what, name, quantities) = match self {
             Self::Parameter(name) => ("parameter", name, info.parameters),
             Self::Position(name) | Self::Velocity(name) => ("coordinate", name, info.coordinates),
@@ -41,7 +44,8 @@ impl Variable {
         found.ok_or(Error::NoVariable { what, name })
     }
 
-    const fn name(self) -> &'static str {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Parameter(name)
             | Self::Position(name)
@@ -77,6 +81,21 @@ impl<'a> Sum<'a> {
         Self { signal: Some(signal), ..self }
     }
 
+    /// The steps of the run.
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The variables.
+    pub const fn variables(&self) -> &'a [Variable] {
+        self.variables
+    }
+
+    /// What the input at this place is over a step, if a signal says that.
+    pub fn input(&self, step: u64, place: usize) -> Option<f64> {
+        self.signal.map(|signal| signal(step, place))
+    }
+
     /// The value of the sum, with its derivatives by the variables in `gradient`.
     ///
     /// `start` makes the run with some of the variables, `term` is what a state adds to the sum,
@@ -105,8 +124,7 @@ impl<'a> Sum<'a> {
         // without variables there is one run, for the value
         for chunk in 0..expected.div_ceil(N).max(1) {
             let first = chunk * N;
-            let variables = self.variables.get(first..).unwrap_or_default();
-            let seeds = Seeds { info, variables: variables.get(..N).unwrap_or(variables) };
+            let seeds = Seeds::new(info, self.variables.get(first..).unwrap_or_default());
             let (sum, t) = self.run(seeds, start(seeds)?, &mut term, inputs)?;
             value = sum.value;
             let places = gradient.iter_mut().skip(first).zip(seeds.variables);
@@ -148,7 +166,12 @@ pub struct Seeds<'a, const N: usize> {
     variables: &'a [Variable],
 }
 
-impl<const N: usize> Seeds<'_, N> {
+impl<'a, const N: usize> Seeds<'a, N> {
+    /// The first `N` of these variables.
+    pub fn new(info: &'a Info, variables: &'a [Variable]) -> Self {
+        Self { info, variables: variables.get(..N).unwrap_or(variables) }
+    }
+
     /// Makes variables of parameters.
     pub fn parameters(&self, parameters: &mut [Dual<f64, N>]) {
         self.plant(parameters, |variable| matches!(variable, Variable::Parameter(_)));

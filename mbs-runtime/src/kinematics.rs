@@ -81,7 +81,8 @@ impl<M: Mechanism> Kinematics<M> {
     ///
     /// # Errors
     /// [`Error::NotAssembled`] or [`Error::Singular`] with the time beyond which the motion cannot be
-    /// followed; [`Error::Time`] for one that is not finite.
+    /// followed; [`Error::Time`] for one that is not finite. The next instant is reached from where the
+    /// last good one was.
     pub fn at(&mut self, t: M::Real) -> Result<Motion<M::Coordinates>, Error> {
         if !t.is_finite() {
             return Err(Error::Time { t: t.to_f64(), step: 0.0 });
@@ -98,15 +99,13 @@ impl<M: Mechanism> Kinematics<M> {
             assemble(way.equations, way.t, way.q, room)?;
             project_velocities(way.equations, way.t, way.q, way.v, room)?;
         }
-        let followed = way.follow(t, predicted.as_mut(), room);
+        way.follow(t, predicted.as_mut(), room)?;
         let inputs = M::Inputs::default().into_array();
-        let accelerated =
-            followed.and_then(|()| way.acceleration(inputs.as_ref(), acceleration.as_mut(), room));
+        way.acceleration(inputs.as_ref(), acceleration.as_mut(), room)?;
         self.size = way.size;
         *from = way.t;
         self.last = arrays.state();
         self.is_assembled = true;
-        accelerated?;
         Ok(Motion { state: self.last, acceleration: Components::from_array(acceleration) })
     }
 

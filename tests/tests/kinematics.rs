@@ -124,7 +124,7 @@ fn a_motion_ends_where_it_cannot_be_followed() {
         other => panic!("{other}"),
     };
     assert!((t - 2.0).abs() < 1e-5, "{error}");
-    // and it can go back from there
+    // and from the last good instant it can go elsewhere
     assert!((kinematics.at(0.0).expect("within reach").state.q.y - 0.4).abs() < 1e-13);
     assert!(matches!(kinematics.at(f64::NAN), Err(Error::Time { .. })));
 }

@@ -28,6 +28,8 @@ pub struct Arguments<'a, T = f64, const C: usize = 1> {
     pub t_next: [T; C],
     /// The share of the step that an implicit stage has of its own slope, in s.
     pub shift: [T; C],
+    /// Of a transposed program, how much each result of the program counts.
+    pub weights: &'a [[T; C]],
 }
 
 impl<T: Real, const C: usize> Default for Arguments<'_, T, C> {
@@ -45,6 +47,7 @@ impl<T: Real, const C: usize> Default for Arguments<'_, T, C> {
             step: none,
             t_next: none,
             shift: none,
+            weights: &[],
         }
     }
 }
@@ -65,6 +68,7 @@ pub(crate) enum Given {
     Acceleration(usize),
     Multiplier(usize),
     Feedback(usize),
+    Weight(usize),
 }
 
 impl<T: Real, const C: usize> Arguments<'_, T, C> {
@@ -85,6 +89,7 @@ impl<T: Real, const C: usize> Arguments<'_, T, C> {
             Given::Acceleration(at) => (self.acceleration, at),
             Given::Multiplier(at) => (self.multipliers, at),
             Given::Feedback(at) => (self.feedback, at),
+            Given::Weight(at) => (self.weights, at),
         };
         vector.get(at).copied().unwrap_or([T::from_f64(f64::NAN); C])
     }

@@ -105,6 +105,10 @@ pub fn role(compiled: &Compiled, operand: Operand) -> Role {
         Operand::Number(number) => return Role::Fixed(Fixed::Number(number.to_f64())),
         Operand::Hoisted(at) => return Role::Fixed(Fixed::Hoisted(at)),
         Operand::Value(at) => return Role::Value(at),
+        // those of a transposed program stand behind the others
+        Operand::Symbol(symbol) if symbol.index() >= compiled.symbol_count() => {
+            Given::Weight(symbol.index() - compiled.symbol_count())
+        }
         Operand::Symbol(symbol) => match compiled.input(symbol) {
             Input::Parameter(at) => return Role::Fixed(Fixed::Parameter(at)),
             Input::Time => Given::Time,

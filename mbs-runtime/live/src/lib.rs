@@ -45,6 +45,7 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod backward;
 mod block;
 mod check;
 mod code;
@@ -63,6 +64,7 @@ mod statics;
 mod stepper;
 mod steps;
 mod text;
+mod transposed;
 mod words;
 
 pub use mbs_codegen::compiled::Feedback;
@@ -72,6 +74,6 @@ pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;
 pub use live::Live;
 pub use prepared::Prepared;
-pub use run::{Builder, Pack, Run};
+pub use run::{Builder, Pack, Run, Weights};
 pub use stepper::Stepper;
 pub use text::{LONGEST, Text};

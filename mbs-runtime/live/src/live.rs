@@ -12,6 +12,7 @@ use crate::arguments::Arguments;
 use crate::code::{Code, Fixed};
 use crate::instruction::execute;
 use crate::statics::{self, Tables};
+use crate::transposed::Transposes;
 
 /// A mechanism that was compiled from a text, with its parameters.
 ///
@@ -62,6 +63,8 @@ pub(crate) struct Programs {
     /// mechanism that is small enough.
     steps: Option<[Arc<Code>; 2]>,
     conditions: Vec<Condition>,
+    /// What goes back through a run, where that was asked for.
+    pub transposes: Option<Transposes>,
 }
 
 impl Programs {
@@ -83,7 +86,16 @@ impl Programs {
             steps,
             conditions: conditions.collect(),
             tables: statics::tables(declaration, compiled),
+            transposes: None,
         })
+    }
+
+    /// The same with transposed programs.
+    ///
+    /// # Errors
+    /// A mistake of this crate.
+    pub fn with_transposes(self, compiled: &Compiled) -> Result<Self, Inconsistency> {
+        Ok(Self { transposes: Some(Transposes::new(compiled)?), ..self })
     }
 
     /// The code of a function.

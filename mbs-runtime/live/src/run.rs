@@ -2,8 +2,10 @@
 
 mod derivatives;
 mod pack;
+mod reverse;
 
 pub use pack::Pack;
+pub use reverse::Weights;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch};

@@ -130,6 +130,21 @@ impl Text {
         .map(Live::new)
     }
 
+    /// Compiles the declaration with transposed programs, by which
+    /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse) goes back through a run. That takes
+    /// about three times as long.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    pub fn compile_with_transposes(&self) -> Result<Live, Error> {
+        self.make(|declaration, compiled| {
+            Programs::new(declaration, compiled)
+                .and_then(|programs| programs.with_transposes(compiled))
+                .map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
+        })
+        .map(Live::new)
+    }
+
     /// Compiles the declaration to C99: a header, a source, an example and a page.
     ///
     /// # Errors

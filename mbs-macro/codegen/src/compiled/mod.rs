@@ -270,6 +270,12 @@ impl Compiled {
         self.symbols[symbol.index()].1
     }
 
+    /// How many symbols the programs have. Symbols behind them are free for those who make other programs
+    /// of these.
+    pub fn symbol_count(&self) -> usize {
+        self.symbols.len()
+    }
+
     /// The name of a symbol.
     pub fn symbol_name(&self, symbol: Symbol) -> &str {
         &self.symbols[symbol.index()].0

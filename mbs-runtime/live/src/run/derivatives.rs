@@ -95,15 +95,18 @@ impl Builder {
         term: impl FnMut(&Run<Dual<f64, N>>) -> Result<Dual<f64, N>, Error>,
         gradient: &mut [f64],
     ) -> Result<f64, Error> {
-        let start = |seeds: Seeds<'_, N>| {
-            let mut builder = self.over(|parameters| seeds.parameters(parameters))?;
-            let (t, mut q, mut v) = builder.state.unwrap_or_else(|| builder.mechanism.declared_start());
-            seeds.start(&mut q, &mut v);
-            builder.state = Some((t, q, v));
-            builder.build()
-        };
+        let start = |seeds: Seeds<'_, N>| self.seeded(seeds)?.build();
         let mut inputs: Vec<_> = self.inputs.iter().map(|input| Dual::constant(*input)).collect();
         sum.differentiate(self.mechanism.declared_info(), start, term, &mut inputs, gradient)
+    }
+
+    /// The same over duals, whose parameters, positions and velocities are variables.
+    pub(super) fn seeded<const N: usize>(&self, seeds: Seeds<'_, N>) -> Result<Builder<Dual<f64, N>>, Error> {
+        let mut builder = self.over(|parameters| seeds.parameters(parameters))?;
+        let (t, mut q, mut v) = builder.state.unwrap_or_else(|| builder.mechanism.declared_start());
+        seeds.start(&mut q, &mut v);
+        builder.state = Some((t, q, v));
+        Ok(builder)
     }
 }
 
