@@ -6,10 +6,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use mbs_live::{Prepared, Run, Text};
-use mbs_runtime::TrBdf2;
+use mbs_runtime::gradients::{Sum, Variable};
 use mbs_runtime::{
     Adaptive, Baumgarte, Components, Dual, Held, Kinematics, Mechanism, Method, PerStage, Projected, Rattle,
-    Rk4, Sampled, Simulation, System as _, start,
+    Rk4, Sampled, Simulation, System as _, TrBdf2, start,
 };
 use models::slider_crank::SliderCrank;
 use models::slider_crank_free::{SliderCrankFree, SliderCrankFreeParameters};
@@ -103,6 +103,34 @@ fn derivatives_do_not_allocate() {
     let builder = Run::builder(&block, H).over(by_stiffness).expect("a stiffness");
     let mut run = builder.build().expect("a start");
     assert_eq!(allocations(|| run.advance(10_000).expect("a regular motion")), 0);
+}
+
+/// What a gradient in reverse allocates, it allocates once: a longer run takes as many allocations, whether
+/// all states are kept or most are made again.
+#[test]
+fn steps_in_reverse_do_not_allocate() {
+    let text = "Block { dof = 1; param k = 4 [N/m]; body block (x) { mass = 1 [kg]; }
+        force spring on x = -k*x; start { x = 1 [m]; } }";
+    let block = Text::declaration("block.mbs", text).compile_with_transposes().expect("a mechanism");
+    let variables = [Variable::Parameter("k"), Variable::Position("x")];
+    let mut gradient = [0.0; 2];
+    let mut count = |steps: u64, memory: usize| {
+        allocations(|| {
+            let found = Run::builder(&block, H).gradient_in_reverse(
+                &Sum::new(steps, &variables),
+                memory,
+                |_, at, weights| {
+                    weights.q[0] = 1.0;
+                    Ok(at.q[0])
+                },
+                &mut gradient,
+            );
+            assert!(found.is_ok());
+        })
+    };
+    for memory in [1 << 20, 4096] {
+        assert_eq!(count(1000, memory), count(10_000, memory));
+    }
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! Steps that go backward: from how much the state behind a step counts to how much that before it does, and
 //! everything that the step reads.
 
+mod projection;
+
+pub use projection::FUNCTIONS;
+
 use std::sync::Arc;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::__private::Spline;
 use mbs_runtime::{Error, Explicit, Stabilization};
 
 use crate::Live;
@@ -13,6 +16,7 @@ use crate::code::Code;
 use crate::instruction::execute;
 use crate::live::Programs;
 use crate::transposed::{Counts, Transposed, Transposes};
+use projection::Projection;
 
 /// Slots of a code.
 type Slots = Vec<[f64; 1]>;
@@ -47,6 +51,8 @@ struct Stages {
     /// How much the state before the step counts.
     of_position: Vec<f64>,
     of_velocity: Vec<f64>,
+    /// What projects, where the method does.
+    projection: Option<Projection>,
     /// Weights of the results of a stage.
     weights: Slots,
     unread: Slots,
@@ -56,15 +62,12 @@ impl Backward {
     /// Steps of this method.
     ///
     /// # Errors
-    /// [`Error::NoTranspose`]; [`Error::Scheme`] of a method that projects.
+    /// [`Error::NoTranspose`].
     pub fn new(live: &Live, method: Explicit) -> Result<Self, Error> {
         let programs = live.programs();
         let Some(transposes) = &programs.transposes else {
             return Err(Error::NoTranspose { mechanism: live.declared_info().name });
         };
-        if method.is_projected() {
-            return Err(Error::Scheme { name: "projection" });
-        }
         let slots = |code: &Code| code.memory(|fixed| [live.fixed(fixed)]);
         let info = live.declared_info();
         let (s, m) = (info.states.len(), info.constraints.len());
@@ -88,6 +91,7 @@ impl Backward {
                     of_accelerations: vec![vec![0.0; s]; count],
                     of_position: vec![0.0; s],
                     of_velocity: vec![0.0; s],
+                    projection: method.is_projected().then(|| Projection::new(live, transposes)),
                     weights: column(s + m),
                     unread: column(m),
                 }))
@@ -116,7 +120,7 @@ impl Backward {
             }
             Memory::Staged(stages) => {
                 stages.forward(programs, *method, at);
-                stages.backward(transposes, splines, *method, at, counts);
+                stages.backward((programs, transposes), *method, at, counts);
             }
         }
     }
@@ -177,6 +181,20 @@ impl Stages {
                 _ => code.store(slots, &mut [a, &mut self.unread]),
             }
         }
+        self.project(programs, method, at);
+    }
+
+    /// The end of the step before it is projected, and the projection.
+    fn project(&mut self, programs: &Programs, method: Explicit, at: &Arguments<'_>) {
+        let Some(projection) = &mut self.projection else { return };
+        let update = Sum::update(method, at);
+        for (k, ((q, v), (q_end, v_end))) in
+            at.q.iter().zip(at.v).zip(projection.q.iter_mut().zip(&mut projection.v)).enumerate()
+        {
+            *q_end = [q[0] + update.of(&self.velocities, k)];
+            *v_end = [v[0] + update.of(&self.accelerations, k)];
+        }
+        projection.forward(programs, at);
     }
 
     /// Position and velocity of a stage.
@@ -198,17 +216,20 @@ impl Stages {
     /// From the end of the step to its start.
     fn backward(
         &mut self,
-        transposes: &Transposes,
-        splines: &[Spline],
+        (programs, transposes): (&Programs, &Transposes),
         method: Explicit,
         at: &Arguments<'_>,
         counts: &mut Counts,
     ) {
-        let layout = counts.layout;
+        let (layout, splines) = (counts.layout, programs.tables.splines);
         let [first, others] = transposed(transposes, method);
         let update = Sum::update(method, at);
         copy(&mut self.of_position, counts.part(layout.positions()));
         copy(&mut self.of_velocity, counts.part(layout.velocities()));
+        if let Some(projection) = &mut self.projection {
+            let counted = [&mut self.of_position[..], &mut self.of_velocity];
+            projection.backward((programs, transposes), at, counted, counts);
+        }
         for slopes in [&mut self.of_velocities, &mut self.of_accelerations] {
             slopes.iter_mut().for_each(|slope| slope.fill(0.0));
         }

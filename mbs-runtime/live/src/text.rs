@@ -132,7 +132,7 @@ impl Text {
 
     /// Compiles the declaration with transposed programs, by which
     /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse) goes back through a run. That takes
-    /// about three times as long.
+    /// up to twice as long.
     ///
     /// # Errors
     /// As [`compile`](Self::compile).

@@ -9,6 +9,7 @@ use mbs_runtime::__private::Spline;
 use mbs_symbolic::{Arena, Inconsistency, Operand, Program, Stage};
 
 use crate::arguments::Arguments;
+use crate::backward::FUNCTIONS;
 use crate::code::{Code, Fixed};
 use crate::instruction::execute;
 
@@ -25,6 +26,8 @@ pub struct Transposes {
     pub constrained: Transposed,
     /// Of a whole step of the declared scheme, with both kinds of feedback.
     pub steps: Option<[Transposed; 2]>,
+    /// Of what projects, in the order of [`FUNCTIONS`].
+    pub projection: [Transposed; 4],
 }
 
 /// A transposed program.
@@ -156,6 +159,11 @@ impl Transposes {
             alone: of(FunctionId::Stabilized, states)?,
             constrained: of(FunctionId::Constrained, states)?,
             steps: steps.transpose()?,
+            projection: {
+                let [complete, phi, phi_dot, projection] = FUNCTIONS;
+                let n = compiled.coordinates.len();
+                [of(complete, 2 * n)?, of(phi, constraints)?, of(phi_dot, constraints)?, of(projection, n)?]
+            },
         })
     }
 }

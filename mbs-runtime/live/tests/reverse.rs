@@ -1,6 +1,6 @@
 //! Derivatives of sums over runs in reverse are those that dual numbers carry forward, for every mechanism
 //! of the library, for schemes whose step is one program and for those in stages, with both kinds of
-//! feedback, and whatever part of the states is kept.
+//! feedback and with projection, and whatever part of the states is kept.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 use std::fs;
@@ -19,6 +19,11 @@ const N: usize = 8;
 
 /// The mechanisms of the library.
 fn library() -> Vec<Live> {
+    with(|source| source)
+}
+
+/// The same of changed sources.
+fn with(change: impl Fn(String) -> String) -> Vec<Live> {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src");
     let mut found = Vec::new();
     for entry in fs::read_dir(sources).unwrap() {
@@ -27,7 +32,7 @@ fn library() -> Vec<Live> {
         // chains are made by a macro
         let source = source.replace("$(#[$($attribute)*])*", "").replace("$Name", "Chain").replace("$n", "6");
         if source.contains("mechanism! {") && !path.ends_with("lib.rs") {
-            let text = Text::rust(path.display().to_string(), source);
+            let text = Text::rust(path.display().to_string(), change(source));
             found.push(text.compile_with_transposes().unwrap());
         }
     }
@@ -159,13 +164,33 @@ fn feedback_in_every_stage() {
 #[test]
 fn steps_in_stages() {
     for live in library() {
-        for (tableau, stabilization) in
-            [(&DOPRI5, Stabilization::Held), (&RK4, Stabilization::PerStage), (&RK4, Stabilization::Held)]
-        {
+        for (tableau, stabilization) in [
+            (&DOPRI5, Stabilization::Held),
+            (&RK4, Stabilization::PerStage),
+            (&RK4, Stabilization::Held),
+            (&RK4, Stabilization::Projection),
+            (&HEUN, Stabilization::Projection),
+        ] {
             let worst = compared(&live, Some(Explicit { tableau, stabilization }));
             println!("{}, {}: {worst:.1e}", live.declared_info().name, tableau.word);
         }
     }
+}
+
+#[test]
+fn reduced_states() {
+    let reduced = |source: String| match source.contains("states = ") {
+        true => source,
+        false => source.replacen(" dof = ", " states = reduced; dof = ", 1),
+    };
+    let mut fewer = 0;
+    for live in with(reduced) {
+        let projected = Explicit { tableau: &HEUN, stabilization: Stabilization::Projection };
+        let worst = compared(&live, None).max(compared(&live, Some(projected)));
+        fewer += usize::from(live.declared_info().states.len() < live.declared_info().coordinates.len());
+        println!("{}, {} states: {worst:.1e}", live.declared_info().name, live.declared_info().states.len());
+    }
+    assert!(fewer > 20, "{fewer}");
 }
 
 const SWING: &str = "Swing {
@@ -191,9 +216,6 @@ fn what_is_refused() {
     let error = backward(&Run::builder(&swing, H), &sum, 639).unwrap_err();
     assert_eq!(error, Error::Memory { allowed: 639, needed: 640 });
     assert!(backward(&Run::builder(&swing, H), &sum, 640).is_ok());
-    let projected = Explicit { tableau: &HEUN, stabilization: Stabilization::Projection };
-    let error = backward(&Run::builder(&swing, H).method(projected), &sum, usize::MAX).unwrap_err();
-    assert_eq!(error, Error::Scheme { name: "projection" });
     let unknown = Sum::new(100, &[Variable::Parameter("mass")]);
     assert!(matches!(backward(&Run::builder(&swing, H), &unknown, 0), Err(Error::NoVariable { .. })));
     let mut short: [f64; 0] = [];

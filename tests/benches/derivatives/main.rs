@@ -1,7 +1,9 @@
 //! What derivatives cost: a run of the free slider-crank with 1, 4 and 8 partial derivatives against
-//! the run itself, of the type and of its text, in the same process. `-- --figure FILE.svg` draws
-//! how the slider's position depends on the parameters.
+//! the run itself, of the type and of its text, in the same process; and ten derivatives in reverse.
+//! `-- --figure FILE.svg` draws how the slider's position depends on the parameters.
 #![allow(clippy::expect_used, reason = "a benchmark ends where it cannot go on")]
+
+mod reverse;
 
 use std::env;
 use std::path::Path;
@@ -44,11 +46,18 @@ fn main() -> ExitCode {
         println!("the runs end apart: {ends:?}");
         return ExitCode::FAILURE;
     }
+    let text = Text::rust("slider_crank_free.rs", text);
+    let reverse = reverse::Reverse::of(&text.compile_with_transposes().expect("a mechanism of the library"));
+    if !reverse.is_forward() {
+        println!("derivatives in reverse are not those of dual numbers");
+        return ExitCode::FAILURE;
+    }
     let arguments: Vec<String> = env::args().collect();
     if !arguments.iter().any(|argument| argument == "--bench") {
         return ExitCode::SUCCESS;
     }
     print(&programs);
+    reverse.print();
     let file = arguments.iter().skip_while(|argument| *argument != "--figure").nth(1);
     match file.map(|file| draw(file.as_ref())) {
         Some(Err(error)) => {

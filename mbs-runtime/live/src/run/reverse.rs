@@ -81,8 +81,7 @@ impl Builder {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoTranspose`], [`Error::Memory`]; [`Error::Scheme`] of a method that projects, which has no
-    /// transposed programs; otherwise as [`gradient`](Self::gradient).
+    /// [`Error::NoTranspose`], [`Error::Memory`]; otherwise as [`gradient`](Self::gradient).
     ///
     /// # Source
     /// A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, chapters 3 and 12.
