@@ -110,7 +110,7 @@ fn derivatives_do_not_allocate() {
 #[test]
 fn steps_in_reverse_do_not_allocate() {
     let text = "Block { dof = 1; param k = 4 [N/m]; body block (x) { mass = 1 [kg]; }
-        force spring on x = -k*x; start { x = 1 [m]; } }";
+        force spring on x = -k*x; start { x = 1 [m]; } output pull [N] = k*x; }";
     let block = Text::declaration("block.mbs", text).compile_with_transposes().expect("a mechanism");
     let variables = [Variable::Parameter("k"), Variable::Position("x")];
     let mut gradient = [0.0; 2];
@@ -119,9 +119,10 @@ fn steps_in_reverse_do_not_allocate() {
             let found = Run::builder(&block, H).gradient_in_reverse(
                 &Sum::new(steps, &variables),
                 memory,
-                |_, at, weights| {
-                    weights.q[0] = 1.0;
-                    Ok(at.q[0])
+                |moment| {
+                    moment.by_q[0] = 1.0;
+                    moment.by_outputs[0] = 0.5;
+                    Ok(moment.at.q[0] + 0.5 * moment.outputs()?[0])
                 },
                 &mut gradient,
             );

@@ -1,9 +1,11 @@
 //! Steps that go backward: from how much the state behind a step counts to how much that before it does, and
 //! everything that the step reads.
 
+mod measures;
 mod projection;
 
-pub use projection::FUNCTIONS;
+pub use measures::{FUNCTIONS as MEASURES, Measures};
+pub use projection::FUNCTIONS as PROJECTION;
 
 use std::sync::Arc;
 
@@ -100,8 +102,8 @@ impl Backward {
         Ok(Self { programs: Arc::clone(programs), method, memory })
     }
 
-    /// Goes back over the step that begins at `at`: positions and velocities of `counts` are those behind the
-    /// step before, and those before it afterwards; to the others is added.
+    /// Goes back over the step that begins at `at`: `counts` says how much positions and velocities behind the
+    /// step count, and afterwards how much those before it do; to everything else is added.
     pub fn step(&mut self, at: &Arguments<'_>, counts: &mut Counts) {
         let Self { programs, method, memory } = self;
         let Some(transposes) = &programs.transposes else { return };
@@ -282,6 +284,11 @@ impl Stages {
 /// As many numbers as there are in both.
 fn copy(to: &mut [f64], from: &[f64]) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+}
+
+/// Weights of results from what they count.
+fn put(weights: &mut [[f64; 1]], counts: &[f64]) {
+    weights.iter_mut().zip(counts).for_each(|(weight, count)| *weight = [*count]);
 }
 
 fn add(to: &mut [f64], from: &[f64]) {

@@ -74,6 +74,6 @@ pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;
 pub use live::Live;
 pub use prepared::Prepared;
-pub use run::{Builder, Pack, Run, Weights};
+pub use run::{Builder, Moment, Pack, Run};
 pub use stepper::Stepper;
 pub use text::{LONGEST, Text};

@@ -9,7 +9,7 @@ use mbs_runtime::__private::Spline;
 use mbs_symbolic::{Arena, Inconsistency, Operand, Program, Stage};
 
 use crate::arguments::Arguments;
-use crate::backward::FUNCTIONS;
+use crate::backward::{MEASURES, PROJECTION};
 use crate::code::{Code, Fixed};
 use crate::instruction::execute;
 
@@ -26,8 +26,10 @@ pub struct Transposes {
     pub constrained: Transposed,
     /// Of a whole step of the declared scheme, with both kinds of feedback.
     pub steps: Option<[Transposed; 2]>,
-    /// Of what projects, in the order of [`FUNCTIONS`].
+    /// Of what projects, in the order of [`PROJECTION`],
     pub projection: [Transposed; 4],
+    /// and of what measures, in the order of [`MEASURES`].
+    pub measures: [Transposed; 3],
 }
 
 /// A transposed program.
@@ -53,15 +55,12 @@ pub struct Layout {
 pub struct Counts {
     pub layout: Layout,
     pub numbers: Vec<f64>,
-    /// Room for what a term adds to positions and velocities.
-    pub weights: [Vec<f64>; 2],
 }
 
 impl Counts {
     /// Nothing counts yet.
     pub fn new(layout: Layout) -> Self {
-        let weights = [(); 2].map(|()| vec![0.0; layout.coordinates]);
-        Self { layout, numbers: vec![0.0; layout.len()], weights }
+        Self { layout, numbers: vec![0.0; layout.len()] }
     }
 
     /// The part of it for a vector.
@@ -99,8 +98,18 @@ impl Layout {
         from..from + self.hoisted
     }
 
+    pub fn accelerations(&self) -> Range<usize> {
+        let from = self.hoisted().end;
+        from..from + self.coordinates
+    }
+
+    pub fn multipliers(&self) -> Range<usize> {
+        let from = self.accelerations().end;
+        from..from + self.constraints
+    }
+
     fn len(&self) -> usize {
-        self.hoisted().end
+        self.multipliers().end
     }
 
     /// Where what an operand counts is added; nothing for constants, times and gains, which are no variables.
@@ -114,14 +123,14 @@ impl Layout {
                 Input::Feedback(at) => (self.feedback(), at),
                 Input::Input(at) => (self.inputs(), at),
                 Input::Parameter(at) => (self.parameters(), at),
+                Input::Acceleration(at) => (self.accelerations(), at),
+                Input::Multiplier(at) => (self.multipliers(), at),
                 Input::Time
                 | Input::Step
                 | Input::HalfStep
                 | Input::NextTime
                 | Input::MinusTwoAlpha
-                | Input::MinusBetaSquared
-                | Input::Acceleration(_)
-                | Input::Multiplier(_) => return None,
+                | Input::MinusBetaSquared => return None,
             },
         };
         Some(range.start + at)
@@ -146,6 +155,7 @@ impl Transposes {
     pub fn new(compiled: &Compiled) -> Result<Self, Inconsistency> {
         let of = |function, counted| Transposed::new(compiled, compiled.program(function), counted);
         let (states, constraints) = (compiled.states.len(), compiled.constraints.len());
+        let n = compiled.coordinates.len();
         let hoisted = compiled.program(FunctionId::Hoisted).outputs.len();
         let steps = compiled.fused_step.as_ref().map(|step| {
             let Kinds { held, per_stage } = &step.alone;
@@ -160,9 +170,12 @@ impl Transposes {
             constrained: of(FunctionId::Constrained, states)?,
             steps: steps.transpose()?,
             projection: {
-                let [complete, phi, phi_dot, projection] = FUNCTIONS;
-                let n = compiled.coordinates.len();
+                let [complete, phi, phi_dot, projection] = PROJECTION;
                 [of(complete, 2 * n)?, of(phi, constraints)?, of(phi_dot, constraints)?, of(projection, n)?]
+            },
+            measures: {
+                let [complete, reactions, outputs] = MEASURES;
+                [of(complete, 2 * n)?, of(reactions, n + constraints)?, of(outputs, compiled.outputs.len())?]
             },
         })
     }

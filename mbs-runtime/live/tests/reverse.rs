@@ -1,4 +1,4 @@
-//! Derivatives of sums over runs in reverse are those that dual numbers carry forward, for every mechanism
+//! Derivatives of sums over runs, of states and outputs, in reverse are those that dual numbers carry forward, for every mechanism
 //! of the library, for schemes whose step is one program and for those in stages, with both kinds of
 //! feedback and with projection, and whatever part of the states is kept.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
@@ -59,10 +59,9 @@ fn forward(builder: &Builder, sum: &Sum<'_>) -> (f64, Vec<f64>, Vec<f64>) {
     let count = sum.variables().len();
     let (mut gradient, mut sizes, mut chunk) = (vec![0.0; count], vec![0.0; count], 0);
     let term = |run: &Run<Dual<f64, N>>| {
-        let numbers = run.q().iter().chain(run.v()).enumerate();
         let mut term = Dual::default();
-        for (at, x) in numbers {
-            let weighed = Dual::constant(weight(run.steps(), at)) * *x;
+        for (at, x) in [run.q(), run.v(), &run.measured()?].concat().into_iter().enumerate() {
+            let weighed = Dual::constant(weight(run.steps(), at)) * x;
             term = term + weighed;
             let places = sizes.iter_mut().skip(chunk * N);
             places.zip(weighed.partials).for_each(|(size, partial)| *size += partial.abs());
@@ -78,7 +77,7 @@ fn forward(builder: &Builder, sum: &Sum<'_>) -> (f64, Vec<f64>, Vec<f64>) {
 fn terms(builder: &Builder, sum: &Sum<'_>) -> f64 {
     let mut terms = 0.0;
     let term = |run: &Run<Dual<f64, 1>>| {
-        let numbers = run.q().iter().chain(run.v()).enumerate();
+        let numbers = [run.q(), run.v(), &run.measured()?].concat().into_iter().enumerate();
         terms += numbers.map(|(at, x)| (weight(run.steps(), at) * x.value).abs()).sum::<f64>();
         Ok(Dual::default())
     };
@@ -99,11 +98,11 @@ fn backward(builder: &Builder, sum: &Sum<'_>, memory: usize) -> Result<(f64, Vec
     let value = builder.gradient_in_reverse(
         sum,
         memory,
-        |step, at, weights| {
-            let places = weights.q.iter_mut().chain(weights.v).enumerate();
-            places.for_each(|(at, place)| *place = weight(step, at));
-            let numbers = at.q.iter().chain(at.v).enumerate();
-            Ok(numbers.map(|(at, x)| weight(step, at) * x).sum())
+        |moment| {
+            let numbers = [moment.at.q, moment.at.v, &moment.outputs()?.to_vec()].concat();
+            let places = moment.by_q.iter_mut().chain(&mut *moment.by_v).chain(&mut *moment.by_outputs);
+            places.enumerate().for_each(|(at, place)| *place = weight(moment.step, at));
+            Ok(numbers.iter().enumerate().map(|(at, x)| weight(moment.step, at) * x).sum())
         },
         &mut gradient,
     )?;
@@ -219,7 +218,7 @@ fn what_is_refused() {
     let unknown = Sum::new(100, &[Variable::Parameter("mass")]);
     assert!(matches!(backward(&Run::builder(&swing, H), &unknown, 0), Err(Error::NoVariable { .. })));
     let mut short: [f64; 0] = [];
-    let found = Run::builder(&swing, H).gradient_in_reverse(&sum, 1 << 20, |_, _, _| Ok(0.0), &mut short);
+    let found = Run::builder(&swing, H).gradient_in_reverse(&sum, 1 << 20, |_| Ok(0.0), &mut short);
     assert!(matches!(found, Err(Error::Length { expected: 1, .. })));
     assert_eq!(swing.info().states.len(), 2);
 }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use mbs_live::{Live, Run};
+use mbs_live::{Live, Moment, Run};
 use mbs_runtime::gradients::{Sum, Variable};
 use mbs_runtime::{Dual, System};
 
@@ -39,12 +39,12 @@ impl Reverse {
         let mut gradient = vec![0.0; self.variables.len()];
         let builder = Run::builder(&self.live, H).inputs(&[TORQUE]);
         let sum = Sum::new(STEPS, &self.variables);
-        let term = |step: u64, at: mbs_runtime::equations::At<'_, f64>, weights: mbs_live::Weights<'_>| {
-            if step < STEPS {
+        let term = |moment: &mut Moment<'_>| {
+            if moment.step < STEPS {
                 return Ok(0.0);
             }
-            weights.q[6] = 1.0;
-            Ok(at.q[6])
+            moment.by_q[6] = 1.0;
+            Ok(moment.at.q[6])
         };
         builder.gradient_in_reverse(&sum, memory, term, &mut gradient).expect("a regular motion");
         gradient

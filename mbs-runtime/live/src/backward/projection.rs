@@ -3,7 +3,7 @@
 
 use mbs_codegen::FunctionId;
 
-use super::{Slots, add};
+use super::{Slots, add, put};
 use crate::Live;
 use crate::arguments::Arguments;
 use crate::instruction::execute;
@@ -135,8 +135,4 @@ impl Projection {
         counts.part(layout.velocities()).fill(0.0);
         run(COMPLETE, &self.weights, &Arguments { q: states, v: &self.v, ..*at }, counts);
     }
-}
-
-fn put(weights: &mut [[f64; 1]], counts: &[f64]) {
-    weights.iter_mut().zip(counts).for_each(|(weight, count)| *weight = [*count]);
 }

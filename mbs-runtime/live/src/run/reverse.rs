@@ -1,25 +1,45 @@
 //! Derivatives of a sum over a run by going back through it.
 
+mod kept;
+
 use mbs_runtime::equations::At;
 use mbs_runtime::gradients::{Seeds, Sum, Variable};
 use mbs_runtime::{Baumgarte, Dual, Error, Gains, Held, System};
 
 use super::{Builder, Run};
-use crate::Stepper;
 use crate::arguments::Arguments;
-use crate::backward::Backward;
+use crate::backward::{Backward, Measures};
 use crate::equations::{both, single, state};
-use crate::transposed::Counts;
+use crate::transposed::{Counts, Transposes};
+use crate::{Live, Stepper};
+use kept::{Kept, put};
 
-/// How much the state of a run adds to a sum for a change of its positions and velocities, to be filled in by
-/// a term of [`gradient_in_reverse`](Builder::gradient_in_reverse): ∂term/∂q and ∂term/∂v of the coordinates
-/// that are integrated. They are 0 at first.
-#[derive(Debug)]
-pub struct Weights<'a> {
-    /// ∂term/∂q
-    pub q: &'a mut [f64],
-    /// ∂term/∂v
-    pub v: &'a mut [f64],
+/// A state of a run, of which a term of [`gradient_in_reverse`](Builder::gradient_in_reverse) is a function; the term
+/// writes its derivatives here, which are 0 at first.
+pub struct Moment<'a> {
+    /// The steps that were taken before.
+    pub step: u64,
+    /// Time, positions and velocities of what is integrated.
+    pub at: At<'a, f64>,
+    /// The inputs of the step that led there; at the start those of the first one.
+    pub inputs: &'a [f64],
+    /// ∂term/∂q of the coordinates that are integrated.
+    pub by_q: &'a mut [f64],
+    /// ∂term/∂v of them.
+    pub by_v: &'a mut [f64],
+    /// ∂term/∂y of the [`outputs`](Self::outputs).
+    pub by_outputs: &'a mut [f64],
+    measures: &'a mut Measures,
+}
+
+impl Moment<'_> {
+    /// What the declaration measures there. It is computed when it is asked for.
+    ///
+    /// # Errors
+    /// [`Error::Undefined`] if an output is not finite.
+    pub fn outputs(&mut self) -> Result<&[f64], Error> {
+        self.measures.measure(self.at, self.inputs)
+    }
 }
 
 /// Derivatives of a start that duals carry at once.
@@ -41,8 +61,8 @@ impl Builder {
     /// they fit into `memory` bytes. Else every j-th is, and the steps between two of them are made again, which
     /// costs one more run: 16 s (steps/j + j + 1) bytes, at least for j = √steps.
     ///
-    /// `term` is what a state adds to the sum, and its derivatives by the state; it is called once for each,
-    /// from the last to the first with their numbers of steps, and sees what is integrated.
+    /// `term` is what a state adds to the sum, a function of what is integrated and of the outputs there, by which
+    /// it writes its derivatives. It is called once for each state, from the last to the first.
     ///
     /// # Example
     /// The end of a throw with drag, by speed and by drag:
@@ -63,12 +83,12 @@ impl Builder {
     /// let way = Run::builder(&ball, 1e-3).gradient_in_reverse(
     ///     &Sum::new(1000, &variables),
     ///     1 << 20,
-    ///     |step, at, weights| {
-    ///         if step < 1000 {
+    ///     |moment| {
+    ///         if moment.step < 1000 {
     ///             return Ok(0.0);
     ///         }
-    ///         weights.q[0] = 1.0;
-    ///         Ok(at.q[0])
+    ///         moment.by_q[0] = 1.0;
+    ///         Ok(moment.at.q[0])
     ///     },
     ///     &mut gradient,
     /// )?;
@@ -89,7 +109,7 @@ impl Builder {
         &self,
         sum: &Sum<'_>,
         memory: usize,
-        mut term: impl FnMut(u64, At<'_, f64>, Weights<'_>) -> Result<f64, Error>,
+        mut term: impl FnMut(&mut Moment<'_>) -> Result<f64, Error>,
         gradient: &mut [f64],
     ) -> Result<f64, Error> {
         let info = self.mechanism.declared_info();
@@ -100,17 +120,19 @@ impl Builder {
         sum.variables().iter().try_for_each(|variable| variable.find(info).map(drop))?;
         let mut back = Backward::new(&self.mechanism, self.method)?;
         let mut kept = Kept::within(memory, sum.steps(), info.states.len())?;
-        let (mut run, start_time) = self.forward(sum, &mut kept)?;
+        let (run, start_time) = self.forward(sum, &mut kept)?;
         let Some(transposes) = &self.mechanism.programs().transposes else {
             return Err(Error::NoTranspose { mechanism: info.name });
         };
         let mut counts = Counts::new(transposes.layout);
         gradient.fill(0.0);
 
-        let mut value = self.term(&mut term, sum.steps(), run.states(), &mut counts)?;
+        let mut terms = Terms::new(&self.mechanism, transposes);
         let gains = Baumgarte::<Held>::new(self.gains[0], self.gains[1])?.gains();
         let mut again = Again { stepper: Stepper::new(&self.mechanism, self.method), gains, start_time };
-        let mut inputs = std::mem::take(&mut run.inputs);
+        let mut inputs = run.inputs.clone();
+        let mut value = terms.add(&mut term, sum.steps(), run.states(), &inputs, &mut counts)?;
+        by_inputs(sum, info, sum.steps().saturating_sub(1), &mut counts, gradient);
         for step in (0..sum.steps()).rev() {
             kept.restore(step, |step, q, v, behind| {
                 self.set_inputs(sum, step, &mut inputs);
@@ -128,7 +150,11 @@ impl Builder {
             };
             back.step(&given, &mut counts);
             by_inputs(sum, info, step, &mut counts, gradient);
-            value += self.term(&mut term, step, at, &mut counts)?;
+            // a state is looked at with the inputs of the step that led there
+            let before = step.saturating_sub(1);
+            self.set_inputs(sum, before, &mut inputs);
+            value += terms.add(&mut term, step, at, &inputs, &mut counts)?;
+            by_inputs(sum, info, before, &mut counts, gradient);
         }
         self.by_parameters(&mut counts);
         self.by_start(sum, &mut counts, gradient)?;
@@ -145,6 +171,7 @@ impl Builder {
     fn forward(&self, sum: &Sum<'_>, kept: &mut Kept) -> Result<(Run, f64), Error> {
         let mut run = self.over(|_: &mut [f64]| {})?.build()?;
         let start_time = run.t;
+        self.set_inputs(sum, 0, &mut run.inputs);
         for step in 0..sum.steps() {
             self.set_inputs(sum, step, &mut run.inputs);
             kept.keep(step, &run.q, &run.v);
@@ -159,28 +186,6 @@ impl Builder {
                 *input = value;
             }
         }
-    }
-
-    /// What a state adds to the sum, and to how much the state counts.
-    fn term(
-        &self,
-        term: &mut impl FnMut(u64, At<'_, f64>, Weights<'_>) -> Result<f64, Error>,
-        step: u64,
-        at: At<'_, f64>,
-        counts: &mut Counts,
-    ) -> Result<f64, Error> {
-        let s = at.q.len();
-        let [q, v] = &mut counts.weights;
-        q.fill(0.0);
-        v.fill(0.0);
-        let value = term(step, at, Weights { q: &mut q[..s], v: &mut v[..s] })?;
-        let layout = counts.layout;
-        for (range, which) in [(layout.positions(), 0), (layout.velocities(), 1)] {
-            let Counts { numbers, weights, .. } = counts;
-            let counted = numbers.get_mut(range).unwrap_or_default();
-            counted.iter_mut().zip(&weights[which]).for_each(|(count, weight)| *count += weight);
-        }
-        Ok(value)
     }
 
     /// From what depends on parameters alone to the parameters.
@@ -244,6 +249,48 @@ fn by_inputs(sum: &Sum<'_>, info: &mbs_runtime::Info, step: u64, counts: &mut Co
     counted.fill(0.0);
 }
 
+/// What states add to the sum, and room for that.
+struct Terms<'a> {
+    transposes: &'a Transposes,
+    measures: Measures,
+    by_q: Vec<f64>,
+    by_v: Vec<f64>,
+    by_outputs: Vec<f64>,
+}
+
+impl<'a> Terms<'a> {
+    fn new(live: &Live, transposes: &'a Transposes) -> Self {
+        let info = live.declared_info();
+        let [by_q, by_v] = [(); 2].map(|()| vec![0.0; info.states.len()]);
+        let by_outputs = vec![0.0; info.outputs.len()];
+        Self { transposes, measures: Measures::new(live, transposes), by_q, by_v, by_outputs }
+    }
+
+    /// The term of a state; to how much everything counts is added.
+    fn add(
+        &mut self,
+        term: &mut impl FnMut(&mut Moment<'_>) -> Result<f64, Error>,
+        step: u64,
+        at: At<'_, f64>,
+        inputs: &[f64],
+        counts: &mut Counts,
+    ) -> Result<f64, Error> {
+        let Self { transposes, measures, by_q, by_v, by_outputs } = self;
+        [&mut *by_q, by_v, by_outputs].into_iter().for_each(|weights| weights.fill(0.0));
+        let value = term(&mut Moment { step, at, inputs, by_q, by_v, by_outputs, measures })?;
+        let layout = counts.layout;
+        for (range, weights) in [(layout.positions(), &*by_q), (layout.velocities(), by_v)] {
+            counts.part(range).iter_mut().zip(weights).for_each(|(count, weight)| *count += weight);
+        }
+        if by_outputs.iter().any(|weight| *weight != 0.0) {
+            // the term may have weighed outputs that it did not ask for
+            measures.measure(at, inputs)?;
+            measures.backward(transposes, at, inputs, by_outputs, counts);
+        }
+        Ok(value)
+    }
+}
+
 /// Steps that are made again.
 struct Again {
     stepper: Stepper,
@@ -261,92 +308,5 @@ impl Again {
         let at = At { t: self.time(step, h), ..at };
         self.stepper.step(at, inputs, &self.gains, h, self.time(step + 1, h));
         put(Some(behind), self.stepper.q(), self.stepper.v());
-    }
-}
-
-/// States of a run: every j-th, and those between two of them.
-struct Kept {
-    /// s
-    states: usize,
-    /// j
-    stride: u64,
-    every: Vec<f64>,
-    /// Those from a kept one on, until the next; none where all are kept.
-    between: Vec<f64>,
-    /// The number of the step at which `between` begins, if it was made.
-    first: Option<u64>,
-}
-
-impl Kept {
-    /// As many as fit into so many bytes.
-    fn within(memory: usize, steps: u64, states: usize) -> Result<Self, Error> {
-        let size = 2 * states;
-        let kept = |stride: u64| steps.div_ceil(stride) + if stride > 1 { stride } else { 0 };
-        let bytes = |stride: u64| {
-            usize::try_from(kept(stride)).map_or(usize::MAX, |kept| kept.saturating_mul(8 * size))
-        };
-        let most = (steps as f64).sqrt().ceil().max(1.0) as u64;
-        let mut stride = 1;
-        while bytes(stride) > memory && stride < most {
-            stride = (2 * stride).min(most);
-        }
-        if bytes(stride) > memory {
-            return Err(Error::Memory { allowed: memory, needed: bytes(stride) });
-        }
-        let count = |kept: u64| usize::try_from(kept).map_or(0, |kept| kept * size);
-        let between = if stride > 1 { count(stride) } else { 0 };
-        let (every, between) = (vec![0.0; count(steps.div_ceil(stride))], vec![0.0; between]);
-        Ok(Self { states, stride, every, between, first: None })
-    }
-
-    fn place(&self, at: u64) -> std::ops::Range<usize> {
-        let from = usize::try_from(at).unwrap_or(usize::MAX).saturating_mul(2 * self.states);
-        from..from.saturating_add(2 * self.states)
-    }
-
-    /// Keeps the state before a step, if it is one of those.
-    fn keep(&mut self, step: u64, q: &[f64], v: &[f64]) {
-        if step.is_multiple_of(self.stride) {
-            let place = self.place(step / self.stride);
-            put(self.every.get_mut(place), q, v);
-        }
-    }
-
-    /// Makes the states between two kept ones again, where the state before a step is not there: `again`
-    /// writes the state behind a step, positions and then velocities.
-    fn restore(&mut self, step: u64, mut again: impl FnMut(u64, &[f64], &[f64], &mut [f64])) {
-        let first = step - step % self.stride;
-        if self.stride == 1 || self.first == Some(first) {
-            return;
-        }
-        let (from, to) = (self.place(first / self.stride), self.place(0));
-        if let (Some(from), Some(to)) = (self.every.get(from), self.between.get_mut(to)) {
-            to.copy_from_slice(from);
-        }
-        for at in first..step {
-            let end = self.place(at - first).end;
-            let middle = end.min(self.between.len());
-            let (before, behind) = self.between.split_at_mut(middle);
-            let Some(here) = before.get(end - 2 * self.states..) else { return };
-            let (q, v) = here.split_at(self.states);
-            let count = behind.len().min(2 * self.states);
-            again(at, q, v, &mut behind[..count]);
-        }
-        self.first = Some(first);
-    }
-
-    /// The state before a step.
-    fn state(&self, step: u64) -> Option<(&[f64], &[f64])> {
-        let found = match self.stride {
-            1 => self.every.get(self.place(step)),
-            stride => self.between.get(self.place(step % stride)),
-        };
-        found.map(|state| state.split_at(self.states))
-    }
-}
-
-fn put(place: Option<&mut [f64]>, q: &[f64], v: &[f64]) {
-    if let Some(place) = place {
-        place.iter_mut().zip(q.iter().chain(v)).for_each(|(place, number)| *place = *number);
     }
 }
