@@ -21,7 +21,7 @@ use crate::{Column, Error, Unit, names, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
-  mbs inverse pendulum --move angle=-90deg..90deg --over 1s --plot effort.svg
+  mbs inverse metronome --move phi=0deg..90deg --over 1s --plot effort.svg
   mbs inverse four-bar-free --move theta2=0deg..270deg --over 0.5s --inputs crank_torque --out torque.csv
   mbs inverse my.mbs --motion measured.csv --inputs '*'
   mbs inverse toggle-press --over 2s --plot press.svg    # its drive prescribes the motion

@@ -23,7 +23,7 @@ use crate::{Column, Error, Unit, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
-  mbs travel pendulum --along angle=-180deg..180deg --plot effort.svg
+  mbs travel metronome --along phi=-180deg..180deg --plot effort.svg
   mbs travel slider-crank-free --along theta1=5deg..175deg --advantage x3 --plot advantage.svg
   mbs travel toggle-press --along actuator=0s..1s --input work=5kN --advantage y3 --out press.csv
 
@@ -31,6 +31,8 @@ Everything rests at every position: springs and gravity act, dampers and frictio
 
 /// Advantages are drawn up to so many times the least one, because they have no bound near a dead centre.
 const DRAWN: f64 = 20.0;
+/// A change of a force that is no larger than this share of the largest one is rounding.
+const ROUNDING: f64 = 1e-12;
 
 pub(crate) fn command() -> Command {
     let file = |name: &'static str, value: &'static str, help: &'static str| {
@@ -290,9 +292,11 @@ impl Shown {
 /// Where the force along a coordinate changes its sign, by straight lines between positions. Where it
 /// rises, the mechanism is driven back if nothing holds it.
 fn rests(found: &[Position]) -> Vec<Balance> {
+    let largest = found.iter().fold(0.0_f64, |largest, position| largest.max(position.effort.abs()));
     let between = |pair: &[Position]| {
         let [a, b] = pair else { return None };
-        let is_balanced = (a.effort < 0.0) != (b.effort < 0.0) && a.effort != b.effort;
+        let is_more_than_rounding = (b.effort - a.effort).abs() > ROUNDING * largest;
+        let is_balanced = (a.effort < 0.0) != (b.effort < 0.0) && is_more_than_rounding;
         is_balanced.then(|| {
             let share = a.effort / (a.effort - b.effort);
             let is_stable = (b.effort > a.effort) == (b.travel > a.travel);
