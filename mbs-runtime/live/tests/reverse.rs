@@ -99,7 +99,7 @@ fn backward(builder: &Builder, sum: &Sum<'_>, memory: usize) -> Result<(f64, Vec
         sum,
         memory,
         |moment| {
-            let numbers = [moment.at.q, moment.at.v, &moment.outputs()?.to_vec()].concat();
+            let numbers = [moment.at.q, moment.at.v, moment.outputs()?].concat();
             let places = moment.by_q.iter_mut().chain(&mut *moment.by_v).chain(&mut *moment.by_outputs);
             places.enumerate().for_each(|(at, place)| *place = weight(moment.step, at));
             Ok(numbers.iter().enumerate().map(|(at, x)| weight(moment.step, at) * x).sum())
