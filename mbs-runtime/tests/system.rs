@@ -1,7 +1,9 @@
 //! A run behind [`System`] is the simulation it is made of, to the bit.
 
 use mbs_runtime::equations::At;
-use mbs_runtime::{Components, Error, Held, Method, PerStage, Simulation, System, mechanism};
+use mbs_runtime::{
+    Adaptive, Components, Error, Held, Method, PerStage, Sampled, Simulation, System, Tolerances, mechanism,
+};
 
 mechanism! {
     /// A cart with a pole, pushed.
@@ -78,5 +80,32 @@ fn what_is_not_finite_is_an_error_and_written_all_the_same() -> Result<(), Error
     let ended = system.outputs(&a, &lambda, &mut outputs);
     assert!(matches!(ended, Err(Error::Undefined { name: "reserve", .. })), "{ended:?}");
     assert!(outputs[0] == lambda[0] * 0.5 && f64::is_nan(outputs[1]));
+    Ok(())
+}
+
+/// Samples at uneven times are those of the motion, and the steps between them are counted from where the
+/// interval was set.
+#[test]
+fn samples_may_be_at_any_times() -> Result<(), Error> {
+    let tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() };
+    let start = || Adaptive::builder(Cart::declared()).tolerances(tolerances).build();
+    let mut samples = Sampled::new(start()?, 0.1)?;
+    let mut run = start()?;
+    for t in [0.05, 0.3, 0.31, 1.0] {
+        samples.set_interval(t - samples.time())?;
+        samples.step()?;
+        run.advance_to(t)?;
+        let (mut q, mut v) = ([0.0; 3], [0.0; 3]);
+        samples.state(&mut q, &mut v);
+        let expected = run.state().q.into_array();
+        assert!((samples.time() - t).abs() < 1e-15);
+        assert!(
+            q.iter().zip(expected).all(|(q, expected)| (q - expected).abs() < 1e-8),
+            "{q:?} {expected:?}"
+        );
+        assert_eq!(samples.steps_to(t + 3.0 * samples.step_size())?, 3);
+    }
+    assert_eq!((samples.steps(), samples.run().effort().rejected), (4, run.effort().rejected));
+    assert!(matches!(samples.set_interval(0.0), Err(Error::Step { .. })));
     Ok(())
 }

@@ -45,7 +45,8 @@ use crate::{Derivation, Error, Real, Scheme, Sketch, System, vectors};
 pub struct Sampled<D: Dynamics, S: Scheme> {
     run: Adaptive<D, S>,
     interval: f64,
-    start_time: f64,
+    /// From when samples are that far apart, and how many there were until then.
+    since: (f64, u64),
     samples: u64,
     t: D::Real,
     q: D::Coordinates,
@@ -108,16 +109,31 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
     /// # Errors
     /// [`Error::Step`] for an interval that is not positive and finite.
     pub fn new(run: Adaptive<D, S>, interval: f64) -> Result<Self, Error> {
-        if !(interval > 0.0 && interval.is_finite()) {
-            return Err(Error::Step { step: interval });
-        }
+        check_interval(interval)?;
         let (t, q_now, v_now) = (run.now.t, run.now.q.clone(), run.now.v.clone());
         let [q, v] = run.all.clone();
-        let start_time = t.to_f64();
-        let mut sampled =
-            Self { run, interval, start_time, samples: 0, t, q, v, ahead: None, threshold: None };
+        let since = (t.to_f64(), 0);
+        let mut sampled = Self { run, interval, since, samples: 0, t, q, v, ahead: None, threshold: None };
         sampled.put(t, &q_now, &v_now);
         Ok(sampled)
+    }
+
+    /// Looks at the run every `interval` seconds from the present sample on, so that samples may be
+    /// at any times.
+    ///
+    /// # Errors
+    /// [`Error::Step`] for an interval that is not positive and finite.
+    pub fn set_interval(&mut self, interval: f64) -> Result<(), Error> {
+        check_interval(interval)?;
+        self.interval = interval;
+        self.since = (self.t.to_f64(), self.samples);
+        Ok(())
+    }
+
+    /// When the sample with a number is.
+    fn time_of(&self, sample: u64) -> f64 {
+        let (t, samples) = self.since;
+        t + sample.saturating_sub(samples) as f64 * self.interval
     }
 
     /// The same run with one value more that it watches: its event has the index behind those of
@@ -170,6 +186,10 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         vectors::copy(self.q.as_mut(), q.as_ref());
         vectors::copy(self.v.as_mut(), v.as_ref());
     }
+}
+
+const fn check_interval(interval: f64) -> Result<(), Error> {
+    if interval > 0.0 && interval.is_finite() { Ok(()) } else { Err(Error::Step { step: interval }) }
 }
 
 impl<D: Dynamics, S: Scheme> fmt::Debug for Sampled<D, S> {
@@ -242,7 +262,8 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        clock::steps_to::<D::Real>(self.start_time, self.interval, self.samples, end)
+        let (t, samples) = self.since;
+        clock::steps_to::<D::Real>(t, self.interval, self.samples - samples, end)
     }
 
     fn step(&mut self) -> Result<(), Error> {
@@ -251,7 +272,7 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn step_to_event(&mut self) -> Result<Option<Event>, Error> {
-        let t = self.start_time + (self.samples + 1) as f64 * self.interval;
+        let t = self.time_of(self.samples + 1);
         loop {
             if let Some(event) = self.ahead.filter(|event| event.t <= t) {
                 self.ahead = None;
