@@ -60,6 +60,7 @@ mod recording;
 pub mod report;
 mod run;
 mod settings;
+mod sheet;
 mod signals;
 pub mod sweep;
 mod table;

@@ -15,7 +15,7 @@ use crate::figure::{Axis, Figure, Panel, Series};
 use crate::models::Models;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
-use crate::signals::{Known, over_time};
+use crate::sheet::Sheet;
 use crate::unit::axis;
 use crate::{Column, Error, Unit, names, say, write_csv};
 
@@ -148,10 +148,20 @@ impl Wanted {
     }
 }
 
-fn samples(path: &Path, info: &Info) -> Result<(Vec<f64>, crate::signals::Columns), Error> {
-    let known: Vec<Known> =
-        info.coordinates.iter().map(|q| (q.name, q.dimension, Unit::of_coordinate(q))).collect();
-    over_time(path, "coordinate", &known)
+/// Times in s and the coordinates over them, from a table.
+fn samples(path: &Path, info: &Info) -> Result<(Vec<f64>, Vec<(String, Vec<f64>)>), Error> {
+    let sheet = Sheet::read(path)?;
+    sheet.are_known("coordinate", info.coordinates)?;
+    let mut columns = Vec::new();
+    for column in &sheet.columns {
+        let Some(of) = info.coordinates.iter().find(|coordinate| coordinate.name == column.name) else {
+            continue;
+        };
+        let usual = Unit::of_coordinate(of);
+        let read = |text: &str| quantity::parse_in(of.name, text, of.dimension, &usual);
+        columns.push((of.name.to_owned(), sheet.complete(column, read)?));
+    }
+    Ok((sheet.times, columns))
 }
 
 fn duration(text: &str) -> Result<f64, Error> {
