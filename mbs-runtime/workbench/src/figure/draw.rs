@@ -193,8 +193,8 @@ fn legend<B: DrawingBackend>(
         for stroke in lines::stroked(&ends, shown.stroke) {
             canvas.line(stroke, colour::series(*at), 2.2)?;
         }
-        if shown.stroke == Stroke::Dotted {
-            canvas.dot((x + SAMPLE / 2, y), 3.2, colour::series(*at))?;
+        if let Some(radius) = dots(shown.stroke) {
+            canvas.dot((x + SAMPLE / 2, y), radius, colour::series(*at))?;
         }
         canvas.text(&shown.name, (x + SAMPLE + 8 * SCALE, y), Place::Right, TEXT - 1)?;
         x += width + 22 * SCALE;
@@ -212,6 +212,15 @@ fn grid<B: DrawingBackend>(canvas: &Canvas<'_, B>, x: &Span, y: &Span, area: Are
         canvas.line(vec![(area.left, at), (area.right, at)], GRID, 0.8)?;
     }
     Ok(())
+}
+
+/// The radius of the dots at the points of a curve that has such.
+const fn dots(stroke: Stroke) -> Option<f64> {
+    match stroke {
+        Stroke::Solid | Stroke::Dashed => None,
+        Stroke::Dotted => Some(3.2),
+        Stroke::Points => Some(2.0),
+    }
 }
 
 fn curve<B: DrawingBackend>(
@@ -232,13 +241,11 @@ fn curve<B: DrawingBackend>(
             }
         }
     }
-    if series.stroke != Stroke::Dotted {
-        return Ok(());
-    }
+    let Some(radius) = dots(series.stroke) else { return Ok(()) };
     for point in &series.points {
         let (px, py) = (x.pixel(point[0]), y.pixel(point[1]));
         if area.contains(px, py) {
-            canvas.dot((px.round() as i32, py.round() as i32), 3.2, colour)?;
+            canvas.dot((px.round() as i32, py.round() as i32), radius, colour)?;
         }
     }
     Ok(())

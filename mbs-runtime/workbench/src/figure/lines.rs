@@ -81,8 +81,10 @@ fn clip(a: Pixel, b: Pixel, area: Area) -> Option<(Pixel, Pixel)> {
 /// A piece as it is stroked: itself, or its dashes.
 pub(super) fn stroked(piece: &[Pixel], stroke: Stroke) -> Vec<Path> {
     let rounded = |p: &Pixel| (p.0.round() as i32, p.1.round() as i32);
-    if stroke != Stroke::Dashed {
-        return vec![piece.iter().map(rounded).collect()];
+    match stroke {
+        Stroke::Solid | Stroke::Dotted => return vec![piece.iter().map(rounded).collect()],
+        Stroke::Points => return Vec::new(),
+        Stroke::Dashed => {}
     }
     let (dash, gap) = (8.0 * f64::from(SCALE), 5.0 * f64::from(SCALE));
     let mut dashes = Vec::new();

@@ -158,6 +158,8 @@ pub enum Stroke {
     Dashed,
     /// A line with a dot at every point.
     Dotted,
+    /// A dot at every point, and no line: measured values.
+    Points,
 }
 
 /// A curve.

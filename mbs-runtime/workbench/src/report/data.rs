@@ -25,6 +25,7 @@ fn series(series: &Series, shown: (f64, f64)) -> Value {
         Stroke::Solid => "solid",
         Stroke::Dashed => "dashed",
         Stroke::Dotted => "dotted",
+        Stroke::Points => "points",
     };
     json!({ "name": series.name, "stroke": stroke, "x": coordinate(0), "y": coordinate(1) })
 }

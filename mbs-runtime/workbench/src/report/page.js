@@ -48,7 +48,8 @@
     const series = panel.series.map((s, at) => ({
       label: name(s), stroke: COLOURS[at % COLOURS.length], width: 1.8,
       dash: s.stroke === "dashed" ? [8, 5] : undefined,
-      points: { show: s.stroke === "dotted", size: 6 },
+      paths: s.stroke === "points" ? () => null : undefined,
+      points: { show: s.stroke === "dotted" || s.stroke === "points", size: s.stroke === "points" ? 4 : 6 },
       spanGaps: false,
       value: (u, v) => format(v, 6),
     }));
