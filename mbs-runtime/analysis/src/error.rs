@@ -105,6 +105,87 @@ pub enum Error {
         /// Its unit.
         unit: &'static str,
     },
+    /// A measured sample that cannot be used.
+    #[error("sample {} of `{name}` cannot be used: {reason}", index + 1)]
+    Sample {
+        /// What was measured.
+        name: String,
+        /// The number of the sample, from 0 on.
+        index: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// Data from before the run.
+    #[error(
+        "`{name}` was measured at {t} s, but the run starts at {start} s; leave out the samples before that, or \
+         count the time of the data from the start of the motion"
+    )]
+    BeforeStart {
+        /// What was measured.
+        name: String,
+        /// When, in s.
+        t: f64,
+        /// The time of the start in s.
+        start: f64,
+    },
+    /// Fewer samples than something can be found from.
+    #[error(
+        "{samples} samples do not determine {unknowns} unknowns: there has to be an unknown, and more samples \
+         than unknowns"
+    )]
+    FewSamples {
+        /// The samples of all quantities.
+        samples: usize,
+        /// What is looked for.
+        unknowns: usize,
+    },
+    /// A standard deviation that is none.
+    #[error("the standard deviation of `{name}` is {value} (SI), but it has to be finite and above 0")]
+    Deviation {
+        /// What was measured.
+        name: String,
+        /// What was given.
+        value: f64,
+    },
+    /// A probability that is none.
+    #[error("the confidence is {value}, but it has to be between 0 and 1, such as 0.95")]
+    Confidence {
+        /// What was given.
+        value: f64,
+    },
+    /// Something that is looked for twice.
+    #[error("`{name}` is looked for twice; name it once")]
+    Twice {
+        /// Its name.
+        name: String,
+    },
+    /// Bounds that do not contain the value from which a quantity is looked for.
+    #[error(
+        "`{name}` is looked for from {guess} (SI), which does not lie within its bounds {low} to {high}; begin \
+         within them, or widen them"
+    )]
+    Bounds {
+        /// The quantity.
+        name: String,
+        /// From where it is looked for.
+        guess: f64,
+        /// The smallest value that it may have,
+        low: f64,
+        /// and the largest.
+        high: f64,
+    },
+    /// Unknowns that the data do not determine.
+    #[error("{}", undetermined(.along))]
+    Undetermined {
+        /// Changes of the unknowns, relative to their values, along which the data stay the same.
+        along: Vec<(String, f64)>,
+    },
+    /// A measured quantity that is not defined along any motion that was tried.
+    #[error(
+        "what was measured is not defined along the motion from any start; begin nearer to what was measured, or \
+         leave out samples at which the mechanism is singular"
+    )]
+    NoPrediction,
     /// Eigenvalues that were not found.
     #[error(
         "the eigenvalues of the linear system were not found: its entries span {decades:.0} decades; check \
@@ -210,4 +291,23 @@ fn listed(names: &[String]) -> String {
         return "none".into();
     }
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+fn undetermined(along: &[(String, f64)]) -> String {
+    if let [(name, _)] = along {
+        return format!(
+            "the data do not determine `{name}`: they do not depend on it; do not look for it, or measure \
+             something that it changes"
+        );
+    }
+    let names: Vec<String> = along.iter().map(|(name, _)| name.clone()).collect();
+    let percent =
+        |change: &f64| format!("{change:+.2}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    let changes = along.iter().map(|(name, change)| format!("`{name}` by {} %", percent(change)));
+    format!(
+        "the data do not determine {} together: a change of {} at once leaves them the same; hold one of them, or \
+         measure something else",
+        listed(&names),
+        changes.collect::<Vec<_>>().join(", ")
+    )
 }

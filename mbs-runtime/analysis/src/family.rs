@@ -25,11 +25,14 @@ impl<D: Described<f64>, F: Fn(&[f64]) -> Result<D, Error>> Family for F {
 
 /// The mechanisms of a type.
 pub fn of_type<M: Mechanism<Real = f64>>() -> impl Fn(&[f64]) -> Result<M, Error> {
-    |parameters: &[f64]| {
-        let mut array = M::Parameters::default().into_array();
-        array.as_mut().iter_mut().zip(parameters).for_each(|(place, value)| *place = *value);
-        M::new(M::Parameters::from_array(array))
-    }
+    |parameters: &[f64]| M::new(components(parameters))
+}
+
+/// Components from as many numbers.
+pub fn components<C: Components>(values: &[C::Real]) -> C {
+    let mut array = C::splat(C::Real::default()).into_array();
+    array.as_mut().iter_mut().zip(values).for_each(|(component, value)| *component = *value);
+    C::from_array(array)
 }
 
 /// A mechanism of a family.

@@ -2,7 +2,7 @@
 #![doc = include_str!("flap.svg")]
 //!
 //! The page on linear systems, modes and responses is [`linear`], that on inverse dynamics and statics
-//! [`prescribed`].
+//! [`prescribed`], that on fits to measured data [`identification`].
 //!
 //! # What it asks a mechanism
 //!
@@ -23,6 +23,10 @@ mod family;
 mod guided;
 mod inverse;
 mod jacobian;
+mod fit;
+#[doc = include_str!("fit/identification.md")]
+#[doc = include_str!("fit/identification.svg")]
+pub mod identification {}
 #[doc = include_str!("linear.md")]
 #[doc = include_str!("car.svg")]
 pub mod linear {}
@@ -46,6 +50,9 @@ pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
 pub use family::{Family, of_type};
 pub use inverse::{By, Instant, Prescription, inverse};
+pub use fit::{
+    Estimate, Experiment, Fit, Measured, Progress, Remainder, See, Trial, Trials, Unknown, trials_of_type,
+};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};

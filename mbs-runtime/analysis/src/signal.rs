@@ -56,6 +56,18 @@ impl Signal {
         (0..count).filter_map(|at| Self::of(info, of(at))).collect()
     }
 
+    /// What can be observed of a mechanism, all of it: outputs, coordinates, their rates, multipliers.
+    pub fn observable(info: &Info) -> Vec<Self> {
+        let n = info.coordinates.len();
+        [
+            Self::all(info, info.outputs.len(), Variable::Output),
+            Self::all(info, n, Variable::Coordinate),
+            Self::all(info, n, Variable::Velocity),
+            Self::all(info, info.constraints.len(), Variable::Multiplier),
+        ]
+        .concat()
+    }
+
     /// The inputs with these names, or all.
     pub(crate) fn inputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
         let all = Self::all(info, info.inputs.len(), Variable::Input);
@@ -75,15 +87,12 @@ impl Signal {
     /// The outputs with these names: declared ones, coordinates, their rates and multipliers. Without
     /// names the declared ones, or the coordinates of a mechanism that declares none.
     pub(crate) fn outputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
-        let n = info.coordinates.len();
+        if let Some(names) = names {
+            return chosen("output", &Self::observable(info), names);
+        }
         let declared = Self::all(info, info.outputs.len(), Variable::Output);
-        let coordinates = Self::all(info, n, Variable::Coordinate);
-        let Some(names) = names else {
-            return Ok(if declared.is_empty() { coordinates } else { declared });
-        };
-        let rates = Self::all(info, n, Variable::Velocity);
-        let multipliers = Self::all(info, info.constraints.len(), Variable::Multiplier);
-        chosen("output", &[declared, coordinates, rates, multipliers].concat(), names)
+        let coordinates = || Self::all(info, info.coordinates.len(), Variable::Coordinate);
+        Ok(if declared.is_empty() { coordinates() } else { declared })
     }
 }
 

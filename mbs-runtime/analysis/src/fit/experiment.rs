@@ -1,0 +1,254 @@
+//! What was measured, under which conditions, and what is looked for.
+
+use mbs_runtime::{Info, Tolerances};
+
+use super::{Fit, Progress, Trials, search};
+use crate::{Error, Signal, Variable};
+
+/// A measured run of a mechanism and what is unknown of it.
+///
+/// Values are in SI units and rad. See [`fit`](crate::identification) for an example.
+#[derive(Clone)]
+pub struct Experiment<'a> {
+    pub(super) info: &'static Info,
+    pub(super) parameters: Vec<f64>,
+    pub(super) inputs: Vec<f64>,
+    pub(super) signal: Option<&'a Driver<'a>>,
+    pub(super) hold: f64,
+    pub(super) tolerances: Tolerances,
+    pub(super) measured: Vec<Measured>,
+    pub(super) unknown: Vec<Unknown>,
+    pub(super) starts: usize,
+    pub(super) confidence: f64,
+}
+
+/// The value of an input at a time in s, by its place in [`Info`]; nothing where it is constant.
+type Driver<'a> = dyn Fn(f64, usize) -> Option<f64> + 'a;
+
+/// A quantity that was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Its name: an output, a coordinate `x`, its rate `der(x)`, or a multiplier `lambda(row)`.
+    pub name: String,
+    /// The instants in s, ascending,
+    pub times: Vec<f64>,
+    /// and the value at each.
+    pub values: Vec<f64>,
+    /// The standard deviation of its noise; where it is not known, it is estimated.
+    pub deviation: Option<f64>,
+}
+
+/// A quantity that is looked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Its name: a parameter, or a coordinate `x` or rate `der(x)` at the start.
+    pub name: String,
+    /// From where it is looked for; `None` for the declared value.
+    pub guess: Option<f64>,
+    /// The smallest and the largest value that it may have.
+    pub bounds: [f64; 2],
+}
+
+/// The runs of a fit unless others are asked for: their error lies well below that of a measurement.
+const TOLERANCES: [f64; 2] = [1e-9, 1e-12];
+/// For how long an input is held unless it is said, in s.
+const HOLD: f64 = 0.5e-3;
+/// From so many starts it looks at most.
+const STARTS: usize = 12;
+
+impl<'a> Experiment<'a> {
+    /// An experiment with a mechanism as it is declared, in which nothing was measured yet.
+    pub fn of(info: &'static Info) -> Self {
+        let defaults = |list: &[mbs_runtime::Quantity]| list.iter().map(|q| q.default).collect();
+        let [rtol, atol] = TOLERANCES;
+        Self {
+            info,
+            parameters: defaults(info.parameters),
+            inputs: defaults(info.inputs),
+            signal: None,
+            hold: HOLD,
+            tolerances: Tolerances { rtol, atol, ..Tolerances::default() },
+            measured: Vec::new(),
+            unknown: Vec::new(),
+            starts: STARTS,
+            confidence: 0.95,
+        }
+    }
+
+    /// With these parameters, in the order of [`Info::parameters`].
+    #[must_use]
+    pub fn parameters(self, parameters: Vec<f64>) -> Self {
+        Self { parameters, ..self }
+    }
+
+    /// With these constant inputs, in the order of [`Info::inputs`].
+    #[must_use]
+    pub fn inputs(self, inputs: Vec<f64>) -> Self {
+        Self { inputs, ..self }
+    }
+
+    /// With inputs that change: `signal` gives the value of an input at a time in s, by the place of the
+    /// input in [`Info`], or nothing where it stays what it is. Inputs are held over `hold` seconds at most,
+    /// at their value in the middle; the error of that is O(hold²).
+    #[must_use]
+    pub fn driven_by(self, signal: &'a Driver<'a>, hold: f64) -> Self {
+        Self { signal: Some(signal), hold, ..self }
+    }
+
+    /// With samples of a quantity whose noise is estimated from what the model leaves over.
+    #[must_use]
+    pub fn measured(self, name: &str, times: &[f64], values: &[f64]) -> Self {
+        let (times, values) = (times.to_vec(), values.to_vec());
+        self.with(Measured { name: name.into(), times, values, deviation: None })
+    }
+
+    /// With samples of a quantity.
+    #[must_use]
+    pub fn with(mut self, measured: Measured) -> Self {
+        self.measured.push(measured);
+        self
+    }
+
+    /// Looks for a quantity, from a value on.
+    #[must_use]
+    pub fn unknown(self, name: &str, guess: f64) -> Self {
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        self.looking_for(Unknown { name: name.into(), guess: Some(guess), bounds })
+    }
+
+    /// Looks for a quantity.
+    #[must_use]
+    pub fn looking_for(mut self, unknown: Unknown) -> Self {
+        self.unknown.push(unknown);
+        self
+    }
+
+    /// Looks from so many starts at most: the given one, and others within a factor of 4 of it. It looks
+    /// from others until two lead to the same sum of squares, the smallest of all.
+    #[must_use]
+    pub fn starts(self, starts: usize) -> Self {
+        Self { starts: starts.max(1), ..self }
+    }
+
+    /// With intervals that contain the true value with this probability; 0.95 unless it is said.
+    #[must_use]
+    pub fn confidence(self, confidence: f64) -> Self {
+        Self { confidence, ..self }
+    }
+
+    /// With runs to these tolerances.
+    #[must_use]
+    pub fn tolerances(self, tolerances: Tolerances) -> Self {
+        Self { tolerances, ..self }
+    }
+
+    /// Looks for the values with which the mechanism moves as measured.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a name that the mechanism does not have; [`Error::Sample`],
+    /// [`Error::FewSamples`], [`Error::Bounds`], [`Error::Range`] for data and values that cannot be used;
+    /// [`Error::Undetermined`] for unknowns that the data do not determine; [`Error::Mechanism`] where no run
+    /// from the start comes to the end of the data.
+    pub fn fit(&self, trials: &dyn Trials) -> Result<Fit, Error> {
+        self.fit_and_tell(trials, &mut |_| ())
+    }
+
+    /// The same; `progress` is called after every run.
+    ///
+    /// # Errors
+    /// As [`fit`](Self::fit).
+    pub fn fit_and_tell(
+        &self,
+        trials: &dyn Trials,
+        progress: &mut dyn FnMut(&Progress),
+    ) -> Result<Fit, Error> {
+        search::fit(self, trials, progress)
+    }
+
+    /// The signals of what was measured.
+    pub(super) fn channels(&self) -> Result<Vec<Variable>, Error> {
+        let names: Vec<String> = self.measured.iter().map(|measured| measured.name.clone()).collect();
+        Ok(Signal::outputs(self.info, Some(&names))?.into_iter().map(|signal| signal.variable).collect())
+    }
+
+    /// The places of what is looked for.
+    pub(super) fn places(&self) -> Result<Vec<Variable>, Error> {
+        let info = self.info;
+        let count = |list: &[mbs_runtime::Quantity]| 0..list.len();
+        let known: Vec<Signal> = count(info.parameters)
+            .map(Variable::Parameter)
+            .chain(count(info.coordinates).map(Variable::Coordinate))
+            .chain(count(info.coordinates).map(Variable::Velocity))
+            .filter_map(|variable| Signal::of(info, variable))
+            .collect();
+        let find = |unknown: &Unknown| {
+            let found = known.iter().find(|signal| signal.name == unknown.name);
+            found.map(|signal| signal.variable).ok_or_else(|| Error::Unknown {
+                kind: "parameter or start value",
+                name: unknown.name.clone(),
+                known: known.iter().map(|signal| signal.name.clone()).collect(),
+            })
+        };
+        self.unknown.iter().map(find).collect()
+    }
+
+    /// Whether samples and settings can be used.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if !(self.confidence > 0.0 && self.confidence < 1.0) {
+            return Err(Error::Confidence { value: self.confidence });
+        }
+        if !(self.hold > 0.0 && self.hold.is_finite()) {
+            return Err(Error::Range {
+                what: "the time over which inputs are held",
+                value: self.hold,
+                unit: "s",
+            });
+        }
+        for (what, found, expected) in [
+            ("parameters", self.parameters.len(), self.info.parameters.len()),
+            ("inputs", self.inputs.len(), self.info.inputs.len()),
+        ] {
+            if found != expected {
+                return Err(Error::Length { what, found, expected });
+            }
+        }
+        for (at, unknown) in self.unknown.iter().enumerate() {
+            if self.unknown.iter().take(at).any(|other| other.name == unknown.name) {
+                return Err(Error::Twice { name: unknown.name.clone() });
+            }
+        }
+        self.measured.iter().try_for_each(Measured::check)?;
+        let samples = self.measured.iter().map(|measured| measured.times.len()).sum();
+        let unknowns = self.unknown.len();
+        if unknowns == 0 || samples <= unknowns {
+            return Err(Error::FewSamples { samples, unknowns });
+        }
+        Ok(())
+    }
+}
+
+impl Measured {
+    fn check(&self) -> Result<(), Error> {
+        let Self { name, times, values, deviation } = self;
+        if times.len() != values.len() {
+            let (what, found, expected) = ("the values of a measured quantity", values.len(), times.len());
+            return Err(Error::Length { what, found, expected });
+        }
+        let wrong =
+            |index: usize, reason: &'static str| Err(Error::Sample { name: name.clone(), index, reason });
+        for (index, (time, value)) in times.iter().zip(values).enumerate() {
+            if !(time.is_finite() && value.is_finite()) {
+                return wrong(index, "it is not a finite number; leave out what was not measured");
+            }
+            if index > 0 && times[index - 1] >= *time {
+                return wrong(index, "its time is not after the one before it");
+            }
+        }
+        match deviation {
+            Some(deviation) if !(*deviation > 0.0 && deviation.is_finite()) => {
+                Err(Error::Deviation { name: name.clone(), value: *deviation })
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Identification: values with which a mechanism moves as measured.
+
+mod covariance;
+mod experiment;
+mod least_squares;
+mod problem;
+mod quantile;
+mod search;
+mod trials;
+
+pub use experiment::{Experiment, Measured, Unknown};
+use nalgebra::DMatrix;
+pub use trials::{See, Trial, Trials, trials_of_type};
+
+/// What an [`Experiment`] says about what was looked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// What was found, in the order in which it was looked for.
+    pub estimates: Vec<Estimate>,
+    /// The covariance of the estimates, in SI units; without those that ended at a bound, whose rows are 0.
+    pub covariance: DMatrix<f64>,
+    /// What is left over, of each measured quantity.
+    pub remainders: Vec<Remainder>,
+    /// Σ (r/σ)² over all samples, with the deviations σ of the remainders.
+    pub chi_squared: f64,
+    /// Samples less what was looked for.
+    pub freedom: usize,
+    /// Whether the iteration came to its end, and not to the end of its patience.
+    pub has_converged: bool,
+    /// The runs that it took.
+    pub runs: usize,
+    /// The probability with which an interval contains the true value,
+    pub confidence: f64,
+    /// and how many standard errors it reaches to each side: by Student's distribution where a deviation was
+    /// estimated, by the normal one where all were given.
+    pub coverage: f64,
+}
+
+/// A value that was found, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// What was looked for.
+    pub name: String,
+    /// From where.
+    pub guess: f64,
+    /// What was found.
+    pub value: f64,
+    /// Its standard deviation, to first order; 0 at a bound.
+    pub standard_error: f64,
+    /// The interval that contains the true value with the probability [`Fit::confidence`].
+    pub interval: [f64; 2],
+    /// Whether it ended at one of its bounds, so that the intervals of the others are those of a mechanism in
+    /// which it is known.
+    pub is_at_bound: bool,
+}
+
+/// What a fit leaves over of a measured quantity, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remainder {
+    /// What the mechanism does at the instants of the samples.
+    pub predicted: Vec<f64>,
+    /// Measured less predicted.
+    pub residuals: Vec<f64>,
+    /// The standard deviation σ of the noise, given or estimated.
+    pub deviation: f64,
+    /// Whether it was estimated.
+    pub is_estimated: bool,
+}
+
+/// How far a fit is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The number of the start, from 1 on,
+    pub start: usize,
+    /// of how many at most.
+    pub starts: usize,
+    /// The runs that were made.
+    pub runs: usize,
+}
+
+impl Fit {
+    /// The correlation of two estimates, between −1 and 1; 0 where one ended at a bound.
+    pub fn correlation(&self, a: usize, b: usize) -> f64 {
+        let variance = |at: usize| self.covariance.get((at, at)).copied().unwrap_or(0.0);
+        let size = (variance(a) * variance(b)).sqrt();
+        let shared = self.covariance.get((a, b)).copied().unwrap_or(0.0);
+        if size > 0.0 { shared / size } else { 0.0 }
+    }
+}
+
+impl Remainder {
+    /// The correlation of each residual with the next one: about 0 ± 1/√n for independent noise, near 1 where
+    /// the mechanism does not move as measured.
+    pub fn autocorrelation(&self) -> f64 {
+        let all = &self.residuals;
+        let square: f64 = all.iter().map(|r| r * r).sum();
+        let product: f64 = all.iter().zip(all.iter().skip(1)).map(|(a, b)| a * b).sum();
+        if square > 0.0 { product / square } else { 0.0 }
+    }
+}

@@ -1,0 +1,122 @@
+//! Runs with derivatives, of a mechanism whose parameters are tried.
+
+use mbs_runtime::equations::Partials;
+use mbs_runtime::{Adaptive, Dopri5, Dynamics, Error, Mechanism, Sampled, System, Tolerances};
+
+use crate::family::components;
+
+/// A mechanism of which runs over [`Partials`] can be made with any parameters: what is fitted to data.
+///
+/// [`trials_of_type`] makes one of a type. Every function from parameters over partials to
+/// [`Dynamics`] is one; of a text it is
+///
+/// ```
+/// use mbs_analysis::Trials;
+/// use mbs_live::{Live, Prepared};
+/// use mbs_runtime::equations::Partials;
+///
+/// fn trials_of_text(live: &Live) -> impl Trials + use<> {
+///     let over = live.over::<Partials>();
+///     move |parameters: &[Partials]| {
+///         let live = over.with_parameters(|own| own.copy_from_slice(parameters))?;
+///         Ok(Prepared::new(&live))
+///     }
+/// }
+/// ```
+pub trait Trials {
+    /// Whether the mechanism takes these parameters, in SI units in the order of
+    /// [`Info::parameters`](mbs_runtime::Info::parameters).
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    fn check(&self, parameters: &[Partials]) -> Result<(), Error>;
+
+    /// Makes a run and shows it at the times of the trial, by their number.
+    ///
+    /// # Errors
+    /// What refuses the parameters or the start or ends the run, and what `see` says.
+    fn follow(&self, trial: &Trial<'_>, see: &mut See<'_>) -> Result<(), Error>;
+}
+
+/// What is done with a run at one of its times.
+pub type See<'a> = dyn FnMut(usize, &dyn System<Partials>) -> Result<(), Error> + 'a;
+
+/// A run that is tried.
+#[derive(Clone, Copy)]
+pub struct Trial<'a> {
+    /// The parameters in SI units, in the order of [`Info::parameters`](mbs_runtime::Info::parameters).
+    pub parameters: &'a [Partials],
+    /// Changes positions and velocities of the declared start, before they are made consistent.
+    pub start: &'a dyn Fn(&mut [Partials], &mut [Partials]),
+    /// When the run is looked at, in s, ascending; from its start on.
+    pub times: &'a [f64],
+    /// The inputs, held over a time at whose middle they are asked for,
+    pub inputs: &'a dyn Fn(f64, &mut [f64]),
+    /// and how long that is at most, in s.
+    pub hold: f64,
+    /// The tolerances of the run.
+    pub tolerances: Tolerances,
+}
+
+/// Runs of a type.
+pub fn trials_of_type<M: Mechanism<Real = f64>>() -> impl Trials {
+    |parameters: &[Partials]| M::Over::<Partials>::new(components(parameters))
+}
+
+impl<D, F> Trials for F
+where
+    D: Dynamics<Real = Partials>,
+    F: Fn(&[Partials]) -> Result<D, Error>,
+{
+    fn check(&self, parameters: &[Partials]) -> Result<(), Error> {
+        self(parameters).map(|_| ())
+    }
+
+    fn follow(&self, trial: &Trial<'_>, see: &mut See<'_>) -> Result<(), Error> {
+        let dynamics = self(trial.parameters)?;
+        let (t, mut q, mut v) = dynamics.declared_start();
+        (trial.start)(q.as_mut(), v.as_mut());
+        let mut inputs = dynamics.default_inputs();
+        dynamics.with_inputs(&mut inputs, |inputs| set(trial, t.value, inputs));
+        let run = Adaptive::builder(dynamics)
+            .scheme::<Dopri5>()
+            .tolerances(trial.tolerances)
+            .from_vectors(t, q, v)
+            .made_consistent()
+            .inputs(inputs)
+            .build()?;
+        let mut run = Sampled::new(run, trial.hold)?;
+        for (number, time) in trial.times.iter().enumerate() {
+            advance(&mut run, *time, trial)?;
+            see(number, &run)?;
+        }
+        Ok(())
+    }
+}
+
+/// Goes to a time, with inputs that change on the way.
+fn advance<D: Dynamics<Real = Partials>>(
+    run: &mut Sampled<D, Dopri5>,
+    end: f64,
+    trial: &Trial<'_>,
+) -> Result<(), Error> {
+    let span = end - run.time().value;
+    if span <= 0.0 {
+        return Ok(());
+    }
+    let parts = (span / trial.hold).ceil().max(1.0);
+    run.set_interval(span / parts)?;
+    let mut inputs = vec![Partials::default(); run.described().info().inputs.len()];
+    for _ in 0..parts as u64 {
+        set(trial, run.time().value + 0.5 * span / parts, &mut inputs);
+        run.set_inputs(&inputs);
+        run.step()?;
+    }
+    Ok(())
+}
+
+fn set(trial: &Trial<'_>, t: f64, inputs: &mut [Partials]) {
+    let mut values = vec![0.0; inputs.len()];
+    (trial.inputs)(t, &mut values);
+    inputs.iter_mut().zip(values).for_each(|(input, value)| *input = Partials::constant(value));
+}
