@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use mbs_runtime::equations::{At, Correction, Described, Equations, Room, correction};
+use mbs_analysis::Trials;
+use mbs_runtime::equations::{At, Correction, Described, Equations, Partials, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
     Adaptive, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method, MethodVisitor,
-    Rattle, Sampled, Scheme, State, System, Tolerances, TrBdf2, with_type,
+    Rattle, Real, Sampled, Scheme, State, System, Tolerances, TrBdf2, with_type,
 };
 
+use crate::model::components;
 use crate::settings::{ConstantMethod, Start, StartKind};
 
 /// Starts a run with the scheme that is asked for, looked at in steps of the given length.
@@ -79,113 +81,106 @@ where
 }
 
 /// A mechanism behind its equations on slices, so that runs to a tolerance are compiled once for
-/// all of them.
+/// all of them. `T` is its scalar: `f64`, or [`Partials`] for derivatives.
 #[derive(Clone)]
-pub(crate) struct Erased {
-    mechanism: Arc<dyn Described<f64> + Send + Sync>,
-    start: (f64, Vec<f64>, Vec<f64>),
-    inputs: Vec<f64>,
-    no_feedback: Vec<f64>,
+pub(crate) struct Erased<T = f64> {
+    mechanism: Arc<dyn Described<T> + Send + Sync>,
+    start: (T, Vec<T>, Vec<T>),
+    inputs: Vec<T>,
+    no_feedback: Vec<T>,
 }
 
-impl Erased {
+impl<T: Real> Erased<T> {
     /// The same mechanism, its type forgotten.
-    pub fn new<M: Mechanism<Real = f64>>(mechanism: M) -> Self {
-        let numbers = |array: &dyn AsRef<[f64]>| array.as_ref().to_vec();
+    pub fn new<M: Mechanism<Real = T>>(mechanism: M) -> Self {
+        let numbers = |array: &dyn AsRef<[T]>| array.as_ref().to_vec();
         let State { t, q, v } = mechanism.declared_start();
         Self {
             start: (t, numbers(&q.into_array()), numbers(&v.into_array())),
             inputs: numbers(&M::Inputs::default().into_array()),
-            no_feedback: vec![0.0; M::INFO.constraints.len()],
+            no_feedback: vec![T::ZERO; M::INFO.constraints.len()],
             mechanism: Arc::new(mechanism),
         }
     }
 }
 
-impl Dynamics for Erased {
-    type Real = f64;
-    type Coordinates = Vec<f64>;
-    type States = Vec<f64>;
-    type Constraints = Vec<f64>;
-    type Inputs = Vec<f64>;
+impl<T: Real> Dynamics for Erased<T> {
+    type Real = T;
+    type Coordinates = Vec<T>;
+    type States = Vec<T>;
+    type Constraints = Vec<T>;
+    type Inputs = Vec<T>;
 
-    fn equations(&self) -> &dyn Equations<f64> {
+    fn equations(&self) -> &dyn Equations<T> {
         &*self.mechanism
     }
 
-    fn described(&self) -> &dyn Described<f64> {
+    fn described(&self) -> &dyn Described<T> {
         &*self.mechanism
     }
 
-    fn declared_start(&self) -> (f64, Vec<f64>, Vec<f64>) {
+    fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
         self.start.clone()
     }
 
-    fn states(&self, all: &Vec<f64>) -> Vec<f64> {
-        let mut states = vec![0.0; self.mechanism.info().states.len()];
+    fn states(&self, all: &Vec<T>) -> Vec<T> {
+        let mut states = vec![T::ZERO; self.mechanism.info().states.len()];
         self.mechanism.states(all, &mut states);
         states
     }
 
-    fn complete(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, [q_all, v_all]: &mut [Vec<f64>; 2]) {
+    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, [q_all, v_all]: &mut [Vec<T>; 2]) {
         self.mechanism.complete(At { t, q, v }, q_all, v_all);
     }
 
-    fn no_feedback(&self) -> Vec<f64> {
+    fn no_feedback(&self) -> Vec<T> {
         self.no_feedback.clone()
     }
 
-    fn default_inputs(&self) -> Vec<f64> {
+    fn default_inputs(&self) -> Vec<T> {
         self.inputs.clone()
     }
 
-    fn with_inputs<R>(&self, inputs: &mut Vec<f64>, what: impl FnOnce(&mut [f64]) -> R) -> R {
+    fn with_inputs<R>(&self, inputs: &mut Vec<T>, what: impl FnOnce(&mut [T]) -> R) -> R {
         what(inputs)
     }
 
     fn with_room<S: Scheme>(
         &self,
-        what: impl FnOnce(&mut Room<'_, f64>) -> Result<(), Error>,
+        what: impl FnOnce(&mut Room<'_, T>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let info = self.mechanism.info();
-        let mut numbers = vec![0.0; Room::<f64>::len(info, S::TABLEAU.stage_count())];
+        let mut numbers = vec![T::ZERO; Room::<T>::len(info, S::TABLEAU.stage_count())];
         what(&mut Room::within(&mut numbers, info))
     }
 
-    fn events(&self, at: At<'_, f64>, inputs: &Vec<f64>, values: &mut [f64]) {
+    fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]) {
         self.mechanism.events(at, inputs, values);
     }
 
-    fn acceleration(
-        &self,
-        t: f64,
-        q: &Vec<f64>,
-        v: &Vec<f64>,
-        inputs: &Vec<f64>,
-        acceleration: &mut Vec<f64>,
-    ) -> f64 {
+    fn acceleration(&self, t: T, q: &Vec<T>, v: &Vec<T>, inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
         self.mechanism.constrained(At { t, q, v }, inputs, &self.no_feedback, acceleration)
     }
 
     fn implicit(
         &self,
-        t: f64,
-        [q, v]: [&Vec<f64>; 2],
-        inputs: &Vec<f64>,
-        (shift, predicted): (f64, &Vec<f64>),
-        acceleration: &mut Vec<f64>,
-    ) -> f64 {
+        t: T,
+        [q, v]: [&Vec<T>; 2],
+        inputs: &Vec<T>,
+        (shift, predicted): (T, &Vec<T>),
+        acceleration: &mut Vec<T>,
+    ) -> T {
         self.mechanism.implicit(At { t, q, v }, inputs, shift, predicted, acceleration)
     }
 
-    fn correction(&self, t: f64, at: &Beside<'_, Vec<f64>>, delta: &mut Vec<f64>) -> f64 {
+    fn correction(&self, t: T, at: &Beside<'_, Vec<T>>, delta: &mut Vec<T>) -> T {
         let [mut q, mut v, mut all] = [(); 3].map(|()| self.start.1.clone());
         let mut violation = self.no_feedback.clone();
         let room = Correction { all: [&mut q, &mut v, &mut all], violation: &mut violation };
         correction(&*self.mechanism, t, at.q, at.v.map(Vec::as_slice), room, delta)
     }
 
-    fn correction_along(&self, from: (f64, &Vec<f64>), t: f64, q: &Vec<f64>, delta: &mut Vec<f64>) -> f64 {
+    fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T {
         let [mut all, mut unread, mut correction] = [(); 3].map(|()| self.start.1.clone());
         let mut violation = self.no_feedback.clone();
         // positions do not depend on velocities
@@ -197,4 +192,10 @@ impl Dynamics for Erased {
         self.mechanism.states(&correction, delta);
         growth
     }
+}
+
+/// Runs of a type with derivatives.
+pub(crate) fn trials<M: Mechanism<Real = f64>>() -> Box<dyn Trials> {
+    let mechanism = |parameters: &[Partials]| M::Over::<Partials>::new(components(parameters));
+    Box::new(move |parameters: &[Partials]| mechanism(parameters).map(Erased::new))
 }

@@ -10,7 +10,7 @@ use mbs_runtime::Mechanism;
 #[cfg(feature = "live")]
 use crate::Settings;
 use crate::command::{
-    bode, completions, equilibrium, explain, inverse, linearize, list, modes, new, simulate, sweep, travel,
+    bode, completions, equilibrium, explain, fit, inverse, linearize, list, modes, new, simulate, sweep, travel,
 };
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
@@ -30,7 +30,7 @@ const NO_READER: u8 = 141;
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
 /// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `equilibrium`, `linearize`,
-/// `modes`, `bode`, `inverse`, `travel`, `new`, and whatever the embedding program adds.
+/// `modes`, `bode`, `inverse`, `travel`, `fit`, `new`, and whatever the embedding program adds.
 ///
 /// # Example
 /// ```no_run
@@ -164,6 +164,7 @@ impl App {
             .subcommand(bode::command())
             .subcommand(inverse::command())
             .subcommand(travel::command())
+            .subcommand(fit::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
@@ -182,6 +183,7 @@ impl App {
             Some(("bode", matches)) => bode::run(&self.models, matches),
             Some(("inverse", matches)) => inverse::run(&self.models, matches).map(silent),
             Some(("travel", matches)) => travel::run(&self.models, matches).map(silent),
+            Some(("fit", matches)) => fit::run(&self.models, matches),
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),

@@ -18,6 +18,16 @@ pub enum Error {
         /// The names that exist.
         known: Vec<String>,
     },
+    /// A column that a file does not have.
+    #[error("{} has no column `{name}`; it has {}", file.display(), known.join(", "))]
+    Column {
+        /// The file.
+        file: PathBuf,
+        /// The column that was looked for.
+        name: String,
+        /// The columns that it has.
+        known: Vec<String>,
+    },
     /// A setting that is not of the form `name=value`.
     #[error("`{text}` is not a setting; write it as name=value, for instance omega=300rpm")]
     Setting {

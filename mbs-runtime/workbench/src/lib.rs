@@ -48,6 +48,7 @@ mod files;
 mod interrupt;
 #[cfg(feature = "live")]
 mod live;
+mod measurements;
 pub mod members;
 pub mod model;
 mod models;

@@ -7,8 +7,10 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
+use mbs_analysis::Trials;
 use mbs_ensemble::Cancelled;
 use mbs_live::{LANES, Live, Pack, Prepared, Run};
+use mbs_runtime::equations::Partials;
 use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, Tableau};
 use rayon::prelude::*;
 
@@ -125,6 +127,14 @@ impl Model for FromText {
 
     fn text(&self) -> Option<&mbs_live::Text> {
         Some(&self.text)
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        let over = self.live.over::<Partials>();
+        Some(Box::new(move |parameters: &[Partials]| {
+            let live = over.with_parameters(|own| own.copy_from_slice(parameters))?;
+            Ok(Prepared::new(&live))
+        }))
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {

@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+use mbs_analysis::Trials;
 use mbs_runtime::{
     Baumgarte, Components, Derivation, Error, Info, Mechanism, Method, MethodVisitor, Scheme, Simulation,
     Sketch, System, Tableau, with_type,
@@ -45,6 +46,11 @@ pub trait Model: Send + Sync {
         None
     }
 
+    /// Its runs with derivatives, if it has such: what is fitted to data.
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        None
+    }
+
     /// Its runs in lanes, many to a vector instruction, if it has such.
     fn in_lanes(&self) -> Option<&dyn InLanes> {
         None
@@ -59,14 +65,21 @@ pub fn of<M: Mechanism<Real = f64>>() -> Box<dyn Model> {
 /// The mechanism `M` as a [`Model`] with defaults of its own: a fast mechanism
 /// needs a smaller step.
 pub fn with<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
-    Box::new(Typed { defaults, lanes: None, mechanism: PhantomData::<M> })
+    Box::new(Typed { defaults, lanes: None, trials: None, mechanism: PhantomData::<M> })
 }
 
 /// The mechanism `M` as a [`Model`] whose sweeps run eight members to a vector
 /// instruction: some times faster, and some seconds more to compile.
 pub fn in_lanes<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
     let lanes = Some(Box::new(crate::members::lanes::Typed(PhantomData::<M>)) as Box<dyn InLanes>);
-    Box::new(Typed { defaults, lanes, mechanism: PhantomData::<M> })
+    Box::new(Typed { defaults, lanes, trials: None, mechanism: PhantomData::<M> })
+}
+
+/// The mechanism `M` as a [`Model`] that can be fitted to data, for which its equations are compiled for
+/// numbers with derivatives too.
+pub fn differentiated<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
+    let trials: Option<MakeTrials> = Some(adaptive::trials::<M>);
+    Box::new(Typed { defaults, lanes: None, trials, mechanism: PhantomData::<M> })
 }
 
 /// The mechanism that a text declares as a [`Model`] with these defaults: compiled in
@@ -79,9 +92,12 @@ pub fn from_text(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Mo
     crate::live::compiled(text, defaults)
 }
 
+type MakeTrials = fn() -> Box<dyn Trials>;
+
 struct Typed<M> {
     defaults: Settings,
     lanes: Option<Box<dyn InLanes>>,
+    trials: Option<MakeTrials>,
     mechanism: PhantomData<M>,
 }
 
@@ -117,6 +133,10 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         }
         let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        self.trials.map(|make| make() as Box<dyn Trials>)
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {
@@ -155,8 +175,8 @@ pub(crate) fn simulation<M: Mechanism<Real = f64>, X: Method>(
 }
 
 /// Components from as many numbers.
-fn components<C: Components<Real = f64> + Default>(values: &[f64]) -> C {
-    let mut array = C::default().into_array();
+pub(crate) fn components<C: Components>(values: &[C::Real]) -> C {
+    let mut array = C::splat(C::Real::default()).into_array();
     array.as_mut().iter_mut().zip(values).for_each(|(component, value)| *component = *value);
     C::from_array(array)
 }

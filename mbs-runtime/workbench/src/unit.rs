@@ -1,6 +1,7 @@
 //! In which unit a quantity is shown and read.
 
-use mbs_runtime::{Dimension, Quantity};
+use mbs_analysis::{Signal, Variable};
+use mbs_runtime::{Dimension, Info, Quantity};
 
 use crate::figure::Axis;
 use crate::number::significant;
@@ -45,6 +46,20 @@ impl Unit {
             length: 2_i8.saturating_sub(length),
             time: (-2_i8).saturating_sub(time),
         })
+    }
+
+    /// The unit in which a quantity of an analysis is shown.
+    pub(crate) fn of_signal(info: &Info, signal: &Signal) -> Self {
+        let declared = |list: &[Quantity], at: usize| list.get(at).map(Self::of);
+        let found = match signal.variable {
+            Variable::Coordinate(at) => info.coordinates.get(at).map(Self::of_coordinate),
+            Variable::Velocity(at) => info.coordinates.get(at).map(|q| Self::of_coordinate(q).per_second()),
+            Variable::Input(at) => declared(info.inputs, at),
+            Variable::Parameter(at) => declared(info.parameters, at),
+            Variable::Output(at) => declared(info.outputs, at),
+            Variable::Multiplier(_) => None,
+        };
+        found.unwrap_or_else(|| Self::si(signal.dimension))
     }
 
     /// The SI unit of a dimension.

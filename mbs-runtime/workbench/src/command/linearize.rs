@@ -9,7 +9,7 @@ use mbs_runtime::Info;
 use serde_json::{Value, json};
 
 use super::json::number;
-use super::operating::{self, Operating, unit};
+use super::operating::{self, Operating};
 use super::options::{self, option};
 use super::responses::Steps;
 use crate::app::Warnings;
@@ -124,7 +124,7 @@ impl Shown<'_> {
             [("state", &linear.states, x), ("input", &linear.inputs, u), ("output", &linear.outputs, y)]
         {
             for (signal, value) in list.iter().zip(values) {
-                let unit = unit(self.info, signal);
+                let unit = Unit::of_signal(self.info, signal);
                 let value = if value.abs() < 1e-13 { 0.0 } else { value };
                 table.row([kind, &signal.name, &significant(unit.shown(value), 8), unit.name()]);
             }
@@ -201,7 +201,7 @@ impl Shown<'_> {
 
     /// The SI unit of a signal; rad for an angle.
     fn si(&self, signal: &Signal) -> String {
-        let shown = unit(self.info, signal);
+        let shown = Unit::of_signal(self.info, signal);
         let si = Unit::si(signal.dimension);
         if shown.read(1.0) == 1.0 { shown.name().to_owned() } else { si.name().to_owned() }
     }

@@ -12,6 +12,7 @@ pub(crate) mod explain;
 pub(crate) mod export;
 mod extremes;
 pub(crate) mod inverse;
+pub(crate) mod fit;
 mod json;
 pub(crate) mod linearize;
 pub(crate) mod list;

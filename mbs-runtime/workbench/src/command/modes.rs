@@ -10,7 +10,7 @@ use mbs_runtime::Info;
 use serde_json::{Map, Value, json};
 
 use super::json::number;
-use super::operating::{self, Operating, unit};
+use super::operating::{self, Operating};
 use super::options::{self, option};
 use super::responses::{Bode, Steps};
 use super::shapes::{self, Shapes};
@@ -200,7 +200,7 @@ impl Shown<'_> {
             "per",
         ]);
         for (column, parameter) in found.parameters.iter().enumerate() {
-            let unit = unit(self.info, parameter);
+            let unit = Unit::of_signal(self.info, parameter);
             let value = self.value(parameter.variable);
             for (row, mode) in found.modes.iter().enumerate() {
                 let (omega, zeta) = (found.natural_frequency(row, column), found.damping_ratio(row, column));

@@ -2,7 +2,7 @@
 
 use clap::{Arg, ArgAction, ArgMatches};
 use mbs_analysis::{
-    Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy, Variable,
+    Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy,
     equilibrium, linearize,
 };
 use mbs_runtime::equations::Described;
@@ -14,7 +14,7 @@ use crate::app::Warnings;
 use crate::models::Models;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
-use crate::{Error, Model, Settings, StartKind, Unit, names};
+use crate::{Error, Model, Settings, StartKind, names};
 
 /// Derivatives that are known to fewer digits than these are in doubt.
 const DOUBTFUL: f64 = 1e-6;
@@ -123,13 +123,7 @@ impl<'a> Operating<'a> {
     /// The names that fit some patterns, in their order.
     fn outputs(&self, patterns: &[String]) -> Result<Vec<String>, Error> {
         let info = self.info();
-        let coordinates = 0..info.coordinates.len();
-        let variables = (0..info.outputs.len())
-            .map(Variable::Output)
-            .chain(coordinates.clone().map(Variable::Coordinate))
-            .chain(coordinates.map(Variable::Velocity))
-            .chain((0..info.constraints.len()).map(Variable::Multiplier));
-        let known: Vec<String> = variables.filter_map(|y| Signal::of(info, y)).map(|y| y.name).collect();
+        let known: Vec<String> = Signal::observable(info).into_iter().map(|y| y.name).collect();
         let mut found: Vec<String> = Vec::new();
         for pattern in patterns {
             let mut fitting = known.iter().filter(|name| names::fits(pattern, name)).peekable();
@@ -193,20 +187,6 @@ fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn Sys
         run.step()?;
     }
     Ok(run)
-}
-
-/// The unit in which a signal is shown.
-pub(super) fn unit(info: &Info, signal: &Signal) -> Unit {
-    let declared = |list: &[mbs_runtime::Quantity], at: usize| list.get(at).map(Unit::of);
-    let found = match signal.variable {
-        Variable::Coordinate(at) => info.coordinates.get(at).map(Unit::of_coordinate),
-        Variable::Velocity(at) => info.coordinates.get(at).map(|q| Unit::of_coordinate(q).per_second()),
-        Variable::Input(at) => declared(info.inputs, at),
-        Variable::Parameter(at) => declared(info.parameters, at),
-        Variable::Output(at) => declared(info.outputs, at),
-        Variable::Multiplier(_) => None,
-    };
-    found.unwrap_or_else(|| Unit::si(signal.dimension))
 }
 
 /// What is to be said of a linear system whose derivatives are not known well.

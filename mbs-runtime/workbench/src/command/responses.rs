@@ -6,7 +6,6 @@ use mbs_analysis::nalgebra::Complex;
 use mbs_analysis::{Behaviour, Linearization, Mode, phases};
 use mbs_runtime::Info;
 
-use super::operating::unit;
 use crate::figure::{Axis, Figure, Panel, SERIES_COLOURS, Series};
 use crate::number::significant;
 use crate::unit::axis;
@@ -32,7 +31,7 @@ struct Pair {
 fn pairs(info: &Info, linear: &Linearization) -> Vec<Pair> {
     let pair = |(output, input): (usize, usize)| {
         let (y, u) = (&linear.outputs[output], &linear.inputs[input]);
-        let (of_y, of_u) = (unit(info, y), unit(info, u));
+        let (of_y, of_u) = (Unit::of_signal(info, y), Unit::of_signal(info, u));
         let name = format!("{} per {}", y.name, u.name);
         Pair { name, unit: ratio(&of_y, &of_u), scale: of_y.read(1.0) / of_u.read(1.0), output, input }
     };

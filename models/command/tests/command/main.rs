@@ -4,6 +4,7 @@
 
 mod answers;
 mod files;
+mod fits;
 mod linear;
 mod prescribed;
 mod runs;

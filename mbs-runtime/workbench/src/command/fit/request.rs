@@ -1,0 +1,210 @@
+//! What a command line asks to be fitted.
+
+use std::path::PathBuf;
+
+use clap::ArgMatches;
+use mbs_analysis::{Experiment, Signal, Unknown, Variable};
+use mbs_runtime::{Dimension, Info};
+
+use crate::command::options;
+use crate::measurements::Measurements;
+use crate::quantity::{self, TIME};
+use crate::settings::Start;
+use crate::{Error, Model, Signals, Unit};
+
+/// An experiment, with the units in which it is shown.
+pub(super) struct Request {
+    pub info: &'static Info,
+    pub data: Measurements,
+    pub unknown: Vec<Unknown>,
+    /// The units of what is looked for.
+    pub units: Vec<Unit>,
+    start: Start,
+    drive: Option<Drive>,
+    hold: f64,
+    starts: usize,
+    confidence: f64,
+}
+
+/// The value of an input at a time, by its place.
+type Drive = Box<dyn Fn(f64, usize) -> Option<f64>>;
+
+/// What can be looked for under a name.
+struct Place {
+    dimension: Dimension,
+    unit: Unit,
+}
+
+impl Request {
+    pub fn of(model: &dyn Model, matches: &ArgMatches) -> Result<Self, Error> {
+        let info = model.info();
+        let texts = |name: &str| -> Vec<String> {
+            matches.get_many::<String>(name).unwrap_or_default().cloned().collect()
+        };
+        let mut settings = options::values(model, matches)?;
+        if let Some(text) = matches.get_one::<String>("step") {
+            settings.step = quantity::parse("step", text, TIME)?;
+        }
+        let path = matches.get_one::<PathBuf>("data").cloned().unwrap_or_default();
+        let mut data = Measurements::read(&path, info, &texts("columns"))?;
+        let signals = inputs(&settings.signals, &mut data, &path)?;
+        let (hold, start) = (settings.step, Start::of(model, &settings)?);
+        let mut request = Self {
+            info,
+            data,
+            unknown: Vec::new(),
+            units: Vec::new(),
+            start,
+            drive: signals.map(|signals| Box::new(signals.by_place(info)) as Drive),
+            hold,
+            starts: matches.get_one::<u16>("starts").copied().map_or(1, usize::from),
+            confidence: confidence(matches.get_one::<String>("confidence"))?,
+        };
+        request.look_for("param", &texts("param"))?;
+        request.look_for("start", &texts("start"))?;
+        if request.unknown.is_empty() {
+            let reason =
+                "nothing is to be found; name parameters with --param k,c or start values with --start x";
+            return Err(Error::Name { name: "fit".into(), reason: reason.into() });
+        }
+        texts("bounds").iter().try_for_each(|text| request.bound(text))?;
+        texts("sigma").iter().try_for_each(|text| request.deviate(text))?;
+        Ok(request)
+    }
+
+    /// Takes names, with or without a guess.
+    fn look_for(&mut self, option: &str, texts: &[String]) -> Result<(), Error> {
+        for text in texts {
+            let (name, guess) = match text.split_once('=') {
+                Some((name, guess)) => (name.trim(), Some(guess)),
+                None => (text.trim(), None),
+            };
+            let Place { dimension, unit } =
+                if option == "param" { self.parameter(name)? } else { self.start_value(name)? };
+            let guess = guess.map(|text| quantity::parse_in(name, text, dimension, &unit)).transpose()?;
+            let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+            self.unknown.push(Unknown { name: name.into(), guess, bounds });
+            self.units.push(unit);
+        }
+        Ok(())
+    }
+
+    fn parameter(&self, name: &str) -> Result<Place, Error> {
+        let known = self.info.parameters;
+        let found = known.iter().find(|parameter| parameter.name == name);
+        let found = found.ok_or_else(|| Error::unknown("parameter", name, known.iter().map(|p| p.name)))?;
+        Ok(Place { dimension: found.dimension, unit: Unit::of(found) })
+    }
+
+    fn start_value(&self, name: &str) -> Result<Place, Error> {
+        let known: Vec<Signal> = Signal::observable(self.info)
+            .into_iter()
+            .filter(|signal| matches!(signal.variable, Variable::Coordinate(_) | Variable::Velocity(_)))
+            .collect();
+        let found = known.iter().find(|signal| signal.name == name);
+        let names = || known.iter().map(|signal| signal.name.as_str());
+        let found = found.ok_or_else(|| Error::unknown("start value", name, names()))?;
+        Ok(Place { dimension: found.dimension, unit: Unit::of_signal(self.info, found) })
+    }
+
+    /// Takes `NAME=LOW..HIGH`, of which an end may be empty.
+    fn bound(&mut self, text: &str) -> Result<(), Error> {
+        let (name, range) = quantity::split_setting(text)?;
+        let known = || self.unknown.iter().map(|unknown| unknown.name.as_str());
+        let at = known().position(|other| other == name);
+        let at = at.ok_or_else(|| Error::unknown("value that is looked for called", name, known()))?;
+        let (low, high) = range.split_once("..").ok_or_else(|| Error::Value {
+            what: format!("the bounds of {name}"),
+            text: range.into(),
+            reason: "that is not a range; write NAME=LOW..HIGH, for instance k=1N/mm..5N/mm or c=0..".into(),
+        })?;
+        let is_parameter = self.info.parameters.iter().any(|parameter| parameter.name == name);
+        let place = if is_parameter { self.parameter(name)? } else { self.start_value(name)? };
+        for (bound, text) in self.unknown[at].bounds.iter_mut().zip([low, high]) {
+            if !text.trim().is_empty() {
+                *bound = quantity::parse_in(name, text, place.dimension, &place.unit)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes `NAME=VALUE` of a compared column.
+    fn deviate(&mut self, text: &str) -> Result<(), Error> {
+        let (name, value) = quantity::split_setting(text)?;
+        let mut measured = self.data.measured.iter_mut().zip(&self.data.units);
+        let Some((measured, unit)) = measured.find(|(measured, _)| measured.name == name) else {
+            let known = self.data.measured.iter().map(|measured| measured.name.as_str());
+            return Err(Error::unknown("compared column", name, known));
+        };
+        let signals = Signal::observable(self.info);
+        let dimension = signals.iter().find(|signal| signal.name == name).map(|signal| signal.dimension);
+        let value = quantity::parse_in(name, value, dimension.unwrap_or(TIME), unit)?;
+        measured.deviation = Some(value);
+        Ok(())
+    }
+
+    /// An error about values, in the units of the command line.
+    pub fn in_its_units(&self, error: mbs_analysis::Error) -> Error {
+        let mbs_analysis::Error::Bounds { name, guess, low, high } = error else { return error.into() };
+        let unit = self.unknown.iter().zip(&self.units).find(|(unknown, _)| unknown.name == name);
+        let text = |value: f64| unit.map_or_else(|| value.to_string(), |(_, unit)| unit.text(value, 6));
+        let [guess, low, high] = [guess, low, high].map(text);
+        let reason = format!(
+            "it is looked for from {guess}, which does not lie within its bounds {low} to {high}; give another \
+             guess with --param {name}=…, or widen --bounds"
+        );
+        Error::Name { name, reason }
+    }
+
+    /// What is asked of the analysis.
+    pub fn experiment(&self) -> Experiment<'_> {
+        let mut experiment = Experiment::of(self.info)
+            .parameters(self.start.parameters.clone())
+            .inputs(self.start.inputs.clone())
+            .starts(self.starts)
+            .confidence(self.confidence);
+        if let Some(drive) = &self.drive {
+            experiment = experiment.driven_by(drive, self.hold);
+        }
+        experiment = self.data.measured.iter().cloned().fold(experiment, Experiment::with);
+        self.unknown.iter().cloned().fold(experiment, Experiment::looking_for)
+    }
+}
+
+/// The inputs of a file of their own, or of the data.
+fn inputs(
+    given: &Option<Signals>,
+    data: &mut Measurements,
+    path: &std::path::Path,
+) -> Result<Option<Signals>, Error> {
+    match (given, data.inputs.take()) {
+        (Some(given), Some(own)) if given.names().any(|name| own.names().any(|other| other == name)) => {
+            let reason = format!(
+                "{} has columns of the inputs that --input reads; leave one of them out",
+                path.display()
+            );
+            Err(Error::Name { name: "--input".into(), reason })
+        }
+        (Some(_), Some(_)) => {
+            let reason =
+                format!("{} has columns of other inputs; put all of them into one file", path.display());
+            Err(Error::Name { name: "--input".into(), reason })
+        }
+        (given, own) => Ok(given.clone().or(own)),
+    }
+}
+
+/// A probability, such as `95%` or `0.95`.
+fn confidence(text: Option<&String>) -> Result<f64, Error> {
+    let Some(text) = text else { return Ok(0.95) };
+    let (number, unit) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number, 0.01));
+    let wrong =
+        |reason: &str| Error::Value { what: "confidence".into(), text: text.clone(), reason: reason.into() };
+    let value: f64 = number.trim().parse().map_err(|_| wrong("write it as 95% or 0.95"))?;
+    let value = unit * value;
+    if value > 0.0 && value < 1.0 {
+        Ok(value)
+    } else {
+        Err(wrong("it is above 0 and below 100 %, such as 95%"))
+    }
+}
