@@ -1,6 +1,6 @@
 //! What a fit found: as tables, for scripts, as columns and as a picture.
 
-use mbs_analysis::{Estimate, Fit, Measured, Remainder};
+use mbs_analysis::{Estimate, Fit, Measurement, Remainder};
 use mbs_runtime::Info;
 use serde_json::{Value, json};
 
@@ -21,6 +21,9 @@ const UNLIKELY: f64 = 5.0;
 /// Estimates with a larger correlation can hardly be told from each other.
 const CORRELATED: f64 = 0.95;
 
+/// Of columns that are not used, so many are named.
+const LISTED: usize = 8;
+
 /// A fit and what was asked.
 pub(super) struct Shown<'a> {
     pub name: &'a str,
@@ -34,7 +37,7 @@ impl Shown<'_> {
         self.fit.estimates.iter().zip(&self.request.units)
     }
 
-    fn channels(&self) -> impl Iterator<Item = (&Measured, &Remainder, &Unit)> {
+    fn channels(&self) -> impl Iterator<Item = (&Measurement, &Remainder, &Unit)> {
         let data = &self.request.data;
         let channels = data.measured.iter().zip(&self.fit.remainders).zip(&data.units);
         channels.map(|((measured, remainder), unit)| (measured, remainder, unit))
@@ -95,7 +98,9 @@ impl Shown<'_> {
         }
         let unused = &self.request.data.unused;
         if !unused.is_empty() {
-            notes += &format!("columns not used: {}\n", unused.join(", "));
+            let (first, more) = (unused.get(..LISTED).unwrap_or(unused), unused.len().saturating_sub(LISTED));
+            let more = if more == 0 { String::new() } else { format!(", … {more} more") };
+            notes += &format!("columns not used: {}{more}\n", first.join(", "));
         }
         notes
     }
@@ -158,7 +163,7 @@ impl Shown<'_> {
                     .map(|other| number(self.fit.correlation(at, other))).collect::<Vec<_>>(),
             })
         };
-        let channel = |(measured, remainder, unit): (&Measured, &Remainder, &Unit)| {
+        let channel = |(measured, remainder, unit): (&Measurement, &Remainder, &Unit)| {
             json!({
                 "name": measured.name,
                 "unit": unit.name(),
