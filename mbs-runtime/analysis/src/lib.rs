@@ -51,7 +51,7 @@ pub use error::Error;
 pub use family::{Family, of_type};
 pub use inverse::{By, Instant, Prescription, inverse};
 pub use fit::{
-    Estimate, Experiment, Fit, Measured, Progress, Remainder, See, Trial, Trials, Unknown, trials_of_type,
+    Estimate, Experiment, Fit, Measurement, Progress, Remainder, See, Trial, Trials, Unknown, trials_of_type,
 };
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};

@@ -7,7 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use mbs_analysis::{Error, Experiment, Fit, Measured, Trials, Unknown, trials_of_type};
+use mbs_analysis::{Error, Experiment, Fit, Measurement, Trials, Unknown, trials_of_type};
 use mbs_live::{Live, Prepared, Text};
 use mbs_runtime::equations::Partials;
 use mbs_runtime::{Mechanism, Sampled, System, Tolerances, mechanism};
@@ -296,7 +296,7 @@ fn given_deviations_are_believed() {
             output same [m] = x;
         }
     }
-    let reading = |name: &str, value: f64, deviation: f64| Measured {
+    let reading = |name: &str, value: f64, deviation: f64| Measurement {
         name: name.into(),
         times: vec![1.0],
         values: vec![value],
@@ -411,7 +411,7 @@ fn what_cannot_be_fitted_is_refused() {
     let outside = Unknown { name: "k".into(), guess: Some(100.0), bounds: [150.0, 300.0] };
     assert!(refused(&measured().looking_for(outside)).contains("bounds 150 to 300"));
     let noise =
-        Measured { name: "x".into(), times: times.clone(), values: values.clone(), deviation: Some(0.0) };
+        Measurement { name: "x".into(), times: times.clone(), values: values.clone(), deviation: Some(0.0) };
     assert!(refused(&oscillator().with(noise).unknown("k", 1.0)).contains("standard deviation"));
     let message = refused(&measured().unknown("m", -1.0));
     assert!(matches!(

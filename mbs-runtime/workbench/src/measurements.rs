@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mbs_analysis::{Measured, Signal, Variable};
+use mbs_analysis::{Measurement, Signal, Variable};
 use mbs_runtime::Info;
 
 use crate::sheet::{Sheet, SheetColumn};
@@ -11,7 +11,7 @@ use crate::{Error, Signals, Unit, names, quantity};
 /// What a file says about a motion.
 pub(crate) struct Measurements {
     /// The quantities that are compared with those of the mechanism, in SI units,
-    pub measured: Vec<Measured>,
+    pub measured: Vec<Measurement>,
     /// and the units in which they are shown.
     pub units: Vec<Unit>,
     /// The inputs that acted, if the file has columns of such.
@@ -73,7 +73,7 @@ fn owned<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-fn samples(sheet: &Sheet, column: &SheetColumn, signal: &Signal, unit: &Unit) -> Result<Measured, Error> {
+fn samples(sheet: &Sheet, column: &SheetColumn, signal: &Signal, unit: &Unit) -> Result<Measurement, Error> {
     let read = |text: &str| {
         let value = quantity::parse_in(&signal.name, text, signal.dimension, unit);
         value.map_err(|error| match error {
@@ -92,5 +92,5 @@ fn samples(sheet: &Sheet, column: &SheetColumn, signal: &Signal, unit: &Unit) ->
             values.push(value);
         }
     }
-    Ok(Measured { name: signal.name.clone(), times, values, deviation: None })
+    Ok(Measurement { name: signal.name.clone(), times, values, deviation: None })
 }

@@ -16,7 +16,7 @@ pub struct Experiment<'a> {
     pub(super) signal: Option<&'a Driver<'a>>,
     pub(super) hold: f64,
     pub(super) tolerances: Tolerances,
-    pub(super) measured: Vec<Measured>,
+    pub(super) measured: Vec<Measurement>,
     pub(super) unknown: Vec<Unknown>,
     pub(super) starts: usize,
     pub(super) confidence: f64,
@@ -27,7 +27,7 @@ type Driver<'a> = dyn Fn(f64, usize) -> Option<f64> + 'a;
 
 /// A quantity that was measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct Measurement {
     /// Its name: an output, a coordinate `x`, its rate `der(x)`, or a multiplier `lambda(row)`.
     pub name: String,
     /// The instants in s, ascending,
@@ -99,12 +99,12 @@ impl<'a> Experiment<'a> {
     #[must_use]
     pub fn measured(self, name: &str, times: &[f64], values: &[f64]) -> Self {
         let (times, values) = (times.to_vec(), values.to_vec());
-        self.with(Measured { name: name.into(), times, values, deviation: None })
+        self.with(Measurement { name: name.into(), times, values, deviation: None })
     }
 
     /// With samples of a quantity.
     #[must_use]
-    pub fn with(mut self, measured: Measured) -> Self {
+    pub fn with(mut self, measured: Measurement) -> Self {
         self.measured.push(measured);
         self
     }
@@ -217,7 +217,7 @@ impl<'a> Experiment<'a> {
                 return Err(Error::Twice { name: unknown.name.clone() });
             }
         }
-        self.measured.iter().try_for_each(Measured::check)?;
+        self.measured.iter().try_for_each(Measurement::check)?;
         let samples = self.measured.iter().map(|measured| measured.times.len()).sum();
         let unknowns = self.unknown.len();
         if unknowns == 0 || samples <= unknowns {
@@ -227,7 +227,7 @@ impl<'a> Experiment<'a> {
     }
 }
 
-impl Measured {
+impl Measurement {
     fn check(&self) -> Result<(), Error> {
         let Self { name, times, values, deviation } = self;
         if times.len() != values.len() {

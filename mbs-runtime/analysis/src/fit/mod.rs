@@ -8,7 +8,7 @@ mod quantile;
 mod search;
 mod trials;
 
-pub use experiment::{Experiment, Measured, Unknown};
+pub use experiment::{Experiment, Measurement, Unknown};
 use nalgebra::DMatrix;
 pub use trials::{See, Trial, Trials, trials_of_type};
 

@@ -132,13 +132,13 @@ impl Request {
     fn deviate(&mut self, text: &str) -> Result<(), Error> {
         let (name, value) = quantity::split_setting(text)?;
         let mut measured = self.data.measured.iter_mut().zip(&self.data.units);
-        let Some((measured, unit)) = measured.find(|(measured, _)| measured.name == name) else {
+        let found = measured.find(|(measured, _)| measured.name == name);
+        let signal = Signal::observable(self.info).into_iter().find(|signal| signal.name == name);
+        let Some(((measured, unit), signal)) = found.zip(signal) else {
             let known = self.data.measured.iter().map(|measured| measured.name.as_str());
             return Err(Error::unknown("compared column", name, known));
         };
-        let signals = Signal::observable(self.info);
-        let dimension = signals.iter().find(|signal| signal.name == name).map(|signal| signal.dimension);
-        let value = quantity::parse_in(name, value, dimension.unwrap_or(TIME), unit)?;
+        let value = quantity::parse_in(name, value, signal.dimension, unit)?;
         measured.deviation = Some(value);
         Ok(())
     }
