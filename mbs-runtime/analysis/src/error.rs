@@ -174,6 +174,36 @@ pub enum Error {
         /// and the largest.
         high: f64,
     },
+    /// A mechanism that does not move in one way.
+    #[error(
+        "`{mechanism}` has {dof} degrees of freedom, but one that passes positions has 1: {}",
+        if *.dof < 1 {
+            "take the drive away, whose motion is found from the positions"
+        } else {
+            "take joints or constraints in until one coordinate determines the others"
+        }
+    )]
+    Freedom {
+        /// The name of the mechanism.
+        mechanism: &'static str,
+        /// Its degrees of freedom.
+        dof: i32,
+    },
+    /// A quantity that is looked for anywhere.
+    #[error("`{name}` has no bounds; give the smallest and the largest value that it may have")]
+    NoBounds {
+        /// Its name.
+        name: String,
+    },
+    /// No positions to pass.
+    #[error(
+        "{positions} positions cannot be passed: there have to be two or more, with finite values, of which some \
+         may be free"
+    )]
+    NoPositions {
+        /// How many there are.
+        positions: usize,
+    },
     /// Unknowns that the data do not determine.
     #[error("{}", undetermined(.along))]
     Undetermined {

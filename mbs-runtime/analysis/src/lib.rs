@@ -2,7 +2,8 @@
 #![doc = include_str!("flap.svg")]
 //!
 //! The page on linear systems, modes and responses is [`linear`], that on inverse dynamics and statics
-//! [`prescribed`], that on fits to measured data [`identification`].
+//! [`prescribed`], that on fits to measured data [`identification`], that on dimensions for a path or a
+//! function [`linkages`].
 //!
 //! # What it asks a mechanism
 //!
@@ -40,6 +41,10 @@ mod response;
 mod rest;
 mod sensitivity;
 mod signal;
+mod synthesis;
+#[doc = include_str!("synthesis/linkages.md")]
+#[doc = include_str!("synthesis/linkages.svg")]
+pub mod linkages {}
 mod tangent;
 mod travel;
 
@@ -51,7 +56,8 @@ pub use error::Error;
 pub use family::{Family, of_type};
 pub use inverse::{By, Instant, Prescription, inverse};
 pub use fit::{
-    Estimate, Experiment, Fit, Measurement, Progress, Remainder, See, Trial, Trials, Unknown, trials_of_type,
+    Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown,
+    trials_of_type,
 };
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
@@ -59,4 +65,5 @@ pub use point::{Drives, OperatingPoint};
 pub use response::{StepResponse, phases};
 pub use sensitivity::{Sensitivities, sensitivities};
 pub use signal::{Signal, Variable};
+pub use synthesis::{Defect, Linkage, Synthesis, Task};
 pub use travel::{Along, Position, Travel, travel};

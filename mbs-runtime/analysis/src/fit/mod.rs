@@ -10,7 +10,7 @@ mod trials;
 
 pub use experiment::{Experiment, Measurement, Unknown};
 use nalgebra::DMatrix;
-pub use trials::{See, Trial, Trials, trials_of_type};
+pub use trials::{Look, See, Trial, Trials, trials_of_type};
 
 /// What an [`Experiment`] says about what was looked for.
 #[derive(Clone, Debug, PartialEq)]

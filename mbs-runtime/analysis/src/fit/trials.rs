@@ -1,6 +1,6 @@
 //! Runs with derivatives, of a mechanism whose parameters are tried.
 
-use mbs_runtime::equations::Partials;
+use mbs_runtime::equations::{Described, Partials};
 use mbs_runtime::{Adaptive, Dopri5, Dynamics, Error, Mechanism, Sampled, System, Tolerances};
 
 use crate::family::components;
@@ -31,6 +31,12 @@ pub trait Trials {
     /// As [`Mechanism::new`].
     fn check(&self, parameters: &[Partials]) -> Result<(), Error>;
 
+    /// Shows the mechanism with these parameters, and its declared positions.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    fn look(&self, parameters: &[Partials], look: &mut Look<'_>) -> Result<(), Error>;
+
     /// Makes a run and shows it at the times of the trial, by their number.
     ///
     /// # Errors
@@ -40,6 +46,9 @@ pub trait Trials {
 
 /// What is done with a run at one of its times.
 pub type See<'a> = dyn FnMut(usize, &dyn System<Partials>) -> Result<(), Error> + 'a;
+
+/// What is done with a mechanism and its declared positions.
+pub type Look<'a> = dyn FnMut(&dyn Described<Partials>, &[Partials]) + 'a;
 
 /// A run that is tried.
 #[derive(Clone, Copy)]
@@ -70,6 +79,13 @@ where
 {
     fn check(&self, parameters: &[Partials]) -> Result<(), Error> {
         self(parameters).map(|_| ())
+    }
+
+    fn look(&self, parameters: &[Partials], look: &mut Look<'_>) -> Result<(), Error> {
+        let dynamics = self(parameters)?;
+        let (_, q, _) = dynamics.declared_start();
+        look(dynamics.described(), q.as_ref());
+        Ok(())
     }
 
     fn follow(&self, trial: &Trial<'_>, see: &mut See<'_>) -> Result<(), Error> {

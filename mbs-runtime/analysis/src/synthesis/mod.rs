@@ -1,0 +1,23 @@
+//! Synthesis: parameters with which a mechanism passes given positions.
+
+mod blocks;
+mod circuit;
+mod descent;
+mod search;
+mod system;
+mod task;
+
+pub use task::{Defect, Linkage, Task};
+
+/// What was found for a [`Task`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Synthesis {
+    /// Mechanisms without defects: those that miss least first, and smaller ones before larger ones.
+    pub linkages: Vec<Linkage>,
+    /// How often a mechanism was refused for each defect.
+    pub refused: [(Defect, usize); 3],
+    /// The starts that were made.
+    pub starts: usize,
+    /// By how much the positions are missed at least, defects or not.
+    pub nearest: f64,
+}

@@ -1,0 +1,146 @@
+//! What a linkage is to do, and which parameters may be chosen for that.
+
+use mbs_runtime::Info;
+
+use super::{Synthesis, search};
+use crate::{Error, Trials, Unknown};
+
+/// Positions that a mechanism with one degree of freedom is to pass, and the parameters that are looked for.
+///
+/// A position is a row of values of outputs and coordinates, in the order in which they are to be passed. A point
+/// to be passed at any time is a value of its x and one of its y; with a value of the driving coordinate beside
+/// them the timing is prescribed; values of two angles are a function. See
+/// [the page on synthesis](crate::linkages) for an example.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// The mechanism.
+    pub info: &'static Info,
+    /// Its parameters in SI units, in the order of [`Info::parameters`].
+    pub parameters: Vec<f64>,
+    /// Those that are looked for, from random values between their bounds on.
+    pub unknown: Vec<Unknown>,
+    /// Outputs and coordinates that have values at the positions.
+    pub columns: Vec<String>,
+    /// These values in SI units and rad, a row for each position; `None` for a value that is free.
+    pub positions: Vec<Vec<Option<f64>>>,
+    /// The coordinate that drives, which must not turn back between the positions; without one any motion will
+    /// do.
+    pub drive: Option<String>,
+    /// By how much each value may be missed, in SI units.
+    pub tolerance: f64,
+    /// From so many starts it is looked at most,
+    pub starts: usize,
+    /// until so many mechanisms are found.
+    pub enough: usize,
+    /// The random numbers of another seed lead to other mechanisms.
+    pub seed: u64,
+}
+
+/// Why a mechanism that can be assembled at all positions does not pass them as it should.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Defect {
+    /// It has to be taken apart between some positions: they lie on another circuit, or behind a position at which
+    /// it is singular.
+    Circuit,
+    /// It passes the positions in another order.
+    Order,
+    /// The driving coordinate turns back on the way, at a dead centre.
+    Branch,
+}
+
+/// A mechanism that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linkage {
+    /// The values of what was looked for, in SI units.
+    pub values: Vec<f64>,
+    /// The coordinates at each position.
+    pub coordinates: Vec<Vec<f64>>,
+    /// The coordinates on the way from the first position to the last.
+    pub path: Vec<Vec<f64>>,
+    /// The largest difference from a value that was asked for, in SI units.
+    pub missed: f64,
+    /// How many starts led to it.
+    pub count: usize,
+}
+
+impl Task {
+    /// A task for a mechanism as it is declared, to which positions and unknowns are to be added: values may be
+    /// missed by 10⁻⁹, and one mechanism of 20 000 starts is enough.
+    pub fn of(info: &'static Info) -> Self {
+        Self {
+            info,
+            parameters: info.parameters.iter().map(|parameter| parameter.default).collect(),
+            unknown: Vec::new(),
+            columns: Vec::new(),
+            positions: Vec::new(),
+            drive: None,
+            tolerance: 1e-9,
+            starts: 20_000,
+            enough: 1,
+            seed: 0,
+        }
+    }
+
+    /// Looks for mechanisms that pass the positions in their order, on one circuit and without a turn of the
+    /// drive.
+    ///
+    /// # Errors
+    /// [`Error::Freedom`] for a mechanism with another number of degrees of freedom than 1; [`Error::Unknown`]
+    /// for a name that it does not have; [`Error::NoBounds`], [`Error::Bounds`], [`Error::NoPositions`],
+    /// [`Error::Length`] for what cannot be looked for. That none was found is no error.
+    pub fn synthesize(&self, trials: &(dyn Trials + Sync)) -> Result<Synthesis, Error> {
+        self.synthesize_and_tell(trials, &mut |_, _| ())
+    }
+
+    /// The same; `progress` is called now and then with the starts that are done and the mechanisms that are
+    /// found.
+    ///
+    /// # Errors
+    /// As [`synthesize`](Self::synthesize).
+    pub fn synthesize_and_tell(
+        &self,
+        trials: &(dyn Trials + Sync),
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Synthesis, Error> {
+        self.check()?;
+        search::synthesize(self, trials, progress)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        if self.info.dof != 1 {
+            return Err(Error::Freedom { mechanism: self.info.name, dof: self.info.dof });
+        }
+        let (what, found, expected) = ("parameters", self.parameters.len(), self.info.parameters.len());
+        if found != expected {
+            return Err(Error::Length { what, found, expected });
+        }
+        for (at, unknown) in self.unknown.iter().enumerate() {
+            let Unknown { name, guess, bounds: [low, high] } = unknown;
+            if self.unknown.iter().take(at).any(|other| other.name == *name) {
+                return Err(Error::Twice { name: name.clone() });
+            }
+            if !(low.is_finite() && high.is_finite()) {
+                return Err(Error::NoBounds { name: name.clone() });
+            }
+            let guess = guess.unwrap_or(0.5 * (low + high));
+            if !(low < high && *low <= guess && guess <= *high) {
+                return Err(Error::Bounds { name: name.clone(), guess, low: *low, high: *high });
+            }
+        }
+        if let Some(row) = self.positions.iter().find(|row| row.len() != self.columns.len()) {
+            let (what, found, expected) = ("the values of a position", row.len(), self.columns.len());
+            return Err(Error::Length { what, found, expected });
+        }
+        let values = || self.positions.iter().flatten().flatten();
+        if self.positions.len() < 2 || values().next().is_none() || !values().all(|value| value.is_finite()) {
+            return Err(Error::NoPositions { positions: self.positions.len() });
+        }
+        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
+            return Err(Error::Range { what: "the tolerance", value: self.tolerance, unit: "(SI)" });
+        }
+        if self.unknown.is_empty() {
+            return Err(Error::FewSamples { samples: values().count(), unknowns: 0 });
+        }
+        Ok(())
+    }
+}
