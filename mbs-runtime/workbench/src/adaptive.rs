@@ -195,7 +195,7 @@ impl<T: Real> Dynamics for Erased<T> {
 }
 
 /// Runs of a type with derivatives.
-pub(crate) fn trials<M: Mechanism<Real = f64>>() -> Box<dyn Trials> {
+pub(crate) fn trials<M: Mechanism<Real = f64>>() -> Box<dyn Trials + Sync> {
     let mechanism = |parameters: &[Partials]| M::Over::<Partials>::new(components(parameters));
     Box::new(move |parameters: &[Partials]| mechanism(parameters).map(Erased::new))
 }

@@ -10,7 +10,8 @@ use mbs_runtime::Mechanism;
 #[cfg(feature = "live")]
 use crate::Settings;
 use crate::command::{
-    bode, completions, equilibrium, explain, fit, inverse, linearize, list, modes, new, simulate, sweep, travel,
+    bode, completions, equilibrium, explain, fit, inverse, linearize, list, modes, new, simulate, sweep,
+    synthesize, travel,
 };
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
@@ -30,7 +31,7 @@ const NO_READER: u8 = 141;
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
 /// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `equilibrium`, `linearize`,
-/// `modes`, `bode`, `inverse`, `travel`, `fit`, `new`, and whatever the embedding program adds.
+/// `modes`, `bode`, `inverse`, `travel`, `fit`, `synthesize`, `new`, and whatever the embedding program adds.
 ///
 /// # Example
 /// ```no_run
@@ -165,6 +166,7 @@ impl App {
             .subcommand(inverse::command())
             .subcommand(travel::command())
             .subcommand(fit::command())
+            .subcommand(synthesize::command())
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
@@ -184,6 +186,7 @@ impl App {
             Some(("inverse", matches)) => inverse::run(&self.models, matches).map(silent),
             Some(("travel", matches)) => travel::run(&self.models, matches).map(silent),
             Some(("fit", matches)) => fit::run(&self.models, matches),
+            Some(("synthesize", matches)) => synthesize::run(&self.models, matches).map(silent),
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),

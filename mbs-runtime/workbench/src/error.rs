@@ -18,6 +18,12 @@ pub enum Error {
         /// The names that exist.
         known: Vec<String>,
     },
+    /// A task for which there is no mechanism, as far as was looked.
+    #[error("no mechanism was found: {reason}")]
+    NoLinkage {
+        /// What became of the starts, and what to change.
+        reason: String,
+    },
     /// A column that a file does not have.
     #[error("{} has no column `{name}`; it has {}", file.display(), known.join(", "))]
     Column {

@@ -129,7 +129,7 @@ impl Model for FromText {
         Some(&self.text)
     }
 
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+    fn trials(&self) -> Option<Box<dyn Trials + Sync + '_>> {
         let over = self.live.over::<Partials>();
         Some(Box::new(move |parameters: &[Partials]| {
             let live = over.with_parameters(|own| own.copy_from_slice(parameters))?;

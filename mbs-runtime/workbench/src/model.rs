@@ -46,8 +46,8 @@ pub trait Model: Send + Sync {
         None
     }
 
-    /// Its runs with derivatives, if it has such: what is fitted to data.
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+    /// Its runs with derivatives, if it has such: what is fitted to data, and of which dimensions are found.
+    fn trials(&self) -> Option<Box<dyn Trials + Sync + '_>> {
         None
     }
 
@@ -92,7 +92,7 @@ pub fn from_text(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Mo
     crate::live::compiled(text, defaults)
 }
 
-type MakeTrials = fn() -> Box<dyn Trials>;
+type MakeTrials = fn() -> Box<dyn Trials + Sync>;
 
 struct Typed<M> {
     defaults: Settings,
@@ -135,8 +135,8 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
     }
 
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        self.trials.map(|make| make() as Box<dyn Trials>)
+    fn trials(&self) -> Option<Box<dyn Trials + Sync + '_>> {
+        self.trials.map(|make| make() as Box<dyn Trials + Sync>)
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {

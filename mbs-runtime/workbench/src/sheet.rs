@@ -10,7 +10,7 @@ use crate::{Error, quantity};
 /// A CSV file whose headings are such as `t [s]` and `crank_torque [N*mm]`.
 pub(crate) struct Sheet {
     path: String,
-    /// Time in s.
+    /// Time in s, of a table that has it.
     pub times: Vec<f64>,
     pub columns: Vec<SheetColumn>,
     /// The lines of the file in which the rows stand.
@@ -26,12 +26,28 @@ pub(crate) struct SheetColumn {
 }
 
 impl Sheet {
-    /// Reads a file.
+    /// Reads a file whose first column is the time.
+    ///
+    /// # Errors
+    /// As [`without_time`](Self::without_time), and [`Error::Value`] where time is no number or does not
+    /// ascend.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let mut sheet = Self::without_time(path)?;
+        if sheet.columns.len() < 2 {
+            let reason = "it needs a column for time, one for a quantity, and a row".into();
+            return Err(Error::Name { name: sheet.path, reason });
+        }
+        let time = sheet.columns.remove(0);
+        sheet.times = sheet.ascending(&time)?;
+        Ok(sheet)
+    }
+
+    /// Reads a file of quantities alone.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Name`] for two columns of one name or a file without
-    /// rows, [`Error::Value`] where time is no number or does not ascend.
-    pub fn read(path: &Path) -> Result<Self, Error> {
+    /// rows.
+    pub fn without_time(path: &Path) -> Result<Self, Error> {
         let unreadable = |error: csv::Error| Error::file("read", path)(error.into());
         let mut table = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let headings = table.headers().map_err(unreadable)?.clone();
@@ -51,14 +67,11 @@ impl Sheet {
                 return Err(Error::Name { name: column.name.clone(), reason });
             }
         }
-        if columns.len() < 2 || lines.is_empty() {
-            let reason = "it needs a column for time, one for a quantity, and a row".into();
+        if lines.is_empty() {
+            let reason = "it needs a heading for each column, and a row".into();
             return Err(Error::Name { name: path, reason });
         }
-        let time = columns.remove(0);
-        let mut sheet = Self { path, times: Vec::new(), columns, lines };
-        sheet.times = sheet.ascending(&time)?;
-        Ok(sheet)
+        Ok(Self { path, times: Vec::new(), columns, lines })
     }
 
     fn ascending(&self, column: &SheetColumn) -> Result<Vec<f64>, Error> {

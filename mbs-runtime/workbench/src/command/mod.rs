@@ -25,6 +25,7 @@ mod responses;
 mod shapes;
 pub(crate) mod simulate;
 pub(crate) mod sweep;
+pub(crate) mod synthesize;
 pub(crate) mod travel;
 #[cfg(feature = "live")]
 pub(crate) mod watch;

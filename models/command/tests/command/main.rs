@@ -6,6 +6,7 @@ mod answers;
 mod files;
 mod fits;
 mod linear;
+mod linkages;
 mod prescribed;
 mod runs;
 mod sweeps;
