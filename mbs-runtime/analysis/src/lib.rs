@@ -21,10 +21,10 @@ mod difference;
 mod equilibrium;
 mod error;
 mod family;
+mod fit;
 mod guided;
 mod inverse;
 mod jacobian;
-mod fit;
 #[doc = include_str!("fit/identification.md")]
 #[doc = include_str!("fit/identification.svg")]
 pub mod identification {}
@@ -54,11 +54,11 @@ pub use curve::{Curve, Moment, Time};
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
 pub use family::{Family, of_type};
-pub use inverse::{By, Instant, Prescription, inverse};
 pub use fit::{
     Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown,
     trials_of_type,
 };
+pub use inverse::{By, Instant, Prescription, inverse};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};

@@ -130,7 +130,10 @@ impl Layout {
                 | Input::HalfStep
                 | Input::NextTime
                 | Input::MinusTwoAlpha
-                | Input::MinusBetaSquared => return None,
+                | Input::MinusBetaSquared
+                // of implicit stages, which are not transposed
+                | Input::Shift
+                | Input::Predicted(_) => return None,
             },
         };
         Some(range.start + at)

@@ -60,8 +60,9 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
     /// Makes the given start consistent as a declared one is: the coordinates that the declaration
     /// gives keep their values, the others move to the constraints.
     #[must_use]
-    pub fn made_consistent(self) -> Self {
-        Self { start: Start::Declared, ..self }
+    pub fn made_consistent(mut self) -> Self {
+        self.beginning.start = Start::Declared;
+        self
     }
 
     /// Keeps the start as it is, consistent or not; the first step leads to the constraints.

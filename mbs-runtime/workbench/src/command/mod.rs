@@ -11,8 +11,8 @@ pub(crate) mod explain;
 #[cfg(feature = "live")]
 pub(crate) mod export;
 mod extremes;
-pub(crate) mod inverse;
 pub(crate) mod fit;
+pub(crate) mod inverse;
 mod json;
 pub(crate) mod linearize;
 pub(crate) mod list;
