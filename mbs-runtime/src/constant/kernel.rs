@@ -3,7 +3,8 @@
 use crate::adaptive::Moment;
 use crate::{Dynamics, Error, Info};
 
-/// A method with room for its vectors.
+/// A method with room for its vectors: [`RattleStep`](crate::RattleStep) or
+/// [`TrBdf2Step`](crate::TrBdf2Step).
 pub trait Kernel<D: Dynamics>: Clone + Send {
     /// The word that asks for it.
     fn word(&self) -> &'static str;
