@@ -1,5 +1,5 @@
 //! Random mechanisms as a person might declare them: each compiles, or is refused with
-//! a reason in its own words, in a few seconds.
+//! a reason in its own words.
 //!
 //! `MECHANISMS=2000 cargo test --release -p tests --test random_mechanisms` tries more.
 #![allow(clippy::expect_used, reason = "a test")]
@@ -11,8 +11,9 @@ use tests::linkages::declaration;
 
 const MECHANISMS: u64 = 300;
 
-/// None of them is large.
-const LIMIT: Duration = Duration::from_secs(5);
+/// None of them is large: the longest takes seconds. What does not end is meant, on machines that are
+/// busy with something else too; how long a compilation takes is measured by `benches/expansion`.
+const LIMIT: Duration = Duration::from_secs(60);
 
 #[test]
 fn random_mechanisms_compile_or_are_refused_with_a_reason() {
@@ -20,11 +21,7 @@ fn random_mechanisms_compile_or_are_refused_with_a_reason() {
     let mut compiled = 0;
     for number in 0..count {
         let text = declaration(number);
-        // a machine that is busy with something else gets a second chance
-        let verdict = match judge(&text, LIMIT) {
-            Verdict::TooSlow => judge(&text, LIMIT),
-            verdict => verdict,
-        };
+        let verdict = judge(&text, LIMIT);
         assert!(!verdict.is_failure() && verdict != Verdict::NoTokens, "{verdict:?} of\n{text}");
         compiled += u64::from(verdict == Verdict::Compiled);
     }

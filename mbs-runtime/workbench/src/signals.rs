@@ -150,7 +150,7 @@ mod tests {
         assert!(message("t,push\n0,x").contains("line 2: push = `x`"), "{}", message("t,push\n0,x"));
         assert!(message("t,push [mm]\n0,1").contains("a length [m] was given"));
         assert!(message("t,push\n").contains("a row"));
-        assert!(message("t,push\n0,").contains("line 2: push = ``: an input needs"));
+        assert!(message("t,push\n0,").contains("line 2: push = ``: it needs a value"));
         assert!(message("t,push,push\n0,1,2").contains("two columns"));
     }
 }
