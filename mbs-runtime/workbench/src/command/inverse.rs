@@ -148,8 +148,11 @@ impl Wanted {
     }
 }
 
-/// Times in s and the coordinates over them, from a table.
-fn samples(path: &Path, info: &Info) -> Result<(Vec<f64>, Vec<(String, Vec<f64>)>), Error> {
+/// Times in s, and the coordinates over them by name.
+type Samples = (Vec<f64>, Vec<(String, Vec<f64>)>);
+
+/// Reads a table of coordinates over time.
+fn samples(path: &Path, info: &Info) -> Result<Samples, Error> {
     let sheet = Sheet::read(path)?;
     sheet.are_known("coordinate", info.coordinates)?;
     let mut columns = Vec::new();
