@@ -24,7 +24,7 @@ const CORRECTIONS: u32 = 50;
 /// The method is of second order, symmetric and symplectic: in a mechanism whose forces have a
 /// potential and whose constraints do not depend on time the energy oscillates by O(h²) and does
 /// not drift, however long the run is. Composed of five steps
-/// ([`composition`](RattleBuilder::composition)) it is of fourth order.
+/// ([`composition`](ConstantStepBuilder::composition)) it is of fourth order.
 ///
 /// Forces must not depend on velocities. Forces and drives that depend on time, and inputs, are
 /// permitted: they do work, and the method keeps its order. A run evaluates the forces once a step
