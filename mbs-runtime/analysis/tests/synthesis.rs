@@ -5,12 +5,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-use std::f64::consts::{PI, TAU};
-use std::time::{Duration, Instant};
-
 use mbs_analysis::{Defect, Linkage, Synthesis, Task, Trials, Unknown};
 use mbs_live::{Live, Prepared, Text};
 use mbs_runtime::equations::Partials;
+use std::f64::consts::{PI, TAU};
 
 /// In the angles of crank and coupler, with the rocker as a distance.
 const FOUR_BAR: &str = "FourBar {
@@ -131,12 +129,11 @@ fn passes(values: &[f64], points: &[[f64; 2]]) -> bool {
     [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].iter().any(|(side, way)| turns(*side, *way))
 }
 
-/// From no hint, within a minute; each by its closed form, and some refused.
+/// From no hint, of some hundred starts; each by its closed form, and some refused.
 #[test]
 fn four_bars_through_nine_points() {
     let live = compiled(FOUR_BAR);
     for seed in 0..3 {
-        let began = Instant::now();
         let task = Task {
             unknown: anything(),
             drive: Some("crank".into()),
@@ -145,9 +142,9 @@ fn four_bars_through_nine_points() {
             ..through(&live, &NINE)
         };
         let found = task.synthesize(&trials_of(&live)).unwrap();
-        let took = began.elapsed();
-        println!("seed {seed}: {} of {} starts in {took:?}", found.linkages.len(), found.starts);
-        assert!(took < Duration::from_secs(60), "{took:?}");
+        println!("seed {seed}: {} of {} starts", found.linkages.len(), found.starts);
+        // of which two cores make some hundred in a second
+        assert!(found.starts <= 1000, "{}", found.starts);
         let best = &found.linkages[0];
         assert!(best.missed < 1e-10 && best.coordinates.len() == 9, "{best:?}");
         for (q, point) in best.coordinates.iter().zip(NINE) {
@@ -176,9 +173,8 @@ fn four_bars_through_nine_points() {
 fn the_same_of_bodies_and_joints() {
     let live = compiled(BARS);
     let task = Task { unknown: anything(), drive: Some("theta1".into()), ..through(&live, &NINE) };
-    let began = Instant::now();
     let found = task.synthesize(&trials_of(&live)).unwrap();
-    println!("of joints: {} of {} starts in {:?}", found.linkages.len(), found.starts, began.elapsed());
+    println!("of joints: {} of {} starts", found.linkages.len(), found.starts);
     assert!(passes(&found.linkages[0].values, &NINE));
 }
 
@@ -243,9 +239,8 @@ fn an_approximate_straight_line() {
     let line: Vec<[f64; 2]> = (0..=10).map(|at| [0.1 * f64::from(at), 0.0]).collect();
     let task =
         Task { unknown: anything(), drive: Some("crank".into()), tolerance: 2e-3, ..through(&live, &line) };
-    let began = Instant::now();
     let found = task.synthesize(&trials_of(&live)).unwrap();
-    println!("line: {:.1e} m of {} starts in {:?}", found.linkages[0].missed, found.starts, began.elapsed());
+    println!("line: {:.1e} m of {} starts", found.linkages[0].missed, found.starts);
     let best = &found.linkages[0];
     assert!(best.missed <= 2e-3 && best.missed > 1e-9);
     // on its constraints, and as near as it says
