@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use mbs_analysis::Trials;
 use rayon::prelude::*;
 
 #[cfg(feature = "live")]
@@ -44,6 +45,19 @@ impl Found<'_> {
             #[cfg(feature = "live")]
             Self::Read(_, model) => model.as_ref(),
         }
+    }
+
+    /// Its runs with derivatives.
+    ///
+    /// # Errors
+    /// A type that has none.
+    pub fn trials(&self) -> Result<Box<dyn Trials + Sync + '_>, Error> {
+        self.model().trials().ok_or_else(|| Error::Name {
+            name: self.name().to_owned(),
+            reason: "its type was compiled without derivatives; make its model with \
+                     `model::differentiated`, or give its declaration as a file"
+                .into(),
+        })
     }
 }
 

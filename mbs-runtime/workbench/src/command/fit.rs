@@ -12,6 +12,7 @@ use mbs_analysis::{Fit, Trials};
 
 use self::request::Request;
 use self::result::Shown;
+use super::operating;
 use super::options::{self, option};
 use crate::app::Warnings;
 use crate::figure::Figure;
@@ -58,19 +59,13 @@ pub(crate) fn command() -> Command {
 }
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let found = models.find(matches.get_one::<String>("model").map_or("", String::as_str))?;
+    let found = operating::named(models, matches)?;
     let (name, model) = (found.name(), found.model());
     let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
     let data = matches.get_one::<PathBuf>("data");
     options::check_files([data, plot, out].into_iter().flatten().map(PathBuf::as_path))?;
     plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let trials = model.trials().ok_or_else(|| Error::Name {
-        name: name.to_owned(),
-        reason:
-            "its type was compiled without derivatives; make its model with `model::differentiated`, or give \
-                 its declaration as a file"
-                .into(),
-    })?;
+    let trials = found.trials()?;
     let request = Request::of(model, matches)?;
     let fit = fitted(&request, &*trials)?;
     let shown = Shown { name, info: model.info(), request: &request, fit: &fit };

@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use self::request::task;
 use self::result::Shown;
+use super::operating;
 use super::options::{self, option};
 use crate::figure::Figure;
 use crate::models::Models;
@@ -55,19 +56,13 @@ pub(crate) fn command() -> Command {
 }
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let found = models.find(matches.get_one::<String>("model").map_or("", String::as_str))?;
+    let found = operating::named(models, matches)?;
     let (name, model) = (found.name(), found.model());
     let path = |name: &str| matches.get_one::<PathBuf>(name);
     let [through, plot, sketch, out] = ["through", "plot", "sketch", "out"].map(path);
     options::check_files([through, plot, sketch, out].into_iter().flatten().map(PathBuf::as_path))?;
     [plot, sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))?;
-    let trials = model.trials().ok_or_else(|| Error::Name {
-        name: name.to_owned(),
-        reason:
-            "its type was compiled without derivatives; make its model with `model::differentiated`, or give \
-                 its declaration as a file"
-                .into(),
-    })?;
+    let trials = found.trials()?;
     let (task, units) = task(model, matches)?;
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} starts, {msg}");
     let bar = ProgressBar::new(task.starts as u64)
