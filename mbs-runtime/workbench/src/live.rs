@@ -66,9 +66,17 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
         Some(name) => text.named(name),
         None => text,
     };
+    as_declared(&text)
+}
+
+/// The mechanism of a text, with the step and the feedback that it declares.
+///
+/// # Errors
+/// Those of the declaration.
+pub(crate) fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error> {
     let live = text.compile()?;
     let defaults = declared(&live, Settings::default());
-    Ok(Box::new(FromText { live, text, defaults }))
+    Ok(Box::new(FromText { live, text: text.clone(), defaults }))
 }
 
 /// Step and feedback as they are declared.

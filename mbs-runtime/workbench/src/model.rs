@@ -92,6 +92,15 @@ pub fn from_text(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Mo
     crate::live::compiled(text, defaults)
 }
 
+/// The mechanism that a text declares as a [`Model`], with the step and the feedback that it declares.
+///
+/// # Errors
+/// [`Declaration`](crate::Error::Declaration).
+#[cfg(feature = "live")]
+pub fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error> {
+    crate::live::as_declared(text)
+}
+
 type MakeTrials = fn() -> Box<dyn Trials + Sync>;
 
 struct Typed<M> {

@@ -61,7 +61,11 @@ pub fn parse_as(quantity: &Quantity, text: &str) -> Result<f64, Error> {
     parse_in(quantity.name, text, quantity.dimension, &Unit::of(quantity))
 }
 
-pub(crate) fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> Result<f64, Error> {
+/// Reads a value whose bare numbers are in a `usual` unit, and returns it in SI units.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> Result<f64, Error> {
     let wrong = |reason: String| Error::Value { what: what.into(), text: text.into(), reason };
     let (number, unit) = split_number(text.trim())
         .ok_or_else(|| wrong("that is not a number, or a number with a unit such as 300rpm".into()))?;

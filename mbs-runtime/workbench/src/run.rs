@@ -73,6 +73,22 @@ impl dyn Model + '_ {
         settings: &Settings,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, Error> {
+        self.simulate_while(settings, &mut |taken, steps| {
+            progress(taken, steps);
+            true
+        })
+    }
+
+    /// The same, as long as `goes_on` says so; it is asked now and then. A run that is interrupted ends there, and
+    /// is no error: [`Summary::end`] says when.
+    ///
+    /// # Errors
+    /// As [`simulate`](Self::simulate).
+    pub fn simulate_while(
+        &self,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut(u64, u64) -> bool,
+    ) -> Result<Recording, Error> {
         let info = self.info();
         let start = Start::of(self, settings)?;
         let player = Player::of(info, settings)?;
@@ -83,7 +99,7 @@ impl dyn Model + '_ {
             return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
         }
         let mut recorder = Recorder::new(self, &*run, settings.until.as_ref());
-        let ended = recorder.follow(&mut *run, player, [steps, every], progress).err();
+        let ended = recorder.follow(&mut *run, player, [steps, every], goes_on).err();
         Ok(recorder.finish(&*run, ended))
     }
 
@@ -191,7 +207,7 @@ impl Recorder {
         run: &mut dyn System,
         player: Option<Player<'_>>,
         [steps, every]: [u64; 2],
-        progress: &mut dyn FnMut(u64, u64),
+        goes_on: &mut dyn FnMut(u64, u64) -> bool,
     ) -> Result<(), mbs_runtime::Error> {
         let powers_every = every.max(steps / POWERS);
         let mut inputs = vec![0.0; self.info.inputs.len()];
@@ -214,12 +230,12 @@ impl Recorder {
             }
             if taken < steps {
                 if self.step(run)? {
-                    progress(steps, steps);
+                    goes_on(steps, steps);
                     return Ok(());
                 }
                 self.summary.steps = taken + 1;
-                if (taken + 1) % 1024 == 0 || taken + 1 == steps {
-                    progress(taken + 1, steps);
+                if ((taken + 1) % 1024 == 0 || taken + 1 == steps) && !goes_on(taken + 1, steps) {
+                    return Ok(());
                 }
             }
         }

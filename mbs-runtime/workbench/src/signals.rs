@@ -5,7 +5,7 @@ use std::path::Path;
 use mbs_runtime::{Info, System};
 
 use crate::sheet::Sheet;
-use crate::{Error, Settings, quantity};
+use crate::{Error, Settings, Unit, quantity};
 
 /// Values of inputs over time, with straight lines between the instants; before the first
 /// and after the last one they stay.
@@ -32,6 +32,32 @@ impl Signals {
         Self::of(&sheet, info)
     }
 
+    /// Inputs at ascending times in s; values are in the units of their declarations.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a name that is no input; [`Error::Name`] for times that do not ascend, and for values
+    /// that are not finite or not as many as there are times.
+    pub fn new(info: &Info, times: Vec<f64>, columns: Vec<(String, Vec<f64>)>) -> Result<Self, Error> {
+        let refused =
+            |name: &str, reason: &str| Err(Error::Name { name: name.into(), reason: reason.into() });
+        let is_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        let ascends = times.iter().zip(times.iter().skip(1)).all(|(before, after)| before < after);
+        if times.is_empty() || !is_finite(&times) || !ascends {
+            return refused("t", "the times of inputs are finite and ascend, and there is at least one");
+        }
+        let mut inputs = Vec::new();
+        for (name, values) in columns {
+            let known = || info.inputs.iter().map(|input| input.name);
+            let input = info.inputs.iter().find(|input| input.name == name);
+            let unit = Unit::of(input.ok_or_else(|| Error::unknown("input", &name, known()))?);
+            if values.len() != times.len() || !is_finite(&values) {
+                return refused(&name, "an input that changes has a finite value at each of the times");
+            }
+            inputs.push((name, values.into_iter().map(|value| unit.read(value)).collect()));
+        }
+        Ok(Self { times, inputs })
+    }
+
     /// The inputs among the columns of a table.
     ///
     /// # Errors
@@ -52,7 +78,7 @@ impl Signals {
     }
 
     /// The value of an input at a time in s, by its place in [`Info`]; nothing of inputs that do not change.
-    pub(crate) fn by_place(self, info: &Info) -> impl Fn(f64, usize) -> Option<f64> + use<> {
+    pub fn by_place(self, info: &Info) -> impl Fn(f64, usize) -> Option<f64> + use<> {
         let numbers: Vec<Option<usize>> =
             info.inputs.iter().map(|input| self.names().position(|name| name == input.name)).collect();
         move |t: f64, place: usize| Some(self.value((*numbers.get(place)?)?, t))

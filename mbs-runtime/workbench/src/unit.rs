@@ -49,7 +49,7 @@ impl Unit {
     }
 
     /// The unit in which a quantity of an analysis is shown.
-    pub(crate) fn of_signal(info: &Info, signal: &Signal) -> Self {
+    pub fn of_signal(info: &Info, signal: &Signal) -> Self {
         let declared = |list: &[Quantity], at: usize| list.get(at).map(Self::of);
         let found = match signal.variable {
             Variable::Coordinate(at) => info.coordinates.get(at).map(Self::of_coordinate),

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{ArgMatches, Command, value_parser};
 use mbs_runtime::Dimension;
 
-use super::operating::{self, Operating};
+use super::operating;
 use super::options::{self, option};
 use super::responses::Bode;
 use crate::app::Warnings;
@@ -46,8 +46,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
     plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
     let range = matches.get_one::<String>("range").map(|text| range(text)).transpose()?;
-    let operating = Operating::of(found.name(), found.model(), matches)?;
-    let linear = operating.linearized(matches)?;
+    let operating = operating::operating(found.name(), found.model(), matches)?;
+    let linear = operating::linearized(&operating, matches)?;
     if linear.inputs.is_empty() {
         let reason = "it has no inputs, so nothing can answer to them; declare one, such as `input force [N];`, or \
                       take parameters as inputs with --parameters";
@@ -60,7 +60,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     if let Some(path) = out {
         write_csv(path, &bode.columns())?;
     }
-    say(format_args!("about {}", operating.words()))?;
+    say(format_args!("about {}", operating::words(&operating)))?;
     say(bode.table(operating.name).to_string().trim_end())?;
     bode.remark().map_or(Ok(()), say)?;
     [plot, out]

@@ -3,18 +3,17 @@
 use std::path::PathBuf;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
-use mbs_analysis::{Equilibrium, Search, Stability, Strategy, equilibrium};
-use mbs_runtime::equations::{At, Room, project};
+use mbs_analysis::{Equilibrium, Stability, equilibrium};
+use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 use serde_json::{Map, Value, json};
 
 use super::json::number;
-use super::operating::refuse_signals;
+use super::operating::{self, refuse_signals};
 use super::options::{self, option};
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::number::significant;
-use crate::quantity::{self, TIME};
 use crate::settings::Start;
 use crate::{Error, Motion, Picture, Table, Unit, say};
 
@@ -57,14 +56,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     refuse_signals(matches, "inputs that change with time have no equilibrium")?;
     let start = Start::of(model, &options::values(model, matches)?)?;
     let run = model.start(&start)?;
-    let t = match matches.get_one::<String>("at") {
-        Some(text) => quantity::parse("at", text, TIME)?,
-        None => run.time(),
-    };
-    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
-    let strategy = if matches.get_flag("relax") { Strategy::Relaxation } else { Strategy::Automatic };
-    let search =
-        Search { from: Some(positions(&*run, t, from)?), inputs: Some(start.inputs.clone()), t, strategy };
+    let search = operating::about(matches)?.search(&*run)?;
     let rest = equilibrium(run.described(), &search)?;
     let shown = Found::of(name, model.info(), &*run, &rest);
     if let Some(path) = sketch {
@@ -75,37 +67,6 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     }
     say(shown.table().to_string().trim_end())?;
     sketch.map_or(Ok(()), |path| say(format_args!("written: {}", path.display())))
-}
-
-/// The positions of a start with those that are given in their place, and the others moved onto the
-/// constraints.
-pub(super) fn positions<'a>(
-    run: &dyn System,
-    t: f64,
-    given: impl Iterator<Item = &'a str>,
-) -> Result<Vec<f64>, Error> {
-    let info = run.equations().info();
-    let coordinates = info.coordinates;
-    let n = coordinates.len();
-    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
-    run.state(&mut q, &mut v);
-    let mut kept = Vec::new();
-    for text in given {
-        let (name, value) = quantity::split_setting(text)?;
-        let mut known = coordinates.iter().zip(&mut q);
-        let Some((coordinate, place)) = known.find(|(coordinate, _)| coordinate.name == name) else {
-            return Err(Error::unknown("coordinate", name, coordinates.iter().map(|q| q.name)));
-        };
-        *place = quantity::parse_in(name, value, coordinate.dimension, &Unit::of_coordinate(coordinate))?;
-        kept.push(coordinate.name);
-    }
-    if !kept.is_empty() || t != run.time() {
-        let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
-        let mut room = Room::within(&mut numbers, info);
-        v.fill(0.0);
-        project(run.equations(), t, &mut q, &mut v, [&kept, &[]], &mut room)?;
-    }
-    Ok(q)
 }
 
 /// A motion of one instant.

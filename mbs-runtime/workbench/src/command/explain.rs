@@ -9,7 +9,7 @@ use mbs_runtime::{Derivation, Formula, Info};
 use crate::StartValue;
 use crate::models::Models;
 use crate::number::significant;
-use crate::{Error, Table, say};
+use crate::{Error, Model, Table, say};
 
 pub(crate) fn command() -> Command {
     Command::new("explain")
@@ -70,6 +70,18 @@ fn sections(derivation: &'static Derivation) -> [Section; 8] {
         }),
         ("Energies", &[], |_| (String::new(), String::new())),
     ]
+}
+
+impl dyn Model + '_ {
+    /// The equations, their elimination and its cost, as text.
+    pub fn explanation(&self) -> String {
+        plain(self.info(), self.derivation())
+    }
+
+    /// The equations and their elimination as a LaTeX document.
+    pub fn latex(&self) -> String {
+        latex(self.info(), self.derivation())
+    }
 }
 
 fn named(symbol: &str, latex: &str, formula: &Formula) -> (String, String) {

@@ -7,7 +7,6 @@ use mbs_analysis::{By, Curve, Instant, Prescription, inverse};
 use mbs_runtime::{Info, Quantity};
 use serde_json::json;
 
-use super::equilibrium::positions;
 use super::extremes;
 use super::operating;
 use super::options::{self, option};
@@ -83,12 +82,12 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let over = matches.get_one::<String>("over").map(|text| duration(text)).transpose()?;
     let wanted = Wanted::of(info, matches, [t, over.unwrap_or(1.0)], over)?;
     let count = matches.get_one::<u32>("samples").copied().unwrap_or(SAMPLES);
-    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
+    let search = operating::about(matches)?.search(&*run)?;
     let prescription = Prescription {
         curves: wanted.curves,
         by: by(info, matches)?,
         inputs: Some(start.inputs.clone()),
-        from: Some(positions(&*run, t, from)?),
+        from: search.from,
         t,
     };
     let [from, to] = wanted.span;

@@ -9,7 +9,7 @@ use mbs_runtime::Info;
 use serde_json::{Value, json};
 
 use super::json::number;
-use super::operating::{self, Operating};
+use super::operating;
 use super::options::{self, option};
 use super::responses::Steps;
 use crate::app::Warnings;
@@ -18,7 +18,7 @@ use crate::models::Models;
 use crate::npz::{Array, npz};
 use crate::number::significant;
 use crate::quantity::{self, TIME};
-use crate::{Error, Table, Unit, files, say, write_csv};
+use crate::{Error, Operating, Table, Unit, files, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -61,8 +61,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     step.filter(|path| !is(path, "csv")).map_or(Ok(()), |path| Figure::check_ending(path))?;
     let end = matches.get_one::<String>("end").map(|text| quantity::parse("end", text, TIME)).transpose()?;
 
-    let operating = Operating::of(found.name(), found.model(), matches)?;
-    let linear = operating.linearized(matches)?;
+    let operating = operating::operating(found.name(), found.model(), matches)?;
+    let linear = operating::linearized(&operating, matches)?;
     let shown = Shown { operating: &operating, linear: &linear, info: operating.info() };
     if let Some(path) = out {
         shown.write(path)?;
@@ -118,7 +118,7 @@ impl Shown<'_> {
     fn tables(&self) -> Vec<String> {
         let linear = self.linear;
         let mut table = Table::new([self.operating.name, "", "", ""]);
-        table.row(["about", &self.operating.words()]);
+        table.row(["about", &operating::words(self.operating)]);
         let [x, u, y] = self.values();
         for (kind, list, values) in
             [("state", &linear.states, x), ("input", &linear.inputs, u), ("output", &linear.outputs, y)]
@@ -188,7 +188,7 @@ impl Shown<'_> {
         let linear = self.linear;
         json!({
             "mechanism": self.operating.name,
-            "about": self.operating.words(),
+            "about": operating::words(self.operating),
             "t_s": number(linear.point.t),
             "states": list(&linear.states, &x),
             "inputs": list(&linear.inputs, &u),

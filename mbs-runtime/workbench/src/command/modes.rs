@@ -10,7 +10,7 @@ use mbs_runtime::Info;
 use serde_json::{Map, Value, json};
 
 use super::json::number;
-use super::operating::{self, Operating};
+use super::operating;
 use super::options::{self, option};
 use super::responses::{Bode, Steps};
 use super::shapes::{self, Shapes};
@@ -19,13 +19,13 @@ use crate::figure::Figure;
 use crate::models::Models;
 use crate::number::significant;
 use crate::report::{Block, Report, Section};
-use crate::{Error, Table, Unit, names, say};
+use crate::{Error, Operating, Table, Unit, names, say};
 
 const EXAMPLES: &str = "\
 Examples:
   mbs modes double-pendulum --report modes.html
   mbs modes spring-mass-damper --sensitivity 'stiffness,damping'
-  mbs modes cart-pendulum --from phi=170deg --sketch modes.svg";
+  mbs modes cart-pendulum --from theta=170deg --sketch modes.svg";
 
 /// Shapes of more modes are not printed, and of more coordinates those of the states alone.
 const MOST_SHAPES: usize = 6;
@@ -60,8 +60,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     let [sketch, report] = ["sketch", "report"].map(|name| matches.get_one::<PathBuf>(name));
     options::check_files([sketch, report].into_iter().flatten().map(PathBuf::as_path))?;
     sketch.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let operating = Operating::of(found.name(), found.model(), matches)?;
-    let linear = operating.linearized(matches)?;
+    let operating = operating::operating(found.name(), found.model(), matches)?;
+    let linear = operating::linearized(&operating, matches)?;
     let modes = linear.modes()?;
     let sensitivities = asked(&operating, matches)?;
     let shown = Shown {
@@ -80,7 +80,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     if matches.get_flag("json") {
         say(shown.json())?;
     } else {
-        say(format_args!("{}, about {}\n", operating.name, operating.words()))?;
+        say(format_args!("{}, about {}\n", operating.name, operating::words(&operating)))?;
         let tables = [Some(shown.table()), shown.shapes(), shown.slopes()];
         let texts: Vec<String> = tables.into_iter().flatten().map(|table| table.to_string()).collect();
         say(texts.join("\n").trim_end())?;
@@ -287,7 +287,8 @@ impl Shown<'_> {
                 "Deviations from the operating point after an input has grown by one unit at t = 0.";
             sections.push(Section::new("Step response").with(figure(steps.figure(name), caption)));
         }
-        let lead = format!("{} Small motions about {}.", self.info.doc.trim(), self.operating.words());
+        let lead =
+            format!("{} Small motions about {}.", self.info.doc.trim(), operating::words(self.operating));
         Ok(Report { title: format!("{name}: modes"), lead, sections })
     }
 
@@ -326,7 +327,7 @@ impl Shown<'_> {
         };
         json!({
             "mechanism": self.operating.name,
-            "about": self.operating.words(),
+            "about": operating::words(self.operating),
             "t_s": number(self.linear.point.t),
             "modes": self.modes.iter().enumerate().map(mode).collect::<Vec<_>>(),
             "uncertainty": number(self.linear.uncertainty),

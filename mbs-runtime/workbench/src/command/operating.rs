@@ -1,23 +1,13 @@
 //! About what the commands that linearize do so.
 
 use clap::{Arg, ArgAction, ArgMatches};
-use mbs_analysis::{
-    Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy,
-    equilibrium, linearize,
-};
-use mbs_runtime::equations::Described;
-use mbs_runtime::{Info, System, Tolerances};
+use mbs_analysis::{Equilibrium, Linearization, Stability};
 
-use super::equilibrium::positions;
 use super::options::{self, option};
 use crate::app::Warnings;
 use crate::models::Models;
-use crate::quantity::{self, TIME};
-use crate::settings::Start;
-use crate::{Error, Model, Settings, StartKind, names};
-
-/// Derivatives that are known to fewer digits than these are in doubt.
-const DOUBTFUL: f64 = 1e-6;
+use crate::operating::doubt;
+use crate::{About, Error, Model, Operating, PortNames, quantity};
 
 /// Which mechanism, with which values, and about what it is linearized.
 pub(super) fn of_a_point() -> Vec<Arg> {
@@ -57,148 +47,64 @@ pub(super) fn of_ports() -> [Arg; 4] {
     ]
 }
 
-/// A mechanism and the point about which it is linearized.
-pub(super) struct Operating<'a> {
-    pub name: &'a str,
-    pub model: &'a dyn Model,
-    pub run: Box<dyn System>,
-    pub point: OperatingPoint,
-    /// Where the point is an equilibrium that was found.
-    pub rest: Option<Equilibrium>,
-    /// How it was looked for.
-    pub search: Search,
-    start: Start,
+/// The state that a command line names.
+pub(super) fn about(matches: &ArgMatches) -> Result<About, Error> {
+    // not every command has all of them
+    let text = |name: &str| matches.try_get_one::<String>(name).ok().flatten().cloned();
+    let flag = |name: &str| matches.try_get_one::<bool>(name).ok().flatten().copied().unwrap_or(false);
+    let from = matches.get_many::<String>("from").unwrap_or_default();
+    let split =
+        |text: &String| quantity::split_setting(text).map(|(name, value)| (name.into(), value.into()));
+    Ok(About {
+        from: from.map(split).collect::<Result<_, Error>>()?,
+        at: text("at"),
+        is_relaxed: flag("relax"),
+        is_here: flag("here"),
+        after: text("after"),
+    })
 }
 
-impl<'a> Operating<'a> {
-    /// The point that a command line asks for.
-    pub fn of(name: &'a str, model: &'a dyn Model, matches: &ArgMatches) -> Result<Self, Error> {
-        refuse_signals(matches, "inputs are constants of an operating point")?;
-        let settings = options::values(model, matches)?;
-        let start = Start::of(model, &settings)?;
-        if let Some(text) = matches.get_one::<String>("after") {
-            let run = after(model, settings, quantity::parse("after", text, TIME)?)?;
-            let point = OperatingPoint::of_run(&*run);
-            return Ok(Self { name, model, run, point, rest: None, search: Search::default(), start });
-        }
-        let run = model.start(&start)?;
-        let t = match matches.get_one::<String>("at") {
-            Some(text) => quantity::parse("at", text, TIME)?,
-            None => run.time(),
-        };
-        let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
-        let q = positions(&*run, t, from)?;
-        let strategy = if matches.get_flag("relax") { Strategy::Relaxation } else { Strategy::Automatic };
-        let search = Search { from: Some(q.clone()), inputs: Some(start.inputs.clone()), t, strategy };
-        let found = if matches.get_flag("here") { None } else { Some(equilibrium(run.described(), &search)) };
-        let rest = found.transpose().map_err(|error| match error {
-            error @ mbs_analysis::Error::NoEquilibrium { .. } => Error::NoEquilibrium(error),
-            other => other.into(),
-        })?;
-        let point =
-            rest.as_ref().map_or_else(|| OperatingPoint::at_rest(t, &q, &start.inputs), OperatingPoint::from);
-        Ok(Self { name, model, run, point, rest, search, start })
-    }
-
-    pub fn info(&self) -> &'static Info {
-        self.model.info()
-    }
-
-    /// The linear system with the ports that a command line asks for.
-    pub fn linearized(&self, matches: &ArgMatches) -> Result<Linearization, Error> {
-        let list = |name: &str| -> Option<Vec<String>> {
-            Some(matches.try_get_many::<String>(name).ok().flatten()?.cloned().collect())
-        };
-        let outputs = list("outputs").map(|patterns| self.outputs(&patterns)).transpose()?;
-        let ports = Ports {
-            states: list("states"),
-            inputs: list("inputs"),
-            outputs,
-            parameters: list("parameters").unwrap_or_default(),
-            family: Some(self),
-        };
-        Ok(linearize(self.run.described(), &self.point, &ports)?)
-    }
-
-    /// The names that fit some patterns, in their order.
-    fn outputs(&self, patterns: &[String]) -> Result<Vec<String>, Error> {
-        let info = self.info();
-        let known: Vec<String> = Signal::observable(info).into_iter().map(|y| y.name).collect();
-        let mut found: Vec<String> = Vec::new();
-        for pattern in patterns {
-            let mut fitting = known.iter().filter(|name| names::fits(pattern, name)).peekable();
-            if fitting.peek().is_none() {
-                return Err(Error::unknown("output", pattern, known.iter().map(String::as_str)));
-            }
-            let new: Vec<String> = fitting.filter(|name| !found.contains(name)).cloned().collect();
-            found.extend(new);
-        }
-        Ok(found)
-    }
-
-    /// About what it is linearized, in words.
-    pub fn words(&self) -> String {
-        let t = crate::number::significant(self.point.t, 6);
-        match &self.rest {
-            Some(rest) => {
-                let stability = match rest.stability() {
-                    Stability::Stable => "a stable equilibrium",
-                    Stability::Indifferent => "an indifferent equilibrium",
-                    Stability::Unstable { .. } => "an unstable equilibrium (--relax finds where it falls to)",
-                };
-                if self.point.t == 0.0 {
-                    stability.into()
-                } else {
-                    format!("{stability}, drives held at {t} s")
-                }
-            }
-            None if self.point.drives == mbs_analysis::Drives::Held => "a position at rest".into(),
-            None => format!("the motion at t = {t} s"),
-        }
-    }
+/// The mechanism at the point that a command line asks for.
+pub(super) fn operating<'a>(
+    name: &'a str,
+    model: &'a dyn Model,
+    matches: &ArgMatches,
+) -> Result<Operating<'a>, Error> {
+    refuse_signals(matches, "inputs are constants of an operating point")?;
+    let options = options::asked(model.info(), matches)?;
+    Operating::of(name, model, &options, &about(matches)?).map_err(|error| match error {
+        Error::Analysis(error @ mbs_analysis::Error::NoEquilibrium { .. }) => Error::NoEquilibrium(error),
+        other => other,
+    })
 }
 
-impl Family for Operating<'_> {
-    fn with(
-        &self,
-        parameters: &[f64],
-        look: &mut dyn FnMut(&dyn Described<f64>),
-    ) -> Result<(), mbs_runtime::Error> {
-        let start =
-            Start { parameters: parameters.to_vec(), kind: StartKind::Declared, ..self.start.clone() };
-        look(self.model.start(&start)?.described());
-        Ok(())
-    }
+/// The linear system with the ports that a command line asks for.
+pub(super) fn linearized(operating: &Operating<'_>, matches: &ArgMatches) -> Result<Linearization, Error> {
+    let list = |name: &str| -> Option<Vec<String>> {
+        Some(matches.try_get_many::<String>(name).ok().flatten()?.cloned().collect())
+    };
+    operating.linearized(&PortNames {
+        states: list("states"),
+        inputs: list("inputs"),
+        parameters: list("parameters").unwrap_or_default(),
+        outputs: list("outputs"),
+    })
 }
 
-/// A run to a tolerance that is over.
-fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn System>, Error> {
-    if !(time >= 0.0 && time.is_finite()) {
-        let reason = "it has to be 0 or later".into();
-        return Err(Error::Value { what: "after".into(), text: format!("{time} s"), reason });
-    }
-    let tolerances = Some(Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() });
-    // what is declared for constant steps has no use here
-    let (stabilization, alpha, beta) = (None, None, None);
-    let step = if time > 0.0 { time } else { settings.step };
-    let settings = Settings { step, end: step, tolerances, stabilization, alpha, beta, ..settings };
-    let mut run = model.start(&Start::of(model, &settings)?)?;
-    if time > 0.0 {
-        run.step()?;
-    }
-    Ok(run)
+/// About what it is linearized, in words.
+pub(super) fn words(operating: &Operating<'_>) -> String {
+    let is_unstable = |rest: &Equilibrium| matches!(rest.stability(), Stability::Unstable { .. });
+    let hint = if operating.rest.as_ref().is_some_and(is_unstable) {
+        " (--relax finds where it falls to)"
+    } else {
+        ""
+    };
+    format!("{}{hint}", operating.words())
 }
 
 /// What is to be said of a linear system whose derivatives are not known well.
 pub(super) fn warnings(linear: &Linearization) -> Warnings {
-    if linear.uncertainty < DOUBTFUL {
-        return Warnings::new();
-    }
-    let digits = (-linear.uncertainty.log10()).floor().max(0.0);
-    vec![format!(
-        "the accelerations are not smooth at this point (a stop, or friction that changes its sign): their \
-         derivatives are known to {digits} digits"
-    )]
+    doubt(linear).into_iter().collect()
 }
 
 /// Refuses inputs that change with time.

@@ -6,7 +6,7 @@ use super::curves::{Choice, curves, hidden};
 use super::options::Given;
 use crate::number::significant;
 use crate::report::{Animation, Block, Readout, Report, Section};
-use crate::{Column, Error, Picture, Recording, Table};
+use crate::{Column, Error, Model, Picture, Recording, Settings, Table};
 
 /// More events than this are not listed.
 const MOST_EVENTS: usize = 12;
@@ -36,6 +36,17 @@ pub(super) fn page(
             Section::new("Curves").with(Block::Figure { figure, caption: String::new(), files: Vec::new() }),
         ],
     })
+}
+
+impl dyn Model + '_ {
+    /// A page with the mechanism in motion during a run with these settings, and its curves.
+    ///
+    /// # Errors
+    /// As [`motion`](Self::motion).
+    pub fn page(&self, name: &str, settings: &Settings, recording: &Recording) -> Result<Report, Error> {
+        let picture = Picture::of(&self.motion(settings, recording)?);
+        page(name, self.info(), recording, &picture, &Choice::default())
+    }
 }
 
 /// As many rows as curves on a screen need, fewer where there are many curves.

@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use mbs_analysis::{Mode, Variable};
 use mbs_runtime::equations::{Room, project};
 
-use super::operating::Operating;
 use crate::figure::{Figure, Panel};
 use crate::number::significant;
 use crate::picture::Extent;
 use crate::report::Animation;
-use crate::{Motion, Picture};
+use crate::{Motion, Operating, Picture};
 
 /// What moves most moves by this share of the mechanism,
 const SWING: f64 = 0.12;

@@ -7,7 +7,6 @@ use mbs_analysis::{Along, Position, Travel, travel};
 use mbs_runtime::Info;
 use serde_json::{Value, json};
 
-use super::equilibrium::positions;
 use super::extremes;
 use super::inverse::{column, coordinate_range, panels};
 use super::json::number;
@@ -86,17 +85,13 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let loads = lead.loads(info, matches)?;
     let start = Start::of(model, &options::values(model, matches)?)?;
     let run = model.start(&start)?;
-    let t = match matches.get_one::<String>("at") {
-        Some(text) => quantity::parse("at", text, TIME)?,
-        None => run.time(),
-    };
-    let from = matches.get_many::<String>("from").unwrap_or_default().map(String::as_str);
+    let search = operating::about(matches)?.search(&*run)?;
     let request = Travel {
         along: lead.along.clone(),
         samples: lead.samples.clone(),
         inputs: Some(start.inputs.clone()),
-        from: Some(positions(&*run, t, from)?),
-        t,
+        from: search.from,
+        t: search.t,
     };
     let found = travel(run.described(), &request)?;
     let shown = Shown::of(info, &lead, &loads, &found);

@@ -213,7 +213,7 @@ fn inputs_from_a_file() {
     let (none, rising, constant) = (end(""), end("--input @in.csv"), end("--input crank_torque=0.5"));
     assert!(none < rising && rising < constant, "{none} {rising} {constant}");
     let twice = run("--input @in.csv --input crank_torque=1");
-    assert!(text(twice.stderr).contains("set to a value and read from a file"));
+    assert!(text(twice.stderr).contains("set to a value and changes with time"));
 }
 
 #[test]

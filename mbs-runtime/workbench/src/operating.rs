@@ -1,0 +1,229 @@
+//! About what a mechanism is linearized, and where it is at rest.
+
+use mbs_analysis::{
+    Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy,
+    equilibrium, linearize,
+};
+use mbs_runtime::equations::{Described, Room, project};
+use mbs_runtime::{Info, System, Tolerances};
+
+use crate::quantity::{self, TIME};
+use crate::settings::Start;
+use crate::{Error, Model, RunOptions, Settings, StartKind, Unit, names};
+
+/// Derivatives that are known to fewer digits than these are in doubt.
+const DOUBTFUL: f64 = 1e-6;
+
+/// About which state something is asked, in texts: values are numbers with or without a unit. Without any, about
+/// the equilibrium that is nearest to the declared start.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct About {
+    /// Coordinates and the values from which an equilibrium is looked for; the others follow from the
+    /// constraints.
+    pub from: Vec<(String, String)>,
+    /// The time at which drives and forces are held, the start unless it is said.
+    pub at: Option<String>,
+    /// Whether an equilibrium is looked for where the mechanism would come to rest, past unstable ones.
+    pub is_relaxed: bool,
+    /// Whether no equilibrium is looked for: at rest at the start, or at `from`.
+    pub is_here: bool,
+    /// In motion, this time after the start, with drives that move on, and nothing of the above.
+    pub after: Option<String>,
+}
+
+/// What goes into a linear system and comes out of it, by names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PortNames {
+    /// The coordinates that are states; `None` for those that move most.
+    pub states: Option<Vec<String>>,
+    /// The inputs; `None` for all.
+    pub inputs: Option<Vec<String>>,
+    /// Parameters that are inputs too.
+    pub parameters: Vec<String>,
+    /// Patterns of outputs, `x`, `der(x)`, `lambda(row)`, in which `*` stands for any letters; `None` for the
+    /// declared ones, or for all coordinates.
+    pub outputs: Option<Vec<String>>,
+}
+
+/// A mechanism and the point about which it is linearized.
+pub struct Operating<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// The mechanism,
+    pub model: &'a dyn Model,
+    /// a run of it,
+    pub run: Box<dyn System>,
+    /// and the point.
+    pub point: OperatingPoint,
+    /// Where the point is an equilibrium that was found.
+    pub rest: Option<Equilibrium>,
+    /// How it was looked for.
+    pub search: Search,
+    start: Start,
+}
+
+impl About {
+    /// How an equilibrium of a run that begins is looked for.
+    ///
+    /// # Errors
+    /// Values that cannot be read, coordinates that the mechanism does not have, positions from which it cannot
+    /// be assembled.
+    pub fn search(&self, run: &dyn System) -> Result<Search, Error> {
+        let t = match &self.at {
+            Some(text) => quantity::parse("at", text, TIME)?,
+            None => run.time(),
+        };
+        let mut inputs = vec![0.0; run.equations().info().inputs.len()];
+        run.inputs(&mut inputs);
+        let strategy = if self.is_relaxed { Strategy::Relaxation } else { Strategy::Automatic };
+        Ok(Search { from: Some(positions(run, t, &self.from)?), inputs: Some(inputs), t, strategy })
+    }
+}
+
+/// The positions of a start with those that are given in their place, and the others moved onto the
+/// constraints.
+fn positions(run: &dyn System, t: f64, given: &[(String, String)]) -> Result<Vec<f64>, Error> {
+    let info = run.equations().info();
+    let coordinates = info.coordinates;
+    let n = coordinates.len();
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    run.state(&mut q, &mut v);
+    let mut kept = Vec::new();
+    for (name, text) in given {
+        let mut known = coordinates.iter().zip(&mut q);
+        let Some((coordinate, place)) = known.find(|(coordinate, _)| coordinate.name == name) else {
+            return Err(Error::unknown("coordinate", name, coordinates.iter().map(|q| q.name)));
+        };
+        *place = quantity::parse_in(name, text, coordinate.dimension, &Unit::of_coordinate(coordinate))?;
+        kept.push(coordinate.name);
+    }
+    if !kept.is_empty() || t != run.time() {
+        let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
+        let mut room = Room::within(&mut numbers, info);
+        v.fill(0.0);
+        project(run.equations(), t, &mut q, &mut v, [&kept, &[]], &mut room)?;
+    }
+    Ok(q)
+}
+
+impl<'a> Operating<'a> {
+    /// The mechanism called `name` with the parameters and inputs of `options`, at a point.
+    ///
+    /// # Errors
+    /// Values that cannot be read or that the mechanism does not have; no equilibrium.
+    pub fn of(
+        name: &'a str,
+        model: &'a dyn Model,
+        options: &RunOptions,
+        about: &About,
+    ) -> Result<Self, Error> {
+        let settings = options.values(model)?;
+        let start = Start::of(model, &settings)?;
+        if let Some(text) = &about.after {
+            let run = after(model, settings, quantity::parse("after", text, TIME)?)?;
+            let point = OperatingPoint::of_run(&*run);
+            return Ok(Self { name, model, run, point, rest: None, search: Search::default(), start });
+        }
+        let run = model.start(&start)?;
+        let search = about.search(&*run)?;
+        let rest = if about.is_here { None } else { Some(equilibrium(run.described(), &search)?) };
+        let here = || OperatingPoint::at_rest(search.t, search.from.as_deref().unwrap_or(&[]), &start.inputs);
+        let point = rest.as_ref().map_or_else(here, OperatingPoint::from);
+        Ok(Self { name, model, run, point, rest, search, start })
+    }
+
+    /// Names and units of the mechanism.
+    pub fn info(&self) -> &'static Info {
+        self.model.info()
+    }
+
+    /// The linear system between these ports.
+    ///
+    /// # Errors
+    /// As [`linearize`].
+    pub fn linearized(&self, names: &PortNames) -> Result<Linearization, Error> {
+        let PortNames { states, inputs, parameters, outputs } = names.clone();
+        let outputs = outputs.map(|patterns| self.outputs(&patterns)).transpose()?;
+        let ports = Ports { states, inputs, outputs, parameters, family: Some(self) };
+        Ok(linearize(self.run.described(), &self.point, &ports)?)
+    }
+
+    /// The names that fit some patterns, in their order.
+    fn outputs(&self, patterns: &[String]) -> Result<Vec<String>, Error> {
+        let info = self.info();
+        let known: Vec<String> = Signal::observable(info).into_iter().map(|y| y.name).collect();
+        let mut found: Vec<String> = Vec::new();
+        for pattern in patterns {
+            let mut fitting = known.iter().filter(|name| names::fits(pattern, name)).peekable();
+            if fitting.peek().is_none() {
+                return Err(Error::unknown("output", pattern, known.iter().map(String::as_str)));
+            }
+            let new: Vec<String> = fitting.filter(|name| !found.contains(name)).cloned().collect();
+            found.extend(new);
+        }
+        Ok(found)
+    }
+
+    /// About what it is linearized, in words.
+    pub fn words(&self) -> String {
+        let t = crate::number::significant(self.point.t, 6);
+        match &self.rest {
+            Some(rest) => {
+                let stability = match rest.stability() {
+                    Stability::Stable => "a stable equilibrium",
+                    Stability::Indifferent => "an indifferent equilibrium",
+                    Stability::Unstable { .. } => "an unstable equilibrium",
+                };
+                if self.point.t == 0.0 {
+                    stability.into()
+                } else {
+                    format!("{stability}, drives held at {t} s")
+                }
+            }
+            None if self.point.drives == mbs_analysis::Drives::Held => "a position at rest".into(),
+            None => format!("the motion at t = {t} s"),
+        }
+    }
+}
+
+impl Family for Operating<'_> {
+    fn with(
+        &self,
+        parameters: &[f64],
+        look: &mut dyn FnMut(&dyn Described<f64>),
+    ) -> Result<(), mbs_runtime::Error> {
+        let start =
+            Start { parameters: parameters.to_vec(), kind: StartKind::Declared, ..self.start.clone() };
+        look(self.model.start(&start)?.described());
+        Ok(())
+    }
+}
+
+/// A run to a tolerance that is over.
+fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn System>, Error> {
+    if !(time >= 0.0 && time.is_finite()) {
+        let reason = "it has to be 0 or later".into();
+        return Err(Error::Value { what: "after".into(), text: format!("{time} s"), reason });
+    }
+    let tolerances = Some(Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() });
+    // what is declared for constant steps has no use here
+    let (stabilization, alpha, beta) = (None, None, None);
+    let step = if time > 0.0 { time } else { settings.step };
+    let settings = Settings { step, end: step, tolerances, stabilization, alpha, beta, ..settings };
+    let mut run = model.start(&Start::of(model, &settings)?)?;
+    if time > 0.0 {
+        run.step()?;
+    }
+    Ok(run)
+}
+
+/// What is to be said of a linear system whose derivatives are not known well, if there is anything.
+pub fn doubt(linear: &Linearization) -> Option<String> {
+    let digits = (-linear.uncertainty.log10()).floor().max(0.0);
+    (linear.uncertainty >= DOUBTFUL).then(|| {
+        format!(
+            "the accelerations are not smooth at this point (a stop, or friction that changes its sign): their \
+             derivatives are known to {digits} digits"
+        )
+    })
+}
