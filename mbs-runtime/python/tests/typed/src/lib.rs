@@ -1,0 +1,18 @@
+//! A mechanism that rustc compiles, as the Python module `typed`.
+
+mbs_runtime::mechanism! {
+    /// A weight on a massless rod, pushed at its end.
+    pub Pendulum {
+        dof = 1;
+        param length = 500 [mm] where length > 0;
+        gravity = (0, -9.81) [m/s^2];
+        input push [N];
+        body bob (x, y) { mass = 2 [kg]; }
+        constraint rod: x^2 + y^2 = length^2;
+        force hand on x = push;
+        start { x = length; guess y = 0; }
+        output tension [N] = 2*lambda(rod)*sqrt(x^2 + y^2);
+    }
+}
+
+mbs_python::module!(typed: Pendulum);
