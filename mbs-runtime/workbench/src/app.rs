@@ -10,8 +10,8 @@ use mbs_runtime::Mechanism;
 #[cfg(feature = "live")]
 use crate::Settings;
 use crate::command::{
-    bode, completions, equilibrium, explain, fit, inverse, linearize, list, modes, new, simulate, sweep,
-    synthesize, travel,
+    bode, completions, equilibrium, explain, fit, inverse, linearize, list, merge, modes, new, simulate,
+    sweep, synthesize, travel,
 };
 #[cfg(feature = "live")]
 use crate::command::{check, export, watch};
@@ -170,6 +170,7 @@ impl App {
             .subcommand(explain::command())
             .subcommand(simulate::command())
             .subcommand(sweep::command())
+            .subcommand(merge::command())
             .subcommand(new::command())
             .subcommand(completions::command())
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
@@ -190,6 +191,7 @@ impl App {
             Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
             Some(("simulate", matches)) => simulate::run(&self.models, matches),
             Some(("sweep", matches)) => sweep::run(&self.models, matches),
+            Some(("merge", matches)) => merge::run(matches).map(silent),
             #[cfg(feature = "live")]
             Some(("check", matches)) => check::run(matches).map(silent),
             #[cfg(feature = "live")]

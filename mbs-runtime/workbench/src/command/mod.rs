@@ -16,6 +16,7 @@ pub(crate) mod inverse;
 mod json;
 pub(crate) mod linearize;
 pub(crate) mod list;
+pub(crate) mod merge;
 pub(crate) mod modes;
 pub(crate) mod new;
 mod operating;

@@ -2,25 +2,26 @@
 
 mod axis;
 mod rows;
+pub(super) mod shard;
+mod shown;
 
-use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
-use serde_json::json;
 
 use self::axis::{Grid, GridAxis};
 use self::rows::Rows;
+use self::shard::{Heading, Shard};
 use super::options::{self, option, settings};
 use crate::app::Warnings;
-use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
+use crate::figure::Figure;
 use crate::members::{Extent, Member, Members, quantities};
 use crate::models::Models;
-use crate::number::significant;
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Table, Unit, interrupt, say, unit};
+use crate::{Error, Model, Settings, Unit, interrupt, say};
 
 const EXAMPLE: &str = "\
 Example:
@@ -30,7 +31,12 @@ Example:
 A run that fails is a gap in the picture and says why in the table. A file is there
 once the sweep is complete. Ctrl-C ends it early: the runs that are finished are summed
 up, their rows are in a file FILE.csv.….part, and the exit code is 130. If some runs fail
-or give what is no number, the exit code is 3; if all do, 1.";
+or give what is no number, the exit code is 3; if all do, 1.
+
+On many machines, each makes a share of the runs, in any order:
+  mbs sweep slider-crank --param l1=50mm..80mm:31 --shard 3/16 --out part-3.csv
+  mbs merge part-*.csv --out sweep.csv
+The same command goes on where it was ended, and does nothing if its file is complete.";
 
 pub(crate) fn command() -> Command {
     Command::new("sweep")
@@ -67,6 +73,15 @@ pub(crate) fn command() -> Command {
         .arg(
             option("plot", "FILE.svg|.png", "Draw curves over one parameter, heat maps over two")
                 .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            option(
+                "shard",
+                "K/N",
+                "Make the K-th of N shares of the runs, and write it to --out; `mbs merge` puts the shares together",
+            )
+            .requires("out")
+            .conflicts_with_all(["plot", "json", "show"]),
         )
         .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the summary as JSON"))
 }
@@ -150,8 +165,13 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     if let Some(path) = path("plot") {
         Figure::check_ending(path)?;
     }
+    if let (Some(text), Some(path)) = (matches.get_one::<String>("shard"), path("out")) {
+        let heading = Heading::of(Shard::parse(text)?, model, &settings, &grid, &watched);
+        return share(name, model, &settings, (&grid, &watched), &heading, path);
+    }
     let mut sweep = Sweep {
         rows: path("out").map(|path| Rows::create(path, &grid, &watched)).transpose()?,
+        members: 0..grid.count(),
         values: vec![vec![f64::NAN; grid.count()]; watched.len()],
         failures: 0,
         first_failure: None,
@@ -165,6 +185,52 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
         Err(error) => Err(error),
         Ok(()) => sweep.finish(name, text("show"), path("plot").map(PathBuf::as_path)),
     }
+}
+
+/// Makes a share of the runs, those that its file does not have yet.
+fn share(
+    name: &str,
+    model: &dyn Model,
+    settings: &Settings,
+    (grid, watched): (&Grid, &[Watched]),
+    heading: &Heading,
+    path: &Path,
+) -> Result<Warnings, Error> {
+    let Range { start, end } = heading.shard.members(heading.count);
+    if heading.is_complete(path)? {
+        say(format_args!("complete already: {}, {} runs", path.display(), end - start))?;
+        return Ok(Warnings::new());
+    }
+    let (rows, there) = Rows::share(path, heading, grid, watched)?;
+    let members = (start + there).min(end)..end;
+    let count = members.len();
+    let mut sweep = Sweep {
+        rows: Some(rows),
+        members,
+        values: Vec::new(),
+        failures: 0,
+        first_failure: None,
+        grid,
+        watched,
+        shown: Shown::Peak,
+        json: false,
+    };
+    match sweep.carry_out(name, model, settings) {
+        Err(Error::Interrupted { finished, .. }) => {
+            let kept = sweep.rows.take().map(Rows::give_up).transpose()?;
+            let kept = kept.map_or_else(String::new, |path| {
+                format!("; their rows are in {}, and the same command goes on behind them", path.display())
+            });
+            return Err(Error::Interrupted { finished, of: count, kept });
+        }
+        done => done?,
+    }
+    let written = sweep.rows.take().map(Rows::finish).transpose()?.unwrap_or_default();
+    let earlier = if there == 0 { String::new() } else { format!(", {there} of them earlier") };
+    say(format_args!("written: {}, {} runs{earlier}", written.display(), end - start))?;
+    let failure = sweep.failure();
+    // a row says why a run failed, and other shares may do better
+    Ok(failure.map(|failure| failure.to_string()).into_iter().collect())
 }
 
 /// The named quantities; all outputs if none are named, all coordinates if there are
@@ -191,7 +257,9 @@ fn watched(model: &dyn Model, names: &[&String]) -> Result<Vec<Watched>, Error> 
 
 struct Sweep<'a> {
     rows: Option<Rows>,
-    /// What is shown, quantity by quantity; NaN where a run failed.
+    /// The runs that are made.
+    members: Range<usize>,
+    /// What is shown, quantity by quantity; NaN where a run failed, nothing of a share.
     values: Vec<Vec<f64>>,
     failures: usize,
     first_failure: Option<(usize, Failure)>,
@@ -204,14 +272,16 @@ struct Sweep<'a> {
 impl Sweep<'_> {
     fn carry_out(&mut self, name: &str, model: &dyn Model, settings: &Settings) -> Result<(), Error> {
         let (grid, mut written) = (self.grid, Ok(()));
-        let progress = Progress::new(name, grid.count());
+        let Range { start: first, end } = self.members;
+        let count = end - first;
+        let progress = Progress::new(name, count);
         let members = Members {
             names: grid.axes.iter().map(|axis| axis.name.to_owned()).collect(),
-            count: grid.count(),
-            values: &|index| grid.values(index),
+            count,
+            values: &|index| grid.values(first + index),
             take: &mut |index, member| {
                 if written.is_ok() {
-                    written = self.take(index, &member);
+                    written = self.take(first + index, &member);
                 }
             },
             progress: &|done| progress.reached(done),
@@ -264,91 +334,20 @@ impl Sweep<'_> {
         if self.failures < count {
             self.say_summary(shown, &files)?;
         }
-        let failure = self.first_failure.map(|(at, cause)| Error::Sweep {
-            failed: self.failures,
-            of: count,
-            first: self.grid.place(at),
-            cause: cause.to_string(),
-        });
-        match failure {
+        match self.failure() {
             Some(failure) if self.failures == count => Err(failure),
             Some(failure) => Ok(vec![failure.to_string()]),
             None => Ok(Warnings::new()),
         }
     }
 
-    fn say_summary(&self, shown: &str, files: &[PathBuf]) -> Result<(), Error> {
-        if self.json {
-            return say(self.json(shown, files));
-        }
-        say(self.summary(shown).to_string().trim_end())?;
-        files.iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
-    }
-
-    /// The quantity at the run where it is smallest, and where it is largest.
-    fn extremes<'v>(&self, values: &'v [f64]) -> [Option<(usize, &'v f64)>; 2] {
-        let seen = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
-        [seen().min_by(|a, b| a.1.total_cmp(b.1)), seen().max_by(|a, b| a.1.total_cmp(b.1))]
-    }
-
-    fn json(&self, shown: &str, files: &[PathBuf]) -> serde_json::Value {
-        let at = |(index, value): (usize, &f64)| {
-            let place = self.grid.axes.iter().zip(self.grid.shown_values(index));
-            let place = place.map(|(axis, x)| (axis.name, json!({ "value": x, "unit": axis.unit.name() })));
-            json!({ "value": value, "at": place.collect::<BTreeMap<_, _>>() })
-        };
-        let quantity = |(quantity, values): (&Watched, &Vec<f64>)| {
-            let [low, high] = self.extremes(values).map(|place| place.map(at));
-            let unit = quantity.unit.name();
-            (quantity.name, json!({ "shown": shown, "unit": unit, "smallest": low, "largest": high }))
-        };
-        let quantities = self.watched.iter().zip(&self.values).map(quantity);
-        json!({
-            "runs": self.grid.count(), "failed": self.failures,
-            "quantities": quantities.collect::<BTreeMap<_, _>>(),
-            "files": files.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+    /// How many runs failed, and why the first one did.
+    fn failure(&self) -> Option<Error> {
+        self.first_failure.as_ref().map(|(at, cause)| Error::Sweep {
+            failed: self.failures,
+            of: self.members.len(),
+            first: self.grid.place(*at),
+            cause: cause.to_string(),
         })
-    }
-
-    /// Where what is shown is smallest and largest.
-    fn summary(&self, shown: &str) -> Table {
-        let heading = |which: &str| format!("{which} {shown}");
-        let mut table = Table::new(["", &heading("smallest"), "at", &heading("largest"), "at"]);
-        for (quantity, values) in self.watched.iter().zip(&self.values) {
-            let [low, high] = self.extremes(values);
-            let cells = |place: Option<(usize, &f64)>| match place {
-                Some((at, value)) => {
-                    let value = format!("{} {}", significant(*value, 6), quantity.unit.name());
-                    [value.trim_end().to_owned(), self.grid.place(at)]
-                }
-                None => [const { String::new() }; 2],
-            };
-            table.row([quantity.name.to_owned()].into_iter().chain(cells(low)).chain(cells(high)));
-        }
-        table
-    }
-
-    fn figure(&self, name: &str, shown: &str) -> Figure {
-        let axis = |axis: &GridAxis| unit::axis(axis.name, axis.unit.name());
-        let value =
-            |quantity: &Watched| unit::axis(&format!("{shown} {}", quantity.name), quantity.unit.name());
-        let panel = |(quantity, values): (&Watched, &Vec<f64>)| match self.grid.axes.as_slice() {
-            [x, y] => {
-                let map = HeatMap {
-                    x: x.shown_values(),
-                    y: y.shown_values(),
-                    values: values.clone(),
-                    scale: value(quantity),
-                };
-                Panel::map(axis(x), axis(y), map)
-            }
-            axes => {
-                let x = axes.first().map(GridAxis::shown_values).unwrap_or_default();
-                let curve = Series::xy("", &x, values).stroke(Stroke::Dotted);
-                Panel::lines(axes.first().map(axis).unwrap_or_default(), value(quantity), [curve])
-            }
-        };
-        let panels = self.watched.iter().zip(&self.values).map(panel);
-        panels.fold(Figure::new(format!("{name}: sweep")), Figure::panel)
     }
 }

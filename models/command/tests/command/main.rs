@@ -9,6 +9,7 @@ mod linear;
 mod linkages;
 mod prescribed;
 mod runs;
+mod shards;
 mod sweeps;
 mod texts;
 mod words;

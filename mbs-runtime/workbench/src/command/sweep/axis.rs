@@ -45,6 +45,11 @@ impl GridAxis {
         Ok(Self { name: parameter.name, unit: Unit::of(parameter), values })
     }
 
+    /// The values to the bit.
+    pub fn bits(&self) -> impl Iterator<Item = u64> {
+        self.values.iter().map(|value| value.to_bits())
+    }
+
     /// The values in the declared unit.
     pub fn shown_values(&self) -> Vec<f64> {
         self.values.iter().map(|value| self.unit.shown(*value)).collect()

@@ -1,35 +1,83 @@
 //! The table of a sweep, written run by run.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use super::Watched;
 use super::axis::Grid;
+use super::shard::{Heading, Part};
 use crate::files::Output;
 use crate::members::Member;
-use crate::recording::{csv_number, finished};
+use crate::recording::csv_number;
 use crate::{Error, unit};
+
+/// A process that ends at once loses the rows of this time.
+const SAFE: Duration = Duration::from_millis(500);
 
 /// A CSV file that has its name once it is complete.
 pub struct Rows {
     path: PathBuf,
-    writer: csv::Writer<Output>,
+    writer: csv::Writer<Target>,
+    flushed: Instant,
+}
+
+/// What rows are written to.
+enum Target {
+    /// All rows of a sweep,
+    Whole(Output),
+    /// or those of a share of it.
+    Share(Part),
+}
+
+impl Write for Target {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Whole(output) => output.write(bytes),
+            Self::Share(part) => part.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Whole(output) => output.flush(),
+            Self::Share(part) => part.flush(),
+        }
+    }
 }
 
 impl Rows {
     /// The file with its headings: parameters, three columns per quantity, and why a
     /// run failed.
     pub fn create(path: &Path, grid: &Grid, watched: &[Watched]) -> Result<Self, Error> {
-        let mut writer = csv::Writer::from_writer(Output::create(path)?);
-        let mut headings: Vec<_> =
-            grid.axes.iter().map(|axis| unit::heading(axis.name, axis.unit.name())).collect();
-        for quantity in watched {
-            for what in ["min", "max", "final"] {
-                headings.push(unit::heading(&format!("{what} {}", quantity.name), quantity.unit.name()));
-            }
-        }
-        headings.push("error".into());
-        writer.write_record(headings).map_err(|error| Error::file("write", path)(error.into()))?;
-        Ok(Self { path: path.to_owned(), writer })
+        let mut rows = Self::to(path, Target::Whole(Output::create(path)?));
+        rows.write_record(headings(grid, watched))?;
+        Ok(rows)
+    }
+
+    /// The file of a share, and how many of its rows are there already.
+    pub fn share(
+        path: &Path,
+        heading: &Heading,
+        grid: &Grid,
+        watched: &[Watched],
+    ) -> Result<(Self, usize), Error> {
+        let mut line = csv::Writer::from_writer(Vec::new());
+        let wrong = |error: csv::Error| Error::file("write", path)(error.into());
+        line.write_record(headings(grid, watched)).map_err(wrong)?;
+        let line = line.into_inner().map_err(|error| Error::file("write", path)(error.into_error()))?;
+        let head = format!("{}\n{}", heading.line(), String::from_utf8_lossy(&line));
+        let part = Part::open(path, &head)?;
+        let there = part.rows;
+        Ok((Self::to(path, Target::Share(part)), there))
+    }
+
+    fn to(path: &Path, target: Target) -> Self {
+        Self { path: path.to_owned(), writer: csv::Writer::from_writer(target), flushed: Instant::now() }
+    }
+
+    fn write_record(&mut self, cells: Vec<String>) -> Result<(), Error> {
+        self.writer.write_record(cells).map_err(|error| Error::file("write", &self.path)(error.into()))
     }
 
     /// A run's row; empty cells where it failed.
@@ -49,17 +97,41 @@ impl Rows {
             }
         }
         cells.push(error);
-        self.writer.write_record(cells).map_err(|error| Error::file("write", &self.path)(error.into()))
+        self.write_record(cells)?;
+        if self.flushed.elapsed() > SAFE {
+            self.writer.flush().map_err(Error::file("write", &self.path))?;
+            self.flushed = Instant::now();
+        }
+        Ok(())
     }
 
     /// The unfinished file, complete up to the last row.
     pub fn give_up(self) -> Result<PathBuf, Error> {
-        let failed = Error::file("write", &self.path);
-        self.writer.into_inner().map_err(|error| failed(error.into_error()))?.keep()
+        match self.target()? {
+            Target::Whole(output) => output.keep(),
+            Target::Share(part) => Ok(part.kept()),
+        }
     }
 
     /// Gives the file its name.
     pub fn finish(self) -> Result<PathBuf, Error> {
-        finished(&self.path, self.writer)
+        match self.target()? {
+            Target::Whole(output) => output.finish(),
+            Target::Share(part) => part.finish(),
+        }
     }
+
+    fn target(self) -> Result<Target, Error> {
+        let failed = Error::file("write", &self.path);
+        self.writer.into_inner().map_err(|error| failed(error.into_error()))
+    }
+}
+
+fn headings(grid: &Grid, watched: &[Watched]) -> Vec<String> {
+    let axes = grid.axes.iter().map(|axis| unit::heading(axis.name, axis.unit.name()));
+    let extents = |quantity: &Watched| {
+        let Watched { name, unit, .. } = quantity;
+        ["min", "max", "final"].map(|what| unit::heading(&format!("{what} {name}"), unit.name()))
+    };
+    axes.chain(watched.iter().flat_map(extents)).chain(["error".into()]).collect()
 }
