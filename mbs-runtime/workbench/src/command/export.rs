@@ -57,7 +57,7 @@ fn c(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let sources = text.c(if is_float { Scalar::Float } else { Scalar::Double })?;
     std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
     // these are called so for every mechanism, and begin with its name
-    for file in [&sources.example, &sources.readme] {
+    for file in sources.named_alike() {
         check_owner(&folder.join(&file.name), &file.text)?;
     }
     for file in sources.files() {

@@ -101,8 +101,8 @@ static const double pendulum_node[PENDULUM_STAGES] = {1.0, 1.0};
 static const double pendulum_weight[PENDULUM_STAGES][PENDULUM_STAGES] = {{1.0}, {1.0, 1.0}};
 static const double pendulum_deadbeat[2] = {0.75, 1.0};
 
-/* What depends on parameters alone.
-   Cost: 1 mul + 0 add + 0 div + 0 sincos. */
+/** What depends on parameters alone.
+    Cost: 1 mul + 0 add + 0 div + 0 sincos. */
 static void pendulum_compute_hoisted(
     const struct pendulum *m,
     pendulum_real *result)
@@ -480,8 +480,8 @@ void pendulum_compute_events(
     (void)m; (void)t; (void)q; (void)v; (void)inputs; (void)result;
 }
 
-/* What the conditions of the parameters judge.
-   Cost: 0 mul + 0 add + 0 div + 0 sincos. */
+/** What the conditions of the parameters judge.
+    Cost: 0 mul + 0 add + 0 div + 0 sincos. */
 static void pendulum_compute_conditions(
     const struct pendulum *m,
     pendulum_real *result)
@@ -1154,8 +1154,8 @@ static int pendulum_step_again(struct pendulum_run *run, real t_next)
     pendulum_complete(run->mechanism, next, &all);
     return pendulum_examine(run, &all, growth);
 }
-/* A step with the feedback held over it, all stages in one.
-   Cost: 43 mul + 30 add + 2 div + 0 sincos. */
+/** A step with the feedback held over it, all stages in one.
+    Cost: 43 mul + 30 add + 2 div + 0 sincos. */
 static int pendulum_step_held(struct pendulum_run *run, real t_next)
 {
     const struct pendulum *const m = run->mechanism;
@@ -1258,8 +1258,8 @@ static int pendulum_step_held(struct pendulum_run *run, real t_next)
     return is_taken ? PENDULUM_OK : pendulum_step_again(run, t_next);
 }
 
-/* A step with the feedback in every stage, all stages in one.
-   Cost: 49 mul + 34 add + 2 div + 0 sincos. */
+/** A step with the feedback in every stage, all stages in one.
+    Cost: 49 mul + 34 add + 2 div + 0 sincos. */
 static int pendulum_step_per_stage(struct pendulum_run *run, real t_next)
 {
     const struct pendulum *const m = run->mechanism;

@@ -3,16 +3,16 @@
 use super::{Scalar, Target};
 use crate::compiled::{Constraint, FunctionId};
 
-/// A text as a comment.
+/// A text as a comment, which Doxygen reads.
 pub fn comment(text: &str, indent: &str) -> String {
     // what would begin or end a comment within it
     let text = text.trim().replace("*/", "* /").replace("/*", "/ *");
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
-    let lines: Vec<String> = lines.iter().map(|line| format!("{indent}   {line}")).collect();
+    let lines: Vec<String> = lines.iter().map(|line| format!("{indent}    {line}")).collect();
     let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
     let text = lines.join("\n");
     let text = text.trim_start();
-    if text.is_empty() { String::new() } else { format!("{indent}/* {text} */\n") }
+    if text.is_empty() { String::new() } else { format!("{indent}/** {text} */\n") }
 }
 
 /// The lines of a text that begin with a name and a colon.
@@ -23,6 +23,13 @@ pub fn entries(text: &'static str) -> impl Iterator<Item = (&'static str, &'stat
 /// What a constraint says.
 pub fn constraint(constraint: &Constraint) -> String {
     format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
+}
+
+/// What builds the files; versions are those of the compiler of mechanisms.
+pub fn build(target: &Target<'_>, text: &str) -> String {
+    text.replace("{name}", &target.names.prefix)
+        .replace("{mechanism}", &target.compiled.name)
+        .replace("{version}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The page that explains the files.

@@ -48,7 +48,7 @@ fn deadbeat(method: Explicit) -> String {
 /// How many there are of what.
 fn counts(target: &Target<'_>) -> String {
     let (compiled, capitals) = (target.compiled, &target.names.capitals);
-    let mut text = String::from("/* How many there are. */\nenum {\n");
+    let mut text = String::from("/** How many there are. */\nenum {\n");
     for Struct { name, members, .. } in &target.names.structs {
         let _ = writeln!(text, "    {capitals}_{} = {},", name.to_uppercase(), members.len());
     }
@@ -72,12 +72,12 @@ fn counts(target: &Target<'_>) -> String {
 
 /// The codes of all errors.
 fn codes(target: &Target<'_>) -> String {
-    let mut text = String::from("/* What functions return that may fail. */\nenum {\n");
+    let mut text = String::from("/** What functions return that may fail. */\nenum {\n");
     for (name, words) in errors() {
-        let _ = writeln!(text, "    /* {words} */\n    CAPS_{name},");
+        let _ = writeln!(text, "    /** {words} */\n    CAPS_{name},");
     }
-    text += "    /* a parameter is not finite; with its position added */\n    CAPS_BAD_PARAMETER,\n";
-    text += "    /* a condition does not hold; with its position added */\n";
+    text += "    /** a parameter is not finite; with its position added */\n    CAPS_BAD_PARAMETER,\n";
+    text += "    /** a condition does not hold; with its position added */\n";
     text += "    CAPS_BAD_CONDITION = CAPS_BAD_PARAMETER + CAPS_PARAMETERS\n};\n\n";
     target.fill(&text)
 }

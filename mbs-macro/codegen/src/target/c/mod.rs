@@ -1,4 +1,5 @@
-//! C99: a header, a source, an example and a page that explains them. The code allocates
+//! C99: a header, a source, an example, a page that explains them, and what builds and installs
+//! them as a library. The code allocates
 //! nothing, has no variables at file level, and needs `math.h` alone.
 //!
 //! Structs have a member per name of the declaration. Kernels, the functions that one
@@ -57,12 +58,20 @@ pub struct CSources {
     pub example: File,
     /// How to compile and use them.
     pub readme: File,
+    /// A `CMakeLists.txt`, a `Makefile`, and what both make the file of `pkg-config` of.
+    pub build: [File; 3],
 }
 
 impl CSources {
     /// All files.
-    pub fn files(&self) -> [&File; 4] {
-        [&self.header, &self.source, &self.example, &self.readme]
+    pub fn files(&self) -> impl Iterator<Item = &File> {
+        [&self.header, &self.source, &self.example, &self.readme].into_iter().chain(&self.build)
+    }
+
+    /// Those that are called so for every mechanism; the first line of each has the name of its own.
+    pub fn named_alike(&self) -> impl Iterator<Item = &File> {
+        let [cmake, make, _] = &self.build;
+        [&self.example, &self.readme, cmake, make].into_iter()
     }
 }
 
@@ -132,6 +141,11 @@ pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
         source: file(format!("{}.c", names.prefix), source::source(&target, &kernels, &fused)),
         example: file("main.c".to_owned(), source::example(&target)),
         readme: file("README.md".to_owned(), docs::readme(&target)),
+        build: [
+            file("CMakeLists.txt".to_owned(), docs::build(&target, include_str!("text/CMakeLists.txt"))),
+            file("Makefile".to_owned(), docs::build(&target, include_str!("text/Makefile"))),
+            file(format!("{}.pc.in", names.prefix), docs::build(&target, include_str!("text/package.pc.in"))),
+        ],
         prefix: names.prefix,
     })
 }
