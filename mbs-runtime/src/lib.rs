@@ -158,8 +158,8 @@ mod view;
 mod watch;
 
 pub use adaptive::{
-    Adaptive, AdaptiveBuilder, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured, Sampled, Threshold,
-    Tolerances,
+    Adaptive, AdaptiveBuilder, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured, Moment, Sampled,
+    Threshold, Tolerances,
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};

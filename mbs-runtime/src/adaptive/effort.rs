@@ -14,8 +14,8 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Counts a step.
-    pub(super) fn count(&mut self, h: f64) {
+    /// Counts a step of `h` seconds.
+    pub fn count(&mut self, h: f64) {
         self.shortest = if self.steps == 0 { h } else { self.shortest.min(h) };
         self.longest = self.longest.max(h);
         self.steps += 1;

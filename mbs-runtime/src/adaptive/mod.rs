@@ -21,7 +21,7 @@ pub use builder::AdaptiveBuilder;
 pub(crate) use cause::cause;
 use control::Control;
 pub use control::Tolerances;
-pub(crate) use dense::Moment;
+pub use dense::Moment;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
 pub use events::{Direction, Event, MOST_EVENTS};

@@ -7,7 +7,7 @@ use crate::watch::Watch;
 use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
 
 /// The choices before a run with a constant step starts; see [`Rattle::builder`](crate::Rattle)
-/// and [`TrBdf2::builder`](crate::TrBdf2).
+/// and [`TrBdf2::builder`](crate::TrBdf2), or [`new`](Self::new) for a [`Kernel`] of another crate.
 #[derive(Clone)]
 pub struct ConstantStepBuilder<D: Dynamics, K: Kernel<D>> {
     beginning: Beginning<D>,
@@ -16,7 +16,9 @@ pub struct ConstantStepBuilder<D: Dynamics, K: Kernel<D>> {
 }
 
 impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
-    pub(super) fn new(mechanism: D, step: f64, kernel: K) -> Self {
+    /// Choices to make before a run of a method starts. Without any: the declared start, made
+    /// consistent, steps of `step` seconds, inputs at their defaults.
+    pub fn new(mechanism: D, step: f64, kernel: K) -> Self {
         Self { beginning: Beginning::new(mechanism), step, kernel }
     }
 

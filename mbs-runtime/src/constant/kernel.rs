@@ -1,10 +1,12 @@
 //! What a method is to the run that takes its steps.
 
 use crate::adaptive::Moment;
-use crate::{Dynamics, Error, Info};
+use crate::{Dynamics, Effort, Error, Info, Real};
 
-/// A method with room for its vectors: [`RattleStep`](crate::RattleStep) or
-/// [`TrBdf2Step`](crate::TrBdf2Step).
+/// A method with room for its vectors: [`RattleStep`](crate::RattleStep),
+/// [`TrBdf2Step`](crate::TrBdf2Step), or one of another crate, which
+/// [`ConstantStepBuilder::new`](crate::ConstantStepBuilder::new) takes. A method may take steps of
+/// its own within a step of the run.
 pub trait Kernel<D: Dynamics>: Clone + Send {
     /// The word that asks for it.
     fn word(&self) -> &'static str;
@@ -38,4 +40,15 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
         t_next: D::Real,
         moment: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
+
+    /// Why there was no step of `h` seconds from `t`, where the mechanism is healthy there and each
+    /// explicit step from there can be taken.
+    fn failure(&self, t: D::Real, h: D::Real) -> Error {
+        Error::NotConverged { t: t.to_f64(), step: h.to_f64() }
+    }
+
+    /// The steps of its own that a method took so far, if it takes such.
+    fn effort(&self) -> Option<Effort> {
+        None
+    }
 }
