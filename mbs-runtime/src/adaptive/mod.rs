@@ -18,7 +18,7 @@ use attempt::{Attempt, converge_partials};
 pub(crate) use attempt::{copy, is_healthy};
 pub(crate) use beginning::Beginning;
 pub use builder::AdaptiveBuilder;
-pub(crate) use cause::cause;
+pub use cause::cause;
 use control::Control;
 pub use control::Tolerances;
 pub use dense::Moment;

@@ -1,7 +1,7 @@
 //! What a method is to the run that takes its steps.
 
 use crate::adaptive::Moment;
-use crate::{Dynamics, Effort, Error, Info, Real};
+use crate::{Dynamics, Effort, Error, Info};
 
 /// A method with room for its vectors: [`RattleStep`](crate::RattleStep),
 /// [`TrBdf2Step`](crate::TrBdf2Step), or one of another crate, which
@@ -41,10 +41,10 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
         moment: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
 
-    /// Why there was no step of `h` seconds from `t`, where the mechanism is healthy there and each
-    /// explicit step from there can be taken.
-    fn failure(&self, t: D::Real, h: D::Real) -> Error {
-        Error::NotConverged { t: t.to_f64(), step: h.to_f64() }
+    /// Why there was no step, where the method has found it out itself; see
+    /// [`cause`](crate::equations::cause).
+    fn failure(&self) -> Option<Error> {
+        None
     }
 
     /// The steps of its own that a method took so far, if it takes such.

@@ -101,8 +101,10 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// Why there is no step from the present state.
     fn cause(&mut self) -> Error {
         let Self { dynamics, inputs, kernel, step, now, next, watch, .. } = self;
-        let found = cause::<D, Heun>(dynamics, inputs, now, next, *watch, 2.0 * step.to_f64());
-        found.unwrap_or_else(|| kernel.failure(now.t, *step))
+        let step = step.to_f64();
+        let found =
+            kernel.failure().or_else(|| cause::<D, Heun>(dynamics, inputs, now, next, *watch, 2.0 * step));
+        found.unwrap_or(Error::NotConverged { t: now.t.to_f64(), step })
     }
 
     /// Takes steps until less than half a step is left to `end` seconds.
