@@ -86,6 +86,15 @@ pub enum Error {
         /// The parameter.
         parameter: String,
     },
+    /// A mechanism whose equations cannot be had over duals.
+    #[error(
+        "`{mechanism}` was compiled without derivatives; give it as `Differentiated(…)`, or its declaration as \
+         a text"
+    )]
+    NoDerivatives {
+        /// The name of the mechanism.
+        mechanism: String,
+    },
     /// Accelerations that are no numbers.
     #[error(
         "the acceleration of `{coordinate}` is no number at the operating point: the position is singular, or \

@@ -3,7 +3,7 @@
 //!
 //! The page on linear systems, modes and responses is [`linear`], that on inverse dynamics and statics
 //! [`prescribed`], that on fits to measured data [`identification`], that on dimensions for a path or a
-//! function [`linkages`].
+//! function [`linkages`], that on solvers of other crates [`ode_crates`].
 //!
 //! # What it asks a mechanism
 //!
@@ -13,6 +13,8 @@
 //! [`Info`](mbs_runtime::Info), in SI units and rad.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "bdf")]
+mod bdf;
 mod chart;
 mod complex;
 mod curve;
@@ -21,6 +23,7 @@ mod difference;
 mod equilibrium;
 mod error;
 mod family;
+mod first_order;
 mod fit;
 mod guided;
 mod inverse;
@@ -45,15 +48,21 @@ mod synthesis;
 #[doc = include_str!("synthesis/linkages.md")]
 #[doc = include_str!("synthesis/linkages.svg")]
 pub mod linkages {}
+#[doc = include_str!("ode_crates.md")]
+#[doc = include_str!("ode_crates.svg")]
+pub mod ode_crates {}
 mod tangent;
 mod travel;
 
 pub use nalgebra;
 
+#[cfg(feature = "bdf")]
+pub use bdf::{Bdf, BdfSteps};
 pub use curve::{Curve, Moment, Time};
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
 pub use family::{Family, of_type};
+pub use first_order::FirstOrder;
 pub use fit::{
     Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown,
     trials_of_type,

@@ -36,7 +36,24 @@ where
             begun(Rattle::builder(dynamics, start.step).composition(composition), start)
         }
         ConstantMethod::TrBdf2 => begun(TrBdf2::builder(dynamics, start.step), start),
+        // its equations over duals are those of a text
+        ConstantMethod::Bdf => Err(Error::Scheme { name: method.word() }),
     }
+}
+
+/// Starts a run by backward differentiation formulas; `system` has the equations of `dynamics` over
+/// duals.
+#[cfg(all(feature = "bdf", feature = "live"))]
+pub(crate) fn bdf<D>(
+    dynamics: D,
+    system: mbs_analysis::FirstOrder,
+    start: &Start,
+) -> Result<Box<dyn System>, Error>
+where
+    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+{
+    let tolerances = start.tolerances.unwrap_or_default();
+    begun(mbs_analysis::BdfSteps::builder(dynamics, system, tolerances, start.step), start)
 }
 
 fn begun<D, K>(builder: ConstantStepBuilder<D, K>, start: &Start) -> Result<Box<dyn System>, Error>

@@ -16,6 +16,8 @@ use rayon::prelude::*;
 
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
+#[cfg(feature = "bdf")]
+use crate::settings::ConstantMethod;
 use crate::settings::{Settings, Start, StartKind};
 use crate::{Model, adaptive};
 
@@ -124,7 +126,13 @@ impl Model for FromText {
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
         let live = self.with(start)?;
-        if let Some(tolerances) = start.tolerances {
+        #[cfg(feature = "bdf")]
+        if start.constant == Some(ConstantMethod::Bdf)
+            && let Ok(system) = mbs_analysis::FirstOrder::new(live.clone())
+        {
+            return adaptive::bdf(Prepared::new(&live), system, start);
+        }
+        if let (Some(tolerances), None) = (start.tolerances, start.constant) {
             return adaptive::start(Prepared::new(&live), tolerances, start);
         }
         if let Some(method) = start.constant {

@@ -132,7 +132,7 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
-        if let Some(tolerances) = start.tolerances {
+        if let (Some(tolerances), None) = (start.tolerances, start.constant) {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::start(Erased::new(mechanism), tolerances, start);
         }

@@ -1,7 +1,8 @@
 //! What a run is asked to do.
 
 use mbs_runtime::{
-    COMPOSITIONS, Composition, DOPRI5, Explicit, Quantity, Stabilization, Tableau, Threshold, Tolerances,
+    COMPOSITIONS, Composition, DOPRI5, Explicit, Info, Quantity, Stabilization, Tableau, Threshold,
+    Tolerances,
 };
 
 use crate::{Error, Model, Signals, Until};
@@ -16,20 +17,23 @@ pub enum StartKind {
     Declared,
 }
 
-/// A method of which runs with a constant step are made that are more than the stages of an
-/// explicit scheme.
+/// A method that is more than the stages of an explicit scheme. Its runs have a constant step, of
+/// [`Bdf`](Self::Bdf) that between two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConstantMethod {
     /// RATTLE, for forces that do not depend on velocities, with what a step is composed of.
     Rattle(&'static Composition),
     /// TR-BDF2, for stiff forces.
     TrBdf2,
+    /// Backward differentiation formulas to a tolerance, for stiff forces; of texts, in programs with
+    /// the feature `bdf`.
+    Bdf,
 }
 
 impl ConstantMethod {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        COMPOSITIONS.into_iter().map(Self::Rattle).chain([Self::TrBdf2])
+        COMPOSITIONS.into_iter().map(Self::Rattle).chain([Self::TrBdf2, Self::Bdf])
     }
 
     /// The one with this word.
@@ -42,6 +46,7 @@ impl ConstantMethod {
         match self {
             Self::Rattle(composition) => composition.word,
             Self::TrBdf2 => "trbdf2",
+            Self::Bdf => "bdf",
         }
     }
 }
@@ -148,6 +153,9 @@ impl Start {
         }
         if let Some(constant) = settings.constant {
             has_no_other(constant, settings)?;
+            if constant == ConstantMethod::Bdf {
+                takes_bdf(info, settings)?;
+            }
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
@@ -179,7 +187,7 @@ fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error
         (stabilization.is_some(), "feedback"),
         (alpha.is_some(), "alpha"),
         (beta.is_some(), "beta"),
-        (tolerances.is_some(), "tolerance"),
+        (tolerances.is_some() && method != ConstantMethod::Bdf, "tolerance"),
         (until.is_some(), "until"),
     ];
     match refused.into_iter().find(|(is_given, _)| *is_given) {
@@ -187,11 +195,44 @@ fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error
         Some((_, name)) => Err(Error::Name {
             name: name.into(),
             reason: format!(
-                "the method `{}` takes constant steps and keeps the constraints itself, so it has no use for \
-                 feedback, gains, tolerances or events; leave it out, or take another method",
-                method.word()
+                "the method `{}` {}; leave it out, or take another method",
+                method.word(),
+                match method {
+                    ConstantMethod::Bdf =>
+                        "keeps the constraints itself and finds no events, so it has no use for feedback, gains \
+                         or conditions",
+                    ConstantMethod::Rattle(_) | ConstantMethod::TrBdf2 =>
+                        "takes constant steps and keeps the constraints itself, so it has no use for feedback, \
+                         gains, tolerances or events",
+                }
             ),
         }),
+    }
+}
+
+/// Refuses what the solver of another crate does not know, and a program without it.
+fn takes_bdf(info: &Info, settings: &Settings) -> Result<(), Error> {
+    let refused = |name: &str, reason: &str| Err(Error::Name { name: name.into(), reason: reason.into() });
+    if !cfg!(feature = "bdf") {
+        return refused(
+            ConstantMethod::Bdf.word(),
+            "this program was built without the solver, which takes two minutes to compile; build it with \
+             `--features bdf`, or take `trbdf2`, which needs a step and no tolerance",
+        );
+    }
+    if settings.tolerances.is_some_and(|tolerances| tolerances.max_step.is_finite()) {
+        return refused(
+            "max-step",
+            "the method `bdf` chooses its steps by the tolerances alone; leave it out",
+        );
+    }
+    match info.events.first() {
+        None => Ok(()),
+        Some(event) => refused(
+            event.name,
+            "the method `bdf` finds no events, but this one is declared; take an explicit method to a \
+             tolerance, or `trbdf2`, which passes over events",
+        ),
     }
 }
 

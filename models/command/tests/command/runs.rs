@@ -74,6 +74,18 @@ fn a_method_of_ones_choice() {
     assert!(refused("spring-mass-damper --method rattle").contains("`x` depends on velocities"));
     assert!(refused("double-pendulum --method rattle --feedback held").contains("`feedback` cannot be used"));
 
+    // to a tolerance, without events; in a program that was built without it, that is what it says
+    let bdf = "slider-crank-free --method bdf";
+    if cfg!(feature = "bdf") {
+        let bdf = error("slider-crank-free", "--method bdf --rtol 1e-9 --atol 1e-11");
+        assert!(bdf < 5e-8, "{bdf}");
+        assert!(refused(&format!("{bdf} --until x3<200mm")).contains("finds no events"));
+        assert!(refused(&format!("{bdf} --max-step 1ms")).contains("`max-step` cannot be used"));
+        assert!(refused(&format!("{bdf} --rtol 0")).contains("rtol"));
+    } else {
+        assert!(refused(bdf).contains("`--features bdf`"));
+    }
+
     // declared in a file, and taken back
     let source = include_str!("../../../src/slider_crank_free.rs");
     let source = source.replace("dof = 1;", "dof = 1; method = rk4;");
