@@ -78,8 +78,9 @@ struct Stuck {
 
 /// So many samples are kept, however many a long step passes.
 const MOST_AHEAD: usize = 10_000;
-/// So many steps the first solver takes.
-const EAGER: u32 = 32;
+/// So many steps the first solver takes at least; after a change of inputs, of which more may follow,
+/// it is one.
+const EAGER: u32 = 1024;
 /// Newton's method of a step ends with this share of the tolerance. The share 0.2 of diffsol lets
 /// stiff forces do work by what is left of it.
 const NEWTON: f64 = 0.02;
@@ -252,7 +253,8 @@ impl<D: Dynamics<Real = f64>> Kernel<D> for BdfSteps {
             let own = self.system.inputs_mut();
             if own != inputs {
                 own.iter_mut().zip(inputs).for_each(|(own, input)| *own = *input);
-                (self.history, self.failure, self.eager) = (None, None, EAGER);
+                let is_begun = self.history.is_some();
+                (self.history, self.failure, self.eager) = (None, None, if is_begun { 1 } else { EAGER });
                 self.ahead.clear();
             }
         });
