@@ -216,7 +216,7 @@ fn takes_bdf(info: &Info, settings: &Settings) -> Result<(), Error> {
     if !cfg!(feature = "bdf") {
         return refused(
             ConstantMethod::Bdf.word(),
-            "this program was built without the solver, which takes two minutes to compile; build it with \
+            "this program was built without the solver, which takes three minutes of a core to compile; build it with \
              `--features bdf`, or take `trbdf2`, which needs a step and no tolerance",
         );
     }
