@@ -24,7 +24,10 @@ fn started(live: &Live, rtol: f64, interval: f64) -> Bdf<Prepared> {
     run.expect("a start")
 }
 
-fn state(run: &dyn System) -> [Vec<f64>; 2] {
+/// Positions and velocities.
+type State = [Vec<f64>; 2];
+
+fn state(run: &dyn System) -> State {
     let n = run.equations().info().coordinates.len();
     let mut all = [vec![0.0; n], vec![0.0; n]];
     let [q, v] = &mut all;
@@ -34,7 +37,7 @@ fn state(run: &dyn System) -> [Vec<f64>; 2] {
 
 /// A crank with this bushing, from a start on the slow motion (100 steps of TR-BDF2 damp the vibration
 /// that the declared start begins with), and its state a turn later by steps that resolve a vibration.
-fn turned(text: &str, stiffness: f64, damping: f64) -> (Live, (f64, [Vec<f64>; 2]), [Vec<f64>; 2]) {
+fn turned(text: &str, stiffness: f64, damping: f64) -> (Live, (f64, State), State) {
     let at = |name: &str, live: &Live| {
         live.declared_info().parameters.iter().position(|parameter| parameter.name == name).expect("a name")
     };

@@ -192,6 +192,7 @@ fn put<V: AsMut<[f64]>>(moment: &mut Moment<f64, V>, t: f64, y: &[f64]) {
 
 /// The problem that diffsol solves, from y at `t` on. It asks for products of the Jacobian with one
 /// vector after the other at the same place, where the matrix is found once.
+#[allow(clippy::type_complexity, reason = "an opaque type has no shorter name")]
 fn problem(
     system: &FirstOrder,
     tolerances: &Tolerances,

@@ -108,7 +108,7 @@ fn violations_are_fed_back() {
 #[test]
 fn types_without_derivatives_are_refused() {
     assert!(Swing::declared().differentiable().is_none());
-    let refused = FirstOrder::new(Swing::declared()).err().expect("a refusal");
+    let refused = FirstOrder::new(Swing::declared()).expect_err("a refusal");
     assert!(matches!(&refused, Error::NoDerivatives { mechanism } if mechanism == "Swing"));
     assert!(refused.to_string().contains("`Differentiated(…)`"), "{refused}");
 }
