@@ -326,7 +326,8 @@ impl fmt::Display for Error {
             Self::NoTranspose { mechanism } => write!(
                 f,
                 "`{mechanism}` was compiled without transposed programs, so that a run of it cannot be \
-                 differentiated in reverse; compile it with `Text::compile_with_transposes`"
+                 differentiated in reverse; add `gradients = reverse;` to its declaration, or compile it with \
+                 `Text::compile_with_transposes`"
             ),
             Self::Memory { allowed, needed } => write!(
                 f,

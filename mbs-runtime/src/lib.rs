@@ -143,6 +143,7 @@ mod pair;
 mod partials;
 mod reach;
 mod real;
+pub mod reverse;
 mod room;
 mod run;
 mod simulation;

@@ -114,6 +114,12 @@ impl<T: Real> Watch<T> {
         Self { alarm, worst, ..self }
     }
 
+    /// The same watch for steps from elsewhere, which has no step to compare the next one with.
+    #[must_use]
+    pub fn anew(self) -> Self {
+        Self { alarm: self.remembered_from, ..self }
+    }
+
     /// The growth that a calm step does not have.
     #[inline(always)]
     pub fn remembered_from(&self) -> T {

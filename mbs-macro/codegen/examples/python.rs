@@ -71,6 +71,7 @@ fn read(compiled: &Compiled, operand: Operand) -> String {
             Input::Step => "h".to_owned(),
             Input::HalfStep => "half_h".to_owned(),
             Input::NextTime => "t_next".to_owned(),
+            Input::Weight(at) => format!("weights[{at}]"),
         },
     }
 }

@@ -42,6 +42,8 @@ pub enum Input {
     HalfStep,
     /// and t + h.
     NextTime,
+    /// How much a result counts of a function that is transposed.
+    Weight(usize),
 }
 
 /// A coordinate that is integrated.

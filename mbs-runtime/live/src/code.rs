@@ -105,10 +105,6 @@ pub fn role(compiled: &Compiled, operand: Operand) -> Role {
         Operand::Number(number) => return Role::Fixed(Fixed::Number(number.to_f64())),
         Operand::Hoisted(at) => return Role::Fixed(Fixed::Hoisted(at)),
         Operand::Value(at) => return Role::Value(at),
-        // those of a transposed program stand behind the others
-        Operand::Symbol(symbol) if symbol.index() >= compiled.symbol_count() => {
-            Given::Weight(symbol.index() - compiled.symbol_count())
-        }
         Operand::Symbol(symbol) => match compiled.input(symbol) {
             Input::Parameter(at) => return Role::Fixed(Fixed::Parameter(at)),
             Input::Time => Given::Time,
@@ -125,6 +121,7 @@ pub fn role(compiled: &Compiled, operand: Operand) -> Role {
             Input::Feedback(at) => Given::Feedback(at),
             Input::Predicted(at) => Given::Acceleration(at),
             Input::Shift => Given::Shift,
+            Input::Weight(at) => Given::Weight(at),
         },
     };
     Role::Given(given)

@@ -45,7 +45,6 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
-mod backward;
 mod block;
 mod check;
 mod code;
@@ -74,6 +73,6 @@ pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;
 pub use live::Live;
 pub use prepared::Prepared;
-pub use run::{Builder, Moment, Pack, Run};
+pub use run::{Builder, Pack, Run};
 pub use stepper::Stepper;
 pub use text::{LONGEST, Text};

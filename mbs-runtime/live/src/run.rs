@@ -5,7 +5,6 @@ mod pack;
 mod reverse;
 
 pub use pack::Pack;
-pub use reverse::Moment;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch};

@@ -124,15 +124,19 @@ impl Text {
     /// and literals that cannot be read; a Rust file that does not have the block.
     pub fn compile(&self) -> Result<Live, Error> {
         self.make(|declaration, compiled| {
-            Programs::new(declaration, compiled)
-                .map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
+            let programs = Programs::new(declaration, compiled);
+            let programs = programs.and_then(|programs| match compiled.choices.has_reverse {
+                true => programs.with_transposes(compiled),
+                false => Ok(programs),
+            });
+            programs.map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
         })
         .map(Live::new)
     }
 
     /// Compiles the declaration with transposed programs, by which
-    /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse) goes back through a run. That takes
-    /// up to twice as long.
+    /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse) goes back through a run, as if it said
+    /// `gradients = reverse;`. That takes up to twice as long.
     ///
     /// # Errors
     /// As [`compile`](Self::compile).

@@ -112,7 +112,12 @@ impl<'a> Evaluator<'a> {
             Input::MinusTwoAlpha => given.gains[0],
             Input::MinusBetaSquared => given.gains[1],
             // of fused steps and of implicit stages alone
-            Input::Step | Input::HalfStep | Input::NextTime | Input::Shift | Input::Predicted(_) => f64::NAN,
+            Input::Step
+            | Input::HalfStep
+            | Input::NextTime
+            | Input::Shift
+            | Input::Predicted(_)
+            | Input::Weight(_) => f64::NAN,
         }
     }
 }

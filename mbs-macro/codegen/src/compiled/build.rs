@@ -203,6 +203,7 @@ fn choices(solver: &model::Solver) -> Choices {
             alpha: feedback.alpha,
             beta: feedback.beta,
         }),
+        has_reverse: solver.reverse.is_some(),
     }
 }
 

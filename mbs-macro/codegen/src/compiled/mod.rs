@@ -44,6 +44,7 @@
 mod build;
 mod derivation;
 mod functions;
+mod transposes;
 mod vectors;
 
 use std::rc::Rc;
@@ -58,6 +59,7 @@ pub use crate::plan::{FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
+pub use transposes::{Transposed, Transposes};
 pub use vectors::Vector;
 
 /// The pivot growth from which on a position is singular to double precision: of 53 bits
@@ -220,6 +222,8 @@ pub struct Choices {
     pub scheme: &'static Tableau,
     /// The feedback of the constraint violation; it comes with a step.
     pub feedback: Option<Feedback>,
+    /// Whether runs are to be differentiated in reverse, which takes [`Compiled::transposes`].
+    pub has_reverse: bool,
 }
 
 /// Feedback −2αΦ̇ − β²Φ of the constraint violation.
@@ -265,20 +269,21 @@ impl Compiled {
         &self.programs[function as usize]
     }
 
-    /// What a symbol of the programs stands for.
+    /// What a symbol of the programs stands for. Those behind the symbols of the mechanism are the weights
+    /// of a transposed program.
     pub fn input(&self, symbol: Symbol) -> Input {
-        self.symbols[symbol.index()].1
+        let weight = || Input::Weight(symbol.index() - self.symbols.len());
+        self.symbols.get(symbol.index()).map_or_else(weight, |(_, input)| *input)
     }
 
-    /// How many symbols the programs have. Symbols behind them are free for those who make other programs
-    /// of these.
+    /// How many symbols the mechanism has.
     pub fn symbol_count(&self) -> usize {
         self.symbols.len()
     }
 
     /// The name of a symbol.
     pub fn symbol_name(&self, symbol: Symbol) -> &str {
-        &self.symbols[symbol.index()].0
+        self.symbols.get(symbol.index()).map_or("weight", |(name, _)| name)
     }
 
     /// What an operand stands for that is a symbol.

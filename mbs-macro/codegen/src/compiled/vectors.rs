@@ -29,6 +29,8 @@ pub enum Vector {
     Feedback,
     /// Predicted accelerations of what is integrated.
     Predicted,
+    /// Weights of the results of a function, of its transpose.
+    Weights,
 }
 
 impl Input {
@@ -45,6 +47,7 @@ impl Input {
             Self::Multiplier(at) => (Vector::Multipliers, at),
             Self::Feedback(at) => (Vector::Feedback, at),
             Self::Predicted(at) => (Vector::Predicted, at),
+            Self::Weight(at) => (Vector::Weights, at),
             Self::Time
             | Self::MinusTwoAlpha
             | Self::MinusBetaSquared
@@ -58,7 +61,7 @@ impl Input {
 }
 
 impl Compiled {
-    /// How many components a vector has.
+    /// How many components a vector has; nothing of weights, whose number depends on the function.
     pub fn components(&self, vector: Vector) -> usize {
         match vector {
             Vector::Parameters => self.parameters.len(),
@@ -66,6 +69,7 @@ impl Compiled {
             Vector::Positions | Vector::Velocities | Vector::Accelerations => self.coordinates.len(),
             Vector::StatePositions | Vector::StateVelocities | Vector::Predicted => self.states.len(),
             Vector::Multipliers | Vector::Feedback => self.constraints.len(),
+            Vector::Weights => 0,
         }
     }
 

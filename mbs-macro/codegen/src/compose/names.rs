@@ -56,6 +56,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Step { .. }
         | ItemKind::Closes { .. }
         | ItemKind::Method { .. }
+        | ItemKind::Gradients { .. }
         | ItemKind::Feedback { .. }
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
@@ -166,6 +167,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         | ItemKind::States { .. }
         | ItemKind::Limit { .. }
         | ItemKind::Method { .. }
+        | ItemKind::Gradients { .. }
         | ItemKind::Assembly { .. } => {}
     }
 }

@@ -1,4 +1,4 @@
-//! `states = …;`, `step = …;`, `method = …;`, `feedback = …;` and `limit …;`: how a mechanism is meant to be
+//! `states = …;`, `step = …;`, `method = …;`, `feedback = …;`, `gradients = …;` and `limit …;`: how a mechanism is meant to be
 //! integrated, and what that may cost.
 
 use mbs_schemes::{HEUN, Tableau};
@@ -32,6 +32,8 @@ pub struct Solver {
     pub step: Option<(f64, Span)>,
     pub scheme: Option<(&'static Tableau, Span)>,
     pub feedback: Option<Feedback>,
+    /// Where it is said that runs are differentiated in reverse.
+    pub reverse: Option<Span>,
 }
 
 pub struct Feedback {
@@ -132,6 +134,13 @@ impl Resolver<'_> {
         match self.solver.scheme {
             Some((_, earlier)) => self.repeated("`method`", keyword, earlier),
             None => self.solver.scheme = Some((scheme, keyword)),
+        }
+    }
+
+    pub(super) fn resolve_gradients(&mut self, keyword: Span) {
+        match self.solver.reverse {
+            Some(earlier) => self.repeated("`gradients`", keyword, earlier),
+            None => self.solver.reverse = Some(keyword),
         }
     }
 

@@ -114,6 +114,7 @@ impl<'a> Resolver<'a> {
                 self.resolve_closes(*keyword, coordinate.as_ref(), from, to);
             }
             ItemKind::Method { keyword, scheme } => self.resolve_method(*keyword, scheme),
+            ItemKind::Gradients { keyword } => self.resolve_gradients(*keyword),
             ItemKind::Feedback { keyword, is_held, gains } => {
                 self.resolve_feedback(*keyword, *is_held, gains);
             }

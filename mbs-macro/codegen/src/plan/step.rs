@@ -23,11 +23,11 @@ pub struct FusedStep {
 
 /// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages,
 /// added; with reactions q⁺, v⁺, q̈, λ, the growth, and that of the reactions.
-pub struct Kinds {
+pub struct Kinds<P = Program> {
     /// All stages are given the feedback of the first.
-    pub held: Program,
+    pub held: P,
     /// Each stage has its own.
-    pub per_stage: Program,
+    pub per_stage: P,
 }
 
 /// The programs of a mechanism that a step is made of, all of the coordinates that are

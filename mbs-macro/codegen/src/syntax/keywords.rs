@@ -52,6 +52,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("step", "step = 0.5 [ms];", "the step that the mechanism is meant for", solver::step),
     ("method", "method = rk4;", "the scheme that it is integrated with", solver::method),
     ("feedback", "feedback = held(1500 [1/s], 2000 [1/s]);", "the gains that it is meant for", solver::feedback),
+    ("gradients", "gradients = reverse;", "lets runs be differentiated by many variables at once", solver::gradients),
     ("closes", "closes = 0 [s] .. 0.3 [s];", "the span over which it has to be assembled", solver::closes),
     ("crate", "crate = ::my_runtime;", "where generated code finds the runtime", items::crate_path),
     ("param", "param l = 60 [mm] where l > 0;", "a quantity that a program may change", |input, _| items::parameter(input)),

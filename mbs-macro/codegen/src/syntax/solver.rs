@@ -1,5 +1,5 @@
 //! How a mechanism is to be solved: `redundant = …;`, `states = …;`, `limit …;`, `step = …;`,
-//! `method = …;`, `feedback = …;`.
+//! `method = …;`, `feedback = …;`, `gradients = …;`.
 
 use mbs_schemes::{SCHEMES, Tableau};
 use proc_macro2::{Ident, Span};
@@ -87,6 +87,18 @@ pub fn method(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     };
     semicolon(input)?;
     Ok(ItemKind::Method { keyword, scheme })
+}
+
+pub fn gradients(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
+    equals(input)?;
+    let expected = "`reverse` is expected here: derivatives of runs by many variables at once are then compiled; \
+                    those by dual numbers need no statement";
+    let choice = Ident::parse_any(input).map_err(|error| Error::new(error.span(), expected))?;
+    if choice != "reverse" {
+        return Err(Error::new(choice.span(), expected));
+    }
+    semicolon(input)?;
+    Ok(ItemKind::Gradients { keyword })
 }
 
 pub fn feedback(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {

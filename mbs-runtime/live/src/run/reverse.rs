@@ -1,68 +1,25 @@
-//! Derivatives of a sum over a run by going back through it.
+//! Runs that are gone back through.
 
-mod kept;
-
+use mbs_codegen::FunctionId;
 use mbs_runtime::equations::At;
-use mbs_runtime::gradients::{Seeds, Sum, Variable};
-use mbs_runtime::{Baumgarte, Dual, Error, Gains, Held, System};
+use mbs_runtime::gradients::{Seeds, Sum};
+use mbs_runtime::reverse::{Adjoints, Function, Given, Moment, Reversible};
+use mbs_runtime::{Error, Explicit, Gains, Info, Stabilization, System};
 
-use super::{Builder, Run};
+use super::{Builder, Run, copy};
+use crate::Live;
 use crate::arguments::Arguments;
-use crate::backward::{Backward, Measures};
+use crate::code::Code;
 use crate::equations::{both, single, state};
-use crate::transposed::{Counts, Transposes};
-use crate::{Live, Stepper};
-use kept::{Kept, put};
-
-/// A state of a run, of which a term of [`gradient_in_reverse`](Builder::gradient_in_reverse) is a function; the term
-/// writes its derivatives here, which are 0 at first.
-pub struct Moment<'a> {
-    /// The steps that were taken before.
-    pub step: u64,
-    /// Time, positions and velocities of what is integrated.
-    pub at: At<'a, f64>,
-    /// The inputs of the step that led there; at the start those of the first one.
-    pub inputs: &'a [f64],
-    /// ∂term/∂q of the coordinates that are integrated.
-    pub by_q: &'a mut [f64],
-    /// ∂term/∂v of them.
-    pub by_v: &'a mut [f64],
-    /// ∂term/∂y of the [`outputs`](Self::outputs).
-    pub by_outputs: &'a mut [f64],
-    measures: &'a mut Measures,
-}
-
-impl Moment<'_> {
-    /// What the declaration measures there. It is computed when it is asked for.
-    ///
-    /// # Errors
-    /// [`Error::Undefined`] if an output is not finite.
-    pub fn outputs(&mut self) -> Result<&[f64], Error> {
-        self.measures.measure(self.at, self.inputs)
-    }
-}
-
-/// Derivatives of a start that duals carry at once.
-const PARTIALS: usize = 8;
+use crate::instruction::execute;
+use crate::transposed::id;
 
 impl Builder {
     /// A sum over the run that starts here, with its derivatives by variables in `gradient`, by going back
-    /// through the run. It costs a few times the run, whatever the number of variables; the mechanism has to be
-    /// compiled by [`compile_with_transposes`](crate::Text::compile_with_transposes).
-    ///
-    /// Forward, states are kept; backward, how much a state counts for the sum passes through each step by
-    /// transposed programs,
-    ///
-    /// ```text
-    /// x̄ₖ = (∂xₖ₊₁/∂xₖ)ᵀ x̄ₖ₊₁ + ∂termₖ/∂xₖ      p̄ ← p̄ + (∂xₖ₊₁/∂p)ᵀ x̄ₖ₊₁
-    /// ```
-    ///
-    /// and from the start to the variables by dual numbers. Of `steps` states of 2s numbers all are kept if
-    /// they fit into `memory` bytes. Else every j-th is, and the steps between two of them are made again, which
-    /// costs one more run: 16 s (steps/j + j + 1) bytes, at least for j = √steps.
-    ///
-    /// `term` is what a state adds to the sum, a function of what is integrated and of the outputs there, by which
-    /// it writes its derivatives. It is called once for each state, from the last to the first.
+    /// through the run; as
+    /// [`gradient_in_reverse`](mbs_runtime::Builder::gradient_in_reverse) of a mechanism of `mechanism!`, where
+    /// it is explained. The declaration has to say `gradients = reverse;`, or to be compiled by
+    /// [`compile_with_transposes`](crate::Text::compile_with_transposes).
     ///
     /// # Example
     /// The end of a throw with drag, by speed and by drag:
@@ -102,9 +59,6 @@ impl Builder {
     ///
     /// # Errors
     /// [`Error::NoTranspose`], [`Error::Memory`]; otherwise as [`gradient`](Self::gradient).
-    ///
-    /// # Source
-    /// A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, chapters 3 and 12.
     pub fn gradient_in_reverse(
         &self,
         sum: &Sum<'_>,
@@ -112,201 +66,143 @@ impl Builder {
         mut term: impl FnMut(&mut Moment<'_>) -> Result<f64, Error>,
         gradient: &mut [f64],
     ) -> Result<f64, Error> {
-        let info = self.mechanism.declared_info();
-        let (found, expected) = (gradient.len(), sum.variables().len());
-        if found != expected {
-            return Err(Error::Length { what: "the gradient", found, expected });
-        }
-        sum.variables().iter().try_for_each(|variable| variable.find(info).map(drop))?;
-        let mut back = Backward::new(&self.mechanism, self.method)?;
-        let mut kept = Kept::within(memory, sum.steps(), info.states.len())?;
-        let (run, start_time) = self.forward(sum, &mut kept)?;
-        let Some(transposes) = &self.mechanism.programs().transposes else {
-            return Err(Error::NoTranspose { mechanism: info.name });
-        };
-        let mut counts = Counts::new(transposes.layout);
-        gradient.fill(0.0);
-
-        let mut terms = Terms::new(&self.mechanism, transposes);
-        let gains = Baumgarte::<Held>::new(self.gains[0], self.gains[1])?.gains();
-        let mut again = Again { stepper: Stepper::new(&self.mechanism, self.method), gains, start_time };
-        let mut inputs = run.inputs.clone();
-        let mut value = terms.add(&mut term, sum.steps(), run.states(), &inputs, &mut counts)?;
-        by_inputs(sum, info, sum.steps().saturating_sub(1), &mut counts, gradient);
-        for step in (0..sum.steps()).rev() {
-            kept.restore(step, |step, q, v, behind| {
-                self.set_inputs(sum, step, &mut inputs);
-                again.step((step, self.step), At { t: start_time, q, v }, &inputs, behind);
-            });
-            self.set_inputs(sum, step, &mut inputs);
-            let Some((q, v)) = kept.state(step) else { break };
-            let at = At { t: again.time(step, self.step), q, v };
-            let given = Arguments {
-                inputs: single(&inputs),
-                gains: both(&again.gains),
-                step: [self.step],
-                t_next: [again.time(step + 1, self.step)],
-                ..state(at)
-            };
-            back.step(&given, &mut counts);
-            by_inputs(sum, info, step, &mut counts, gradient);
-            // a state is looked at with the inputs of the step that led there
-            let before = step.saturating_sub(1);
-            self.set_inputs(sum, before, &mut inputs);
-            value += terms.add(&mut term, step, at, &inputs, &mut counts)?;
-            by_inputs(sum, info, before, &mut counts, gradient);
-        }
-        self.by_parameters(&mut counts);
-        self.by_start(sum, &mut counts, gradient)?;
-        for (variable, derivative) in sum.variables().iter().zip(gradient.iter()) {
-            if !derivative.is_finite() {
-                let (what, name) = ("the derivative of the sum by", variable.name());
-                return Err(Error::Undefined { t: start_time, what, name, value: *derivative });
-            }
-        }
-        Ok(value)
-    }
-
-    /// The run to its end, from which states are kept; the time of its start.
-    fn forward(&self, sum: &Sum<'_>, kept: &mut Kept) -> Result<(Run, f64), Error> {
-        let mut run = self.over(|_: &mut [f64]| {})?.build()?;
-        let start_time = run.t;
-        self.set_inputs(sum, 0, &mut run.inputs);
-        for step in 0..sum.steps() {
-            self.set_inputs(sum, step, &mut run.inputs);
-            kept.keep(step, &run.q, &run.v);
-            run.step()?;
-        }
-        Ok((run, start_time))
-    }
-
-    fn set_inputs(&self, sum: &Sum<'_>, step: u64, inputs: &mut [f64]) {
-        for (place, input) in inputs.iter_mut().enumerate() {
-            if let Some(value) = sum.input(step, place) {
-                *input = value;
-            }
-        }
-    }
-
-    /// From what depends on parameters alone to the parameters.
-    fn by_parameters(&self, counts: &mut Counts) {
-        let Some(transposes) = &self.mechanism.programs().transposes else { return };
-        let layout = counts.layout;
-        let weights: Vec<[f64; 1]> = counts.part(layout.hoisted()).iter().map(|count| [*count]).collect();
-        let splines = self.mechanism.programs().tables.splines;
-        let given = Arguments { weights: &weights, ..Arguments::default() };
-        let number = |fixed| self.mechanism.fixed(fixed);
-        transposes.hoisted.run_once(splines, number, &given, &mut counts.numbers);
-    }
-
-    /// From the start and the parameters to the variables.
-    fn by_start(&self, sum: &Sum<'_>, counts: &mut Counts, gradient: &mut [f64]) -> Result<(), Error> {
-        let (info, layout) = (self.mechanism.declared_info(), counts.layout);
-        let variables = sum.variables();
-        for (chunk, places) in gradient.chunks_mut(PARTIALS).enumerate() {
-            let chosen = variables.get(chunk * PARTIALS..).unwrap_or_default();
-            let seeds: Seeds<'_, PARTIALS> = Seeds::new(info, chosen);
-            let is_input = |variable: &Variable| matches!(variable, Variable::Input { .. });
-            if chosen.iter().take(PARTIALS).all(is_input) {
-                continue;
-            }
-            let start: Run<Dual<f64, PARTIALS>> = self.seeded(seeds)?.build()?;
-            for (at, (place, variable)) in places.iter_mut().zip(chosen).enumerate() {
-                if let Variable::Parameter(_) = variable {
-                    *place +=
-                        counts.part(layout.parameters()).get(variable.find(info)?).copied().unwrap_or(0.0);
-                }
-                let of_q = start
-                    .q
-                    .iter()
-                    .zip(counts.part(layout.positions()))
-                    .map(|(q, count)| q.partials[at] * *count);
-                let of_q: f64 = of_q.sum();
-                let of_v = start
-                    .v
-                    .iter()
-                    .zip(counts.part(layout.velocities()))
-                    .map(|(v, count)| v.partials[at] * *count);
-                *place += of_q + of_v.sum::<f64>();
-            }
-        }
-        Ok(())
+        // consistent starts are made with what the builder has
+        let mut run = Retraced::new(self.over(|_: &mut [f64]| {})?.build()?)?;
+        let start = |seeds: Seeds<'_, _>| self.seeded(seeds)?.build();
+        sum.differentiate_in_reverse(&mut run, start, memory, &mut term, gradient)
     }
 }
 
-/// What the inputs of a step count, to the variables that they are.
-fn by_inputs(sum: &Sum<'_>, info: &mbs_runtime::Info, step: u64, counts: &mut Counts, gradient: &mut [f64]) {
-    let range = counts.layout.inputs();
-    let counted = counts.part(range);
-    for (variable, place) in sum.variables().iter().zip(gradient) {
-        if let Variable::Input { from, until, .. } = variable
-            && (*from..*until).contains(&step)
-            && let Ok(at) = variable.find(info)
-        {
-            *place += counted.get(at).copied().unwrap_or(0.0);
+/// Slots of a code.
+type Slots = Vec<[f64; 1]>;
+
+/// A run, and slots for the functions of its mechanism, in the order of [`Function::ALL`]. They are made when a
+/// function is first run.
+struct Retraced {
+    run: Run,
+    forward: [Slots; Function::ALL.len()],
+    backward: [Slots; Function::ALL.len()],
+}
+
+impl Retraced {
+    /// # Errors
+    /// [`Error::NoTranspose`].
+    fn new(run: Run) -> Result<Self, Error> {
+        let live = &run.mechanism;
+        if live.programs().transposes.is_none() {
+            return Err(Error::NoTranspose { mechanism: live.declared_info().name });
+        }
+        Ok(Self { run, forward: Default::default(), backward: Default::default() })
+    }
+}
+
+/// Fills the slots of a code at its first run.
+fn prepare(slots: &mut Slots, code: &Code, live: &Live) {
+    if slots.is_empty() {
+        *slots = code.memory(|fixed| [live.fixed(fixed)]);
+    }
+}
+
+impl Reversible for Retraced {
+    fn info(&self) -> &'static Info {
+        self.run.mechanism.declared_info()
+    }
+
+    fn method(&self) -> Explicit {
+        self.run.method
+    }
+
+    fn gains(&self) -> Gains<f64> {
+        self.run.gains
+    }
+
+    fn step_size(&self) -> f64 {
+        self.run.step
+    }
+
+    fn whole_step(&self) -> Option<Function> {
+        let Run { mechanism, method, .. } = &self.run;
+        mechanism.programs().step(*method)?;
+        match method.stabilization {
+            Stabilization::Held => Some(Function::StepHeld),
+            Stabilization::PerStage => Some(Function::StepPerStage),
+            Stabilization::Projection => None,
         }
     }
-    counted.fill(0.0);
-}
 
-/// What states add to the sum, and room for that.
-struct Terms<'a> {
-    transposes: &'a Transposes,
-    measures: Measures,
-    by_q: Vec<f64>,
-    by_v: Vec<f64>,
-    by_outputs: Vec<f64>,
-}
-
-impl<'a> Terms<'a> {
-    fn new(live: &Live, transposes: &'a Transposes) -> Self {
-        let info = live.declared_info();
-        let [by_q, by_v] = [(); 2].map(|()| vec![0.0; info.states.len()]);
-        let by_outputs = vec![0.0; info.outputs.len()];
-        Self { transposes, measures: Measures::new(live, transposes), by_q, by_v, by_outputs }
+    fn hoisted(&self) -> usize {
+        self.run.mechanism.programs().function(FunctionId::Hoisted).outputs.len()
     }
 
-    /// The term of a state; to how much everything counts is added.
-    fn add(
+    fn time(&self) -> f64 {
+        self.run.t
+    }
+
+    fn states(&self, q: &mut [f64], v: &mut [f64]) {
+        copy(q, &self.run.q);
+        copy(v, &self.run.v);
+    }
+
+    fn inputs(&self, inputs: &mut [f64]) {
+        copy(inputs, &self.run.inputs);
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) {
+        copy(&mut self.run.inputs, inputs);
+    }
+
+    fn step(&mut self) -> Result<(), Error> {
+        self.run.step()
+    }
+
+    fn go_to(&mut self, step: u64, at: At<'_, f64>) {
+        let Run { steps, t, q, v, watch, .. } = &mut self.run;
+        (*steps, *t, *watch) = (step, at.t, watch.anew());
+        copy(q, at.q);
+        copy(v, at.v);
+    }
+
+    fn forward(&mut self, function: Function, given: &Given<'_, f64>, results: &mut [&mut [f64]]) {
+        let Self { run: Run { mechanism: live, .. }, forward, .. } = self;
+        let Some(id) = id(function) else { return };
+        let (programs, slots) = (live.programs(), &mut forward[function as usize]);
+        let code = programs.function(id);
+        prepare(slots, code, live);
+        code.load(slots, &arguments(given));
+        execute(&code.instructions, programs.tables.splines, slots);
+        let places = results.iter_mut().flat_map(|result| result.iter_mut());
+        for (place, &slot) in places.zip(&code.outputs) {
+            [*place] = slots[slot as usize];
+        }
+    }
+
+    fn backward(
         &mut self,
-        term: &mut impl FnMut(&mut Moment<'_>) -> Result<f64, Error>,
-        step: u64,
-        at: At<'_, f64>,
-        inputs: &[f64],
-        counts: &mut Counts,
-    ) -> Result<f64, Error> {
-        let Self { transposes, measures, by_q, by_v, by_outputs } = self;
-        [&mut *by_q, by_v, by_outputs].into_iter().for_each(|weights| weights.fill(0.0));
-        let value = term(&mut Moment { step, at, inputs, by_q, by_v, by_outputs, measures })?;
-        let layout = counts.layout;
-        for (range, weights) in [(layout.positions(), &*by_q), (layout.velocities(), by_v)] {
-            counts.part(range).iter_mut().zip(weights).for_each(|(count, weight)| *count += weight);
-        }
-        if by_outputs.iter().any(|weight| *weight != 0.0) {
-            // the term may have weighed outputs that it did not ask for
-            measures.measure(at, inputs)?;
-            measures.backward(transposes, at, inputs, by_outputs, counts);
-        }
-        Ok(value)
+        function: Function,
+        given: &Given<'_, f64>,
+        weights: &[f64],
+        adjoints: &mut Adjoints<'_, f64>,
+    ) {
+        let Self { run: Run { mechanism: live, .. }, backward, .. } = self;
+        let programs = live.programs();
+        let Some(transposed) = programs.transposes.as_ref().and_then(|all| all.of(function)) else { return };
+        let slots = &mut backward[function as usize];
+        prepare(slots, &transposed.code, live);
+        let given = Arguments { weights: single(weights), ..arguments(given) };
+        transposed.run(programs.tables.splines, slots, &given, adjoints);
     }
 }
 
-/// Steps that are made again.
-struct Again {
-    stepper: Stepper,
-    gains: Gains<f64>,
-    start_time: f64,
-}
-
-impl Again {
-    fn time(&self, step: u64, h: f64) -> f64 {
-        self.start_time + step as f64 * h
-    }
-
-    /// Writes the state behind a step of length h from positions and velocities.
-    fn step(&mut self, (step, h): (u64, f64), at: At<'_, f64>, inputs: &[f64], behind: &mut [f64]) {
-        let at = At { t: self.time(step, h), ..at };
-        self.stepper.step(at, inputs, &self.gains, h, self.time(step + 1, h));
-        put(Some(behind), self.stepper.q(), self.stepper.v());
+/// What a function is given, as codes read it.
+fn arguments<'a>(given: &Given<'a, f64>) -> Arguments<'a> {
+    Arguments {
+        inputs: single(given.inputs),
+        gains: both(&given.gains),
+        feedback: single(given.feedback),
+        acceleration: single(given.acceleration),
+        multipliers: single(given.multipliers),
+        step: [given.h],
+        t_next: [given.t_next],
+        ..state(At { t: given.t, q: given.q, v: given.v })
     }
 }

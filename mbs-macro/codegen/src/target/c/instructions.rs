@@ -22,6 +22,8 @@ fn before(vector: Vector) -> &'static str {
         Vector::Multipliers => "reactions->multipliers.",
         Vector::Feedback => "feedback->",
         Vector::Predicted => "predicted->",
+        // of transposed programs, which C does not have
+        Vector::Weights => "weights->",
     }
 }
 

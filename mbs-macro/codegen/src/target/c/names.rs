@@ -78,7 +78,8 @@ impl Names {
             Vector::Inputs => &self.structs[INPUTS],
             Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.structs[COORDINATES],
             Vector::StatePositions | Vector::StateVelocities | Vector::Predicted => self.states(),
-            Vector::Multipliers | Vector::Feedback => &self.structs[CONSTRAINTS],
+            // transposed programs, which have weights, are not printed
+            Vector::Multipliers | Vector::Feedback | Vector::Weights => &self.structs[CONSTRAINTS],
         }
     }
 

@@ -315,6 +315,7 @@ pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> To
         Input::Step => quote!(h),
         Input::HalfStep => quote!(half_h),
         Input::NextTime => quote!(t_next),
+        Input::Weight(_) => internal("a weight is read that is not given"),
     }
 }
 

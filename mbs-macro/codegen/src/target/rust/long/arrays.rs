@@ -22,9 +22,12 @@ impl Vector {
             | Self::StatePositions
             | Self::StateVelocities
             | Self::Feedback => true,
-            Self::Parameters | Self::Inputs | Self::Accelerations | Self::Multipliers | Self::Predicted => {
-                false
-            }
+            Self::Parameters
+            | Self::Inputs
+            | Self::Accelerations
+            | Self::Multipliers
+            | Self::Predicted
+            | Self::Weights => false,
         }
     }
 
@@ -40,6 +43,7 @@ impl Vector {
             Self::Multipliers => "multiplier",
             Self::Feedback => "feedback",
             Self::Predicted => "predicted",
+            Self::Weights => "weight",
         };
         format_ident!("{name}_array")
     }
@@ -57,6 +61,7 @@ impl Vector {
             Self::Multipliers => quote!(reactions.multipliers),
             Self::Feedback => quote!(*feedback),
             Self::Predicted => quote!(*predicted),
+            Self::Weights => quote!(*weights),
         }
     }
 }

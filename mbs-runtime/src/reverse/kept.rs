@@ -1,8 +1,10 @@
 //! The states of a run that is gone back through.
 
-use std::ops::Range;
+use core::ops::Range;
+use std::vec::Vec;
 
-use mbs_runtime::Error;
+use crate::Error;
+use crate::equations::At;
 
 /// States of a run: every j-th, and those between two of them.
 pub struct Kept {
@@ -51,50 +53,53 @@ impl Kept {
         from..from.saturating_add(2 * self.states)
     }
 
-    /// Keeps the state before a step, if it is one of those.
-    pub fn keep(&mut self, step: u64, q: &[f64], v: &[f64]) {
+    /// Keeps the state before a step, if it is one of those: `write` gives positions and velocities.
+    pub fn keep(&mut self, step: u64, write: impl FnOnce(&mut [f64], &mut [f64])) {
         if step.is_multiple_of(self.stride) {
             let place = self.place(step / self.stride);
-            put(self.every.get_mut(place), q, v);
+            if let Some((q, v)) = self.every.get_mut(place).map(|state| state.split_at_mut(self.states)) {
+                write(q, v);
+            }
         }
     }
 
     /// Makes the states between two kept ones again, where the state before a step is not there: `again`
-    /// writes the state behind a step, positions and then velocities.
-    pub fn restore(&mut self, step: u64, mut again: impl FnMut(u64, &[f64], &[f64], &mut [f64])) {
+    /// writes the positions and velocities behind a step.
+    ///
+    /// # Errors
+    /// Those of `again`.
+    pub fn restore(
+        &mut self,
+        step: u64,
+        mut again: impl FnMut(u64, [&[f64]; 2], [&mut [f64]; 2]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let first = step - step % self.stride;
         if self.stride == 1 || self.first == Some(first) {
-            return;
+            return Ok(());
         }
         let (from, to) = (self.place(first / self.stride), self.place(0));
         if let (Some(from), Some(to)) = (self.every.get(from), self.between.get_mut(to)) {
             to.copy_from_slice(from);
         }
         for at in first..step {
-            let end = self.place(at - first).end;
-            let middle = end.min(self.between.len());
+            let (here, there) = (self.place(at - first), self.place(at - first + 1));
+            let middle = here.end.min(self.between.len());
             let (before, behind) = self.between.split_at_mut(middle);
-            let Some(here) = before.get(end - 2 * self.states..) else { return };
-            let (q, v) = here.split_at(self.states);
-            let count = behind.len().min(2 * self.states);
-            again(at, q, v, &mut behind[..count]);
+            if let (Some(here), Some(there)) = (before.get(here), behind.get_mut(..there.len())) {
+                let ((q, v), next) = (here.split_at(self.states), there.split_at_mut(self.states));
+                again(at, [q, v], next.into())?;
+            }
         }
         self.first = Some(first);
+        Ok(())
     }
 
-    /// The state before a step.
-    pub fn state(&self, step: u64) -> Option<(&[f64], &[f64])> {
+    /// The state before a step, at the time `t`.
+    pub fn state(&self, step: u64, t: f64) -> Option<At<'_, f64>> {
         let found = match self.stride {
             1 => self.every.get(self.place(step)),
             stride => self.between.get(self.place(step % stride)),
         };
-        found.map(|state| state.split_at(self.states))
-    }
-}
-
-/// Writes positions and velocities, one after the other.
-pub fn put(place: Option<&mut [f64]>, q: &[f64], v: &[f64]) {
-    if let Some(place) = place {
-        place.iter_mut().zip(q.iter().chain(v)).for_each(|(place, number)| *place = *number);
+        found.map(|state| state.split_at(self.states)).map(|(q, v)| At { t, q, v })
     }
 }
