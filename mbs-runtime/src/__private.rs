@@ -60,6 +60,15 @@ pub fn copy<T: Real>(from: &[T], to: &mut [T], places: &[[u32; 2]]) {
     }
 }
 
+/// Adds values from places of an array to places of another; see [`read`].
+#[inline]
+pub fn add<T: Real>(from: &[T], to: &mut [T], places: &[[u32; 2]]) {
+    for &[here, there] in places {
+        let there = there as usize;
+        write(to, there, read(to, there) + read(from, here as usize));
+    }
+}
+
 /// x and y in turn as points.
 pub fn pairs<T: Real, const N: usize>(values: &[T]) -> [[T; 2]; N] {
     core::array::from_fn(|at| [read(values, 2 * at), read(values, 2 * at + 1)])

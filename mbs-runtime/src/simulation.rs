@@ -3,6 +3,8 @@
 mod builder;
 pub(crate) mod clock;
 mod on_slices;
+#[cfg(feature = "std")]
+mod reverse;
 
 pub use self::builder::Builder;
 

@@ -1,7 +1,7 @@
 //! What `mechanism!` expands to, formatted: of a pendulum the whole, of larger
 //! mechanisms what a person reviews: items, signatures and documentation, with the
 //! bodies of functions left out. What is in these is counted (`operation_counts`) and
-//! run (everywhere else).
+//! run (everywhere else). Of what a derivative in reverse takes, that of the pendulum is kept too.
 //!
 //! A change of what is generated shows here as a difference to review;
 //! `BLESS=1 cargo test -p tests --test expansion` accepts it.
@@ -16,21 +16,38 @@ const WHOLE: &str = "pendulum";
 
 #[test]
 fn expansions_are_the_expected_ones() {
-    let bless = std::env::var_os("BLESS").is_some();
     let mut differences = String::new();
     for (name, declaration) in declarations::of_models() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/expected/{name}.rs"));
-        let expansion = mbs_codegen::expand(declaration);
+        let expansion = mbs_codegen::expand(declaration.clone());
         let found = if name == WHOLE { formatted(expansion) } else { outline(expansion) };
-        if bless {
-            std::fs::write(&path, &found).unwrap();
-        }
-        let expected = std::fs::read_to_string(&path).unwrap_or_default();
-        if found != expected {
-            differences.push_str(&format!("\n{}\n{}", path.display(), difference(&expected, &found)));
+        differences += &compared(name, &found);
+        if name == WHOLE {
+            differences += &compared(&format!("{name}_in_reverse"), &added_in_reverse(declaration));
         }
     }
     assert!(differences.is_empty(), "BLESS=1 accepts these expansions:\n{differences}");
+}
+
+/// How an expansion differs from what is kept under this name, which `BLESS` replaces.
+fn compared(name: &str, found: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/expected/{name}.rs"));
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, found).expect("a place to write to");
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    if found == expected {
+        return String::new();
+    }
+    format!("\n{}\n{}", path.display(), difference(&expected, found))
+}
+
+/// What `gradients = reverse;` adds to an expansion, which it leaves as it is.
+fn added_in_reverse(declaration: proc_macro2::TokenStream) -> String {
+    let plain = formatted(mbs_codegen::expand(declaration.clone()));
+    let statement = "gradients = reverse; dof = ";
+    let declaration = declaration.to_string().replacen("dof = ", statement, 1);
+    let found = formatted(mbs_codegen::expand(declaration.parse().expect("tokens")));
+    found.strip_prefix(&plain).expect("what was there stays").to_owned()
 }
 
 #[test]

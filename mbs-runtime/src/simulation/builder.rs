@@ -307,19 +307,25 @@ impl<M: Mechanism<Real = f64>, X: Method> Builder<M, X> {
         term: impl FnMut(&Simulation<M::Over<Dual<f64, N>>, X>) -> Result<Dual<f64, N>, Error>,
         gradient: &mut [f64],
     ) -> Result<f64, Error> {
-        let start = |seeds: Seeds<'_, N>| {
-            let mut parameters =
-                self.mechanism.parameters().over::<Parameters<M::Over<Dual<f64, N>>>>().into_array();
-            seeds.parameters(parameters.as_mut());
-            let mut builder = self.over(Components::from_array(parameters))?;
-            let state = builder.state.unwrap_or_else(|| builder.mechanism.declared_start());
-            let Arrays { t, mut q, mut v } = Arrays::of(&state);
-            seeds.start(q.as_mut(), v.as_mut());
-            builder.state = Some(Arrays { t, q, v }.state());
-            builder.build()
-        };
+        let start = |seeds: Seeds<'_, N>| self.seeded(seeds)?.build();
         let mut inputs = self.inputs.over::<Inputs<M::Over<Dual<f64, N>>>>().into_array();
         sum.differentiate(M::INFO, start, term, inputs.as_mut(), gradient)
+    }
+
+    /// The same over duals, whose parameters, positions and velocities are variables.
+    pub(crate) fn seeded<const N: usize>(
+        self,
+        seeds: Seeds<'_, N>,
+    ) -> Result<Builder<M::Over<Dual<f64, N>>, X>, Error> {
+        let mut parameters =
+            self.mechanism.parameters().over::<Parameters<M::Over<Dual<f64, N>>>>().into_array();
+        seeds.parameters(parameters.as_mut());
+        let mut builder = self.over(Components::from_array(parameters))?;
+        let state = builder.state.unwrap_or_else(|| builder.mechanism.declared_start());
+        let Arrays { t, mut q, mut v } = Arrays::of(&state);
+        seeds.start(q.as_mut(), v.as_mut());
+        builder.state = Some(Arrays { t, q, v }.state());
+        Ok(builder)
     }
 }
 

@@ -15,6 +15,8 @@ mechanism! {
         redundant = minimum_norm;
         states = all;
         states = reduced;
+        gradients = reverse;
+        gradients = reverse;
         limit operations = 100;
         limit operations = 200;
         limit stack = 4096;

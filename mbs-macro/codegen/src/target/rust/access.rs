@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Input};
+use crate::compiled::{Compiled, Input, Vector};
 
 /// How generated code reads the symbols of a program.
 pub struct Access {
@@ -29,6 +29,7 @@ enum Kind {
     Arrays,
     Position,
     Parameters,
+    Transposed { weights: usize },
 }
 
 /// An argument of a function that runs a part of a program.
@@ -62,6 +63,12 @@ impl Access {
         Self { time: quote!(t), kind: Kind::Arrays, ..Self::of_step() }
     }
 
+    /// In a method with `t`, `h`, `half_h`, `t_next` and `gains`, and with vectors as arrays, of which the weights have this
+    /// length.
+    pub fn of_transposed(weights: usize) -> Self {
+        Self { time: quote!(t), kind: Kind::Transposed { weights }, ..Self::of_state() }
+    }
+
     /// In a method that takes `t` and `q`.
     pub fn of_position() -> Self {
         Self {
@@ -83,9 +90,26 @@ impl Access {
         self.kind == Kind::Position
     }
 
-    /// Whether coordinates, velocities and feedback are arguments that are arrays.
+    /// Whether slots and results are arguments too, as of stages on arrays.
     pub fn is_on_arrays(&self) -> bool {
         self.kind == Kind::Arrays
+    }
+
+    /// Whether a vector is an argument that is an array.
+    pub fn has_array(&self, vector: Vector) -> bool {
+        match self.kind {
+            Kind::Arrays => vector.is_given(),
+            Kind::Transposed { .. } => vector != Vector::Parameters,
+            Kind::State | Kind::Position | Kind::Parameters => false,
+        }
+    }
+
+    /// How many components a vector has.
+    pub fn components(&self, compiled: &Compiled, vector: Vector) -> usize {
+        match (vector, self.kind) {
+            (Vector::Weights, Kind::Transposed { weights }) => weights,
+            _ => compiled.components(vector),
+        }
     }
 
     /// The same in a function with the [`arguments`](Self::arguments).
@@ -126,19 +150,23 @@ impl Access {
                 .then(|| argument(quote!(parameters: &#parameters<T>), quote!(&parameters))),
             ((is_time || is_position || is_velocity) && of(Kind::State))
                 .then(|| argument(quote!(at: &#state), quote!(at))),
-            (is_time && (of(Kind::Position) || of(Kind::Arrays))).then(|| argument(quote!(t: T), quote!(t))),
+            (is_time && !of(Kind::State)).then(|| argument(quote!(t: T), quote!(t))),
             (is_position && of(Kind::Position)).then(|| argument(quote!(q: &#q), quote!(q))),
-            means(|meaning| matches!(meaning, Input::Input(_)))
+            (means(|meaning| matches!(meaning, Input::Input(_))) && !self.has_array(Vector::Inputs))
                 .then(|| argument(quote!(inputs: &#inputs), quote!(inputs))),
             means(|meaning| matches!(meaning, Input::MinusTwoAlpha | Input::MinusBetaSquared))
                 .then(|| argument(quote!(gains: &#runtime::Gains<T>), quote!(gains))),
-            (means(|meaning| matches!(meaning, Input::Feedback(_))) && !of(Kind::Arrays))
+            (means(|meaning| matches!(meaning, Input::Feedback(_))) && !self.has_array(Vector::Feedback))
                 .then(|| argument(quote!(feedback: &#rows), quote!(feedback))),
+            means(|meaning| meaning == Input::Step).then(|| argument(quote!(h: T), quote!(h))),
+            means(|meaning| meaning == Input::HalfStep).then(|| argument(quote!(half_h: T), quote!(half_h))),
+            means(|meaning| meaning == Input::NextTime).then(|| argument(quote!(t_next: T), quote!(t_next))),
             means(|meaning| meaning == Input::Shift).then(|| argument(quote!(shift: T), quote!(shift))),
             means(|meaning| matches!(meaning, Input::Predicted(_)))
                 .then(|| argument(quote!(predicted: &#states), quote!(predicted))),
-            means(|meaning| matches!(meaning, Input::Multiplier(_) | Input::Acceleration(_)))
-                .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),
+            (means(|meaning| matches!(meaning, Input::Multiplier(_) | Input::Acceleration(_)))
+                && !self.has_array(Vector::Multipliers))
+            .then(|| argument(quote!(reactions: &#reactions), quote!(reactions))),
         ]
         .into_iter()
         .flatten()

@@ -16,6 +16,7 @@ mod solver;
 mod splines;
 mod stages;
 mod step;
+mod transposes;
 mod types;
 mod weave;
 
@@ -46,6 +47,7 @@ pub fn rust(compiled: &Compiled) -> Result<TokenStream, Diagnostics> {
         })
     };
     let mechanism = functions::mechanism(compiled, &names, are_on_arrays);
+    let transposes = transposes::implementation(compiled, &names);
     if let Some(fault) = names.faults.borrow().first() {
         return Err(Diagnostic::internal(compiled.written.name.span(), fault).into());
     }
@@ -56,5 +58,6 @@ pub fn rust(compiled: &Compiled) -> Result<TokenStream, Diagnostics> {
         #functions
         #step
         #mechanism
+        #transposes
     })
 }

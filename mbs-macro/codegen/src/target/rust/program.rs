@@ -70,6 +70,32 @@ impl Body {
         }}
     }
 
+    /// Statements that add outputs to elements of a slice, each pair of an output and its element.
+    pub fn add(&self, slice: &TokenStream, pairs: &[(usize, usize)]) -> TokenStream {
+        let literal = Literal::usize_unsuffixed;
+        let Some(places) = &self.places else {
+            let length = literal(pairs.iter().map(|(_, to)| to + 1).max().unwrap_or(0));
+            let sums = pairs.iter().map(|&(output, to)| {
+                let (value, to) = (&self.outputs[output], literal(to));
+                quote!(sums[#to] = sums[#to] + #value;)
+            });
+            return quote! {{
+                let sums = #slice.first_chunk_mut::<#length>()?;
+                #(#sums)*
+            }};
+        };
+        let runtime = &self.runtime;
+        let rows = pairs.iter().map(|&(output, to)| {
+            let (from, to) = (literal(places[output].at), literal(to));
+            quote!([#from, #to])
+        });
+        let count = literal(pairs.len());
+        quote! {{
+            const PLACES: [[::core::primitive::u32; 2]; #count] = [#(#rows),*];
+            #runtime::__private::add(&slots, #slice, &PLACES);
+        }}
+    }
+
     /// Some of the outputs as a vector with named components.
     pub fn vector(&self, of_t: &TokenStream, fields: &[Ident], range: Range<usize>) -> TokenStream {
         if self.places.is_some() && !fields.is_empty() {
@@ -93,7 +119,11 @@ pub fn named(of_t: &TokenStream, fields: &[Ident], values: &[TokenStream]) -> To
 /// A program as one list of statements, or if it is long, as loops and
 /// functions of bounded size.
 pub fn body(compiled: &Compiled, names: &Names, function: FunctionId, access: &Access) -> Body {
-    let program = compiled.program(function);
+    body_of(compiled, names, compiled.program(function), access)
+}
+
+/// The same of any program.
+pub fn body_of(compiled: &Compiled, names: &Names, program: &Program, access: &Access) -> Body {
     let blocks = compiled.blocks(program);
     let range = match &blocks[..] {
         [] => 0..0,
@@ -258,9 +288,8 @@ pub fn internal(what: &str) -> TokenStream {
 pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStream {
     let Access { parameters, time, positions, velocities, .. } = access;
     let meaning = compiled.input(symbol);
-    if access.is_on_arrays()
-        && let Some(Component { vector, place }) = meaning.component()
-        && vector.is_given()
+    if let Some(Component { vector, place }) = meaning.component()
+        && access.has_array(vector)
     {
         let (array, at) = (vector.ident(), Literal::usize_unsuffixed(place));
         return quote!(#array[#at]);

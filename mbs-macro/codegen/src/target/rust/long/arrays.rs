@@ -70,14 +70,13 @@ impl Arrays {
     /// The array as an argument of a function.
     pub fn argument(&mut self, vector: Vector, compiled: &Compiled, access: &Access) -> Argument {
         let ident = vector.ident();
-        let is_given = access.is_on_arrays() && vector.is_given();
-        let value = if is_given {
+        let value = if access.has_array(vector) {
             quote!(#ident)
         } else {
             self.0.insert(vector);
             quote!(&#ident)
         };
-        let length = Literal::usize_unsuffixed(compiled.components(vector));
+        let length = Literal::usize_unsuffixed(access.components(compiled, vector));
         Argument { declaration: quote!(#ident: &[T; #length]), value }
     }
 

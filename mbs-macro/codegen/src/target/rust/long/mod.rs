@@ -153,11 +153,9 @@ fn straight(context: &Context<'_>, part: &Straight, arrays: &mut Arrays, name: I
     let operands: Vec<Operand> =
         instructions.iter().flat_map(|instruction| [instruction.a, instruction.b]).collect();
     let mut arguments = access.arguments(compiled, names, &operands);
-    if access.is_on_arrays() {
-        let vector = |operand: &Operand| Some(compiled.input_of(*operand)?.component()?.vector);
-        let given: BTreeSet<_> = operands.iter().filter_map(vector).collect();
-        let given = given.into_iter().filter(|vector| vector.is_given());
-        arguments.extend(given.map(|vector| arrays.argument(vector, compiled, access)));
-    }
+    let vector = |operand: &Operand| Some(compiled.input_of(*operand)?.component()?.vector);
+    let given: BTreeSet<_> = operands.iter().filter_map(vector).collect();
+    let given = given.into_iter().filter(|vector| access.has_array(*vector));
+    arguments.extend(given.map(|vector| arrays.argument(vector, compiled, access)));
     Definition { name, doc: None, statements: writer.statements, arguments }
 }
