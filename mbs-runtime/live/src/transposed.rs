@@ -8,7 +8,7 @@ use mbs_symbolic::{Inconsistency, Operand};
 
 use crate::arguments::Arguments;
 use crate::code::Code;
-use crate::instruction::execute;
+use crate::instruction::execute_alone;
 
 /// The transposed programs of a mechanism, in the order of [`Function::ALL`].
 pub struct Transposes([Option<Transposed>; Function::ALL.len()]);
@@ -16,62 +16,40 @@ pub struct Transposes([Option<Transposed>; Function::ALL.len()]);
 /// A transposed program.
 pub struct Transposed {
     pub code: Code,
-    /// What each of its results is a derivative by.
-    by: Vec<By>,
+    /// What is added to each vector of the adjoints, in the order of [`vectors`]: slots and places. A vector
+    /// after the other, since a choice for each number would cost as much as an operation.
+    sums: [Vec<(u32, usize)>; 8],
 }
 
-/// A component of an adjoint.
-#[derive(Clone, Copy)]
-enum By {
-    Position(usize),
-    Velocity(usize),
-    Feedback(usize),
-    Input(usize),
-    Parameter(usize),
-    Hoisted(usize),
-    Acceleration(usize),
-    Multiplier(usize),
+/// The adjoints, in the order of [`place`].
+fn vectors<'a>(adjoints: &'a mut Adjoints<'_, f64>) -> [&'a mut [f64]; 8] {
+    let Adjoints { q, v, feedback, inputs, parameters, hoisted, acceleration, multipliers } = adjoints;
+    [q, v, feedback, inputs, parameters, hoisted, acceleration, multipliers]
 }
 
-impl By {
-    /// That of an operand by which a transposed program differentiates.
-    fn of(compiled: &Compiled, operand: Operand) -> Option<Self> {
-        if let Operand::Hoisted(at) = operand {
-            return Some(Self::Hoisted(at));
-        }
-        Some(match compiled.input_of(operand)? {
-            Input::Position(at) | Input::StatePosition(at) => Self::Position(at),
-            Input::Velocity(at) | Input::StateVelocity(at) => Self::Velocity(at),
-            Input::Feedback(at) => Self::Feedback(at),
-            Input::Input(at) => Self::Input(at),
-            Input::Parameter(at) => Self::Parameter(at),
-            Input::Acceleration(at) => Self::Acceleration(at),
-            Input::Multiplier(at) => Self::Multiplier(at),
-            Input::Time
-            | Input::Step
-            | Input::HalfStep
-            | Input::NextTime
-            | Input::MinusTwoAlpha
-            | Input::MinusBetaSquared
-            | Input::Shift
-            | Input::Predicted(_)
-            | Input::Weight(_) => return None,
-        })
+/// The vector of the adjoints, and the place in it, of an operand by which a transposed program differentiates.
+fn place(compiled: &Compiled, operand: Operand) -> Option<(usize, usize)> {
+    if let Operand::Hoisted(at) = operand {
+        return Some((5, at));
     }
-
-    /// Its place.
-    fn place<'a>(self, adjoints: &'a mut Adjoints<'_, f64>) -> Option<&'a mut f64> {
-        match self {
-            Self::Position(at) => adjoints.q.get_mut(at),
-            Self::Velocity(at) => adjoints.v.get_mut(at),
-            Self::Feedback(at) => adjoints.feedback.get_mut(at),
-            Self::Input(at) => adjoints.inputs.get_mut(at),
-            Self::Parameter(at) => adjoints.parameters.get_mut(at),
-            Self::Hoisted(at) => adjoints.hoisted.get_mut(at),
-            Self::Acceleration(at) => adjoints.acceleration.get_mut(at),
-            Self::Multiplier(at) => adjoints.multipliers.get_mut(at),
-        }
-    }
+    Some(match compiled.input_of(operand)? {
+        Input::Position(at) | Input::StatePosition(at) => (0, at),
+        Input::Velocity(at) | Input::StateVelocity(at) => (1, at),
+        Input::Feedback(at) => (2, at),
+        Input::Input(at) => (3, at),
+        Input::Parameter(at) => (4, at),
+        Input::Acceleration(at) => (6, at),
+        Input::Multiplier(at) => (7, at),
+        Input::Time
+        | Input::Step
+        | Input::HalfStep
+        | Input::NextTime
+        | Input::MinusTwoAlpha
+        | Input::MinusBetaSquared
+        | Input::Shift
+        | Input::Predicted(_)
+        | Input::Weight(_) => return None,
+    })
 }
 
 impl Transposes {
@@ -118,11 +96,15 @@ pub fn id(function: Function) -> Option<FunctionId> {
 
 impl Transposed {
     fn new(compiled: &Compiled, transposed: &compiled::Transposed) -> Result<Self, Inconsistency> {
-        let by = transposed.by.iter().map(|operand| By::of(compiled, *operand));
-        let unknown =
-            Inconsistency { pass: "reading a transposed program", rule: "derivatives are by variables" };
-        let by = by.collect::<Option<_>>().ok_or(unknown)?;
-        Ok(Self { code: Code::new(compiled, &transposed.program)?, by })
+        let code = Code::new(compiled, &transposed.program)?;
+        let mut sums: [Vec<(u32, usize)>; 8] = Default::default();
+        for (&slot, &operand) in code.outputs.iter().zip(&transposed.by) {
+            let unknown =
+                Inconsistency { pass: "reading a transposed program", rule: "derivatives are by variables" };
+            let (vector, at) = place(compiled, operand).ok_or(unknown)?;
+            sums[vector].push((slot, at));
+        }
+        Ok(Self { code, sums })
     }
 
     /// Adds its results to the adjoints.
@@ -134,10 +116,12 @@ impl Transposed {
         adjoints: &mut Adjoints<'_, f64>,
     ) {
         self.code.load(slots, given);
-        execute(&self.code.instructions, splines, slots);
-        for (&slot, by) in self.code.outputs.iter().zip(&self.by) {
-            if let (Some(adjoint), Some([value])) = (by.place(adjoints), slots.get(slot as usize)) {
-                *adjoint += value;
+        execute_alone(&self.code.instructions, splines, slots);
+        for (vector, sums) in vectors(adjoints).into_iter().zip(&self.sums) {
+            for &(slot, at) in sums {
+                if let (Some(adjoint), Some([value])) = (vector.get_mut(at), slots.get(slot as usize)) {
+                    *adjoint += value;
+                }
             }
         }
     }
