@@ -310,6 +310,9 @@ pub enum Error {
         /// How far the mechanism was led.
         place: String,
     },
+    /// Somebody ended a search before it found anything.
+    #[error("interrupted before there was a result")]
+    Interrupted,
     /// A drive that does nothing, or is none.
     #[error("`{name}` is not a drive that moves: a mechanism is led along a coordinate, or a drive of it")]
     NoDrive {

@@ -115,7 +115,10 @@ impl Mechanism {
         }
         let experiment = measured.iter().cloned().fold(experiment, Experiment::with);
         let experiment = unknown.iter().cloned().fold(experiment, Experiment::looking_for);
-        Ok(experiment.fit_and_tell(&*trials, &mut |now| watch.reached(now.start, now.starts))?)
+        Ok(experiment.fit_while(&*trials, &mut |now| {
+            watch.reached(now.start, now.starts);
+            watch.goes_on()
+        })?)
     }
 }
 

@@ -82,7 +82,10 @@ impl Mechanism {
 
     fn synthesized(&self, task: &Task, watch: &Watch) -> Result<Synthesis, Error> {
         let trials = self.trials()?;
-        Ok(task.synthesize_and_tell(&*trials, &mut |starts, _| watch.reached(starts, task.starts))?)
+        Ok(task.synthesize_while(&*trials, &mut |starts, _| {
+            watch.reached(starts, task.starts);
+            watch.goes_on()
+        })?)
     }
 }
 

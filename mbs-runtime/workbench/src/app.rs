@@ -141,7 +141,7 @@ impl App {
                     error => complain(format_args!("error: {error}")),
                 }
                 match error {
-                    Error::Interrupted { .. } => ExitCode::from(interrupt::EXIT_CODE),
+                    Error::Interrupted { .. } | Error::Stopped { .. } => ExitCode::from(interrupt::EXIT_CODE),
                     _ => ExitCode::FAILURE,
                 }
             }

@@ -111,6 +111,12 @@ pub enum Error {
         /// Where the finished ones are, as a clause to append.
         kept: String,
     },
+    /// A search that was interrupted.
+    #[error("interrupted{kept}")]
+    Stopped {
+        /// What is there of it, as a clause to append.
+        kept: String,
+    },
     /// Runs of a sweep that failed.
     #[error("{failed} of {of} runs failed, the first one at {first}: {cause}")]
     Sweep {
@@ -204,6 +210,7 @@ impl From<mbs_analysis::Error> for Error {
         match error {
             mbs_analysis::Error::Unknown { kind, name, known } => Self::Unknown { kind, name, known },
             mbs_analysis::Error::Mechanism(error) => Self::Mechanism(error),
+            mbs_analysis::Error::Interrupted => Self::Stopped { kept: String::new() },
             other => Self::Analysis(other),
         }
     }

@@ -150,19 +150,19 @@ impl<'a> Experiment<'a> {
     /// [`Error::Undetermined`] for unknowns that the data do not determine; [`Error::Mechanism`] where no run
     /// from the start comes to the end of the data.
     pub fn fit(&self, trials: &dyn Trials) -> Result<Fit, Error> {
-        self.fit_and_tell(trials, &mut |_| ())
+        self.fit_while(trials, &mut |_| true)
     }
 
-    /// The same; `progress` is called after every run.
+    /// The same, as long as `goes_on` says so, which is asked after every run.
     ///
     /// # Errors
-    /// As [`fit`](Self::fit).
-    pub fn fit_and_tell(
+    /// As [`fit`](Self::fit); [`Error::Interrupted`].
+    pub fn fit_while(
         &self,
         trials: &dyn Trials,
-        progress: &mut dyn FnMut(&Progress),
+        goes_on: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<Fit, Error> {
-        search::fit(self, trials, progress)
+        search::fit(self, trials, goes_on)
     }
 
     /// The signals of what was measured.

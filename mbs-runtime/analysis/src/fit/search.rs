@@ -36,11 +36,16 @@ const LEAST: f64 = 1e-9;
 pub fn fit(
     experiment: &Experiment<'_>,
     trials: &dyn Trials,
-    progress: &mut dyn FnMut(&Progress),
+    goes_on: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Fit, Error> {
     let problem = Problem::new(experiment, trials)?;
-    let mut search =
-        Search { deviations: first_deviations(experiment), problem: &problem, progress, start: 0 };
+    let mut search = Search {
+        deviations: first_deviations(experiment),
+        problem: &problem,
+        goes_on,
+        start: 0,
+        is_over: false,
+    };
     let mut best = search.smallest()?;
     for _ in 0..ROUNDS {
         let deviations = estimated(&problem, &best, &search.deviations);
@@ -54,6 +59,9 @@ pub fn fit(
         }
         let x = best.x.clone();
         best = search.over(x, problem.samples.len(), OVER_ALL).unwrap_or(best);
+        if search.is_over {
+            return Err(Error::Interrupted);
+        }
     }
     finish(&problem, &best, &search.deviations)
 }
@@ -84,8 +92,10 @@ fn ranges(experiment: &Experiment<'_>) -> Vec<f64> {
 struct Search<'a> {
     problem: &'a Problem<'a>,
     deviations: Vec<f64>,
-    progress: &'a mut dyn FnMut(&Progress),
+    goes_on: &'a mut dyn FnMut(&Progress) -> bool,
     start: usize,
+    /// Whether it was interrupted: nothing is run any more.
+    is_over: bool,
 }
 
 impl Search<'_> {
@@ -95,7 +105,11 @@ impl Search<'_> {
         let mut first_failure = None;
         for start in 0..self.problem.experiment.starts {
             self.start = start;
-            let Some(found) = self.minimum(start) else {
+            let found = self.minimum(start);
+            if self.is_over {
+                return Err(Error::Interrupted);
+            }
+            let Some(found) = found else {
                 first_failure = first_failure.or(self.problem.failure.borrow_mut().take());
                 continue;
             };
@@ -134,17 +148,17 @@ impl Search<'_> {
     /// The minimum over the first `count` samples. Over a part of them, the values at the start count as
     /// known to 100 %, so that one which that part does not determine does not run away.
     fn over(&mut self, x: DVector<f64>, count: usize, stop: Stop) -> Option<Minimum> {
-        let Self { problem, deviations, progress, start } = self;
+        let Self { problem, deviations, goes_on, start, is_over } = self;
         let is_part = count < problem.samples.len();
         let ranges = ranges(problem.experiment);
         let from = x.clone();
         let mut local = |x: &DVector<f64>| {
+            if *is_over {
+                return None;
+            }
             let found = problem.predict(x, count);
-            progress(&Progress {
-                start: *start + 1,
-                starts: problem.experiment.starts,
-                runs: problem.runs.get(),
-            });
+            let (starts, runs) = (problem.experiment.starts, problem.runs.get());
+            *is_over = !goes_on(&Progress { start: *start + 1, starts, runs });
             let mut local = found.map_err(|error| *problem.failure.borrow_mut() = Some(error)).ok()?;
             for (row, sample) in problem.samples.iter().take(count).enumerate() {
                 let deviation = deviations[sample.channel];

@@ -30,7 +30,7 @@ enum End {
 pub fn synthesize(
     task: &Task,
     trials: &(dyn Trials + Sync),
-    progress: &mut dyn FnMut(usize, usize),
+    goes_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Synthesis, Error> {
     let system = System::new(task, trials)?;
     let refused = [Defect::Circuit, Defect::Order, Defect::Branch].map(|defect| (defect, 0));
@@ -41,7 +41,9 @@ pub fn synthesize(
             (found.starts..last).into_par_iter().filter_map(|start| attempt(&system, start)).collect();
         found.starts = last;
         ends.into_iter().for_each(|end| found.take(&system, end));
-        progress(found.starts, found.linkages.len());
+        if !goes_on(found.starts, found.linkages.len()) {
+            break;
+        }
     }
     let extent =
         |linkage: &Linkage| linkage.coordinates.iter().flatten().fold(0.0_f64, |a, q| a.max(q.abs()));

@@ -89,21 +89,21 @@ impl Task {
     /// for a name that it does not have; [`Error::NoBounds`], [`Error::Bounds`], [`Error::NoPositions`],
     /// [`Error::Length`] for what cannot be looked for. That none was found is no error.
     pub fn synthesize(&self, trials: &(dyn Trials + Sync)) -> Result<Synthesis, Error> {
-        self.synthesize_and_tell(trials, &mut |_, _| ())
+        self.synthesize_while(trials, &mut |_, _| true)
     }
 
-    /// The same; `progress` is called now and then with the starts that are done and the mechanisms that are
-    /// found.
+    /// The same, as long as `goes_on` says so. It is asked now and then, with the starts that are done and the
+    /// mechanisms that are found; what was found until then is the result.
     ///
     /// # Errors
     /// As [`synthesize`](Self::synthesize).
-    pub fn synthesize_and_tell(
+    pub fn synthesize_while(
         &self,
         trials: &(dyn Trials + Sync),
-        progress: &mut dyn FnMut(usize, usize),
+        goes_on: &mut dyn FnMut(usize, usize) -> bool,
     ) -> Result<Synthesis, Error> {
         self.check()?;
-        search::synthesize(self, trials, progress)
+        search::synthesize(self, trials, goes_on)
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -4,6 +4,7 @@ mod request;
 mod result;
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
@@ -17,7 +18,7 @@ use super::options::{self, option};
 use crate::app::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
-use crate::{Error, say, write_csv};
+use crate::{Error, interrupt, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -92,9 +93,13 @@ fn fitted(request: &Request, trials: &dyn Trials) -> Result<Fit, Error> {
     let (began, bar) = (Instant::now(), ProgressBar::hidden());
     let mut is_shown = false;
     let experiment = request.experiment();
-    let fit = experiment.fit_and_tell(trials, &mut |progress| {
+    let interrupted = interrupt::flag();
+    let fit = experiment.fit_while(trials, &mut |progress| {
+        if interrupted.load(Ordering::Relaxed) {
+            return false;
+        }
         if began.elapsed() < SOON {
-            return;
+            return true;
         }
         if !is_shown {
             bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
@@ -103,6 +108,7 @@ fn fitted(request: &Request, trials: &dyn Trials) -> Result<Fit, Error> {
         let mbs_analysis::Progress { start, starts, runs } = progress;
         bar.set_message(format!("start {start} of {starts} at most, {runs} runs"));
         bar.tick();
+        true
     });
     bar.finish_and_clear();
     fit.map_err(|error| request.in_its_units(error))

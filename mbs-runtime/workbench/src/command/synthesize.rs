@@ -4,6 +4,7 @@ mod request;
 mod result;
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,7 +15,7 @@ use super::operating;
 use super::options::{self, option};
 use crate::figure::Figure;
 use crate::models::Models;
-use crate::{Error, say, write_csv};
+use crate::{Error, interrupt, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,13 +68,21 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} starts, {msg}");
     let bar = ProgressBar::new(task.starts as u64)
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let synthesis = task.synthesize_and_tell(&*trials, &mut |starts, found| {
+    let interrupted = interrupt::flag();
+    let synthesis = task.synthesize_while(&*trials, &mut |starts, found| {
         bar.set_position(starts as u64);
         bar.set_message(format!("{found} found"));
+        !interrupted.load(Ordering::Relaxed)
     });
     bar.finish_and_clear();
     let synthesis = synthesis?;
     let shown = Shown { name, model, task: &task, units: &units, synthesis: &synthesis };
+    let is_over = interrupted.load(Ordering::Relaxed);
+    if is_over && synthesis.linkages.is_empty() {
+        return Err(Error::Stopped {
+            kept: format!(" after {} starts, which found nothing", synthesis.starts),
+        });
+    }
     let best = shown.best()?;
     if let Some(path) = plot {
         shown.figure(best)?.save(path)?;
@@ -85,9 +94,15 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
         write_csv(path, &shown.columns(best))?;
     }
     if matches.get_flag("json") {
-        return say(shown.json());
+        say(shown.json())?;
+    } else {
+        say(shown.table().trim_end())?;
+        let mut files = [plot, sketch, out].into_iter().flatten();
+        files.try_for_each(|path| say(format_args!("written: {}", path.display())))?;
     }
-    say(shown.table().trim_end())?;
-    let files = [plot, sketch, out].into_iter().flatten();
-    files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
+    if is_over {
+        let kept = format!(" after {} starts; what they found is told and written", synthesis.starts);
+        return Err(Error::Stopped { kept });
+    }
+    Ok(())
 }

@@ -1,6 +1,7 @@
 //! Synthesis at the command line: values in declared units, pictures, and what is said when nothing can be found.
 
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use super::mbs;
 
@@ -131,4 +132,35 @@ fn what_cannot_be_synthesized() {
         "synthesize four-bar --through p.csv --param along=1..2",
         &["0 degrees of freedom", "take the drive away"],
     );
+}
+
+/// Whether a process has a handler for Ctrl-C by now.
+#[cfg(target_os = "linux")]
+fn catches_interrupts(process: u32) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap().trim();
+    // SIGINT is the second bit
+    u64::from_str_radix(caught, 16).unwrap() & 2 != 0
+}
+
+/// A function that no such bars generate would be looked for from many starts; Ctrl-C ends that with what is known.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_search_says_what_it_found() {
+    let folder = prepared();
+    let rows: String = (0..9).map(|k| format!("{},{}\n", 40 * k, if k % 2 == 0 { 1 } else { 90 })).collect();
+    std::fs::write(folder.path().join("comb.csv"), format!("theta1 [deg],tip_x [mm]\n{rows}")).unwrap();
+    let line = format!("{SYNTHESIZE} --through comb.csv --starts 100000000");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    let command = command.args(line.split_whitespace()).current_dir(folder.path());
+    let running = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while !catches_interrupts(running.id()) {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let interrupt = format!("kill -INT {}", running.id());
+    assert!(Command::new("sh").args(["-c", &interrupt]).status().unwrap().success());
+    let output = running.wait_with_output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{message}");
+    assert!(message.contains("interrupted after") && message.contains("found nothing"), "{message}");
 }
