@@ -9,7 +9,7 @@
 //! A crate with mechanisms of `mechanism!` becomes a Python module by one line of [`module!`]: its runs are compiled
 //! by rustc, and used as those of a text.
 //!
-//! ```ignore
+//! ```text
 //! mbs_runtime::mechanism! {
 //!     pub Pendulum { … }
 //! }

@@ -83,7 +83,7 @@ impl dyn Model + '_ {
     /// is no error: [`Summary::end`] says when.
     ///
     /// # Errors
-    /// As [`simulate`](Self::simulate).
+    /// As [`simulate`](Model#method.simulate).
     pub fn simulate_while(
         &self,
         settings: &Settings,

@@ -42,7 +42,7 @@ impl dyn Model + '_ {
     /// A page with the mechanism in motion during a run with these settings, and its curves.
     ///
     /// # Errors
-    /// As [`motion`](Self::motion).
+    /// As [`motion`](Model#method.motion).
     pub fn page(&self, name: &str, settings: &Settings, recording: &Recording) -> Result<Report, Error> {
         let picture = Picture::of(&self.motion(settings, recording)?);
         page(name, self.info(), recording, &picture, &Choice::default())
