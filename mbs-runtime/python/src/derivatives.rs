@@ -20,20 +20,20 @@ struct Derivatives {
     derivatives: Vec<f64>,
 }
 
-/// The arrays, and the units of columns and variables.
-type Found<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Vec<String>, Vec<String>);
+/// Times, values, derivatives, and the units of columns and variables.
+type Found<'py> = ([Bound<'py, PyArray1<f64>>; 3], Vec<String>, Vec<String>);
 
 #[pymethods]
 impl Mechanism {
-    /// Values and exact derivatives of `columns` at `times` of a run, by parameters and start values.
-    #[pyo3(signature = (asked, columns, by, times, progress=None))]
+    /// Values and exact derivatives of `columns` at `times` of a run, or at its end, by parameters and start values.
+    #[pyo3(signature = (asked, columns, by, times=None, progress=None))]
     fn derivatives<'py>(
         &self,
         py: Python<'py>,
         asked: Asked,
         columns: Vec<String>,
         by: Vec<String>,
-        times: Vec<f64>,
+        times: Option<Vec<f64>>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found<'py>> {
         let model = self.model.as_ref();
@@ -44,6 +44,7 @@ impl Mechanism {
         let columns = columns.collect::<Result<Vec<_>, _>>().map_err(wrong)?;
         let variables = by.iter().map(|name| variable(info, name)).collect::<Result<Vec<_>, _>>();
         let variables = variables.map_err(wrong)?;
+        let times = times.unwrap_or_else(|| vec![settings.end]);
         let found = watched(py, progress.as_ref(), |watch| {
             self.follow(&settings, &columns, &variables, &times, watch)
         })?;
@@ -51,8 +52,8 @@ impl Mechanism {
         let units = |signals: &[Signal]| -> Vec<String> {
             signals.iter().map(|signal| Unit::of_signal(info, signal).name().to_owned()).collect()
         };
-        let (values, derivatives) = (PyArray1::from_vec(py, values), PyArray1::from_vec(py, derivatives));
-        Ok((values, derivatives, units(&columns), units(&variables)))
+        let arrays = [times, values, derivatives].map(|numbers| PyArray1::from_vec(py, numbers));
+        Ok((arrays, units(&columns), units(&variables)))
     }
 }
 

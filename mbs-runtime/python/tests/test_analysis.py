@@ -60,6 +60,9 @@ def test_gradients_are_those_of_differences(library):
         ends = [crank.simulate(0.1, step=0.05, parameters={name: value + s * h}, **asked)["x3"][1:] for s in (1, -1)]
         # the difference is of second order, and the runs are good to 1e-11
         np.testing.assert_allclose(found["x3"][name], (ends[0] - ends[1]) / (2 * h), rtol=1e-5, atol=1e-8)
+    at_end = crank.gradients(["x3"], ["l1"], end="50 ms", **asked)
+    assert at_end.t == [0.05]
+    np.testing.assert_allclose(at_end["x3"]["l1"][0], found["x3"]["l1"][0], rtol=1e-6)
     with pytest.raises(mbs.Error, match="l9"):
         crank.gradients(["x3"], ["l9"])
 

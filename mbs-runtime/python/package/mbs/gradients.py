@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
-import numpy as np
+from collections.abc import Mapping
 
 from mbs._asked import Array
 
@@ -20,11 +18,10 @@ class Gradients:
         self,
         columns: list[str],
         by: list[str],
-        times: Sequence[float],
-        found: tuple[Array, Array, list[str], list[str]],
+        found: tuple[list[Array], list[str], list[str]],
     ) -> None:
-        values, derivatives, column_units, units = found
-        self.t: Array = np.asarray(times, dtype=np.float64)
+        (times, values, derivatives), column_units, units = found
+        self.t: Array = times
         """The times in s."""
         self.columns, self.by = columns, by
         self.values: Array = values.reshape(len(times), len(columns))

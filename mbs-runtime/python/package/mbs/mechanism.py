@@ -266,13 +266,10 @@ class Mechanism:
     ) -> Gradients:
         """Exact derivatives of ``columns`` of a run with respect to parameters and start values ``x``, ``der(x)``, at
         some ``times`` (its end unless they are given), by dual numbers; to rtol = 1e-9 unless it is said."""
-        given = self._asked(values)
-        if times is None:
-            times = [float(values.get("end", 1.0))]
-        at = numbers(times)
+        at = None if times is None else numbers(times)
         with told(progress, self.name, " times") as tell:
-            found = self._native.derivatives(given, list(columns), list(by), at, tell)
-        return Gradients(list(columns), list(by), at, found)
+            found = self._native.derivatives(self._asked(values), list(columns), list(by), at, tell)
+        return Gradients(list(columns), list(by), found)
 
     def fit(
         self,
