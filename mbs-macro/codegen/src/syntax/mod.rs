@@ -44,133 +44,52 @@ pub struct Item {
 #[derive(Clone)]
 pub enum ItemKind {
     /// `dof = 0;`
-    Dof {
-        keyword: Span,
-        value: i64,
-    },
+    Dof { keyword: Span, value: i64 },
     /// `redundant = minimum_norm;`
-    Redundant {
-        keyword: Span,
-    },
+    Redundant { keyword: Span },
     /// `states = reduced;`
-    States {
-        keyword: Span,
-        are_reduced: bool,
-    },
+    States { keyword: Span, are_reduced: bool },
     /// `limit operations = 200;`
-    Limit {
-        keyword: Span,
-        limited: Limited,
-        value: u32,
-    },
+    Limit { keyword: Span, limited: Limited, value: u32 },
     /// `step = 0.5 [ms];`
-    Step {
-        keyword: Span,
-        value: Formula,
-    },
+    Step { keyword: Span, value: Formula },
     /// `method = rk4;`
-    Method {
-        keyword: Span,
-        scheme: &'static Tableau,
-    },
-    Gradients {
-        keyword: Span,
-    },
+    Method { keyword: Span, scheme: &'static Tableau },
+    /// `gradients = reverse;`
+    Gradients { keyword: Span },
     /// `feedback = held(alpha, beta);`
-    Feedback {
-        keyword: Span,
-        is_held: bool,
-        gains: [Formula; 2],
-    },
+    Feedback { keyword: Span, is_held: bool, gains: [Formula; 2] },
     /// `closes = 0 [s] .. 0.3 [s];`, or over a coordinate.
-    Closes {
-        keyword: Span,
-        coordinate: Option<Ident>,
-        from: Formula,
-        to: Formula,
-    },
+    Closes { keyword: Span, coordinate: Option<Ident>, from: Formula, to: Formula },
     /// `crate = path;`
-    Crate {
-        keyword: Span,
-        path: TokenStream,
-    },
+    Crate { keyword: Span, path: TokenStream },
     /// `param l = 1 [m] where l > 0;`
-    Parameter {
-        name: Ident,
-        value: Formula,
-        condition: Option<Condition>,
-    },
+    Parameter { name: Ident, value: Formula, condition: Option<Condition> },
     /// `const l = 1 [m];`
-    Constant {
-        name: Ident,
-        value: Formula,
-    },
+    Constant { name: Ident, value: Formula },
     /// `input torque [N*m];`
-    Input {
-        name: Ident,
-        unit: UnitText,
-    },
+    Input { name: Ident, unit: UnitText },
     /// `require l1 < l2;`, or the condition of a parameter that is bound.
-    Require {
-        of: Option<Ident>,
-        condition: Condition,
-    },
+    Require { of: Option<Ident>, condition: Condition },
     /// `assembly Leg { … }`; gone after composition.
-    Assembly {
-        name: Ident,
-        items: Vec<Item>,
-    },
+    Assembly { name: Ident, items: Vec<Item> },
     /// `instance left: Leg { phase = 120 [deg]; }`; gone after composition.
-    Instance {
-        name: Ident,
-        assembly: Ident,
-        bindings: Vec<Property>,
-    },
+    Instance { name: Ident, assembly: Ident, bindings: Vec<Property> },
     /// A parameter of an assembly that its instance gives a value; made by
     /// composition.
-    Binding {
-        name: Ident,
-        value: Formula,
-        default: Formula,
-    },
+    Binding { name: Ident, value: Formula, default: Formula },
     /// `let x = …;`
-    Let {
-        name: Ident,
-        value: Formula,
-    },
+    Let { name: Ident, value: Formula },
     /// `gravity = (gx, gy);`
-    Gravity {
-        keyword: Span,
-        value: Vector,
-    },
+    Gravity { keyword: Span, value: Vector },
     /// `body rod (x, y, theta) { mass = …; inertia = …; }`
-    Body {
-        name: Ident,
-        coordinates: Vec<Coordinate>,
-        properties: Vec<Property>,
-    },
+    Body { name: Ident, coordinates: Vec<Coordinate>, properties: Vec<Property> },
     /// `constraint name: left = right;`, or another [`Role`] before it.
-    Constraint {
-        name: Ident,
-        role: Role,
-        left: Formula,
-        equals: Span,
-        right: Formula,
-    },
+    Constraint { name: Ident, role: Role, left: Formula, equals: Span, right: Formula },
     /// `force name on target = …;`, in a body's frame `… in body = …;`, or `torque name on target = …;`
-    Force {
-        name: Ident,
-        is_torque: bool,
-        target: Attachment,
-        frame: Option<Ident>,
-        value: Load,
-    },
+    Force { name: Ident, is_torque: bool, target: Attachment, frame: Option<Ident>, value: Load },
     /// `point tip on crank = (l/2, 0);`
-    Point {
-        name: Ident,
-        body: Ident,
-        value: Vector,
-    },
+    Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
     /// `profile lift = spline((0, 0), …) period 360 [deg];`
@@ -178,23 +97,11 @@ pub enum ItemKind {
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Element(Box<Element>),
     /// `start { … }`
-    Start {
-        entries: Vec<StartEntry>,
-    },
+    Start { entries: Vec<StartEntry> },
     /// `event hit: x = 0.2 [m] rising;`
-    Event {
-        name: Ident,
-        left: Formula,
-        equals: Span,
-        right: Formula,
-        crossing: Crossing,
-    },
+    Event { name: Ident, left: Formula, equals: Span, right: Formula, crossing: Crossing },
     /// `output name [unit] = …;`
-    Output {
-        name: Ident,
-        unit: Option<UnitText>,
-        value: Formula,
-    },
+    Output { name: Ident, unit: Option<UnitText>, value: Formula },
 }
 
 /// What an equation is to the mechanism.
