@@ -68,6 +68,17 @@ impl Signal {
         .concat()
     }
 
+    /// What can be chosen for a run and differentiated by: parameters, then coordinates and their rates at the start.
+    pub fn adjustable(info: &Info) -> Vec<Self> {
+        let n = info.coordinates.len();
+        [
+            Self::all(info, info.parameters.len(), Variable::Parameter),
+            Self::all(info, n, Variable::Coordinate),
+            Self::all(info, n, Variable::Velocity),
+        ]
+        .concat()
+    }
+
     /// The inputs with these names, or all.
     pub(crate) fn inputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
         let all = Self::all(info, info.inputs.len(), Variable::Input);

@@ -59,14 +59,7 @@ impl Mechanism {
 
 /// A parameter, or a value of the start.
 pub fn variable(info: &Info, name: &str) -> Result<Signal, Error> {
-    let count = |list: &[mbs_runtime::Quantity]| 0..list.len();
-    let known: Vec<Signal> = count(info.parameters)
-        .map(Variable::Parameter)
-        .chain(count(info.coordinates).map(Variable::Coordinate))
-        .chain(count(info.coordinates).map(Variable::Velocity))
-        .filter_map(|variable| Signal::of(info, variable))
-        .collect();
-    named("parameter or start value", &known, name)
+    named("parameter or start value", &Signal::adjustable(info), name)
 }
 
 /// The signal with a name.

@@ -173,14 +173,7 @@ impl<'a> Experiment<'a> {
 
     /// The places of what is looked for.
     pub(super) fn places(&self) -> Result<Vec<Variable>, Error> {
-        let info = self.info;
-        let count = |list: &[mbs_runtime::Quantity]| 0..list.len();
-        let known: Vec<Signal> = count(info.parameters)
-            .map(Variable::Parameter)
-            .chain(count(info.coordinates).map(Variable::Coordinate))
-            .chain(count(info.coordinates).map(Variable::Velocity))
-            .filter_map(|variable| Signal::of(info, variable))
-            .collect();
+        let known = Signal::adjustable(self.info);
         let find = |unknown: &Unknown| {
             let found = known.iter().find(|signal| signal.name == unknown.name);
             found.map(|signal| signal.variable).ok_or_else(|| Error::Unknown {
