@@ -14,7 +14,7 @@ use crate::{Error, Model, RunOptions, Settings, StartKind, Unit, names};
 /// Derivatives that are known to fewer digits than these are in doubt.
 const DOUBTFUL: f64 = 1e-6;
 
-/// About which state something is asked, in texts: values are numbers with or without a unit. Without any, about
+/// The state about which something is asked, in texts: a value is a number with or without a unit. By default it is
 /// the equilibrium that is nearest to the declared start.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct About {

@@ -90,7 +90,7 @@ impl Share {
         if count == expected {
             return Ok(count);
         }
-        Err(refused(&self.path, &format!("it has {count} of its {expected} runs; make it anew")))
+        Err(refused(&self.path, &format!("it has {count} of its {expected} runs; run its command again")))
     }
 }
 
