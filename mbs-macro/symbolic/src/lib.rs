@@ -46,6 +46,7 @@ mod differentiate;
 mod display;
 mod eliminate;
 mod evaluate;
+mod growing;
 mod inconsistency;
 mod latex;
 pub mod layout;
@@ -59,6 +60,7 @@ mod repetition;
 mod sin_cos;
 mod spline;
 mod substitute;
+mod tangent;
 pub mod units;
 
 pub use algebra::{Algebra, Scalar, Vector};
