@@ -104,7 +104,10 @@ def test_an_exception_of_the_progress_ends_the_sweep(library):
 def test_an_interruption_ends_the_sweep():
     script = textwrap.dedent(
         f"""
+        import signal
         import numpy as np, mbs
+        # a shell that runs the tests in the background lets them ignore interruptions
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         crank = mbs.compile({str(ROOT / "models/src/slider_crank.rs")!r})
         print("begun", flush=True)
         crank.sweep(l1=np.linspace(50, 70, 1_000_000), end=10.0, progress=False)
