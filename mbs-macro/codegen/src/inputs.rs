@@ -42,7 +42,8 @@ pub enum Input {
     HalfStep,
     /// and t + h.
     NextTime,
-    /// How much a result counts of a function that is transposed.
+    /// How much a result counts of a function that is transposed; how fast an argument changes of one whose tangent
+    /// it is.
     Weight(usize),
 }
 

@@ -205,6 +205,38 @@ impl Program {
         count
     }
 
+    /// Which inputs each result depends on, as the instructions have it: where one is multiplied by
+    /// what happens to be 0, too.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_symbolic::{Arena, Operand, Stage, lower_whole};
+    ///
+    /// let mut arena = Arena::new();
+    /// let [x, y] = ["x", "y"].map(|name| arena.symbol(name, Stage::Variable));
+    /// let [of_x, of_y] = [x, y].map(|symbol| arena.variable(symbol));
+    /// let product = arena.mul(of_x, of_y);
+    /// let program = lower_whole(&mut arena, &[product, of_y], 1024)?;
+    /// let reads = program.reads();
+    /// assert_eq!(reads[0].iter().collect::<Vec<_>>(), [&x, &y]);
+    /// assert_eq!(reads[1].iter().collect::<Vec<_>>(), [&y]);
+    /// # Ok::<(), mbs_symbolic::Inconsistency>(())
+    /// ```
+    pub fn reads(&self) -> Vec<BTreeSet<Symbol>> {
+        let mut all: Vec<BTreeSet<Symbol>> = Vec::with_capacity(self.instructions.len());
+        let of = |operand: Operand, all: &[BTreeSet<Symbol>]| match operand {
+            Operand::Symbol(symbol) => BTreeSet::from([symbol]),
+            Operand::Value(at) => all[at].clone(),
+            Operand::Number(_) | Operand::Hoisted(_) => BTreeSet::new(),
+        };
+        for instruction in &self.instructions {
+            let mut read = of(instruction.a, &all);
+            read.extend(of(instruction.b, &all));
+            all.push(read);
+        }
+        self.outputs.iter().map(|output| of(*output, &all)).collect()
+    }
+
     /// An operation on numbers.
     pub fn apply(&self, operation: Operation, a: f64, b: f64) -> f64 {
         match operation {

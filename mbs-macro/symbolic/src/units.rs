@@ -67,6 +67,35 @@ impl Dimension {
         Self::of(mass.into(), length.into(), time.into())
     }
 
+    /// The SI unit as text: `N*m`, `kg*m^2/s`; empty for a bare number, and for exponents that are no
+    /// small integers.
+    pub fn si_unit(self) -> String {
+        let exponents = self.exponents().unwrap_or_default();
+        let named = match exponents {
+            [1, 1, -2] => "N",
+            [1, 2, -2] => "N*m",
+            [1, 2, -3] => "W",
+            [1, -1, -2] => "Pa",
+            [1, 0, -2] => "N/m",
+            _ => "",
+        };
+        if !named.is_empty() {
+            return named.into();
+        }
+        let powers = [("kg", exponents[0]), ("m", exponents[1]), ("s", exponents[2])];
+        let product = |sign: i16| {
+            let factors = powers.iter().filter(|(_, power)| i16::from(*power) * sign > 0);
+            let text = factors.map(|(unit, power)| match power.unsigned_abs() {
+                1 => (*unit).to_owned(),
+                power => format!("{unit}^{power}"),
+            });
+            text.collect::<Vec<_>>()
+        };
+        let (over, under) = (product(1).join("*"), product(-1));
+        let over = if over.is_empty() && !under.is_empty() { "1".into() } else { over };
+        under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
+    }
+
     fn zip(self, other: Self, f: impl Fn(i16, i16) -> i16) -> Self {
         let [a, b, c] = self.sixths;
         let [x, y, z] = other.sixths;

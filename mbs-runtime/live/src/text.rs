@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use mbs_codegen::compiled::Choices;
-use mbs_codegen::target::{self, CSources, Scalar};
+use mbs_codegen::target::{self, CSources, Experiment, Fmu, Scalar};
 use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
@@ -165,6 +165,25 @@ impl Text {
     /// ```
     pub fn c(&self, scalar: Scalar) -> Result<CSources, Error> {
         self.make(move |_, compiled| target::c(compiled, scalar))
+    }
+
+    /// Compiles the declaration to the files of a functional mock-up unit: descriptions for importers,
+    /// and C code with the functions of the standard.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Experiment, Text};
+    ///
+    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
+    /// let fmu = Text::declaration("slider.mbs", text).fmu(Experiment { step: 1e-3, end: 1.0 })?;
+    /// assert!(fmu.sources.iter().any(|file| file.text.contains("fmi3DoStep")));
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
+    pub fn fmu(&self, experiment: Experiment) -> Result<Fmu, Error> {
+        self.make(move |_, compiled| target::fmi(compiled, experiment))
     }
 
     /// What `target` makes of the compiled mechanism and of its declaration as tokens.

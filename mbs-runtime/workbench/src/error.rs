@@ -93,6 +93,15 @@ pub enum Error {
         /// What the system says.
         source: std::io::Error,
     },
+    /// What a compiler of C says.
+    #[cfg(feature = "live")]
+    #[error("the C compiler `{compiler}` failed; --sources-only does without: {reason}")]
+    Compiler {
+        /// Its name.
+        compiler: String,
+        /// What it says.
+        reason: String,
+    },
     /// A run that ended early; what it had computed was kept.
     #[error("the run ended early: {cause}{kept}")]
     EndedEarly {

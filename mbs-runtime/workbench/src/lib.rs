@@ -45,6 +45,8 @@ mod doubt;
 mod error;
 pub mod figure;
 mod files;
+#[cfg(feature = "live")]
+pub mod fmu;
 mod interrupt;
 #[cfg(feature = "live")]
 mod live;

@@ -119,29 +119,7 @@ pub fn split_setting(text: &str) -> Result<(&str, &str), Error> {
 
 /// The SI unit of a dimension as text: `N*m`, `kg*m^2/s`; empty for a bare number.
 pub fn si_unit(dimension: Dimension) -> String {
-    let named = match (dimension.mass, dimension.length, dimension.time) {
-        (1, 1, -2) => "N",
-        (1, 2, -2) => "N*m",
-        (1, 2, -3) => "W",
-        (1, -1, -2) => "Pa",
-        (1, 0, -2) => "N/m",
-        _ => "",
-    };
-    if !named.is_empty() {
-        return named.into();
-    }
-    let powers = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
-    let product = |sign: i16| {
-        let factors = powers.iter().filter(|(_, p)| i16::from(*p) * sign > 0);
-        let text = factors.map(|(unit, p)| match i16::from(*p) * sign {
-            1 => (*unit).to_owned(),
-            p => format!("{unit}^{p}"),
-        });
-        text.collect::<Vec<_>>()
-    };
-    let (over, under) = (product(1).join("*"), product(-1));
-    let over = if over.is_empty() && !under.is_empty() { "1".into() } else { over };
-    under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
+    units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]).si_unit()
 }
 
 #[cfg(test)]

@@ -44,6 +44,7 @@
 mod build;
 mod derivation;
 mod functions;
+mod tangents;
 mod transposes;
 mod vectors;
 

@@ -29,7 +29,7 @@ pub enum Vector {
     Feedback,
     /// Predicted accelerations of what is integrated.
     Predicted,
-    /// Weights of the results of a function, of its transpose.
+    /// Weights of the results of a function, of its transpose; or a direction, of its tangent.
     Weights,
 }
 

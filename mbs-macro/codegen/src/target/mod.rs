@@ -2,10 +2,12 @@
 //! alone.
 
 mod c;
+mod fmi;
 #[cfg(feature = "rust")]
 mod rust;
 mod words;
 
-pub use c::{CSources, File, Scalar, c};
+pub use c::{CSources, File, Scalar, c, c_with_tangents};
+pub use fmi::{Experiment, Fmu, Version, fmi};
 #[cfg(feature = "rust")]
 pub use rust::rust;

@@ -1,5 +1,7 @@
 //! `mbs export`: a mechanism as a program in another language.
 
+mod fmu;
+
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
@@ -30,6 +32,7 @@ pub(crate) fn command() -> Command {
         .subcommand_required(true)
         .arg_required_else_help(true)
         .subcommand(c)
+        .subcommand(fmu::command())
 }
 
 const EXAMPLES: &str = "\
@@ -40,6 +43,7 @@ Examples:
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     match matches.subcommand() {
         Some(("c", matches)) => c(models, matches),
+        Some(("fmu", matches)) => fmu::run(models, matches),
         // the parser requires one that it knows
         _ => Ok(()),
     }

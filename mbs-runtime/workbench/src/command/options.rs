@@ -9,7 +9,7 @@ use mbs_runtime::{Info, Stabilization};
 use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity};
 
 /// An option with a value, which may begin with a minus sign.
-pub(super) fn option(name: &'static str, value: &'static str, help: &'static str) -> Arg {
+pub(crate) fn option(name: &'static str, value: &'static str, help: &'static str) -> Arg {
     Arg::new(name).long(name).value_name(value).help(help).allow_hyphen_values(true)
 }
 

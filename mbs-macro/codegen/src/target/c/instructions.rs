@@ -22,16 +22,19 @@ fn before(vector: Vector) -> &'static str {
         Vector::Multipliers => "reactions->multipliers.",
         Vector::Feedback => "feedback->",
         Vector::Predicted => "predicted->",
-        // of transposed programs, which C does not have
-        Vector::Weights => "weights->",
+        // of tangents, an array
+        Vector::Weights => "direction",
     }
 }
 
 /// A vector as an array.
 pub fn elements(target: &Target<'_>, vector: Vector) -> String {
     let before = before(vector);
-    let pointer =
-        before.strip_suffix("->").map_or_else(|| format!("&{}", before.trim_end_matches('.')), str::to_owned);
+    let pointer = match (vector, before.strip_suffix("->")) {
+        (Vector::Weights, _) => before.to_owned(),
+        (_, Some(pointer)) => pointer.to_owned(),
+        (_, None) => format!("&{}", before.trim_end_matches('.')),
+    };
     format!("{}_elements({pointer})", target.names.prefix)
 }
 
@@ -160,7 +163,10 @@ impl Target<'_> {
     /// How a function reads what a symbol stands for.
     pub fn input(&self, input: Input) -> String {
         if let Some(Component { vector, place }) = input.component() {
-            return format!("{}{}", before(vector), self.names.of(vector).members[place].name);
+            return match vector {
+                Vector::Weights => format!("{}[{place}]", before(vector)),
+                _ => format!("{}{}", before(vector), self.names.of(vector).members[place].name),
+            };
         }
         let name = match input {
             Input::MinusTwoAlpha => "gains->minus_two_alpha",

@@ -52,27 +52,86 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
     let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
     let outputs: Vec<Output> = outputs.collect();
-    let doc = entries(include_str!("text/kernels.txt")).find(|(name, _)| *name == id.name());
-    let doc = doc.map_or("", |(_, doc)| doc);
     // a last single number is returned
     let returns = outputs.len() < id.results().len();
-    let mut arguments = vec![("const struct NAME *".to_owned(), "m")];
-    arguments.extend(id.arguments().iter().map(|&argument| argument_of(argument)));
-    arguments.extend(outputs.iter().map(|output| (output.declared_as(target), output.name)));
-    let declarations: Vec<String> = arguments.iter().map(|(of, name)| format!("{of}{name}")).collect();
-    // not every program reads all that it is given
-    let given: Vec<String> = arguments.iter().map(|(_, name)| format!("(void){name};")).collect();
+    let doc = entries(include_str!("text/kernels.txt")).find(|(name, _)| *name == id.name());
+    let doc = doc.map_or("", |(_, doc)| doc);
+    let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
     let is_static = if is_public { "" } else { "static " };
     let result = if returns { "NAME_real" } else { "void" };
-    let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
-    let head = format!("{is_static}{result} NAME_compute_{name}(\n    {})", declarations.join(",\n    "));
+    let arguments = id.arguments().iter().map(|&argument| argument_of(argument));
     let statements = statements(target, program, &outputs, returns)?;
     Ok(Kernel {
         doc: documented(doc, &operations, watch, id.solves()),
-        head: target.fill(&head),
-        body: format!("    {}\n{statements}", given.join(" ")),
         is_public,
+        ..function(
+            target,
+            &format!("{is_static}{result} NAME_compute_{name}"),
+            arguments,
+            &outputs,
+            &statements,
+        )
     })
+}
+
+/// The functions that have tangents: what a state and inputs lead to.
+const DIFFERENTIATED: [FunctionId; 5] = [
+    FunctionId::Stabilized,
+    FunctionId::Reactions,
+    FunctionId::Outputs,
+    FunctionId::Events,
+    FunctionId::Complete,
+];
+
+/// The derivatives of functions along a direction, in their order.
+///
+/// # Errors
+/// A program is not written as it was checked.
+pub fn tangents(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
+    DIFFERENTIATED.into_iter().map(|id| tangent(target, id)).collect()
+}
+
+fn tangent(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
+    let program = target.compiled.tangent(id)?;
+    let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
+    let outputs: Vec<Output> = outputs.collect();
+    let arguments = id.arguments().iter().map(|&argument| argument_of(argument));
+    let arguments = arguments.chain([("const NAME_real *".to_owned(), "direction")]);
+    let statements = statements(target, &program, &outputs, false)?;
+    let doc = format!(
+        "The derivatives of the results of NAME_compute_{name} along a direction, which has {} numbers: how fast the \
+         time changes, and every component of the structs among the arguments, in their order, without gains.",
+        target.compiled.directions(id),
+        name = id.name()
+    );
+    let head = format!("void NAME_along_{}", id.name());
+    Ok(Kernel {
+        doc: target.fill(&documented(&doc, &program.operations(), 0, false)),
+        is_public: true,
+        ..function(target, &head, arguments, &outputs, &statements)
+    })
+}
+
+/// A function with these arguments behind the mechanism, and with its results behind them.
+fn function(
+    target: &Target<'_>,
+    head: &str,
+    arguments: impl Iterator<Item = (String, &'static str)>,
+    outputs: &[Output],
+    statements: &str,
+) -> Kernel {
+    let results = outputs.iter().map(|output| (output.declared_as(target), output.name));
+    let arguments: Vec<_> =
+        [("const struct NAME *".to_owned(), "m")].into_iter().chain(arguments).chain(results).collect();
+    let declarations: Vec<String> = arguments.iter().map(|(of, name)| format!("{of}{name}")).collect();
+    // not every program reads all that it is given
+    let given: Vec<String> = arguments.iter().map(|(_, name)| format!("(void){name};")).collect();
+    Kernel {
+        doc: String::new(),
+        head: target.fill(&format!("{head}(\n    {})", declarations.join(",\n    "))),
+        body: format!("    {}\n{statements}", given.join(" ")),
+        is_public: false,
+    }
 }
 
 /// Statements that run a program and write its outputs.

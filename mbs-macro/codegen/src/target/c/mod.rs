@@ -127,12 +127,28 @@ impl Target<'_> {
 /// A program that would be written in another way than it was checked in, which is a mistake
 /// of the compiler.
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
+    printed(compiled, scalar, false)
+}
+
+/// The C sources of a mechanism, with functions that give exact derivatives along a direction: of
+/// accelerations, reactions, outputs and events by the state and the inputs.
+///
+/// # Errors
+/// As [`c`].
+pub fn c_with_tangents(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
+    printed(compiled, scalar, true)
+}
+
+fn printed(compiled: &Compiled, scalar: Scalar, has_tangents: bool) -> Result<CSources, Diagnostics> {
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar, faults: RefCell::default() };
-    let internal = |fault: &Inconsistency| Diagnostic::internal(compiled.written.name.span(), fault);
-    let kernels = kernels::all(&target).map_err(|fault| internal(&fault))?;
+    let internal = |fault: Inconsistency| Diagnostic::internal(compiled.written.name.span(), fault);
+    let mut kernels = kernels::all(&target).map_err(internal)?;
+    if has_tangents {
+        kernels.extend(kernels::tangents(&target).map_err(internal)?);
+    }
     let fused = kernels::fused(&target);
-    if let Some(fault) = target.faults.borrow().first() {
+    if let Some(fault) = target.faults.take().into_iter().next() {
         return Err(internal(fault).into());
     }
     let file = |name: String, text| File { name, text };

@@ -78,7 +78,7 @@ impl Names {
             Vector::Inputs => &self.structs[INPUTS],
             Vector::Positions | Vector::Velocities | Vector::Accelerations => &self.structs[COORDINATES],
             Vector::StatePositions | Vector::StateVelocities | Vector::Predicted => self.states(),
-            // transposed programs, which have weights, are not printed
+            // a direction, which weights are, is an array and has no struct
             Vector::Multipliers | Vector::Feedback | Vector::Weights => &self.structs[CONSTRAINTS],
         }
     }

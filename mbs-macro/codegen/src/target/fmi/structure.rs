@@ -1,0 +1,73 @@
+//! What depends on what: which results a given number reaches at once, and not only through an
+//! integrator. Importers order their calls by it, and look for loops.
+
+use std::collections::BTreeSet;
+
+use mbs_symbolic::Symbol;
+
+use super::variables::{Group, References};
+use crate::compiled::{Compiled, FunctionId, Input};
+
+/// The value references of the time, inputs and states that some results depend on.
+pub struct Dependencies<'a> {
+    compiled: &'a Compiled,
+    references: &'a References,
+    /// Of every coordinate, what its position depends on, and its velocity: themselves, if they are
+    /// integrated.
+    places: [Vec<BTreeSet<usize>>; 2],
+    /// What accelerations and multipliers depend on, which are solved for together.
+    reactions: BTreeSet<usize>,
+}
+
+impl<'a> Dependencies<'a> {
+    pub fn new(compiled: &'a Compiled, references: &'a References) -> Self {
+        let none = Self { compiled, references, places: Default::default(), reactions: BTreeSet::new() };
+        let mut reads = compiled.program(FunctionId::Complete).reads();
+        let velocities = reads.split_off(compiled.coordinates.len().min(reads.len()));
+        let places = [reads, velocities].map(|reads| reads.iter().map(|read| none.of(read)).collect());
+        let placed = Self { places, ..none };
+        let reads = compiled.program(FunctionId::Reactions).reads();
+        let reactions = placed.of(&reads.into_iter().flatten().collect());
+        Self { reactions, ..placed }
+    }
+
+    /// Those of the accelerations of what is integrated, one after the other.
+    pub fn accelerations(&self) -> Vec<BTreeSet<usize>> {
+        let reads = self.compiled.program(FunctionId::Stabilized).reads();
+        reads.iter().take(self.compiled.states.len()).map(|read| self.of(read)).collect()
+    }
+
+    /// Those of the outputs,
+    pub fn outputs(&self) -> Vec<BTreeSet<usize>> {
+        self.compiled.program(FunctionId::Outputs).reads().iter().map(|read| self.of(read)).collect()
+    }
+
+    /// and of the events.
+    pub fn events(&self) -> Vec<BTreeSet<usize>> {
+        self.compiled.program(FunctionId::Events).reads().iter().map(|read| self.of(read)).collect()
+    }
+
+    /// What symbols stand for.
+    fn of(&self, read: &BTreeSet<Symbol>) -> BTreeSet<usize> {
+        let at = |group, place: usize| BTreeSet::from([self.references.of(group) + place]);
+        let state = |group, place: usize| {
+            self.compiled.states.get(place).map(|coordinate| at(group, *coordinate)).unwrap_or_default()
+        };
+        let placed = |group, which: usize, place: usize| match self.places[which].get(place) {
+            Some(known) => known.clone(),
+            // while the places are found themselves
+            None => at(group, place),
+        };
+        let of = |symbol: &Symbol| match self.compiled.input(*symbol) {
+            Input::Time => at(Group::Time, 0),
+            Input::Input(place) => at(Group::Inputs, place),
+            Input::Position(place) => placed(Group::Positions, 0, place),
+            Input::Velocity(place) => placed(Group::Velocities, 1, place),
+            Input::StatePosition(place) => state(Group::Positions, place),
+            Input::StateVelocity(place) => state(Group::Velocities, place),
+            Input::Acceleration(_) | Input::Multiplier(_) => self.reactions.clone(),
+            _ => BTreeSet::new(),
+        };
+        read.iter().flat_map(of).collect()
+    }
+}

@@ -1,0 +1,116 @@
+//! Functional mock-up units: archives that other simulators import.
+
+mod archive;
+mod binary;
+
+use mbs_live::{Experiment, FmiVersion};
+
+use crate::figure::Figure;
+use crate::{Error, Model, Motion, Picture, Start};
+
+pub use binary::{Binary, binaries};
+
+/// A functional mock-up unit: a mechanism as an archive for other simulators, with descriptions,
+/// C code, pictures, and binaries for some platforms. It needs nothing else where it is used.
+#[derive(Clone, Debug)]
+pub struct Fmu {
+    /// What the code and the binaries are called.
+    pub identifier: String,
+    files: mbs_live::Fmu,
+    icon: Option<Vec<u8>>,
+    page: String,
+}
+
+impl Fmu {
+    /// The files of a mechanism, without binaries.
+    ///
+    /// # Errors
+    /// Those of its declaration, and of the start, which a picture is drawn of; [`Error::Name`] of
+    /// a mechanism whose declaration is not there as a text.
+    pub fn of(model: &dyn Model, experiment: Experiment) -> Result<Self, Error> {
+        let files = text(model)?.fmu(experiment)?;
+        let icon = icon(model)?;
+        Ok(Self { identifier: files.identifier.clone(), files, icon, page: page(model, experiment) })
+    }
+
+    /// The C code, which [`binaries`] are compiled from.
+    pub fn sources(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.files.sources.iter().map(|file| (file.name.as_str(), file.text.as_str()))
+    }
+
+    /// The archive of a version of the standard with these binaries.
+    ///
+    /// # Errors
+    /// [`Error::File`] of writing to memory, which has room.
+    pub fn archive(&self, version: FmiVersion, binaries: &[Binary]) -> Result<Vec<u8>, Error> {
+        let text = |name: &str, text: &str| (name.to_owned(), text.as_bytes().to_vec());
+        let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+        let descriptions = self.files.descriptions.iter().filter(|(of, _)| *of == version);
+        files.extend(descriptions.map(|(_, description)| text("modelDescription.xml", description)));
+        for binary in binaries {
+            if let Some(folder) = binary.folder(version) {
+                let name = format!("binaries/{folder}/{}{}", self.identifier, binary.ending());
+                files.push((name, binary.bytes.clone()));
+            }
+        }
+        files.extend(self.sources().map(|(name, code)| text(&format!("sources/{name}"), code)));
+        files.push(text("documentation/index.html", &self.page));
+        match version {
+            FmiVersion::V2 => {
+                files.extend(self.icon.iter().map(|icon| ("model.png".to_owned(), icon.clone())))
+            }
+            FmiVersion::V3 => {
+                files.push(text("sources/buildDescription.xml", &self.files.build));
+                files.push(text("terminalsAndIcons/terminalsAndIcons.xml", &self.files.terminals));
+                let icon = self.icon.iter();
+                files.extend(icon.map(|icon| ("terminalsAndIcons/icon.png".to_owned(), icon.clone())));
+            }
+        }
+        archive::zip(&files).map_err(Error::file("write", std::path::Path::new(&self.identifier)))
+    }
+}
+
+/// The declaration of a mechanism.
+fn text(model: &dyn Model) -> Result<&mbs_live::Text, Error> {
+    model.text().ok_or_else(|| Error::Name {
+        name: model.info().name.to_owned(),
+        reason: "its declaration is compiled into this program and not there as a text; name its file".into(),
+    })
+}
+
+/// The mechanism at its start; nothing if it has no points.
+fn icon(model: &dyn Model) -> Result<Option<Vec<u8>>, Error> {
+    let sketch = model.sketch();
+    if sketch.points.is_empty() {
+        return Ok(None);
+    }
+    let run = model.start(&Start::of(model, &model.defaults())?)?;
+    let (mut q, mut v) = (coordinates(model), coordinates(model));
+    run.state(&mut q, &mut v);
+    let mut points = vec![0.0; 2 * sketch.points.len()];
+    run.points(run.time(), &q, &mut points);
+    let places = points.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
+    let motion = Motion { sketch, times: vec![run.time()], places: vec![places] };
+    Figure::mechanism(model.info().name, Picture::of(&motion)).png().map(Some)
+}
+
+fn coordinates(model: &dyn Model) -> Vec<f64> {
+    vec![0.0; model.info().coordinates.len()]
+}
+
+/// What a person finds in the archive: what the mechanism is, and how it is simulated.
+fn page(model: &dyn Model, experiment: Experiment) -> String {
+    let info = model.info();
+    include_str!("page.html")
+        .replace("STEP", &format!("{:?}", experiment.step))
+        .replace("SCHEME", model.scheme().title)
+        .replace("VERSION", env!("CARGO_PKG_VERSION"))
+        // names and words of the declaration last
+        .replace("MECHANISM", &escaped(info.name))
+        .replace("ABOUT", &escaped(info.doc))
+        .replace("EQUATIONS", &escaped(&model.explanation()))
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

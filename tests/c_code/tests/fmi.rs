@@ -1,0 +1,96 @@
+//! Functional mock-up units as C: without a warning, with the bits of the program's own runs, refusing what is
+//! wrong, and clean under sanitizers and valgrind over ten thousand instances. What importers make of them stands
+//! in `tests/fmi`, in Python.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
+
+use std::path::Path;
+use std::process::Command;
+
+use c_code::{compilers, is_there};
+use mbs_live::{Experiment, Run, Text};
+use mbs_runtime::System;
+use tempfile::TempDir;
+
+/// With drives and without, tables, redundant constraints and loops of long programs.
+const MECHANISMS: [&str; 6] =
+    ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
+
+const STEP: f64 = 1e-4;
+
+fn text(name: &str) -> Text {
+    mbs::library().iter().find(|entry| entry.name == name).unwrap().text()
+}
+
+/// The sources of a unit in a folder, with a program around them that makes so many instances four times.
+fn exported(text: &Text, instances: usize) -> TempDir {
+    let fmu = text.fmu(Experiment { step: STEP, end: 1.0 }).unwrap();
+    let folder = TempDir::new().unwrap();
+    for file in &fmu.sources {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let main =
+        include_str!("fmi.c").replace("NAME", &fmu.identifier).replace("TURNS", &instances.to_string());
+    std::fs::write(folder.path().join("main.c"), main).unwrap();
+    std::fs::write(folder.path().join("solver.c"), format!("#include \"{}.c\"\n", fmu.identifier)).unwrap();
+    folder
+}
+
+/// What a command prints, which has to succeed.
+fn run(folder: &Path, line: &str) -> String {
+    let output = Command::new("sh").args(["-c", line]).current_dir(folder).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "`{line}` says\n{said}{}", String::from_utf8_lossy(&output.stdout));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Positions and velocities after twenty steps, as the program prints their bits.
+fn native(text: &Text) -> String {
+    let live = text.compile().unwrap();
+    let mut run = Run::builder(&live, STEP).build().unwrap();
+    for _ in 0..20 {
+        run.step().unwrap();
+    }
+    let count = live.declared_info().coordinates.len();
+    let (mut q, mut v) = (vec![0.0; count], vec![0.0; count]);
+    run.state(&mut q, &mut v);
+    q.iter().chain(&v).map(|x: &f64| format!("{:016x} ", x.to_bits())).collect()
+}
+
+#[test]
+fn both_versions_have_the_bits_of_a_run_without_a_warning() {
+    for compiler in compilers() {
+        for name in MECHANISMS {
+            let folder = exported(&text(name), 1);
+            let warnings = "-Wall -Wextra -Wconversion -Wdouble-promotion -Werror -pedantic";
+            let flags = format!("-std=c99 -O2 -ffp-contract=off {warnings}");
+            run(folder.path(), &format!("{compiler} {flags} solver.c main.c -lm -o unit"));
+            let expected = native(&text(name));
+            let printed = run(folder.path(), "./unit");
+            assert_eq!(printed, format!("{expected}\n{expected}\n"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn sanitizers_find_nothing() {
+    for compiler in compilers() {
+        for name in MECHANISMS {
+            let folder = exported(&text(name), 3);
+            let flags = "-std=c99 -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all";
+            run(folder.path(), &format!("{compiler} {flags} solver.c main.c -lm -o checked"));
+            run(folder.path(), "./checked");
+        }
+    }
+}
+
+/// Four instances a turn: forty thousand are made and freed, and every byte of them.
+#[test]
+fn ten_thousand_instances_leave_nothing_behind() {
+    if !["valgrind", "gcc"].iter().all(|tool| is_there(tool)) {
+        return;
+    }
+    let folder = exported(&text("slider-crank-free"), 10_000);
+    run(folder.path(), "gcc -std=c99 -g -O2 solver.c main.c -lm -o plain");
+    run(folder.path(), "valgrind --quiet --error-exitcode=9 --leak-check=full --show-leak-kinds=all ./plain");
+}
