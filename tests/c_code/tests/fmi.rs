@@ -84,6 +84,21 @@ fn sanitizers_find_nothing() {
     }
 }
 
+#[test]
+fn a_program_for_windows_has_the_same_bits() {
+    if !["x86_64-w64-mingw32-gcc", "wine"].iter().all(|tool| is_there(tool)) {
+        return;
+    }
+    let folder = exported(&text("slider-crank-free"), 1);
+    run(
+        folder.path(),
+        "x86_64-w64-mingw32-gcc -std=c99 -O2 -ffp-contract=off solver.c main.c -lm -o unit.exe",
+    );
+    let printed = run(folder.path(), "WINEDEBUG=-all wine unit.exe").replace('\r', "");
+    let expected = native(&text("slider-crank-free"));
+    assert_eq!(printed, format!("{expected}\n{expected}\n"));
+}
+
 /// Four instances a turn: forty thousand are made and freed, and every byte of them.
 #[test]
 fn ten_thousand_instances_leave_nothing_behind() {

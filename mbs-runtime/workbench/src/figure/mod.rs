@@ -8,6 +8,8 @@ mod colour;
 mod columns;
 mod contour;
 mod draw;
+#[cfg(feature = "live")]
+pub(crate) mod icon;
 mod labels;
 mod layout;
 mod lines;

@@ -15,7 +15,7 @@ use crate::{Error, files};
 static FONT: &[u8] = include_bytes!("../../assets/dejavu/DejaVuSans-subset.ttf");
 
 /// Drawn pixels per pixel of a PNG, in each direction.
-const OVERSAMPLING: usize = 2;
+pub(super) const OVERSAMPLING: usize = 2;
 
 /// The bitmap backend centres the box of a text, which holds more above its
 /// digits than below: by this part of its size they come out too high.
@@ -98,7 +98,7 @@ impl Figure {
 }
 
 /// Squares of pixels averaged: smooth edges whatever was drawn.
-fn averaged(drawn: &[u8], width: usize) -> Vec<u8> {
+pub(super) fn averaged(drawn: &[u8], width: usize) -> Vec<u8> {
     let stride = 3 * width;
     let mut pixels = Vec::with_capacity(drawn.len() / (OVERSAMPLING * OVERSAMPLING));
     for rows in drawn.chunks_exact(OVERSAMPLING * stride) {
@@ -118,7 +118,7 @@ fn averaged(drawn: &[u8], width: usize) -> Vec<u8> {
     pixels
 }
 
-fn encoded(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
+pub(super) fn encoded(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);

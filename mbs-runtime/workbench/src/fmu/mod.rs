@@ -4,9 +4,10 @@ mod archive;
 mod binary;
 
 use mbs_live::{Experiment, FmiVersion};
+use mbs_runtime::System;
 
-use crate::figure::Figure;
-use crate::{Error, Model, Motion, Picture, Start};
+use crate::figure::icon;
+use crate::{Error, Model, Motion, Picture, Settings, Start};
 
 pub use binary::{Binary, binaries};
 
@@ -22,14 +23,30 @@ pub struct Fmu {
 }
 
 impl Fmu {
-    /// The files of a mechanism, without binaries.
+    /// The files of a mechanism, without binaries. Its steps and how long importers are proposed to
+    /// simulate are those of the settings.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{FmiVersion, Text};
+    /// use mbs_workbench::{Settings, fmu, model};
+    ///
+    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
+    /// let slider = model::as_declared(&Text::declaration("slider.mbs", text))?;
+    /// let unit = fmu::Fmu::of(&*slider, &Settings { step: 1e-3, ..slider.defaults() })?;
+    /// let archive = unit.archive(FmiVersion::V3, &[])?;
+    /// assert!(archive.starts_with(b"PK"));
+    /// # Ok::<(), mbs_workbench::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of its declaration, and of the start, which a picture is drawn of; [`Error::Name`] of
-    /// a mechanism whose declaration is not there as a text.
-    pub fn of(model: &dyn Model, experiment: Experiment) -> Result<Self, Error> {
+    /// Those of its declaration, and of a start with this step; [`Error::Name`] of a mechanism whose
+    /// declaration is not there as a text.
+    pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
+        let run = model.start(&Start::of(model, settings)?)?;
+        let experiment = Experiment { step: settings.step, end: settings.end };
         let files = text(model)?.fmu(experiment)?;
-        let icon = icon(model)?;
+        let icon = icon(model, &*run)?;
         Ok(Self { identifier: files.identifier.clone(), files, icon, page: page(model, experiment) })
     }
 
@@ -79,19 +96,18 @@ fn text(model: &dyn Model) -> Result<&mbs_live::Text, Error> {
 }
 
 /// The mechanism at its start; nothing if it has no points.
-fn icon(model: &dyn Model) -> Result<Option<Vec<u8>>, Error> {
+fn icon(model: &dyn Model, run: &dyn System) -> Result<Option<Vec<u8>>, Error> {
     let sketch = model.sketch();
     if sketch.points.is_empty() {
         return Ok(None);
     }
-    let run = model.start(&Start::of(model, &model.defaults())?)?;
     let (mut q, mut v) = (coordinates(model), coordinates(model));
     run.state(&mut q, &mut v);
     let mut points = vec![0.0; 2 * sketch.points.len()];
     run.points(run.time(), &q, &mut points);
     let places = points.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
     let motion = Motion { sketch, times: vec![run.time()], places: vec![places] };
-    Figure::mechanism(model.info().name, Picture::of(&motion)).png().map(Some)
+    icon::icon(model.info().name, &Picture::of(&motion)).map(Some)
 }
 
 fn coordinates(model: &dyn Model) -> Vec<f64> {

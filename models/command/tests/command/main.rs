@@ -12,6 +12,7 @@ mod runs;
 mod shards;
 mod sweeps;
 mod texts;
+mod units;
 mod words;
 
 use std::path::{Path, PathBuf};

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
-use mbs_live::{Experiment, FmiVersion};
+use mbs_live::FmiVersion;
 
 use crate::command::options::option;
 use crate::fmu::{Fmu, binaries};
 
-use crate::{Error, Models, RunOptions, files, say};
+use crate::{Error, Model, Models, RunOptions, Settings, files, say};
 
 /// The versions of the standard, as they are chosen and as files are called.
 const VERSIONS: [(&str, FmiVersion); 2] = [("2", FmiVersion::V2), ("3", FmiVersion::V3)];
@@ -54,7 +54,7 @@ pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let folder = matches.get_one::<PathBuf>("out").cloned().unwrap_or_default();
     let found = models.find(name)?;
     let model = found.model();
-    let fmu = Fmu::of(model, experiment(model, matches)?)?;
+    let fmu = Fmu::of(model, &settings(model, matches)?)?;
     let binaries = if matches.get_flag("sources-only") { Vec::new() } else { binaries(&fmu)? };
     let wanted: Vec<&String> = matches.get_many("fmi").into_iter().flatten().collect();
     std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
@@ -75,13 +75,12 @@ pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
 }
 
 /// Step and end, in the words of a run.
-fn experiment(model: &dyn crate::Model, matches: &ArgMatches) -> Result<Experiment, Error> {
+fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
     let mut options = RunOptions::default();
     for name in ["step", "end"] {
         if let Some(text) = matches.get_one::<String>(name) {
             options.set(name, text)?;
         }
     }
-    let settings = options.settings(model)?;
-    Ok(Experiment { step: settings.step, end: settings.end })
+    options.settings(model)
 }
