@@ -88,6 +88,12 @@ impl Scope<'_> {
         let text = name.to_string();
         self.bodies.get(&text).ok_or_else(|| {
             let error = Diagnostic::new(name.span(), format!("there is no body `{text}`"));
+            // a point by itself, without the body that it is on
+            let on = self.bodies.iter().filter(|(_, frame)| frame.points.contains_key(&text));
+            let points: Vec<String> = on.map(|(body, _)| format!("{body}.{text}")).collect();
+            if !points.is_empty() {
+                return error.help(format!("a point is written with its body: {}", listing(&points)));
+            }
             match nearest(&text, self.bodies.keys().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
                 None => error.help(format!("the bodies are {}", listing(self.bodies.keys()))),

@@ -15,6 +15,7 @@ mechanism! {
         point rail on wall = (0, 0);
         revolute pin (crank.tpi, slider);
         revolute hinge (crank.base, slidr);
+        revolute end (tip, slider);
         force pull on crank.top = (1, 0) [N];
         force lift on x3.tip = (1, 0) [N];
         let a = crank.tip;
