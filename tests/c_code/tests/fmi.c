@@ -5,8 +5,8 @@
 
 #include <inttypes.h>
 
-/* positions and velocities of what is integrated */
-enum { STATES = sizeof ((struct memory *)0)->states / sizeof(double) };
+/* more than any mechanism here has */
+enum { MOST_STATES = 512 };
 
 enum { INSTANCES = TURNS, COMMUNICATION_STEPS = 5 };
 
@@ -103,7 +103,8 @@ static void live_2(int is_printed)
 static void live_3(int is_printed)
 {
     struct instance *it = new_3(1), *exchange = new_3(0);
-    double derivatives[STATES];
+    double derivatives[MOST_STATES];
+    size_t count;
     EXPECT(fmi3EnterInitializationMode(it, 0, 0, 0, 0, 0) == fmi3OK && fmi3ExitInitializationMode(it) == fmi3OK);
     step_3(it, 0, COMMUNICATION_STEPS);
     if (is_printed) {
@@ -113,7 +114,8 @@ static void live_3(int is_printed)
     fmi3FreeInstance(it);
     EXPECT(fmi3EnterInitializationMode(exchange, 0, 0, 0, 0, 0) == fmi3OK);
     EXPECT(fmi3ExitInitializationMode(exchange) == fmi3OK && fmi3EnterContinuousTimeMode(exchange) == fmi3OK);
-    EXPECT(fmi3GetContinuousStateDerivatives(exchange, derivatives, STATES) == fmi3OK);
+    EXPECT(fmi3GetNumberOfContinuousStates(exchange, &count) == fmi3OK && count <= MOST_STATES);
+    EXPECT(fmi3GetContinuousStateDerivatives(exchange, derivatives, count) == fmi3OK);
     fmi3FreeInstance(exchange);
 }
 

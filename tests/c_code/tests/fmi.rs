@@ -16,10 +16,23 @@ use tempfile::TempDir;
 const MECHANISMS: [&str; 6] =
     ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
 
+/// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements.
+const SPARSE: [&str; 2] = [
+    "Mechanism { dof = 0; states = reduced; body block (x) { mass = 1 [kg]; }
+        drive motor: x = 0.1 [m]*sin(3 [rad/s]*t); start { guess x = 0; } output force [N] = effort(motor); }",
+    "Free { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 0; der(x) = 1 [m/s]; } }",
+];
+
 const STEP: f64 = 1e-4;
 
 fn text(name: &str) -> Text {
     mbs::library().iter().find(|entry| entry.name == name).unwrap().text()
+}
+
+fn texts() -> impl Iterator<Item = (&'static str, Text)> {
+    let sparse =
+        SPARSE.into_iter().map(|declaration| (declaration, Text::declaration("sparse.mbs", declaration)));
+    MECHANISMS.into_iter().map(|name| (name, text(name))).chain(sparse)
 }
 
 /// The sources of a unit in a folder, with a program around them that makes so many instances four times.
@@ -60,12 +73,12 @@ fn native(text: &Text) -> String {
 #[test]
 fn both_versions_have_the_bits_of_a_run_without_a_warning() {
     for compiler in compilers() {
-        for name in MECHANISMS {
-            let folder = exported(&text(name), 1);
+        for (name, text) in texts() {
+            let folder = exported(&text, 1);
             let warnings = "-Wall -Wextra -Wconversion -Wdouble-promotion -Werror -pedantic";
             let flags = format!("-std=c99 -O2 -ffp-contract=off {warnings}");
             run(folder.path(), &format!("{compiler} {flags} solver.c main.c -lm -o unit"));
-            let expected = native(&text(name));
+            let expected = native(&text);
             let printed = run(folder.path(), "./unit");
             assert_eq!(printed, format!("{expected}\n{expected}\n"), "{name}");
         }
@@ -75,8 +88,8 @@ fn both_versions_have_the_bits_of_a_run_without_a_warning() {
 #[test]
 fn sanitizers_find_nothing() {
     for compiler in compilers() {
-        for name in MECHANISMS {
-            let folder = exported(&text(name), 3);
+        for (_, text) in texts() {
+            let folder = exported(&text, 3);
             let flags = "-std=c99 -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all";
             run(folder.path(), &format!("{compiler} {flags} solver.c main.c -lm -o checked"));
             run(folder.path(), "./checked");

@@ -52,5 +52,5 @@ pub fn readme(target: &Target<'_>) -> String {
         .replace("ORDER", &compiled.choices.scheme.order.to_string())
         .replace("STAGE", &stabilized.to_string())
         .replace("FUSION", step)
-        .replace("MECHANISM", &compiled.name)
+        .replace("{mechanism}", &compiled.name)
 }

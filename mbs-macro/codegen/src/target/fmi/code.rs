@@ -41,7 +41,7 @@ pub fn source(compiled: &Compiled, prefix: &str, references: &References, experi
         .replace("NAME", prefix)
         .replace("CAPS", &capitals)
         // last, because it may be any word
-        .replace("MECHANISM", &compiled.name)
+        .replace("{mechanism}", &compiled.name)
 }
 
 /// What differs from mechanism to mechanism.
@@ -54,7 +54,8 @@ fn numbers(compiled: &Compiled, references: &References, experiment: Experiment)
     }
     let end = references.starts[references.starts.len() - 1].1 + compiled.events.len();
     let _ = writeln!(text, "    AT_END = {end}\n}};\n");
-    let places: Vec<String> = compiled.states.iter().map(ToString::to_string).collect();
+    // one more at the end, because C has no arrays without elements
+    let places: Vec<String> = compiled.states.iter().chain([&0]).map(ToString::to_string).collect();
     let _ = writeln!(
         text,
         "/* Which coordinates are integrated. */\nstatic const int STATE_PLACES[] = {{{}}};\n",

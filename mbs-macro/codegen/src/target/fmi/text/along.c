@@ -69,7 +69,7 @@ static double *known(struct rates *rates, uint32_t reference)
     if (reference >= AT_INPUTS && reference < AT_POSITIONS) {
         return PLACES(rates->inputs) + (reference - AT_INPUTS);
     }
-    for (uint32_t j = 0; j < STATE_COUNT; j++) {
+    for (int j = 0; j < STATE_COUNT; j++) {
         if (reference == AT_POSITIONS + (uint32_t)STATE_PLACES[j]) {
             return PLACES(rates->states_q) + j;
         }

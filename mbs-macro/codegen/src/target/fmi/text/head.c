@@ -1,4 +1,4 @@
-/* MECHANISM as a functional mock-up unit: the functions of FMI 2.0 and 3.0, for model exchange and for
+/* {mechanism} as a functional mock-up unit: the functions of FMI 2.0 and 3.0, for model exchange and for
    co-simulation, around the solver in NAME.c. Printed from its declaration; changes here are lost.
 
    Compile it with NAME.c to a shared library: cc -std=c99 -O2 -ffp-contract=off -fPIC -shared.

@@ -23,8 +23,8 @@ struct memory {
     struct NAME_inputs inputs;
     struct NAME mechanism;
     struct NAME_run run;
-    /* what the importer integrates: positions, then velocities */
-    double states[2 * STATE_COUNT];
+    /* what the importer integrates: positions, then velocities; one more, for there may be none */
+    double states[2 * STATE_COUNT + 1];
     /* results */
     struct NAME_reactions reactions;
     struct NAME_coordinates acceleration;

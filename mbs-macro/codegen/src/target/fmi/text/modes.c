@@ -38,7 +38,7 @@ static int set_states(struct instance *it, const double *states, size_t count)
     if (count != 2 * STATE_COUNT) {
         return say(it, WRONG, "there are %d continuous states, and not %lu", 2 * STATE_COUNT, (unsigned long)count);
     }
-    memcpy(it->now.states, states, sizeof it->now.states);
+    memcpy(it->now.states, states, count * sizeof *states);
     place(&it->now);
     return FINE;
 }
@@ -52,7 +52,7 @@ static int get_states(struct instance *it, double *states, size_t count)
     if (count != 2 * STATE_COUNT) {
         return say(it, WRONG, "there are %d continuous states, and not %lu", 2 * STATE_COUNT, (unsigned long)count);
     }
-    memcpy(states, it->now.states, sizeof it->now.states);
+    memcpy(states, it->now.states, count * sizeof *states);
     return FINE;
 }
 

@@ -85,7 +85,7 @@ static int solve(struct instance *it)
     }
     now->acceleration = now->reactions.acceleration;
     if (!it->is_co_simulation) {
-        double derivatives[STATE_COUNT];
+        double derivatives[STATE_COUNT + 1];
         code = accelerate(now, derivatives);
         for (int j = 0; j < STATE_COUNT; j++) {
             PLACES(now->acceleration)[STATE_PLACES[j]] = derivatives[j];
