@@ -4,7 +4,7 @@ use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
 use super::draw::Canvas;
 use super::layout::{Area, SCALE, Span, with_equal_scales};
-use super::output::{OVERSAMPLING, averaged, encoded};
+use super::output::{OVERSAMPLING, averaged, encoded, with_font};
 use super::{Axis, mechanism};
 use crate::Error;
 use crate::picture::{Extent, Picture, Shape};
@@ -20,6 +20,8 @@ const MARGIN: i32 = 16;
 /// [`Error::Figure`].
 pub(crate) fn icon(title: &str, picture: &Picture) -> Result<Vec<u8>, Error> {
     let failed = |reason: String| Error::Figure { title: title.to_owned(), reason };
+    // a joint without a shape of its own is marked by its word
+    with_font().map_err(failed)?;
     let mut picture = picture.clone();
     picture.shapes.retain(|shape| !matches!(shape, Shape::Label { .. }));
     let side = SCALE * SIZE;

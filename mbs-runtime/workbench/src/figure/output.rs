@@ -21,7 +21,7 @@ pub(super) const OVERSAMPLING: usize = 2;
 /// digits than below: by this part of its size they come out too high.
 const LOWERED: f64 = 0.12;
 
-fn with_font() -> Result<(), String> {
+pub(super) fn with_font() -> Result<(), String> {
     static REGISTERED: OnceLock<bool> = OnceLock::new();
     let register = || register_font("sans-serif", FontStyle::Normal, FONT).is_ok();
     if *REGISTERED.get_or_init(register) { Ok(()) } else { Err("the built-in font is damaged".into()) }
