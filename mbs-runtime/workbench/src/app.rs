@@ -14,7 +14,7 @@ use crate::command::{
     sweep, synthesize, travel,
 };
 #[cfg(feature = "live")]
-use crate::command::{check, export, watch};
+use crate::command::{check, export, import, watch};
 use crate::console::complain;
 use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
@@ -155,8 +155,11 @@ impl App {
         };
         let parser = Command::new("mbs").about(about).version(env!("CARGO_PKG_VERSION"));
         #[cfg(feature = "live")]
-        let parser =
-            parser.subcommand(check::command()).subcommand(watch::command()).subcommand(export::command());
+        let parser = parser
+            .subcommand(check::command())
+            .subcommand(watch::command())
+            .subcommand(import::command())
+            .subcommand(export::command());
         parser
             .subcommand(list::command())
             .subcommand(equilibrium::command())
@@ -196,6 +199,8 @@ impl App {
             Some(("check", matches)) => check::run(matches).map(silent),
             #[cfg(feature = "live")]
             Some(("export", matches)) => export::run(&self.models, matches).map(silent),
+            #[cfg(feature = "live")]
+            Some(("import", matches)) => import::run(matches).map(silent),
             #[cfg(feature = "live")]
             Some(("watch", matches)) => watch::run(matches).map(silent),
             Some(("new", matches)) => new::run(matches).map(silent),

@@ -84,6 +84,15 @@ pub enum Error {
         /// How many were checked.
         of: usize,
     },
+    /// A file of another program that is not what it should be, or has what is not imported.
+    #[cfg(feature = "live")]
+    #[error("cannot import {}: {reason}", file.display())]
+    Import {
+        /// The file.
+        file: PathBuf,
+        /// Why not, in the words of the file.
+        reason: String,
+    },
     /// A page that cannot be served.
     #[cfg(feature = "live")]
     #[error("cannot serve a page on port {port} of this machine: {source}; --port 0 takes a free one")]

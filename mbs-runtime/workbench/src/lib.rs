@@ -47,6 +47,8 @@ pub mod figure;
 mod files;
 #[cfg(feature = "live")]
 pub mod fmu;
+#[cfg(feature = "live")]
+mod import;
 mod interrupt;
 #[cfg(feature = "live")]
 mod live;

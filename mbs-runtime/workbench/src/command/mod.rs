@@ -12,6 +12,8 @@ pub(crate) mod explain;
 pub(crate) mod export;
 mod extremes;
 pub(crate) mod fit;
+#[cfg(feature = "live")]
+pub(crate) mod import;
 pub(crate) mod inverse;
 mod json;
 pub(crate) mod linearize;

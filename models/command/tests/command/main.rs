@@ -5,6 +5,7 @@
 mod answers;
 mod files;
 mod fits;
+mod imports;
 mod linear;
 mod linkages;
 mod prescribed;

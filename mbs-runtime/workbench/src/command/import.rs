@@ -1,0 +1,92 @@
+//! `mbs import`: files of other mechanism programs as declarations.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, ArgMatches, Command, value_parser};
+
+use super::options::option;
+use crate::import::{self, FORMATS, Format, Imported, LONGEST};
+use crate::{Error, files, say};
+
+/// The units that lengths of a file may have.
+const UNITS: [&str; 6] = ["m", "cm", "mm", "um", "inch", "ft"];
+
+pub(crate) fn command() -> Command {
+    Command::new("import")
+        .about("Write the declaration of a linkage from the file of another program")
+        .after_help(EXAMPLES)
+        .arg(
+            Arg::new("file")
+                .value_name("FILE")
+                .required(true)
+                .value_parser(value_parser!(PathBuf))
+                .help("A file of pylinkage (JSON), Linkage (.linkage2) or Pyslvs (an expression M[…])"),
+        )
+        .arg(
+            option("out", "NAME.mbs", "The file to write [default: standard output]")
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            option("format", "FORMAT", "The program that wrote the file [default: as its content shows]")
+                .value_parser(PossibleValuesParser::new(FORMATS.map(|(name, _)| name))),
+        )
+        .arg(
+            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm]")
+                .value_parser(PossibleValuesParser::new(UNITS)),
+        )
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  mbs import four_bar.json --out four_bar.mbs    # a mechanism of pylinkage
+  mbs import walker.linkage2 --out walker.mbs && mbs watch walker.mbs
+  mbs import crank.txt --format pyslvs --unit cm";
+
+pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    let path = matches.get_one::<PathBuf>("file").cloned().unwrap_or_default();
+    let out = matches.get_one::<PathBuf>("out");
+    if let Some(out) = out.filter(|out| out.extension().is_none_or(|ending| ending != "mbs")) {
+        let reason = "a file with a declaration ends in .mbs".into();
+        return Err(Error::Name { name: out.display().to_string(), reason });
+    }
+    let refused = |reason: String| Error::Import { file: path.clone(), reason };
+    let text = read(&path)?.ok_or_else(|| refused(format!("it has more than {LONGEST} bytes")))?;
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("file");
+    let unit = matches.get_one::<String>("unit").map(String::as_str);
+    let imported =
+        import::import(name, &text, format(matches), unit).map_err(|refusal| refused(refusal.0))?;
+    let Some(out) = out else { return say(imported.text.trim_end()) };
+    files::write(out, imported.text.as_bytes())?;
+    summary(out, &imported)
+}
+
+fn format(matches: &ArgMatches) -> Option<Format> {
+    let wanted = matches.get_one::<String>("format")?;
+    FORMATS.iter().find(|(name, _)| name == wanted).map(|(_, format)| *format)
+}
+
+/// The text of a file; nothing of one that is too long.
+fn read(path: &Path) -> Result<Option<String>, Error> {
+    let mut text = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST as u64 + 1).read_to_end(&mut text));
+    read.map_err(Error::file("read", path))?;
+    Ok((text.len() <= LONGEST).then(|| String::from_utf8_lossy(&text).into_owned()))
+}
+
+fn summary(out: &Path, imported: &Imported) -> Result<(), Error> {
+    let Imported { notes, links, dof, .. } = imported;
+    let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+    for note in notes {
+        say(format_args!("note:    {note}"))?;
+    }
+    let out = out.display();
+    say(format_args!(
+        "written: {out}, with {}, {} of freedom",
+        counted(*links, "link"),
+        counted(*dof, "degree")
+    ))?;
+    say(format_args!("next:    mbs watch {out}"))
+}

@@ -1,0 +1,128 @@
+//! Files of other mechanism programs as declarations.
+//!
+//! A reader makes a [`Linkage`] of a file: pins, links, slots and drives, with the names and
+//! the numbers of the file. [`declaration`] writes it in the language, and what was written
+//! is compiled before anybody gets to see it.
+
+mod declaration;
+mod geometry;
+mod linkage;
+mod linkage2;
+mod mobility;
+mod naming;
+mod pylinkage;
+mod pyslvs;
+
+use std::time::Duration;
+
+/// A file may come from a stranger: compiling what it describes ends after this time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A file is at most this many bytes, which is hundreds of times what a linkage takes.
+pub(crate) const LONGEST: usize = 1 << 22;
+
+/// Why a file cannot be imported, in the words of the file.
+#[derive(Debug)]
+pub(crate) struct Refusal(pub String);
+
+/// A program whose files are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    /// pylinkage, in the form of its mechanisms and in the older one of its joints.
+    Pylinkage,
+    /// Linkage, by David Rector.
+    Linkage,
+    /// Pyslvs, in the expressions that it shares with PMKS.
+    Pyslvs,
+}
+
+/// The formats with the names that `--format` takes.
+pub(crate) const FORMATS: [(&str, Format); 3] =
+    [("pylinkage", Format::Pylinkage), ("linkage2", Format::Linkage), ("pyslvs", Format::Pyslvs)];
+
+/// A declaration that compiles, and what its reader should know.
+#[derive(Debug)]
+pub(crate) struct Imported {
+    /// The declaration.
+    pub text: String,
+    /// What was assumed, and what was not carried over.
+    pub notes: Vec<String>,
+    /// How many links move.
+    pub links: usize,
+    /// How many degrees of freedom are left.
+    pub dof: usize,
+}
+
+/// The declaration of what a file describes. `unit` is that of its lengths, where the caller
+/// knows it.
+///
+/// # Errors
+/// A file that is none of the format, one with a part that the language lacks, and what the
+/// compiler says of the mechanism.
+pub(crate) fn import(
+    file: &str,
+    text: &str,
+    format: Option<Format>,
+    unit: Option<&str>,
+) -> Result<Imported, Refusal> {
+    let mut linkage = match format.map_or_else(|| recognized(text), Ok)? {
+        Format::Pylinkage => pylinkage::read(text)?,
+        Format::Linkage => linkage2::read(text)?,
+        Format::Pyslvs => pyslvs::read(text)?,
+    };
+    if let Some(unit) = unit {
+        linkage.say_unit(unit);
+    }
+    let linkage = linkage.normalized()?;
+    let written = declaration::written(&linkage, file)?;
+    compiles(&written)?;
+    let declaration::Written { lines, links, dof } = written;
+    let text = lines.into_iter().map(|line| line.text + "\n").collect();
+    Ok(Imported { text, notes: linkage.notes, links, dof })
+}
+
+/// The format of a file by its content.
+fn recognized(text: &str) -> Result<Format, Refusal> {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    if text.starts_with('{') {
+        return Ok(Format::Pylinkage);
+    }
+    if text.starts_with('<') && text.contains("<linkage2") {
+        return Ok(Format::Linkage);
+    }
+    if pyslvs::is_begun(text) {
+        return Ok(Format::Pyslvs);
+    }
+    let known: Vec<&str> = FORMATS.iter().map(|(name, _)| *name).collect();
+    Err(Refusal(format!(
+        "it begins like none of the files that are known ({}); --format says which one it is",
+        known.join(", ")
+    )))
+}
+
+/// Compiles what was written; errors name the parts of the file that the lines came from.
+fn compiles(written: &declaration::Written) -> Result<(), Refusal> {
+    let text: String = written.lines.iter().map(|line| line.text.clone() + "\n").collect();
+    let compiled = mbs_live::Text::declaration("imported", text).within(PATIENCE).compile();
+    let Err(error) = compiled else { return Ok(()) };
+    let problem = |problem: &mbs_live::Problem| {
+        let line = problem.location.as_ref().and_then(|place| written.lines.get(place.line - 1));
+        let of = line.and_then(|line| line.of.as_deref());
+        let help = problem.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
+        match of {
+            Some(of) => format!("{of}: {}{help}", problem.message),
+            None => format!("{}{help}", problem.message),
+        }
+    };
+    let problems: Vec<String> = error.problems().iter().take(10).map(problem).collect();
+    Err(Refusal(format!("what it describes is refused: {}", problems.join("; "))))
+}
+
+/// A part of a file as it is named in messages and comments: on one line, and not long.
+fn shown(name: &str) -> String {
+    let escaped: String = name.chars().take(60).flat_map(char::escape_debug).collect();
+    format!("`{escaped}`")
+}
+
+#[cfg(test)]
+mod tests;

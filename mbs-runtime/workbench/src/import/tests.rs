@@ -1,0 +1,77 @@
+//! Files that somebody damaged: they are refused or imported, and nothing panics.
+
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+use super::{FORMATS, import};
+
+const FILES: [&str; 6] = [
+    include_str!("../../../../models/command/tests/command/imported/four_bar.json"),
+    include_str!("../../../../models/command/tests/command/imported/slider_crank.json"),
+    include_str!("../../../../models/command/tests/command/imported/old_four_bar.json"),
+    include_str!("../../../../models/command/tests/command/imported/old_slider.json"),
+    include_str!("../../../../models/command/tests/command/imported/crank_rocker.linkage2"),
+    include_str!("../../../../models/command/tests/command/imported/block.pyslvs"),
+];
+
+/// What stands in files in the place of something else.
+const WRONG: [&str; 16] = [
+    "", "0", "-1", "1e308", "NaN", "1e-320", "null", "\"\"", "[", "]", "{", "<", "&#0;", "\u{7f}ä", "true",
+    "ground",
+];
+
+/// A file in which words are exchanged for others, and which may be cut.
+fn damaged() -> impl Strategy<Value = String> {
+    let change = (any::<Index>(), 0..WRONG.len(), any::<bool>());
+    (0..FILES.len(), prop::collection::vec(change, 1..4), prop::option::weighted(0.2, any::<Index>()))
+        .prop_map(|(file, changes, cut)| {
+            let mut words: Vec<String> = FILES[file]
+                .split_inclusive(|letter: char| !letter.is_ascii_alphanumeric())
+                .map(str::to_owned)
+                .collect();
+            for (at, wrong, exchanges) in changes {
+                let (at, other) = (at.index(words.len()), (wrong * 7919) % words.len());
+                if exchanges { words.swap(at, other) } else { words[at] = WRONG[wrong].into() }
+            }
+            let mut letters: Vec<char> = words.concat().chars().collect();
+            if let Some(cut) = cut {
+                letters.truncate(cut.index(letters.len()));
+            }
+            letters.into_iter().collect()
+        })
+}
+
+proptest! {
+    #[test]
+    fn damaged_files_never_panic(text in damaged()) {
+        if let Err(refusal) = import("damaged", &text, None, None) {
+            prop_assert!(!refusal.0.is_empty());
+        }
+    }
+
+    #[test]
+    fn any_text_in_any_format(text in "[ -~\\n]{0,60}", format in 0..FORMATS.len()) {
+        let _ = import("any", &text, Some(FORMATS[format].1), None);
+    }
+}
+
+#[test]
+fn files_that_nest_deeply_are_refused() {
+    let deep = 100_000;
+    for text in ["[".repeat(deep), "{\"joints\":".repeat(deep), "M[".repeat(deep), "J[R,".repeat(deep)] {
+        for (_, format) in FORMATS {
+            assert!(import("deep", &text, Some(format), None).is_err());
+        }
+    }
+    let elements = format!("<linkage2>{}{}</linkage2>", "<a>".repeat(deep), "</a>".repeat(deep));
+    assert!(import("deep", &elements, None, None).is_err());
+}
+
+/// The files are imported as they are, so that the ones above are damaged and not refused at once.
+#[test]
+fn sound_files_are_imported() {
+    for file in FILES {
+        let imported = import("sound", file, None, None).unwrap();
+        assert!(imported.links >= 2 && imported.text.contains("body "), "{}", imported.text);
+    }
+}
