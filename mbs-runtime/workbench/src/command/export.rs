@@ -1,4 +1,6 @@
-//! `mbs export`: a mechanism as a program in another language.
+//! `mbs export`: a mechanism as a program in another language, or as a drawing.
+
+mod dxf;
 
 mod fmu;
 
@@ -28,11 +30,12 @@ pub(crate) fn command() -> Command {
                 .default_value("double"),
         );
     Command::new("export")
-        .about("Write a mechanism as a program in another language")
+        .about("Write a mechanism as a program in another language, or as a drawing")
         .subcommand_required(true)
         .arg_required_else_help(true)
         .subcommand(c)
         .subcommand(fmu::command())
+        .subcommand(dxf::command())
 }
 
 const EXAMPLES: &str = "\
@@ -44,6 +47,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     match matches.subcommand() {
         Some(("c", matches)) => c(models, matches),
         Some(("fmu", matches)) => fmu::run(models, matches),
+        Some(("dxf", matches)) => dxf::run(models, matches),
         // the parser requires one that it knows
         _ => Ok(()),
     }
