@@ -1,6 +1,7 @@
 //! `mbs export`: a mechanism as a program in another language, or as a drawing.
 
 mod dxf;
+mod svg;
 
 mod fmu;
 
@@ -36,6 +37,7 @@ pub(crate) fn command() -> Command {
         .subcommand(c)
         .subcommand(fmu::command())
         .subcommand(dxf::command())
+        .subcommand(svg::command())
 }
 
 const EXAMPLES: &str = "\
@@ -48,6 +50,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
         Some(("c", matches)) => c(models, matches),
         Some(("fmu", matches)) => fmu::run(models, matches),
         Some(("dxf", matches)) => dxf::run(models, matches),
+        Some(("svg", matches)) => svg::run(models, matches),
         // the parser requires one that it knows
         _ => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! Drawings for CAD programs.
+//! Drawings for CAD programs, and pictures that move.
 
 use std::fs;
 
@@ -61,4 +61,50 @@ fn drawings_that_cannot_be_made() {
     refuses("export dxf four-bar --out a.svg", &["`a.svg` cannot be used: a drawing ends in .dxf"]);
     refuses("export dxf four-bar --out a.dxf --at soon", &["soon"]);
     assert!(refusal("export dxf nothing --out a.dxf").contains("there is no mechanism `nothing`"));
+}
+
+/// What an attribute of elements has, wherever it stands.
+fn attributes<'a>(picture: &'a str, name: &str) -> Vec<&'a str> {
+    let start = format!(" {name}=\"");
+    let parts = picture.split(start.as_str()).skip(1);
+    parts.map(|part| part.split('"').next().unwrap()).collect()
+}
+
+/// The crank of the four-bar turns once in a second. Its ends are kept to the tenth of a pixel,
+/// of a bar that is more than 50 pixels long.
+#[test]
+fn a_motion_is_a_picture_that_moves_by_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "export svg four-bar --set omega=60rpm --end 1s --out run.svg");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let picture = fs::read_to_string(folder.path().join("run.svg")).unwrap();
+    assert!(!picture.contains("script") && picture.contains("<title>four-bar</title>"));
+    assert!(attributes(&picture, "dur").iter().all(|seconds| *seconds == "1s"));
+    assert!(attributes(&picture, "repeatCount").iter().all(|count| *count == "indefinite"));
+    let times: Vec<f64> =
+        attributes(&picture, "keyTimes")[0].split(';').map(|time| time.parse().unwrap()).collect();
+    assert!(times[0].abs() < 1e-12 && (times[times.len() - 1] - 1.0).abs() < 1e-12, "as SVG asks");
+    assert!(times.is_sorted());
+    let values = attributes(&picture, "values");
+    assert!(values.len() >= 5, "three bodies and two pins move");
+    assert!(values.iter().all(|values| values.split(';').count() == times.len()));
+    // The first bar is the crank.
+    let crank = picture.lines().find(|line| line.contains("stroke-opacity=\"0.8\"")).unwrap();
+    let numbers = |frame: &str| frame.split([' ', ',']).map(|number| number.parse().unwrap()).collect();
+    let frames: Vec<Vec<f64>> = attributes(crank, "values")[0].split(';').map(numbers).collect();
+    let length = |frame: &[f64]| (frame[2] - frame[0]).hypot(frame[3] - frame[1]);
+    assert!(length(&frames[0]) > 50.0);
+    // Half a tenth of a pixel for each of four coordinates, twice.
+    assert!(frames.iter().all(|frame| (length(frame) - length(&frames[0])).abs() < 0.3));
+    // y goes down in a picture
+    let angle = |frame: &[f64]| (frame[1] - frame[3]).atan2(frame[2] - frame[0]);
+    let close = |a: f64, b: f64| (a - b).abs() < 0.3 / 50.0;
+    assert!(close(angle(&frames[0]), angle(&frames[frames.len() - 1])), "a whole turn");
+    let quarter = times.iter().position(|time| *time >= 0.25).unwrap();
+    let turned = angle(&frames[quarter]) - angle(&frames[0]);
+    assert!(close(turned, std::f64::consts::TAU * times[quarter]), "counter-clockwise by {turned}");
+    refuses(
+        "export svg four-bar --out a.gif",
+        &["`a.gif` cannot be used: a picture that moves ends in .svg"],
+    );
 }
