@@ -99,6 +99,43 @@ fn a_file_of_linkage_turns_as_its_program_turns_it() {
     }
 }
 
+/// The crank's pin slides in a lever: it stays on the line from the lever's pivot to its end, while
+/// the crank turns clockwise at 15 rpm. The tolerance is that of the run, in mm.
+#[test]
+fn a_slider_of_linkage_stays_on_the_line_of_its_link() {
+    let folder = tempfile::tempdir().unwrap();
+    imported(folder.path(), &data("slotted_lever.linkage2"));
+    let names = ["t", "c1_x", "c1_y", "c5_x", "c5_y"].map(str::to_owned);
+    let rows = run(folder.path(), "--step 50ms --end 4s", &names);
+    let (radius, begin) = (1f64.hypot(23.5), 23.5f64.atan2(1.0));
+    for row in &rows {
+        let angle = begin - 0.5 * std::f64::consts::PI * row[0];
+        let pin = [71.0 + radius * angle.cos(), -72.0 + radius * angle.sin()];
+        assert!((row[1] - pin[0]).hypot(row[2] - pin[1]) < 1e-6, "{row:?}");
+        let (lever, [px, py]) = ([row[3] + 59.0, row[4] + 71.0], [row[1] + 59.0, row[2] + 71.0]);
+        let off = (lever[0] * py - lever[1] * px) / lever[0].hypot(lever[1]);
+        assert!(off.abs() < 1e-6, "{off} mm from the line at {} s", row[0]);
+    }
+}
+
+/// pylinkage's arc driver keeps between its ends; here it swings between them.
+#[test]
+fn an_arc_driver_swings_between_its_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut file: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(data("four_bar.json")).unwrap()).unwrap();
+    let crank = &mut file["links"][1];
+    (crank["type"], crank["arc_start"], crank["arc_end"]) = ("arc_driver".into(), 0.5.into(), 1.5.into());
+    fs::write(folder.path().join("arc.json"), file.to_string()).unwrap();
+    let text = imported(folder.path(), &folder.path().join("arc.json"));
+    assert!(text.contains("turns back at once in pylinkage; here it swings as a sine does"), "{text}");
+    let rows = run(folder.path(), "--step 5ms --end 1s", &["angle_crank".to_owned()]);
+    let ends = rows.iter().fold((f64::MAX, f64::MIN), |(low, high), row| (low.min(row[0]), high.max(row[0])));
+    assert!((rows[0][0] - 0.927_295_218_001_612_2).abs() < 1e-9, "it begins as it is drawn");
+    // A period is 0.31 s, so that a sample is within 2.5 ms of an end: 0.5·(1 − cos(20·0.0025)) = 6e-4.
+    assert!((ends.0 - 0.5).abs() < 1e-3 && (ends.1 - 1.5).abs() < 1e-3, "{ends:?}");
+}
+
 /// An expression has no motor: it begins as it is drawn, and its bars stay as long as they
 /// are. 1e-6 mm is the tolerance of the run.
 #[test]
