@@ -67,7 +67,7 @@ mod transposed;
 mod words;
 
 pub use mbs_codegen::compiled::Feedback;
-pub use mbs_codegen::target::{CSources, Experiment, Fmu, Scalar, Version as FmiVersion};
+pub use mbs_codegen::target::{CSources, Experiment, Fmu, RUN_SCRIPT, Scalar, Version as FmiVersion, Wasm};
 
 pub use error::{Error, Location, Note, Problem};
 pub use lanes::LANES;

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use mbs_codegen::compiled::Choices;
-use mbs_codegen::target::{self, CSources, Experiment, Fmu, Scalar};
+use mbs_codegen::target::{self, CSources, Experiment, Fmu, Scalar, Wasm};
 use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
@@ -184,6 +184,25 @@ impl Text {
     /// ```
     pub fn fmu(&self, experiment: Experiment) -> Result<Fmu, Error> {
         self.make(move |_, compiled| target::fmi(compiled, experiment))
+    }
+
+    /// Compiles the declaration to a WebAssembly module, with the tables that the script of its runs
+    /// reads.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
+    /// let slider = Text::declaration("slider.mbs", text).wasm()?;
+    /// assert!(slider.module.starts_with(b"\0asm") && slider.module.len() < 20_000);
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
+    pub fn wasm(&self) -> Result<Wasm, Error> {
+        self.make(|_, compiled| target::wasm(compiled))
     }
 
     /// What `target` makes of the compiled mechanism and of its declaration as tokens.

@@ -5,9 +5,13 @@ mod c;
 mod fmi;
 #[cfg(feature = "rust")]
 mod rust;
+#[cfg(feature = "wasm")]
+mod wasm;
 mod words;
 
 pub use c::{CSources, File, Scalar, c, c_with_tangents};
 pub use fmi::{Experiment, Fmu, Version, fmi};
 #[cfg(feature = "rust")]
 pub use rust::rust;
+#[cfg(feature = "wasm")]
+pub use wasm::{RUN_SCRIPT, Wasm, wasm};

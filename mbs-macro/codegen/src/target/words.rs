@@ -1,10 +1,10 @@
-//! What targets say of quantities.
+//! What targets say of quantities, of pivots and of errors of runs.
 
 use std::fmt::Write;
 
 use mbs_symbolic::units::{self, Dimension};
 
-use crate::compiled::Quantity;
+use crate::compiled::{Pivot, Quantity};
 use crate::diagnostics::described;
 
 /// A quantity with its unit and declared value.
@@ -42,4 +42,16 @@ fn kind(quantity: &Quantity) -> String {
         true => "a bare number".to_owned(),
         false => described(quantity.dimension),
     }
+}
+
+/// The names of a watched pivot: of its constraint, of its coordinate, or of both.
+pub fn pivot(Pivot { constraint, coordinate }: &Pivot) -> String {
+    let between = if constraint.is_empty() || coordinate.is_empty() { "" } else { " of " };
+    format!("{constraint}{between}{coordinate}")
+}
+
+/// The errors of runs that targets print: code and words. Those of parameters and of conditions follow
+/// in C, one for each.
+pub fn errors() -> impl Iterator<Item = (&'static str, &'static str)> {
+    include_str!("errors.txt").lines().filter_map(|line| line.split_once(": "))
 }

@@ -5,16 +5,11 @@ use std::fmt::Write;
 use mbs_schemes::Explicit;
 
 use super::Target;
-use super::docs::{comment, entries};
+use super::docs::comment;
 use super::kernels::Kernel;
 use super::names::Struct;
 use crate::compiled::Results;
-
-/// The errors that functions return, and what they mean. Those of parameters and of
-/// conditions follow, one for each.
-pub fn errors() -> impl Iterator<Item = (&'static str, &'static str)> {
-    entries(include_str!("text/errors.txt"))
-}
+use crate::target::words::errors;
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     let structs = &target.names.structs;

@@ -6,12 +6,12 @@ use mbs_schemes::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
 use super::docs::comment;
-use super::header::errors;
 use super::kernels::Kernel;
 use super::loops::lines;
 use super::names::Struct;
 use super::{Scalar, Target};
 use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
+use crate::target::words;
 
 /// The text from the functions of the programs, and from a step that is one program.
 pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
@@ -92,7 +92,7 @@ fn tables(target: &Target<'_>) -> String {
     }
     let points = compiled.sketch.points.iter().map(|name| quoted(name)).collect();
     add("const char *const NAME_point_names[]", points, "0");
-    let pivots = |pivots: &[Pivot]| pivots.iter().map(|pivot| quoted(&pivot_name(pivot))).collect();
+    let pivots = |pivots: &[Pivot]| pivots.iter().map(|pivot| quoted(&words::pivot(pivot))).collect();
     add("static const char *const NAME_pivot_names[]", pivots(&compiled.pivots), "0");
     add("static const char *const NAME_start_pivot_names[]", pivots(&compiled.start_pivots), "0");
     let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
@@ -121,7 +121,7 @@ fn tables(target: &Target<'_>) -> String {
     let words = |it: &Condition| quoted(&format!("{}: {}", it.name, it.requirement));
     let conditions = compiled.conditions.iter().map(words).collect();
     add("static const char *const NAME_condition_words[]", conditions, "0");
-    let errors = errors().map(|(_, words)| quoted(words)).collect();
+    let errors = words::errors().map(|(_, words)| quoted(words)).collect();
     add("static const char *const NAME_error_words[]", errors, "0");
     text + &splines(target)
 }
@@ -134,11 +134,6 @@ fn judged(condition: &Condition) -> String {
         Comparison::GreaterOrEqual => (1, 0),
     };
     format!("{{{}, {sign}, {is_strict}}}", condition.difference)
-}
-
-fn pivot_name(Pivot { constraint, coordinate }: &Pivot) -> String {
-    let between = if constraint.is_empty() || coordinate.is_empty() { "" } else { " of " };
-    format!("{constraint}{between}{coordinate}")
 }
 
 /// A table with one element more at its end, because C has no arrays without elements.

@@ -1,0 +1,264 @@
+//! Functions that programs call: those of the host, and small ones of the module.
+
+use std::rc::Rc;
+
+use mbs_symbolic::{Function as Elementary, Spline};
+use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
+
+use super::program::word;
+
+/// The functions of `Math` with their numbers of arguments.
+pub const IMPORTS: [(&str, usize); 11] = [
+    ("sin", 1),
+    ("cos", 1),
+    ("tan", 1),
+    ("asin", 1),
+    ("acos", 1),
+    ("atan", 1),
+    ("exp", 1),
+    ("log", 1),
+    ("tanh", 1),
+    ("atan2", 2),
+    ("pow", 2),
+];
+
+/// The functions behind the imported ones, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Helper {
+    /// (sin x, cos x)
+    SinCos,
+    /// The smaller of two; not a number if either is not.
+    Min,
+    /// The larger of two, likewise.
+    Max,
+    /// −1, 0 or 1; what is not a number stays so.
+    Sign,
+    /// The derivative of a spline: x, its address, the order.
+    Interpolate,
+}
+
+impl Helper {
+    /// Its position among the functions of the module.
+    pub fn index(self) -> u32 {
+        IMPORTS.len() as u32 + self as u32
+    }
+}
+
+/// The position of an elementary function; nothing of those that are instructions.
+pub fn function_of(function: Elementary) -> Option<u32> {
+    let name = match function {
+        Elementary::Min => return Some(Helper::Min.index()),
+        Elementary::Max => return Some(Helper::Max.index()),
+        Elementary::Sign => return Some(Helper::Sign.index()),
+        Elementary::Sqrt | Elementary::Abs | Elementary::Greater => return None,
+        // the names of C are those of JavaScript
+        _ => function.row().c?,
+    };
+    IMPORTS.iter().position(|(import, _)| *import == name).map(|at| at as u32)
+}
+
+/// A function of the module.
+pub struct Written {
+    pub parameters: Vec<ValType>,
+    pub results: Vec<ValType>,
+    pub body: Function,
+}
+
+/// In the order of [`Helper`].
+pub fn all() -> [Written; 5] {
+    use ValType::{F64, I32};
+    let written = |parameters: &[ValType], results: &[ValType], body| Written {
+        parameters: parameters.to_vec(),
+        results: results.to_vec(),
+        body,
+    };
+    [
+        written(&[F64], &[F64, F64], sin_cos()),
+        written(&[F64, F64], &[F64], extreme(|code| code.f64_lt())),
+        written(&[F64, F64], &[F64], extreme(|code| code.f64_gt())),
+        written(&[F64], &[F64], sign()),
+        written(&[F64, I32, I32], &[F64], interpolate()),
+    ]
+}
+
+/// a if it compares so with b, or is not a number, else b.
+fn extreme(compare: for<'a, 'b> fn(&'a mut InstructionSink<'b>) -> &'a mut InstructionSink<'b>) -> Function {
+    let mut function = Function::new([]);
+    let mut code = function.instructions();
+    code.local_get(0).local_get(1).local_get(0).local_get(1);
+    compare(&mut code).local_get(0).local_get(0).f64_ne().i32_or().select().end();
+    function
+}
+
+fn sign() -> Function {
+    let mut function = Function::new([]);
+    let zero = || 0.0.into();
+    let mut code = function.instructions();
+    code.f64_const(1.0.into());
+    code.f64_const((-1.0).into()).local_get(0).local_get(0).f64_const(zero()).f64_lt().select();
+    code.local_get(0).f64_const(zero()).f64_gt().select().end();
+    function
+}
+
+/// Sine and cosine as `mbs-runtime` computes them: the quarter turns are taken off by Cody and Waite's
+/// reduction, polynomials of Sun's fdlibm give the rest. Beyond 10⁵ rad the host computes them.
+fn sin_cos() -> Function {
+    let mut function = Function::new([(8, ValType::F64), (1, ValType::I64)]);
+    let [x, turns, n, r, z, w, s, c, half] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+    let quadrant = 9;
+    let mut code = function.instructions();
+    code.local_get(x).f64_abs().f64_const(1.0e5.into()).f64_le().i32_eqz().if_(BlockType::Empty);
+    code.local_get(x).call(0).local_get(x).call(1).return_().end();
+    // the low bits of the sum are the nearest number of quarter turns
+    let shift = 6_755_399_441_055_744.0;
+    code.local_get(x).f64_const(std::f64::consts::FRAC_2_PI.into()).f64_mul();
+    code.f64_const(shift.into()).f64_add().local_tee(turns).f64_const(shift.into()).f64_sub().local_set(n);
+    code.local_get(x);
+    for part in [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21] {
+        code.local_get(n).f64_const(f64::into(part)).f64_mul().f64_sub();
+    }
+    code.local_tee(r).local_get(r).f64_mul().local_tee(z).local_get(z).f64_mul().local_set(w);
+    // s = r + r z P(z)
+    code.local_get(r).local_get(r).local_get(z).f64_mul();
+    polynomial(&mut code, SINE, [z, w]);
+    code.f64_mul().f64_add().local_set(s);
+    // c = (1 − z/2) + (((1 − (1 − z/2)) − z/2) + z z P(z)), the bracketed difference being a rounding
+    let whole = n;
+    code.f64_const(0.5.into()).local_get(z).f64_mul().local_set(half);
+    code.f64_const(1.0.into()).local_get(half).f64_sub().local_tee(whole);
+    code.f64_const(1.0.into()).local_get(whole).f64_sub().local_get(half).f64_sub();
+    code.local_get(z).local_get(z).f64_mul();
+    polynomial(&mut code, COSINE, [z, w]);
+    code.f64_mul().f64_add().f64_add().local_set(c);
+    // odd quarter turns exchange the two; the sine is negative in the second half of a turn, the cosine
+    // in the second and the third quarter
+    code.local_get(turns).i64_reinterpret_f64().local_set(quadrant);
+    for (even, odd, turned) in [(s, c, 0), (c, s, 1)] {
+        code.local_get(odd)
+            .local_get(even)
+            .local_get(quadrant)
+            .i64_const(1)
+            .i64_and()
+            .i32_wrap_i64()
+            .select();
+        code.i64_reinterpret_f64();
+        code.local_get(quadrant).i64_const(turned).i64_add().i64_const(2).i64_and().i64_const(62).i64_shl();
+        code.i64_xor().f64_reinterpret_i64();
+    }
+    code.end();
+    function
+}
+
+const SINE: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_007e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+
+const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// (c₀ + c₁z) + w ((c₂ + c₃z) + w (c₄ + c₅z)) with w = z².
+fn polynomial(code: &mut InstructionSink<'_>, coefficients: [f64; 6], [z, w]: [u32; 2]) {
+    let (pairs, _) = coefficients.as_chunks::<2>();
+    for (at, [even, odd]) in pairs.iter().enumerate() {
+        if at > 0 {
+            code.local_get(w);
+        }
+        code.f64_const((*even).into()).local_get(z).f64_const((*odd).into()).f64_mul().f64_add();
+    }
+    code.f64_mul().f64_add().f64_mul().f64_add();
+}
+
+/// The splines in memory: origin, period, the number of segments as a number, and per segment where it
+/// begins and its coefficients.
+pub struct Splines {
+    pub bytes: Vec<u8>,
+    addresses: Vec<i32>,
+}
+
+/// Numbers before the segments of a spline,
+const HEAD: usize = 3;
+/// and numbers of a segment.
+const SEGMENT: usize = 5;
+
+impl Splines {
+    pub fn new(splines: &[Rc<Spline>]) -> Self {
+        let (mut bytes, mut addresses) = (Vec::new(), Vec::new());
+        for spline in splines {
+            addresses.push(bytes.len() as i32);
+            let head = [spline.origin, spline.period, spline.segments.len() as f64];
+            let segments = spline.segments.iter().flat_map(|it| [it.from].into_iter().chain(it.coefficients));
+            bytes.extend(head.into_iter().chain(segments).flat_map(f64::to_le_bytes));
+        }
+        Self { bytes, addresses }
+    }
+
+    pub fn address(&self, spline: usize) -> Option<i32> {
+        self.addresses.get(spline).copied()
+    }
+}
+
+/// The segment that x lies in is the last that does not begin behind it, and u counts from there.
+fn interpolate() -> Function {
+    let (x, spline, order) = (0, 1, 2);
+    let (u, c0, c1, c2, c3) = (3, 4, 5, 6, 7);
+    let (segment, last) = (8, 9);
+    let mut function = Function::new([(5, ValType::F64), (2, ValType::I32)]);
+    let mut code = function.instructions();
+    let bytes = |numbers: usize| 8 * numbers as i32;
+    // u = x − origin, less whole periods
+    code.local_get(x).local_get(spline).f64_load(word(0)).f64_sub().local_tee(u);
+    code.local_get(u).local_get(spline).f64_load(word(1)).f64_div().f64_floor();
+    code.local_get(spline).f64_load(word(1)).f64_mul().f64_sub().local_set(u);
+    code.local_get(spline).i32_const(bytes(HEAD)).i32_add().local_tee(segment);
+    code.local_get(spline).f64_load(word(2)).i32_trunc_sat_f64_s().i32_const(1).i32_sub();
+    code.i32_const(bytes(SEGMENT)).i32_mul().i32_add().local_set(last);
+    // to the next segment while it begins at u or before
+    code.block(BlockType::Empty).loop_(BlockType::Empty);
+    code.local_get(segment).local_get(last).i32_ge_u().br_if(1);
+    code.local_get(segment).f64_load(word(SEGMENT)).local_get(u).f64_le().i32_eqz().br_if(1);
+    code.local_get(segment).i32_const(bytes(SEGMENT)).i32_add().local_set(segment).br(0).end().end();
+    // x − x is 0, or not a number
+    code.local_get(u).local_get(segment).f64_load(word(0)).f64_sub();
+    code.local_get(x).local_get(x).f64_sub().f64_add().local_set(u);
+    for (at, coefficient) in [c0, c1, c2, c3].into_iter().enumerate() {
+        code.local_get(segment).f64_load(word(1 + at)).local_set(coefficient);
+    }
+    // 2·c₂ and so on in the order of `mbs-runtime`
+    let cubic: [&[(u32, f64)]; 4] = [
+        &[(c0, 1.0), (c1, 1.0), (c2, 1.0), (c3, 1.0)],
+        &[(c1, 1.0), (c2, 2.0), (c3, 3.0)],
+        &[(c2, 2.0), (c3, 6.0)],
+        &[(c3, 6.0)],
+    ];
+    for (at, terms) in cubic.into_iter().enumerate() {
+        code.local_get(order).i32_const(at as i32).i32_eq().if_(BlockType::Empty);
+        horner(&mut code, terms, u);
+        code.return_().end();
+    }
+    code.f64_const(f64::NAN.into()).end();
+    function
+}
+
+/// t₀ + u (t₁ + u (…)), where a term is a number times a local; a product with 1 is exact.
+fn horner(code: &mut InstructionSink<'_>, terms: &[(u32, f64)], u: u32) {
+    for (at, (local, factor)) in terms.iter().enumerate() {
+        if at > 0 {
+            code.local_get(u);
+        }
+        code.f64_const((*factor).into()).local_get(*local).f64_mul();
+    }
+    for _ in 1..terms.len() {
+        code.f64_mul().f64_add();
+    }
+}
