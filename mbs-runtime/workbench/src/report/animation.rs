@@ -51,7 +51,8 @@ impl Animation {
     }
 }
 
-fn shape(shape: &Shape) -> Value {
+/// A shape for the script that draws it.
+pub(crate) fn shape(shape: &Shape) -> Value {
     match shape {
         Shape::Rail { from, ahead, reach } => {
             json!({ "kind": "rail", "from": from, "ahead": ahead, "reach": reach })

@@ -1,6 +1,6 @@
 //! Reports: one HTML file that shows everything, offline, without a server.
 
-mod animation;
+pub(crate) mod animation;
 mod data;
 
 use std::path::Path;
@@ -14,9 +14,10 @@ use crate::{Error, Table, files};
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-const SHAPES_SCRIPT: &str = include_str!("mechanism.js");
-const UPLOT_STYLE: &str = include_str!("../../assets/uplot/uPlot.min.css");
-const UPLOT_SCRIPT: &str = include_str!("../../assets/uplot/uPlot.iife.min.js");
+pub(crate) const DRAWING_SCRIPT: &str = include_str!("drawing.js");
+pub(crate) const SHAPES_SCRIPT: &str = include_str!("mechanism.js");
+pub(crate) const UPLOT_STYLE: &str = include_str!("../../assets/uplot/uPlot.min.css");
+pub(crate) const UPLOT_SCRIPT: &str = include_str!("../../assets/uplot/uPlot.iife.min.js");
 
 /// A report: a title, an introduction and sections.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,7 +106,7 @@ impl Report {
             ("BODY", body),
             ("DATA", escaped_json(&serde_json::Value::Array(plots))),
             ("STYLE", format!("{UPLOT_STYLE}\n{STYLE}")),
-            ("SCRIPT", format!("{UPLOT_SCRIPT}\n{SHAPES_SCRIPT}\n{SCRIPT}")),
+            ("SCRIPT", format!("{UPLOT_SCRIPT}\n{DRAWING_SCRIPT}\n{SHAPES_SCRIPT}\n{SCRIPT}")),
         ];
         Ok(filled(PAGE, &parts.each_ref().map(|(name, part)| (*name, part.as_str()))))
     }
@@ -187,7 +188,7 @@ pub(crate) fn escaped(text: &str) -> String {
 
 /// JSON as it has to be written in a script element: there `</script` would end the data,
 /// and `<!--` with `<script` would swallow what follows.
-fn escaped_json(data: &serde_json::Value) -> String {
+pub(crate) fn escaped_json(data: &serde_json::Value) -> String {
     // Outside strings JSON has none of these.
     data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }

@@ -1,0 +1,48 @@
+"use strict";
+// What all plots share: colours, numbers as text, and axes.
+const drawing = (() => {
+  const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#3c3c3c"];
+
+  const superscript = (n) => String(n).replace(/-/, "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
+
+  // Plain between 1e-3 and 1e5, else as a power of ten: 1e-8 must not read as 0.
+  function format(value, digits) {
+    if (value == null) return "";
+    if (value === 0) return "0";
+    const size = Math.abs(value);
+    if (size >= 1e-3 && size < 1e5) return String(Number(value.toPrecision(digits))).replace("-", "−");
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    const factor = Number(mantissa);
+    const power = "10" + superscript(Number(exponent));
+    return (factor === 1 ? power : factor + "·" + power).replace("-", "−");
+  }
+
+  function scale(axis) {
+    const scale = { time: false, distr: axis.log ? 3 : 1 };
+    if (axis.range) scale.range = axis.range;
+    return scale;
+  }
+
+  // On a logarithmic axis: a line per decade, or at 1, 2 and 5 where there are few decades.
+  function decades(u, splits) {
+    const shown = splits.filter((v) => v != null);
+    const few = shown.length && shown[shown.length - 1] / shown[0] < 150;
+    const keep = few ? ["1", "2", "5"] : ["1"];
+    return splits.map((v) => (v != null && keep.includes(v.toExponential(6)[0]) &&
+      Math.abs(Number(v.toExponential(6).split("e")[0]) % 1) < 1e-5 ? v : null));
+  }
+
+  // Colours of text and grid may be those of a dark page.
+  function axis(description, size, { ink = "#1e1e1e", grid = "#e4e4e4", tick = "#999" } = {}) {
+    return {
+      ...(description.log ? { filter: decades } : {}),
+      ...(description.tick ? { incrs: [1 / 6, 1 / 3, 1 / 2, 1, 2, 3, 4].map((part) => part * description.tick) } : {}),
+      label: description.label, size, labelSize: 24, stroke: ink,
+      font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif",
+      grid: { stroke: grid, width: 1 }, ticks: { stroke: tick, width: 1 },
+      values: (u, splits) => splits.map((v) => format(v, 6)),
+    };
+  }
+
+  return { COLOURS, format, scale, axis };
+})();
