@@ -163,26 +163,35 @@ fn section(text: &mut String, heading: &str, table: &Table) {
     }
 }
 
+/// Headings with their formulas in LaTeX, both sides of each; headings without any are left out.
+pub(crate) fn typeset(
+    derivation: &'static Derivation,
+) -> impl Iterator<Item = (&'static str, Vec<(String, &'static str)>)> {
+    let sections = sections(derivation).into_iter().map(|(heading, formulas, name)| {
+        let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).1, formula.latex)).collect();
+        if heading == "Energies" {
+            lines = energies(derivation).map(|(name, formula)| (name.to_owned(), formula.latex)).into();
+        }
+        (heading, lines)
+    });
+    sections.filter(|(_, lines)| !lines.is_empty())
+}
+
 fn latex(info: &Info, derivation: &'static Derivation) -> String {
     let mut text = format!(
         "\\documentclass{{article}}\n\\usepackage{{amsmath}}\n\\allowdisplaybreaks\n\\begin{{document}}\n\\section*{{{}}}\n\
          \\[ M \\ddot q + \\Phi_q^T \\lambda = Q, \\qquad \\Phi_q \\ddot q = \\gamma - 2 \\alpha \\dot\\Phi - \\beta^2 \\Phi \\]\n",
         escaped(info.name)
     );
-    for (heading, formulas, name) in sections(derivation) {
-        let mut lines: Vec<String> =
-            formulas.iter().map(|formula| format!("{} &= {}", name(formula).1, formula.latex)).collect();
-        if heading == "Energies" {
-            lines = energies(derivation).iter().map(|(name, f)| format!("{name} &= {}", f.latex)).collect();
-        }
-        if !lines.is_empty() {
-            let title = latex_title(heading);
-            let _ = writeln!(
-                text,
-                "\\subsection*{{{title}}}\n\\begin{{align*}}\n{}\n\\end{{align*}}",
-                lines.join(" \\\\\n")
-            );
-        }
+    for (heading, formulas) in typeset(derivation) {
+        let lines: Vec<String> =
+            formulas.iter().map(|(name, formula)| format!("{name} &= {formula}")).collect();
+        let title = latex_title(heading);
+        let _ = writeln!(
+            text,
+            "\\subsection*{{{title}}}\n\\begin{{align*}}\n{}\n\\end{{align*}}",
+            lines.join(" \\\\\n")
+        );
     }
     let _ = writeln!(text, "\\subsection*{{Elimination}}\n{}.\n\\begin{{enumerate}}", derivation.strategy);
     for step in derivation.order {
