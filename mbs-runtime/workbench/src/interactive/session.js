@@ -1,0 +1,67 @@
+// The mechanism of this page, its run, and the rows that were recorded of it.
+const session = await (async () => {
+  const read = (id) => JSON.parse(document.getElementById(id).textContent);
+  const data = read("data"), tables = read("tables");
+  const packed = new Blob([Uint8Array.from(atob(data.module), (letter) => letter.charCodeAt(0))]);
+  const bytes = await new Response(packed.stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+  const mechanism = new mbs.Mechanism(await WebAssembly.compile(bytes), tables);
+  const run = new mbs.Run(mechanism, data.step, data.feedback);
+  // About a thousand rows in the time that a run usually takes; the oldest make room.
+  const STRIDE = Math.max(1, Math.round(data.end / data.step / 1000)), MOST_ROWS = 20000;
+  const rows = [];
+  let taken = 0, isAsDeclared = true;
+
+  // The columns of a recording: time, coordinates, rates, multipliers, outputs, violation.
+  function record() {
+    const { multipliers, outputs } = run.results();
+    const shown = Array.from(outputs, (value, at) => value / data.outputs[at].scale);
+    rows.push([run.t, ...run.q, ...run.v, ...multipliers, ...shown, run.violation()]);
+    if (rows.length > MOST_ROWS) rows.splice(0, MOST_ROWS / 10);
+  }
+
+  function restart() {
+    rows.length = taken = 0;
+    isAsDeclared = true;
+    run.start();
+    record();
+  }
+
+  function step() {
+    run.step();
+    taken++;
+    if (taken % STRIDE === 0) record();
+  }
+
+  // Parameters in SI units, or inputs; a run that has begun goes on from where it is.
+  function setParameters(values) {
+    const before = mechanism.parameters();
+    mechanism.setParameters(values);
+    try {
+      if (isAsDeclared && taken === 0) restart();
+      else run.goOnFrom(run.q.slice(), run.v.slice());
+    } catch (failure) {
+      mechanism.setParameters(before);
+      throw failure;
+    }
+  }
+
+  // Inputs in SI units, from now on.
+  function setInputs(values) {
+    const wrong = values.findIndex((value) => !Number.isFinite(value));
+    if (wrong >= 0) throw new mbs.Failure(`${tables.inputs[wrong].name}: ${tables.errors.BAD_INPUT}`);
+    run.inputs.set(values);
+    if (taken > 0) return;
+    rows.length = 0;
+    record();
+  }
+
+  // At rest at some positions, or the nearest that keep the constraints.
+  function place(q) {
+    run.goOnFrom(q, new Float64Array(q.length));
+    rows.length = taken = 0;
+    isAsDeclared = false;
+    record();
+  }
+
+  return { data, tables, mechanism, run, rows, restart, step, setParameters, setInputs, place };
+})();
