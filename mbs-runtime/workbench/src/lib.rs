@@ -49,6 +49,7 @@ mod files;
 pub mod fmu;
 #[cfg(feature = "live")]
 mod import;
+#[cfg(feature = "live")]
 mod interactive;
 mod interrupt;
 #[cfg(feature = "live")]
