@@ -101,6 +101,13 @@ pub fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error
     crate::live::as_declared(text)
 }
 
+/// The refusal of a mechanism whose declaration is asked for as a text.
+#[cfg(feature = "live")]
+pub(crate) fn without_text(name: &str) -> crate::Error {
+    let reason = "its declaration is compiled into this program and not there as a text; name its file";
+    crate::Error::Name { name: name.to_owned(), reason: reason.into() }
+}
+
 type MakeTrials = fn() -> Box<dyn Trials + Sync>;
 
 struct Typed<M> {

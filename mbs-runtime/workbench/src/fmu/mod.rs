@@ -7,6 +7,7 @@ use mbs_live::{Experiment, FmiVersion};
 use mbs_runtime::System;
 
 use crate::figure::icon;
+use crate::model::without_text;
 use crate::{Error, Model, Motion, Picture, Settings, Start};
 
 pub use binary::{Binary, binaries};
@@ -45,7 +46,8 @@ impl Fmu {
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let run = model.start(&Start::of(model, settings)?)?;
         let experiment = Experiment { step: settings.step, end: settings.end };
-        let files = text(model)?.fmu(experiment)?;
+        let text = model.text().ok_or_else(|| without_text(model.info().name))?;
+        let files = text.fmu(experiment)?;
         let icon = icon(model, &*run)?;
         Ok(Self { identifier: files.identifier.clone(), files, icon, page: page(model, experiment) })
     }
@@ -85,14 +87,6 @@ impl Fmu {
         }
         archive::zip(&files).map_err(Error::file("write", std::path::Path::new(&self.identifier)))
     }
-}
-
-/// The declaration of a mechanism.
-fn text(model: &dyn Model) -> Result<&mbs_live::Text, Error> {
-    model.text().ok_or_else(|| Error::Name {
-        name: model.info().name.to_owned(),
-        reason: "its declaration is compiled into this program and not there as a text; name its file".into(),
-    })
 }
 
 /// The mechanism at its start; nothing if it has no points.

@@ -3,10 +3,14 @@
 
 mod equations;
 
+use std::io::{self, Write};
+use std::path::Path;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
 use mbs_runtime::{Info, Quantity};
-use miniz_oxide::deflate::compress_to_vec;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -47,7 +51,7 @@ pub(crate) fn page(name: &str, model: &dyn Model, settings: &Settings) -> Result
     let info = model.info();
     let data = json!({
         "file": name,
-        "module": BASE64.encode(compress_to_vec(&wasm.module, 9)),
+        "module": BASE64.encode(deflated(&wasm.module).map_err(Error::file("write", Path::new(name)))?),
         "step": settings.step,
         "end": settings.end,
         "feedback": feedback(settings),
@@ -59,6 +63,13 @@ pub(crate) fn page(name: &str, model: &dyn Model, settings: &Settings) -> Result
         "picture": drawn(&picture),
     });
     Ok(Some(html(info, &[escaped_json(&data), wasm.tables], &equations::mathml(model.derivation())?)))
+}
+
+/// Compressed as browsers read it.
+fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    encoder.finish()
 }
 
 /// The gains that were asked for; none where the deadbeat ones of the step are meant.

@@ -32,7 +32,9 @@ fn units_of_both_versions_are_the_same_bytes_every_time() {
 fn one_version_is_written_if_one_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     // one of whose joints is drawn as a word
-    assert!(mbs(folder.path(), "export fmu cam-follower --out units --sources-only --fmi 3").status.success());
+    assert!(
+        mbs(folder.path(), "export fmu cam-follower --out units --sources-only --fmi 3").status.success()
+    );
     let files = std::fs::read_dir(folder.path().join("units")).unwrap();
     let files: Vec<_> = files.map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(files, ["cam_follower_fmi3.fmu"]);

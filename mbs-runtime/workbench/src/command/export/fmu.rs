@@ -6,10 +6,11 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use mbs_live::FmiVersion;
 
+use super::settings;
 use crate::command::options::option;
 use crate::fmu::{Fmu, binaries};
 
-use crate::{Error, Model, Models, RunOptions, Settings, files, say};
+use crate::{Error, Models, files, say};
 
 /// The versions of the standard, as they are chosen and as files are called.
 const VERSIONS: [(&str, FmiVersion); 2] = [("2", FmiVersion::V2), ("3", FmiVersion::V3)];
@@ -72,15 +73,4 @@ pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
             "with the C code alone, which importers compile: there is no binary without a C compiler"
         )),
     }
-}
-
-/// Step and end, in the words of a run.
-fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    let mut options = RunOptions::default();
-    for name in ["step", "end"] {
-        if let Some(text) = matches.get_one::<String>(name) {
-            options.set(name, text)?;
-        }
-    }
-    options.settings(model)
 }
