@@ -60,6 +60,7 @@
   }
 
   function play(on) {
+    if (on) tell("");
     if (on && failed) restart();
     playing = on;
     last = 0;

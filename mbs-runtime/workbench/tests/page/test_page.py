@@ -200,6 +200,8 @@ def test_a_driven_mechanism_says_that_it_cannot_be_dragged(browser, tmp_path):
     opened.page.mouse.move(x + 30, y + 30, steps=3)
     opened.page.mouse.up()
     assert "no freedom" in opened.page.inner_text("#message")
+    opened.play(20)
+    assert opened.page.inner_text("#message") == ""
     assert opened.complaints == []
 
 
