@@ -15,7 +15,7 @@
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `validate` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
-//! | `target` | tokens, or C | what is written computes what was checked |
+//! | `target` | tokens, C, or WebAssembly | what is written computes what was checked |
 //!
 //! `mechanics` is no stage: formulas and facts of joints, forces and equations, which the
 //! first stages read and `derive` puts together.
