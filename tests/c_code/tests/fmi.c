@@ -81,7 +81,7 @@ static void live_2(int is_printed)
 {
     struct instance *it = new_2(fmi2CoSimulation), *other = new_2(fmi2CoSimulation);
     void *state = NULL, *copy = NULL;
-    size_t size;
+    size_t size = 0;
     EXPECT(fmi2SetupExperiment(it, 0, 0, 0, 0, 0) == fmi2OK && fmi2EnterInitializationMode(it) == fmi2OK);
     EXPECT(fmi2ExitInitializationMode(it) == fmi2OK);
     step_2(it, 0, 2);
@@ -138,7 +138,7 @@ static void misuse(void)
     EXPECT(fmi3SetFMUState(it, NULL) == fmi3Error && said == 6);
     EXPECT(fmi3GetInt32(it, &first, 1, NULL, 1) == fmi3Error && said == 7);
     EXPECT(fmi3GetInt32(it, NULL, 0, NULL, 0) == fmi3OK && said == 7);
-    EXPECT(fmi3EnterInitializationMode(it, 0, 0, NAN, 0, 0) == fmi3Error && said == 8);
+    EXPECT(fmi3EnterInitializationMode(it, 0, 0, (double)NAN, 0, 0) == fmi3Error && said == 8);
     EXPECT(fmi3EnterInitializationMode(it, 0, 0, 0, 0, 0) == fmi3OK && fmi3ExitInitializationMode(it) == fmi3OK);
     EXPECT(fmi3DoStep(it, 0, -1, 1, &flag, &flag, &flag, &number) == fmi3Error && said == 9);
     EXPECT(fmi3DoStep(it, 5, 1, 1, &flag, &flag, &flag, &number) == fmi3Error && said == 10);

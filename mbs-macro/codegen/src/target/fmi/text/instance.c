@@ -72,11 +72,17 @@ static int say(const struct instance *it, int status, const char *format, ...)
     return status;
 }
 
+/* Whether a code or a value reference is one of a group, which may be empty. */
+static int lies_in(int64_t number, int64_t first, int64_t end)
+{
+    return number >= first && number < end;
+}
+
 /* What a code of the mechanism says, and of what. */
 static int say_code(const struct instance *it, int status, int code)
 {
     const char *where = NAME_where(&it->now.run, code);
-    if (code >= CAPS_BAD_PARAMETER && code < CAPS_BAD_CONDITION) {
+    if (lies_in(code, CAPS_BAD_PARAMETER, CAPS_BAD_CONDITION)) {
         where = NAME_parameter_names[code - CAPS_BAD_PARAMETER];
     }
     if (code >= CAPS_BAD_CONDITION) {

@@ -161,14 +161,14 @@ static int set(struct instance *it, const uint32_t *references, size_t count, co
     struct memory *const now = &it->now;
     for (size_t at = 0; at < count; at++) {
         const uint32_t reference = references[at];
-        if (reference >= AT_PARAMETERS && reference < AT_INPUTS) {
+        if (lies_in(reference, AT_PARAMETERS, AT_INPUTS)) {
             const uint32_t parameter = reference - AT_PARAMETERS;
             if (!(now->mode & (INSTANTIATED | INITIALIZATION))) {
                 return say(it, WRONG, "the parameter %s is fixed once a run has begun", NAME_parameter_names[parameter]);
             }
             PLACES(now->parameters)[parameter] = values[at];
             now->is_started = 0;
-        } else if (reference >= AT_INPUTS && reference < AT_POSITIONS) {
+        } else if (lies_in(reference, AT_INPUTS, AT_POSITIONS)) {
             PLACES(now->inputs)[reference - AT_INPUTS] = values[at];
             now->is_solved = 0;
         } else if (reference < AT_END) {
