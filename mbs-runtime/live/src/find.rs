@@ -1,5 +1,7 @@
 //! The block `mechanism! { … }` in a Rust file.
 
+use std::ops::Range;
+
 use mbs_codegen::Diagnostic;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 
@@ -9,14 +11,27 @@ use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 /// # Errors
 /// No block, or several.
 pub fn block(tokens: TokenStream, name: Option<&str>) -> Result<TokenStream, Diagnostic> {
+    only(tokens, name).map(|block| block.tokens)
+}
+
+/// Where in the text of `tokens` that block is, without its braces.
+///
+/// # Errors
+/// As [`block`].
+pub fn inside(tokens: TokenStream, name: Option<&str>) -> Result<Range<usize>, Diagnostic> {
+    let Block { braces: [open, close], .. } = only(tokens, name)?;
+    Ok(open.byte_range().end..close.byte_range().start)
+}
+
+fn only(tokens: TokenStream, name: Option<&str>) -> Result<Block, Diagnostic> {
     let mut blocks = blocks(tokens);
     let names: Vec<String> = blocks.iter().map(Block::shown).collect();
     if let Some(name) = name {
         blocks.retain(|block| block.name.as_ref().is_some_and(|declared| declared == name));
     }
     let nowhere = |message: String| Diagnostic::new(Span::call_site(), message);
-    match (&mut blocks[..], name) {
-        ([block], _) => Ok(std::mem::take(&mut block.tokens)),
+    match (&blocks[..], name) {
+        ([_], _) => Ok(blocks.remove(0)),
         ([], Some(name)) if !names.is_empty() => {
             let message = format!("this file declares no mechanism `{name}`");
             Err(nowhere(message).help(format!("it declares {}", names.join(", "))))
@@ -38,6 +53,7 @@ pub fn block(tokens: TokenStream, name: Option<&str>) -> Result<TokenStream, Dia
 struct Block {
     name: Option<Ident>,
     place: Span,
+    braces: [Span; 2],
     tokens: TokenStream,
 }
 
@@ -61,7 +77,8 @@ fn blocks(tokens: TokenStream) -> Vec<Block> {
             if is_mechanism(&before) {
                 let name = name(group.stream());
                 let place = name.as_ref().map_or(group.span(), Ident::span);
-                blocks.push(Block { name, place, tokens: group.stream() });
+                let braces = [group.span_open(), group.span_close()];
+                blocks.push(Block { name, place, braces, tokens: group.stream() });
             } else {
                 waiting.push(group.stream().into_iter());
             }

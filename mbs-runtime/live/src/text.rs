@@ -1,10 +1,13 @@
 //! A declaration as text.
 
+#[cfg(not(target_family = "wasm"))]
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+#[cfg(not(target_family = "wasm"))]
 use std::sync::mpsc::{self, RecvTimeoutError};
+#[cfg(not(target_family = "wasm"))]
 use std::thread;
 use std::time::Duration;
 
@@ -23,6 +26,7 @@ pub const LONGEST: usize = 1 << 20;
 
 /// What the compiler needs where it is not optimised; it descends into formulas and groups
 /// by recursion, at most as deep as it allows them to nest.
+#[cfg(not(target_family = "wasm"))]
 const STACK: usize = 64 << 20;
 
 /// A declaration of a mechanism as text: a file of its own, or a Rust file with a block
@@ -107,6 +111,30 @@ impl Text {
             *wanted = Some(name.into());
         }
         self
+    }
+
+    /// The declaration as it is written, comments and all: of a Rust file the inside of its block, moved to the
+    /// left.
+    ///
+    /// # Errors
+    /// Brackets and literals that cannot be read; a Rust file that does not have the block.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let rust = "mechanism! {\n    // sliding\n    Slider {\n        dof = 1;\n    }\n}";
+    /// let written = Text::rust("slider.rs", rust).written()?;
+    /// assert_eq!(written, "// sliding\nSlider {\n    dof = 1;\n}\n");
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
+    pub fn written(&self) -> Result<String, Error> {
+        let Form::Rust(name) = &self.form else { return Ok(self.text.clone()) };
+        let tokens =
+            self.text.parse().map_err(|error| self.error(vec![lexing::problem(&error, &self.text)]))?;
+        let inside = find::inside(tokens, name.as_deref())
+            .map_err(|error| self.error(vec![Problem::of(&error, &self.text)]))?;
+        Ok(moved_left(self.text.get(inside).unwrap_or_default()))
     }
 
     /// Compiling ends in an error after this time. What was begun goes on for itself until
@@ -214,6 +242,15 @@ impl Text {
             let message = format!("the text has more than {LONGEST} bytes");
             return Err(self.error(vec![Problem::everywhere(message)]));
         }
+        self.apart(target).map_err(|problems| self.error(problems))
+    }
+
+    /// What [`make`] makes, in a thread with a stack that is deep enough.
+    #[cfg(not(target_family = "wasm"))]
+    fn apart<T: Send + 'static>(
+        &self,
+        target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics> + Send + 'static,
+    ) -> Result<T, Vec<Problem>> {
         let (send, receive) = mpsc::channel();
         let (text, form) = (self.text.clone(), self.form.clone());
         // Places of tokens are kept by the thread that made them, and end with it.
@@ -222,7 +259,7 @@ impl Text {
             let _ = send.send(make(&text, &form, target));
         });
         if let Err(error) = compiling {
-            return Err(self.error(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]));
+            return Err(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]);
         }
         let made = match self.limit {
             None => receive.recv().ok(),
@@ -230,14 +267,22 @@ impl Text {
                 Err(RecvTimeoutError::Timeout) => {
                     let message =
                         format!("compiling takes more than the {} s that it may take", limit.as_secs_f64());
-                    return Err(self.error(vec![Problem::everywhere(message)]));
+                    return Err(vec![Problem::everywhere(message)]);
                 }
                 made => made.ok(),
             },
         };
         // a thread that sends nothing has panicked
-        let made = made.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]));
-        made.map_err(|problems| self.error(problems))
+        made.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]))
+    }
+
+    /// What [`make`] makes: WebAssembly has no threads. Its host gives the stack, and ends what takes too long.
+    #[cfg(target_family = "wasm")]
+    fn apart<T>(
+        &self,
+        target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics>,
+    ) -> Result<T, Vec<Problem>> {
+        make(&self.text, &self.form, target)
     }
 
     fn error(&self, problems: Vec<Problem>) -> Error {
@@ -265,7 +310,17 @@ fn make<T>(
     target(key, &compiled).map_err(problems)
 }
 
+/// The lines without the spaces with which all of them begin, and without empty ones around them.
+fn moved_left(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    let indent = |line: &&str| line.len() - line.trim_start().len();
+    let shared = lines.iter().filter(|line| !line.is_empty()).map(indent).min().unwrap_or(0);
+    let moved: Vec<&str> = lines.iter().map(|line| line.get(shared..).unwrap_or_default()).collect();
+    format!("{}\n", moved.join("\n").trim_matches('\n'))
+}
+
 /// A mistake that is not in the text.
+#[cfg(not(target_family = "wasm"))]
 fn internal(what: impl Display) -> Problem {
     Problem::of(&Diagnostic::internal(Span::call_site(), what), "")
 }
