@@ -82,7 +82,7 @@ impl App {
     #[cfg(feature = "live")]
     #[must_use]
     pub fn text(mut self, name: &str, text: mbs_live::Text, defaults: Settings) -> Self {
-        self.models.push_text(name, crate::live::Text::new(text, defaults));
+        self.models.push_text(name, crate::declarations::Text::new(text, defaults));
         self
     }
 
@@ -137,7 +137,7 @@ impl App {
                 match &error {
                     // it is shown with its source, and says itself what it is
                     #[cfg(feature = "live")]
-                    Error::Declaration(error) => complain(crate::live::shown(error)),
+                    Error::Declaration(error) => complain(crate::declarations::shown(error)),
                     error => complain(format_args!("error: {error}")),
                 }
                 match error {

@@ -38,56 +38,81 @@
 #![forbid(unsafe_code)]
 
 mod adaptive;
+#[cfg(feature = "desk")]
 mod app;
+#[cfg(feature = "desk")]
 mod command;
+#[cfg(feature = "desk")]
 mod console;
+#[cfg(feature = "desk")]
+mod csv_file;
+#[cfg(all(feature = "desk", feature = "live"))]
+mod declarations;
+#[cfg(any(feature = "desk", feature = "live"))]
+mod derivation;
 mod doubt;
 mod error;
+#[cfg(feature = "desk")]
 pub mod figure;
+#[cfg(feature = "desk")]
 mod files;
-#[cfg(feature = "live")]
+#[cfg(all(feature = "desk", feature = "live"))]
 pub mod fmu;
-#[cfg(feature = "live")]
+#[cfg(any(feature = "desk", feature = "live"))]
+pub mod html;
+#[cfg(all(feature = "desk", feature = "live"))]
 mod import;
 #[cfg(feature = "live")]
 mod interactive;
+#[cfg(feature = "desk")]
 mod interrupt;
 #[cfg(feature = "live")]
 mod live;
+#[cfg(feature = "desk")]
 mod measurements;
 pub mod members;
 pub mod model;
+#[cfg(feature = "desk")]
 mod models;
 mod names;
+#[cfg(feature = "desk")]
 mod npz;
 pub mod number;
 mod operating;
 pub mod picture;
 pub mod quantity;
 mod recording;
+#[cfg(feature = "desk")]
 pub mod report;
 mod run;
 mod run_options;
 mod settings;
 mod sheet;
 mod signals;
+#[cfg(feature = "desk")]
 pub mod sweep;
 mod table;
-mod template;
 mod unit;
 mod until;
-#[cfg(feature = "live")]
+#[cfg(all(feature = "desk", feature = "live"))]
 mod watch;
 
+#[cfg(feature = "desk")]
 pub use app::{App, app};
+#[cfg(feature = "desk")]
 pub use console::say;
+#[cfg(feature = "desk")]
+pub use csv_file::write_csv;
 pub use doubt::Doubt;
 pub use error::Error;
+#[cfg(feature = "live")]
+pub use interactive::{Sources, packed, source_hash};
 pub use model::Model;
+#[cfg(feature = "desk")]
 pub use models::Models;
 pub use operating::{About, Operating, PortNames, doubt};
 pub use picture::{Motion, Picture};
-pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary, write_csv};
+pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary};
 pub use run::StartValue;
 pub use run_options::RunOptions;
 pub use settings::{ConstantMethod, Settings, Start, StartKind};

@@ -1,11 +1,7 @@
 //! Mechanisms from texts as models: compiled in milliseconds, and run at once.
 
-use std::io::IsTerminal;
 use std::ops::Range;
-use std::path::Path;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Duration;
 
 use mbs_analysis::Trials;
 use mbs_ensemble::Cancelled;
@@ -21,54 +17,12 @@ use crate::settings::ConstantMethod;
 use crate::settings::{Settings, Start, StartKind};
 use crate::{Model, adaptive};
 
-/// A file may come from a stranger: compiling it ends after this time.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A declaration that is compiled when it is asked for.
-pub(crate) struct Text {
-    text: mbs_live::Text,
-    defaults: Settings,
-    compiled: OnceLock<Box<dyn Model>>,
-}
-
-impl Text {
-    /// A declaration whose runs have these defaults.
-    pub fn new(text: mbs_live::Text, defaults: Settings) -> Self {
-        Self { text, defaults, compiled: OnceLock::new() }
-    }
-
-    /// The mechanism.
-    ///
-    /// # Errors
-    /// Those of the declaration.
-    pub fn model(&self) -> Result<&dyn Model, crate::Error> {
-        if let Some(model) = self.compiled.get() {
-            return Ok(model.as_ref());
-        }
-        let model = compiled(&self.text, self.defaults.clone())?;
-        Ok(self.compiled.get_or_init(|| model).as_ref())
-    }
-}
-
 /// The mechanism of a text.
 ///
 /// # Errors
 /// Those of the declaration.
 pub(crate) fn compiled(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
     Ok(Box::new(FromText { live: text.compile()?, text: text.clone(), defaults }))
-}
-
-/// The mechanism that a file declares; `name` chooses among several in a Rust file.
-///
-/// # Errors
-/// A file that cannot be read, and what is wrong with the declaration.
-pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, crate::Error> {
-    let text = mbs_live::Text::read(path).map_err(crate::Error::file("read", path))?.within(PATIENCE);
-    let text = match name {
-        Some(name) => text.named(name),
-        None => text,
-    };
-    as_declared(&text)
 }
 
 /// The mechanism of a text, with the step and the feedback that it declares.
@@ -88,13 +42,6 @@ fn declared(live: &Live, settings: Settings) -> Settings {
     let stabilization = if feedback.is_held { Stabilization::Held } else { Stabilization::PerStage };
     let (alpha, beta) = (Some(feedback.alpha), Some(feedback.beta));
     Settings { step, stabilization: Some(stabilization), alpha, beta, ..settings }
-}
-
-/// An error with its source, in colours on a terminal.
-pub(crate) fn shown(error: &mbs_live::Error) -> String {
-    let has_colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let text = if has_colours { error.colored().to_string() } else { error.to_string() };
-    text.trim_end().to_owned()
 }
 
 struct FromText {

@@ -6,7 +6,7 @@ use mbs_analysis::Trials;
 use rayon::prelude::*;
 
 #[cfg(feature = "live")]
-use crate::live::Text;
+use crate::declarations::Text;
 use crate::{Error, Model};
 
 /// Mechanisms with the names under which commands know them.
@@ -140,7 +140,7 @@ fn read(name: &str) -> Result<Found<'static>, Error> {
     let (file, mechanism) = split(name);
     let path = Path::new(file);
     let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or(file);
-    Ok(Found::Read(mechanism.unwrap_or(stem).to_owned(), crate::live::read(path, mechanism)?))
+    Ok(Found::Read(mechanism.unwrap_or(stem).to_owned(), crate::declarations::read(path, mechanism)?))
 }
 
 #[cfg(not(feature = "live"))]

@@ -3,7 +3,6 @@
 use mbs_analysis::{Signal, Variable};
 use mbs_runtime::{Dimension, Info, Quantity};
 
-use crate::figure::Axis;
 use crate::number::significant;
 use crate::quantity::si_unit;
 
@@ -99,11 +98,6 @@ pub(crate) fn heading(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
-/// The axis for values called `name` in a unit, in the letters of a picture.
-pub(crate) fn axis(name: &str, unit: &str) -> Axis {
-    Axis::new(name.replace('_', " "), unit.replace('*', "·"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,6 +120,5 @@ mod tests {
         let angle = Unit::of_coordinate(&quantity("", 1.0, [0, 0, 0]));
         assert_eq!((angle.name(), angle.per_second().name()), ("rad", "rad/s"));
         assert_eq!((heading("mu", ""), heading("l1", "mm")), ("mu".into(), "l1 [mm]".into()));
-        assert_eq!(axis("boom_force", "kN*m").heading(), "boom force (kN·m)");
     }
 }

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::console::complain;
 use crate::number::significant;
-use crate::{Error, live, say};
+use crate::{Error, declarations, say};
 
 pub(crate) fn command() -> Command {
     let file = Arg::new("file").value_name("FILE").required(true).num_args(1..);
@@ -40,7 +40,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
         match result {
             result if is_json => found.push(as_json(&name, &result)),
             Ok(live) => say(summary(&name, &live, start.elapsed().as_secs_f64()))?,
-            Err(error) => complain(live::shown(&error)),
+            Err(error) => complain(declarations::shown(&error)),
         }
     }
     if is_json {

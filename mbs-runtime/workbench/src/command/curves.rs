@@ -1,7 +1,7 @@
 //! What of a run is drawn, and how curves share panels.
 
+use crate::figure::axis;
 use crate::figure::{Axis, Figure, Panel, SERIES_COLOURS, Series};
-use crate::unit::axis;
 use crate::{Column, Error, Recording};
 
 /// A list of coordinates that is longer is long,

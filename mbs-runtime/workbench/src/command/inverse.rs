@@ -10,12 +10,12 @@ use serde_json::json;
 use super::extremes;
 use super::operating;
 use super::options::{self, option};
+use crate::figure::axis;
 use crate::figure::{Axis, Figure, Panel, Series};
 use crate::models::Models;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
 use crate::sheet::Sheet;
-use crate::unit::axis;
 use crate::{Column, Error, Unit, names, say, write_csv};
 
 const EXAMPLES: &str = "\

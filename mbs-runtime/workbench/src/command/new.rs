@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
-use crate::template::filled;
+use crate::html::filled;
 use crate::{Error, say};
 
 /// The files of a new crate and their templates.
@@ -202,7 +202,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("my.mbs");
         write_declaration(&path).unwrap();
-        let stepper = crate::live::read(&path, None).unwrap();
+        let stepper = crate::declarations::read(&path, None).unwrap();
         assert_eq!(stepper.info(), model::of::<template::Stepper>().info());
         let again = write_declaration(&path).unwrap_err().to_string();
         assert!(again.contains("cannot create") && again.contains("exists"), "{again}");

@@ -6,9 +6,9 @@ use mbs_analysis::nalgebra::Complex;
 use mbs_analysis::{Behaviour, Linearization, Mode, phases};
 use mbs_runtime::Info;
 
+use crate::figure::axis;
 use crate::figure::{Axis, Figure, Panel, SERIES_COLOURS, Series};
 use crate::number::significant;
-use crate::unit::axis;
 use crate::{Column, Error, Table, Unit};
 
 /// Curves of one panel: as many as there are colours.

@@ -13,11 +13,11 @@ use super::json::number;
 use super::operating;
 use super::options::{self, option};
 use crate::figure::Figure;
+use crate::figure::axis;
 use crate::models::Models;
 use crate::number::significant;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
-use crate::unit::axis;
 use crate::{Column, Error, Unit, say, write_csv};
 
 const EXAMPLES: &str = "\

@@ -9,7 +9,7 @@ use super::curves::Choice;
 use super::options::{self, option, settings};
 use super::page::page;
 use crate::watch::{News, Server, follow};
-use crate::{Error, Picture, interrupt, live, say};
+use crate::{Error, Picture, declarations, interrupt, say};
 
 pub(crate) fn command() -> Command {
     Command::new("watch")
@@ -52,7 +52,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
 
 /// The page of a run of the mechanism as it is declared now.
 fn shown(path: &Path, matches: &ArgMatches) -> Result<String, Error> {
-    let model = live::read(path, None)?;
+    let model = declarations::read(path, None)?;
     let settings = settings(&*model, matches)?;
     let recording = model.simulate(&settings, &mut |_, _| ())?;
     let picture = Picture::of(&model.motion(&settings, &recording)?);

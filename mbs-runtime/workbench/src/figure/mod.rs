@@ -117,6 +117,11 @@ pub struct Axis {
     pub unit_tick: Option<f64>,
 }
 
+/// The axis for values called `name` in a unit, in the letters of a picture.
+pub(crate) fn axis(name: &str, unit: &str) -> Axis {
+    Axis::new(name.replace('_', " "), unit.replace('*', "·"))
+}
+
 impl Axis {
     /// A linear axis over the range of the data.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {

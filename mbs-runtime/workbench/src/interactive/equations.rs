@@ -5,8 +5,8 @@ use pulldown_latex::config::DisplayMode;
 use pulldown_latex::{Parser, RenderConfig, Storage, push_mathml};
 
 use crate::Error;
-use crate::command::explain::typeset;
-use crate::report::escaped;
+use crate::derivation::typeset;
+use crate::html::escaped;
 
 /// Letters of MathML under a heading, behind which no more formulas are typeset: they would make the page
 /// long, and `mbs explain` has them all.

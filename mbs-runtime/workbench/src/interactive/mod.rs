@@ -14,16 +14,15 @@ use mbs_runtime::{Info, Quantity};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use crate::html::{DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, escaped, escaped_json, filled};
+use crate::model::without_text;
+use crate::picture::json::shape;
 use crate::recording::columns;
-use crate::report::{
-    DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, animation, escaped, escaped_json,
-};
-use crate::template::filled;
 use crate::{Error, Model, Picture, Settings, Unit};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 8] = [
     include_str!("session.js"),
     include_str!("drag.js"),
     include_str!("scene.js"),
@@ -31,6 +30,7 @@ const SCRIPTS: [&str; 7] = [
     include_str!("curves.js"),
     include_str!("files.js"),
     include_str!("page.js"),
+    include_str!("framed.js"),
 ];
 
 /// What a browser shows that cannot run the page.
@@ -39,37 +39,33 @@ const FAILED: &str = "(error) => {
   throw error;
 }";
 
-/// The page of a mechanism whose declaration is a text; nothing of one that is not.
-///
-/// # Errors
-/// Settings that the mechanism refuses, an equation that cannot be typeset.
-pub(crate) fn page(name: &str, model: &dyn Model, settings: &Settings) -> Result<Option<String>, Error> {
-    let Some(text) = model.text() else { return Ok(None) };
-    let wasm = text.wasm()?;
-    let recording = model.simulate(settings, &mut |_, _| ())?;
-    let picture = Picture::of(&model.motion(settings, &recording)?);
-    let info = model.info();
-    let data = json!({
-        "file": name,
-        "module": BASE64.encode(deflated(&wasm.module).map_err(Error::file("write", Path::new(name)))?),
-        "step": settings.step,
-        "end": settings.end,
-        "feedback": feedback(settings),
-        "columns": columns(info).iter().map(|column| column.heading()).collect::<Vec<_>>(),
-        "parameters": declared(info.parameters),
-        "inputs": declared(info.inputs),
-        "outputs": declared(info.outputs),
-        "bodies": model.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
-        "picture": drawn(&picture),
-    });
-    Ok(Some(html(info, &[escaped_json(&data), wasm.tables], &equations::mathml(model.derivation())?)))
-}
-
-/// Compressed as browsers read it.
-fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
-    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
-    encoder.write_all(bytes)?;
-    encoder.finish()
+impl dyn Model + '_ {
+    /// One HTML file in which the mechanism runs, offline: it can be played, changed and dragged.
+    ///
+    /// The step, the end and the feedback are those of the settings; `file` is what its downloads are called.
+    ///
+    /// # Errors
+    /// A mechanism whose declaration is no text, settings that the mechanism refuses.
+    pub fn interactive_page(&self, file: &str, settings: &Settings) -> Result<String, Error> {
+        let wasm = self.text().ok_or_else(|| without_text(self.info().name))?.wasm()?;
+        let recording = self.simulate(settings, &mut |_, _| ())?;
+        let picture = Picture::of(&self.motion(settings, &recording)?);
+        let info = self.info();
+        let data = json!({
+            "file": file,
+            "module": packed(&wasm.module).map_err(Error::file("write", Path::new(file)))?,
+            "step": settings.step,
+            "end": settings.end,
+            "feedback": feedback(settings),
+            "columns": columns(info).iter().map(|column| column.heading()).collect::<Vec<_>>(),
+            "parameters": declared(info.parameters),
+            "inputs": declared(info.inputs),
+            "outputs": declared(info.outputs),
+            "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
+            "picture": drawn(&picture),
+        });
+        Ok(html(info, &[escaped_json(&data), wasm.tables], &equations::mathml(self.derivation())?))
+    }
 }
 
 /// The gains that were asked for; none where the deadbeat ones of the step are meant.
@@ -92,23 +88,51 @@ fn declared(quantities: &[Quantity]) -> Vec<Value> {
 fn drawn(picture: &Picture) -> Value {
     let extent = picture.extent();
     json!({
-        "shapes": picture.shapes.iter().map(animation::shape).collect::<Vec<_>>(),
+        "shapes": picture.shapes.iter().map(shape).collect::<Vec<_>>(),
         "traced": picture.traced, "weight": picture.weight, "low": extent.low, "high": extent.high,
     })
 }
 
+/// Style and script of every page in which a mechanism runs. A page that shows such pages in frames of its own
+/// allows them by their [hashes](source_hash) in its policy of content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sources {
+    /// The contents of the element `style`.
+    pub style: String,
+    /// The contents of the element `script`.
+    pub script: String,
+}
+
+impl Sources {
+    /// Those of [interactive pages](Model#method.interactive_page).
+    pub fn of_pages() -> Self {
+        let scripts =
+            [&[UPLOT_SCRIPT, DRAWING_SCRIPT, SHAPES_SCRIPT, mbs_live::RUN_SCRIPT][..], &SCRIPTS].concat();
+        // the module is unpacked while nothing waits for it
+        let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", scripts.join("\n"));
+        Self { style: format!("{UPLOT_STYLE}\n{STYLE}"), script }
+    }
+}
+
+/// How a policy of content names the text of an element `script` or `style`.
+pub fn source_hash(text: &str) -> String {
+    format!("'sha256-{}'", BASE64.encode(Sha256::digest(text.as_bytes())))
+}
+
+/// Bytes as they stand in a page: compressed as browsers read it (`deflate-raw`), in letters of base 64.
+pub fn packed(bytes: &[u8]) -> io::Result<String> {
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    Ok(BASE64.encode(encoder.finish()?))
+}
+
 /// The page; its policy of content allows this script, this style and the module, and nothing from elsewhere.
 fn html(info: &Info, [data, tables]: &[String; 2], equations: &str) -> String {
-    let style = format!("{UPLOT_STYLE}\n{STYLE}");
-    let scripts =
-        [&[UPLOT_SCRIPT, DRAWING_SCRIPT, SHAPES_SCRIPT, mbs_live::RUN_SCRIPT][..], &SCRIPTS].concat();
-    // the module is unpacked while nothing waits for it
-    let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", scripts.join("\n"));
-    let hash = |text: &str| format!("'sha256-{}'", BASE64.encode(Sha256::digest(text.as_bytes())));
+    let Sources { style, script } = Sources::of_pages();
     let policy = format!(
         "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}",
-        hash(&script),
-        hash(&style)
+        source_hash(&script),
+        source_hash(&style)
     );
     let parts = [
         ("POLICY", policy),
@@ -128,13 +152,12 @@ fn html(info: &Info, [data, tables]: &[String; 2], equations: &str) -> String {
 mod tests {
     use std::path::Path;
 
-    use super::page;
     use crate::{Settings, model};
 
     fn page_of(file: &str) -> String {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file);
         let model = model::as_declared(&mbs_live::Text::read(&file).unwrap()).unwrap();
-        page("name", &*model, &Settings { end: 0.1, ..model.defaults() }).unwrap().unwrap()
+        model.interactive_page("name", &Settings { end: 0.1, ..model.defaults() }).unwrap()
     }
 
     /// A page is to be sent by mail and opened on a telephone.
@@ -163,7 +186,7 @@ mod tests {
         let text = "/// </script><script>alert(1)</script> <img src=x onerror=alert(1)>
             Hostile { dof = 1; body ball (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
         let model = model::as_declared(&mbs_live::Text::declaration("hostile.mbs", text)).unwrap();
-        let html = page("</script>@DATA@", &*model, &model.defaults()).unwrap().unwrap();
+        let html = model.interactive_page("</script>@DATA@", &model.defaults()).unwrap();
         assert_eq!(html.matches("<script").count(), 3);
         assert_eq!(html.matches("</script>").count(), 3);
         assert!(!html.contains("<img") && html.contains("&lt;img"));

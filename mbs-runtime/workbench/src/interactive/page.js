@@ -66,6 +66,7 @@
     last = 0;
     due = run.t;
     button.textContent = on ? "❚❚ Pause" : "▶ Play";
+    player.changed();
     if (on) requestAnimationFrame(frame);
   }
 
@@ -89,8 +90,18 @@
   function faster(by) {
     const at = SPEEDS.indexOf(Number(speed.value)) - by;
     if (SPEEDS[at]) speed.value = SPEEDS[at];
+    player.changed();
   }
 
+  // For a page around this one.
+  const player = {
+    get state() { return { isPlaying: playing, speed: Number(speed.value) }; },
+    set speed(rate) { if (SPEEDS.includes(rate)) speed.value = rate; },
+    play: () => play(true),
+    changed() {},
+  };
+
+  speed.addEventListener("change", () => player.changed());
   button.addEventListener("click", () => play(!playing));
   find("step").addEventListener("click", step);
   find("restart").addEventListener("click", restart);
@@ -127,6 +138,7 @@
   restart();
   // for the console of the browser, and for tests: the session, and where points of bodies are on the canvas
   globalThis.mechanism = Object.assign(session, {
+    player,
     pixels: (body, point) => {
       const at = data.bodies[body].points[point], points = run.points();
       return scene.mapping().pixels([points[2 * at], points[2 * at + 1]]);

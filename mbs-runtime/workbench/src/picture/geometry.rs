@@ -86,6 +86,7 @@ impl Picture {
 
     /// Up to `count` instants at which the mechanism stands as differently as
     /// it can from the start and from each other.
+    #[cfg(feature = "desk")]
     pub(crate) fn poses(&self, count: usize) -> Vec<usize> {
         let shown: Vec<usize> = self.shapes.iter().flat_map(Shape::points).collect();
         let apart = |a: usize, b: usize| -> f64 {

@@ -7,6 +7,8 @@
 //! move.
 
 mod geometry;
+#[cfg(any(feature = "desk", feature = "live"))]
+pub(crate) mod json;
 mod shapes;
 
 use mbs_runtime::Sketch;

@@ -8,16 +8,12 @@ use std::path::Path;
 pub use animation::{Animation, Readout};
 
 use crate::figure::{Content, Figure};
-use crate::template::filled;
+use crate::html::{DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, escaped, escaped_json, filled};
 use crate::{Error, Table, files};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-pub(crate) const DRAWING_SCRIPT: &str = include_str!("drawing.js");
-pub(crate) const SHAPES_SCRIPT: &str = include_str!("mechanism.js");
-pub(crate) const UPLOT_STYLE: &str = include_str!("../../assets/uplot/uPlot.min.css");
-pub(crate) const UPLOT_SCRIPT: &str = include_str!("../../assets/uplot/uPlot.iife.min.js");
 
 /// A report: a title, an introduction and sections.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -171,26 +167,6 @@ fn html_table(table: &Table) -> String {
         line(table.headings(), "th"),
         rows.collect::<String>()
     )
-}
-
-/// Text as it has to be written in HTML, between tags and in attributes.
-pub(crate) fn escaped(text: &str) -> String {
-    let letter = |c: char| match c {
-        '&' => "&amp;".into(),
-        '<' => "&lt;".into(),
-        '>' => "&gt;".into(),
-        '"' => "&quot;".into(),
-        '\'' => "&#39;".into(),
-        other => other.to_string(),
-    };
-    text.chars().map(letter).collect()
-}
-
-/// JSON as it has to be written in a script element: there `</script` would end the data,
-/// and `<!--` with `<script` would swallow what follows.
-pub(crate) fn escaped_json(data: &serde_json::Value) -> String {
-    // Outside strings JSON has none of these.
-    data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
 #[cfg(test)]

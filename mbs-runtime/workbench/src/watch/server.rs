@@ -10,8 +10,7 @@ use serde_json::json;
 use tiny_http::{Header, Method, Request, Response};
 
 use super::News;
-use crate::report::escaped;
-use crate::template::filled;
+use crate::html::{escaped, filled};
 
 const SHELL: &str = include_str!("shell.html");
 

@@ -6,8 +6,7 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::settings;
 use crate::command::options::option;
-use crate::model::without_text;
-use crate::{Error, Models, files, interactive, say};
+use crate::{Error, Models, files, say};
 
 pub(super) fn command() -> Command {
     Command::new("page")
@@ -38,7 +37,7 @@ pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let found = models.find(name)?;
     let model = found.model();
     let settings = settings(model, matches)?;
-    let html = interactive::page(found.name(), model, &settings)?.ok_or_else(|| without_text(name))?;
+    let html = model.interactive_page(found.name(), &settings)?;
     files::write(&path, html.as_bytes())?;
     say(format_args!("written: {}", path.display()))
 }

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use super::request::Request;
 use crate::app::Warnings;
 use crate::command::json::number;
+use crate::figure::axis;
 use crate::figure::{Figure, Panel, Series, Stroke};
 use crate::number::significant;
-use crate::unit::axis;
 use crate::{Column, Table, Unit};
 
 /// Estimates that are known to fewer digits than this are in doubt,

@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use super::Watched;
 use super::axis::Grid;
 use super::shard::{Heading, Part};
+use crate::csv_file::csv_number;
 use crate::files::Output;
 use crate::members::Member;
-use crate::recording::csv_number;
 use crate::{Error, unit};
 
 /// A process that ends at once loses the rows of this time.

@@ -9,7 +9,7 @@ use super::axis::GridAxis;
 use super::{Sweep, Watched};
 use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
 use crate::number::significant;
-use crate::{Error, Table, say, unit};
+use crate::{Error, Table, figure, say};
 
 impl Sweep<'_> {
     /// Prints where what is shown is smallest and largest, and which files were written.
@@ -66,9 +66,9 @@ impl Sweep<'_> {
 
     /// Curves over one parameter, heat maps over two.
     pub(super) fn figure(&self, name: &str, shown: &str) -> Figure {
-        let axis = |axis: &GridAxis| unit::axis(axis.name, axis.unit.name());
+        let axis = |axis: &GridAxis| figure::axis(axis.name, axis.unit.name());
         let value =
-            |quantity: &Watched| unit::axis(&format!("{shown} {}", quantity.name), quantity.unit.name());
+            |quantity: &Watched| figure::axis(&format!("{shown} {}", quantity.name), quantity.unit.name());
         let panel = |(quantity, values): (&Watched, &Vec<f64>)| match self.grid.axes.as_slice() {
             [x, y] => {
                 let map = HeatMap {

@@ -6,10 +6,10 @@ use mbs_runtime::equations::At;
 use serde_json::{Value, json};
 
 use crate::command::json::number;
+use crate::figure::axis;
 use crate::figure::{Figure, Panel, Series, Stroke};
 use crate::number::significant;
 use crate::settings::Start;
-use crate::unit::axis;
 use crate::{Column, Error, Model, Motion, Picture, StartKind, Table, Unit};
 
 /// Mechanisms that stand beside each other in a table.

@@ -1,0 +1,58 @@
+//! Declarations in files, and their errors on a terminal.
+
+use std::io::IsTerminal;
+use std::path::Path;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+use crate::live::{as_declared, compiled};
+use crate::{Model, Settings};
+
+/// A file may come from a stranger: compiling it ends after this time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A declaration that is compiled when it is asked for.
+pub(crate) struct Text {
+    text: mbs_live::Text,
+    defaults: Settings,
+    compiled: OnceLock<Box<dyn Model>>,
+}
+
+impl Text {
+    /// A declaration whose runs have these defaults.
+    pub fn new(text: mbs_live::Text, defaults: Settings) -> Self {
+        Self { text, defaults, compiled: OnceLock::new() }
+    }
+
+    /// The mechanism.
+    ///
+    /// # Errors
+    /// Those of the declaration.
+    pub fn model(&self) -> Result<&dyn Model, crate::Error> {
+        if let Some(model) = self.compiled.get() {
+            return Ok(model.as_ref());
+        }
+        let model = compiled(&self.text, self.defaults.clone())?;
+        Ok(self.compiled.get_or_init(|| model).as_ref())
+    }
+}
+
+/// The mechanism that a file declares; `name` chooses among several in a Rust file.
+///
+/// # Errors
+/// A file that cannot be read, and what is wrong with the declaration.
+pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, crate::Error> {
+    let text = mbs_live::Text::read(path).map_err(crate::Error::file("read", path))?.within(PATIENCE);
+    let text = match name {
+        Some(name) => text.named(name),
+        None => text,
+    };
+    as_declared(&text)
+}
+
+/// An error with its source, in colours on a terminal.
+pub(crate) fn shown(error: &mbs_live::Error) -> String {
+    let has_colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let text = if has_colours { error.colored().to_string() } else { error.to_string() };
+    text.trim_end().to_owned()
+}
