@@ -10,4 +10,6 @@
   const tell = () => parent.postMessage({ scroll: scrollY, ...mechanism.player.state }, "*");
   addEventListener("scroll", tell, { passive: true });
   mechanism.player.changed = tell;
+  // the page around this one answers with what was looked at
+  parent.postMessage("drawn", "*");
 })();
