@@ -101,7 +101,8 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
     asked.every = matches.try_get_one::<u64>("every").ok().flatten().copied();
     // commands that look for events have a condition for the end
     asked.finds_events = matches.try_get_one::<String>("until").is_ok();
-    asked.allow_unstable = matches.get_flag("allow-unstable");
+    asked.allow_unstable =
+        matches.try_get_one::<bool>("allow-unstable").ok().flatten().copied() == Some(true);
     asked.settings(model)
 }
 

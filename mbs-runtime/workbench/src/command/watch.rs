@@ -8,7 +8,8 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 use super::curves::Choice;
 use super::options::{self, option, settings};
 use super::page::page;
-use crate::watch::{News, Server, follow};
+use crate::interactive::other_than_played;
+use crate::watch::{News, Pages, Server, follow};
 use crate::{Error, Picture, declarations, interrupt, say};
 
 pub(crate) fn command() -> Command {
@@ -35,7 +36,8 @@ Examples:
   mbs new --file my.mbs
   mbs watch my.mbs --end 4s
 
-The page can be read on this machine alone. Ctrl-C ends it.";
+The page shows the run as it was recorded, or the mechanism to play, to change and to drag. It can be
+read on this machine alone. Ctrl-C ends it.";
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let path: PathBuf = matches.get_one::<PathBuf>("file").cloned().unwrap_or_default();
@@ -50,16 +52,19 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     Ok(())
 }
 
-/// The page of a run of the mechanism as it is declared now.
-fn shown(path: &Path, matches: &ArgMatches) -> Result<String, Error> {
+/// The pages of the mechanism as it is declared now.
+fn shown(path: &Path, matches: &ArgMatches) -> Result<Pages, Error> {
     let model = declarations::read(path, None)?;
     let settings = settings(&*model, matches)?;
     let recording = model.simulate(&settings, &mut |_, _| ())?;
     let picture = Picture::of(&model.motion(&settings, &recording)?);
     let ended = recording.ended.as_ref().map(|cause| format!("The run ended early: {cause}."));
-    let mut page = page(model.info().name, model.info(), &recording, &picture, &Choice::default())?;
+    let name = model.info().name;
+    let mut page = page(name, model.info(), &recording, &picture, &Choice::default())?;
     if let (Some(section), Some(ended)) = (page.sections.get_mut(1), ended) {
         *section = section.clone().text(ended);
     }
-    page.html()
+    let is_played = other_than_played(&settings).is_none();
+    let played = is_played.then(|| model.interactive_page(name, &settings)).transpose()?;
+    Ok(Pages { recorded: page.html()?, played })
 }

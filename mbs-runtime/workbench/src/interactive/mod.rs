@@ -10,7 +10,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
-use mbs_runtime::{Info, Quantity};
+use mbs_runtime::{Info, Quantity, Stabilization};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -18,6 +18,7 @@ use crate::html::{DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, esca
 use crate::model::without_text;
 use crate::picture::json::shape;
 use crate::recording::columns;
+use crate::settings::{Start, StartKind};
 use crate::{Error, Model, Picture, Settings, Unit};
 
 const PAGE: &str = include_str!("page.html");
@@ -42,11 +43,18 @@ const FAILED: &str = "(error) => {
 impl dyn Model + '_ {
     /// One HTML file in which the mechanism runs, offline: it can be played, changed and dragged.
     ///
-    /// The step, the end and the feedback are those of the settings; `file` is what its downloads are called.
+    /// Parameters and inputs at its start, the step, the end and the feedback are those of the settings; `file` is
+    /// what its downloads are called.
     ///
     /// # Errors
-    /// A mechanism whose declaration is no text, settings that the mechanism refuses.
+    /// A mechanism whose declaration is no text, settings that the mechanism refuses, and those that ask for
+    /// other runs than such with a constant step of the declared scheme.
     pub fn interactive_page(&self, file: &str, settings: &Settings) -> Result<String, Error> {
+        if let Some(other) = other_than_played(settings) {
+            let reason = "a page makes constant steps of the declared scheme; leave this out".into();
+            return Err(Error::Name { name: other.into(), reason });
+        }
+        let Start { parameters, inputs, .. } = Start::of(self, settings)?;
         let wasm = self.text().ok_or_else(|| without_text(self.info().name))?.wasm()?;
         let recording = self.simulate(settings, &mut |_, _| ())?;
         let picture = Picture::of(&self.motion(settings, &recording)?);
@@ -58,9 +66,10 @@ impl dyn Model + '_ {
             "end": settings.end,
             "feedback": feedback(settings),
             "columns": columns(info).iter().map(|column| column.heading()).collect::<Vec<_>>(),
-            "parameters": declared(info.parameters),
-            "inputs": declared(info.inputs),
-            "outputs": declared(info.outputs),
+            "parameters": shown(info.parameters),
+            "inputs": shown(info.inputs),
+            "outputs": shown(info.outputs),
+            "start": { "parameters": parameters, "inputs": inputs },
             "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
             "picture": drawn(&picture),
         });
@@ -68,20 +77,33 @@ impl dyn Model + '_ {
     }
 }
 
+/// The option that asks for other steps than a page makes, if there is one.
+pub(crate) fn other_than_played(settings: &Settings) -> Option<&'static str> {
+    let Settings { signals, scheme, constant, tolerances, stabilization, start, .. } = settings;
+    let asked = [
+        ("rtol", tolerances.is_some()),
+        ("method", scheme.is_some() || constant.is_some()),
+        ("input", signals.is_some()),
+        ("feedback", *stabilization == Some(Stabilization::Projection)),
+        ("start", *start != StartKind::default()),
+    ];
+    asked.into_iter().find(|(_, is_asked)| *is_asked).map(|(option, _)| option)
+}
+
 /// The gains that were asked for; none where the deadbeat ones of the step are meant.
 fn feedback(settings: &Settings) -> Value {
     let (Some(alpha), Some(beta)) = (settings.alpha, settings.beta) else { return Value::Null };
-    let held = settings.stabilization != Some(mbs_runtime::Stabilization::PerStage);
+    let held = settings.stabilization != Some(Stabilization::PerStage);
     json!({ "held": held, "alpha": alpha, "beta": beta })
 }
 
 /// The units in which quantities are shown.
-fn declared(quantities: &[Quantity]) -> Vec<Value> {
-    let shown = |quantity: &Quantity| {
+fn shown(quantities: &[Quantity]) -> Vec<Value> {
+    let unit = |quantity: &Quantity| {
         let unit = Unit::of(quantity);
         json!({ "unit": unit.name().replace('*', "·"), "scale": unit.read(1.0) })
     };
-    quantities.iter().map(shown).collect()
+    quantities.iter().map(unit).collect()
 }
 
 /// The shapes between the points of the module, and what a run has shown of their places.
@@ -178,6 +200,15 @@ mod tests {
             assert!(!html.contains(part), "{part}");
         }
         assert!(html.contains("<math display=\"block\">"));
+    }
+
+    #[test]
+    fn a_page_refuses_the_steps_that_it_does_not_make() {
+        let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
+        let model = model::as_declared(&mbs_live::Text::declaration("slider.mbs", text)).unwrap();
+        let settings = Settings { scheme: Some(&mbs_runtime::RK4), ..model.defaults() };
+        let error = model.interactive_page("slider", &settings).unwrap_err().to_string();
+        assert!(error.contains("`method`") && error.contains("constant steps"), "{error}");
     }
 
     /// Texts of a declaration stand in the page as texts.

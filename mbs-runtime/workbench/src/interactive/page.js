@@ -124,13 +124,13 @@
     }
     if (!playing) show();
   });
-  quantities.form("parameters", session.tables.parameters, data.parameters, (values) => {
+  quantities.form("parameters", session.tables.parameters, data.parameters, data.start.parameters, (values) => {
     session.setParameters(values);
     failed = false;
     due = run.t;
     if (!playing) show();
   }, tell);
-  quantities.form("inputs", session.tables.inputs, data.inputs, (values) => {
+  quantities.form("inputs", session.tables.inputs, data.inputs, data.start.inputs, (values) => {
     session.setInputs(values);
     if (!playing) show();
   }, tell);

@@ -8,12 +8,13 @@ const quantities = (() => {
 
   const plain = (value) => String(Number(value.toPrecision(10)));
 
-  // A form of quantities. `take` is given all values in SI units and throws what is wrong with them.
-  function form(id, declared, shown, take, tell) {
+  // A form of quantities, which begin with some values. `take` is given all values in SI units and throws what
+  // is wrong with them.
+  function form(id, declared, shown, begin, take, tell) {
     const element = document.getElementById(id);
     element.hidden = declared.length === 0;
     element.addEventListener("submit", (event) => event.preventDefault());
-    let values = declared.map((it) => it.value);
+    let values = [...begin];
     function attempt(wanted) {
       try {
         take(wanted);
@@ -27,7 +28,7 @@ const quantities = (() => {
       return true;
     }
     const rows = declared.map((it, at) => {
-      const { unit, scale } = shown[at], [from, to] = range(it.value / scale);
+      const { unit, scale } = shown[at], [from, to] = range(begin[at] / scale);
       const row = document.createElement("div"), label = document.createElement("label");
       const slider = document.createElement("input"), field = document.createElement("input");
       const unitOf = document.createElement("span");

@@ -5,7 +5,9 @@ const session = await (async () => {
   const packed = new Blob([Uint8Array.from(atob(data.module), (letter) => letter.charCodeAt(0))]);
   const bytes = await new Response(packed.stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
   const mechanism = new mbs.Mechanism(await WebAssembly.compile(bytes), tables);
+  mechanism.setParameters(Float64Array.from(data.start.parameters));
   const run = new mbs.Run(mechanism, data.step, data.feedback);
+  run.inputs.set(data.start.inputs);
   // About a thousand rows in the time that a run usually takes; the oldest make room.
   const STRIDE = Math.max(1, Math.round(data.end / data.step / 1000)), MOST_ROWS = 20000;
   const rows = [];

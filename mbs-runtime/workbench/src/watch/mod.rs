@@ -13,16 +13,25 @@ pub(crate) use server::Server;
 /// How often the file is looked at.
 const GRAIN: Duration = Duration::from_millis(50);
 
-/// What is made of the file: a page, or what is wrong with it.
-pub(crate) type Outcome = Result<String, String>;
+/// What a mechanism looks like.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Pages {
+    /// A run as it was recorded.
+    pub recorded: String,
+    /// The mechanism, to be played; nothing where other steps are asked for than a page makes.
+    pub played: Option<String>,
+}
+
+/// What is made of the file: pages, or what is wrong with it.
+pub(crate) type Outcome = Result<Pages, String>;
 
 /// What became of the file so far.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shown {
     /// Counts the outcomes.
     pub version: u64,
-    /// The last page that there was, and its version.
-    pub page: Option<(u64, String)>,
+    /// The last pages that there were, and their version.
+    pub pages: Option<(u64, Pages)>,
     /// What is wrong with the file now.
     pub error: Option<String>,
 }
@@ -35,12 +44,12 @@ pub(crate) struct News {
 }
 
 impl News {
-    /// The next outcome. A page outlives the errors after it.
+    /// The next outcome. Pages outlive the errors after them.
     pub fn tell(&self, outcome: Outcome) {
         let mut shown = self.now();
         shown.version += 1;
         match outcome {
-            Ok(page) => (shown.page, shown.error) = (Some((shown.version, page)), None),
+            Ok(pages) => (shown.pages, shown.error) = (Some((shown.version, pages)), None),
             Err(error) => shown.error = Some(error),
         }
         drop(shown);
@@ -97,15 +106,19 @@ mod tests {
 
     use super::*;
 
+    fn pages(recorded: &str) -> Pages {
+        Pages { recorded: recorded.into(), played: None }
+    }
+
     #[test]
-    fn a_page_outlives_the_errors_after_it() {
+    fn pages_outlive_the_errors_after_them() {
         let news = News::default();
-        news.tell(Ok("good".into()));
+        news.tell(Ok(pages("good")));
         news.tell(Err("bad".into()));
         let now = news.now().clone();
-        assert_eq!(now, Shown { version: 2, page: Some((1, "good".into())), error: Some("bad".into()) });
-        news.tell(Ok("better".into()));
-        assert_eq!(*news.now(), Shown { version: 3, page: Some((3, "better".into())), error: None });
+        assert_eq!(now, Shown { version: 2, pages: Some((1, pages("good"))), error: Some("bad".into()) });
+        news.tell(Ok(pages("better")));
+        assert_eq!(*news.now(), Shown { version: 3, pages: Some((3, pages("better"))), error: None });
     }
 
     /// Saves in place, by replacement and without change; the file goes away and comes back.
@@ -115,7 +128,7 @@ mod tests {
         let (path, other) = (folder.path().join("a.mbs"), folder.path().join("b.mbs"));
         fs::write(&path, "1").unwrap();
         let (news, end) = (News::default(), AtomicBool::new(false));
-        let make = || fs::read_to_string(&path).map_err(|error| error.to_string());
+        let make = || fs::read_to_string(&path).map(|text| pages(&text)).map_err(|error| error.to_string());
         thread::scope(|scope| {
             scope.spawn(|| follow(&path, &make, &news, &end));
             let mut version = 0;
@@ -124,7 +137,7 @@ mod tests {
                 let shown = news.after(version, Duration::from_secs(10)).clone();
                 assert!(shown.version == version + 1 && start.elapsed() < Duration::from_secs(5));
                 version = shown.version;
-                shown.error.map_or_else(|| shown.page.unwrap().1, |_| "missing".into())
+                shown.error.map_or_else(|| shown.pages.unwrap().1.recorded, |_| "missing".into())
             };
             assert_eq!(next(), "1");
             fs::write(&path, "2").unwrap();

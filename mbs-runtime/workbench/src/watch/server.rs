@@ -72,16 +72,26 @@ fn answer(request: Request, address: SocketAddr, shell: &str, news: &News) {
         text(200, html, shell.to_owned())
     } else if let Some(version) = path.strip_prefix("/news?after=").and_then(|n| n.parse().ok()) {
         let now = news.after(version, PATIENCE);
-        let page = now.page.as_ref().map(|(version, _)| version);
-        let told = json!({ "version": now.version, "page": page, "error": now.error });
+        let page = now.pages.as_ref().map(|(version, _)| version);
+        let is_played = now.pages.as_ref().is_some_and(|(_, pages)| pages.played.is_some());
+        let told = json!({ "version": now.version, "page": page, "played": is_played, "error": now.error });
         text(200, "application/json", told.to_string())
-    } else if let Some(page) = path.strip_prefix("/page/").and_then(|_| news.now().page.clone()) {
-        text(200, html, page.1)
+    } else if let Some(page) = page(&path, news) {
+        text(200, html, page)
     } else {
         text(404, "text/plain", "there is no such page".into())
     };
     // whoever has gone away needs no answer
     let _ = request.respond(response);
+}
+
+/// The last page at a path: `/recorded/` or `/played/` with a version, which browsers tell apart by it.
+fn page(path: &str, news: &News) -> Option<String> {
+    let (_, pages) = news.now().pages.clone()?;
+    if path.starts_with("/recorded/") {
+        return Some(pages.recorded);
+    }
+    path.strip_prefix("/played/").and(pages.played)
 }
 
 /// Whether a request names the address that it came to: a browser names the host of the
@@ -98,6 +108,7 @@ mod tests {
     use std::io::{Read, Write};
     use std::net::TcpStream;
 
+    use super::super::Pages;
     use super::*;
 
     fn get(server: &Server, path: &str, host: &str) -> String {
@@ -116,13 +127,17 @@ mod tests {
         let host = server.address.to_string();
         assert!(get(&server, "/", &host).contains("<title>&lt;crank&gt;.mbs</title>"));
         assert!(get(&server, "/", "evil.example").starts_with("HTTP/1.1 403"));
-        assert!(get(&server, "/page/1", &host).starts_with("HTTP/1.1 404"));
+        assert!(get(&server, "/recorded/1", &host).starts_with("HTTP/1.1 404"));
         assert!(get(&server, "/../Cargo.toml", &host).starts_with("HTTP/1.1 404"));
 
-        news.tell(Ok("<p>moving</p>".into()));
+        news.tell(Ok(Pages { recorded: "<p>moving</p>".into(), played: Some("<p>to play</p>".into()) }));
         news.tell(Err("line 3: no body `wheel`".into()));
         let told = get(&server, "/news?after=1", &host);
-        assert!(told.ends_with(r#"{"error":"line 3: no body `wheel`","page":1,"version":2}"#), "{told}");
-        assert!(get(&server, "/page/1", &host).ends_with("<p>moving</p>"));
+        assert!(
+            told.ends_with(r#"{"error":"line 3: no body `wheel`","page":1,"played":true,"version":2}"#),
+            "{told}"
+        );
+        assert!(get(&server, "/recorded/1", &host).ends_with("<p>moving</p>"));
+        assert!(get(&server, "/played/1", &host).ends_with("<p>to play</p>"));
     }
 }

@@ -3,6 +3,7 @@
 
 import csv
 import os
+import signal
 import subprocess
 import time
 
@@ -38,13 +39,13 @@ def browser():
 class Opened:
     """The page of a model, and what it complained of."""
 
-    def __init__(self, browser, folder, model):
+    def __init__(self, browser, folder, model, *options):
         self.folder, self.model = folder, model
         if model == "reduced":
             self.model = folder / "reduced.mbs"
             self.model.write_text(REDUCED)
         file = folder / f"{model}.html"
-        subprocess.run([MBS, "export", "page", self.model, "--out", file], check=True)
+        subprocess.run([MBS, "export", "page", self.model, "--out", file, *options], check=True)
         self.page = browser.new_page(viewport={"width": 1200, "height": 900})
         self.complaints, self.requests = [], []
         self.page.on("console", lambda message: self.complaints.append(message.text))
@@ -144,6 +145,18 @@ def test_parameters_change_the_run_and_bad_ones_are_refused(browser, tmp_path):
     assert opened.complaints == []
 
 
+def test_a_page_begins_with_the_values_that_were_set(browser, tmp_path):
+    values = "--set", "length=30cm", "--input", "push=-2N"
+    opened = Opened(browser, tmp_path, "reduced", *values)
+    assert opened.page.input_value("#parameters-length") == "0.3" and opened.page.input_value("#inputs-push") == "-2"
+    opened.play(100)
+    head, rows = opened.rows()
+    same((head, rows), opened.native(rows[-1][0], *values), 100)
+    opened.page.click("#parameters button")
+    assert opened.page.input_value("#parameters-length") == "0.4"
+    assert opened.complaints == []
+
+
 def test_inputs_change_a_run_while_it_plays(browser, tmp_path):
     opened = Opened(browser, tmp_path, "reduced")
     opened.set("inputs-push", "3.5")
@@ -231,3 +244,37 @@ def test_a_telephone_has_room_for_it(browser, tmp_path):
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= 360
     sizes = opened.page.evaluate("[...document.querySelectorAll('button')].map((it) => it.offsetHeight)")
     assert min(size for size in sizes if size) >= 32
+
+
+@pytest.fixture
+def watched(tmp_path):
+    """A file, and the address at which it is followed."""
+    file = tmp_path / "watched.mbs"
+    file.write_text(REDUCED)
+    program = subprocess.Popen([MBS, "watch", file, "--set", "length=30cm"], stdout=subprocess.PIPE, text=True)
+    yield file, program.stdout.readline().split()[0]
+    program.send_signal(signal.SIGINT)
+    assert program.wait(10) == 0
+
+
+def test_a_watched_mechanism_can_be_played(browser, watched):
+    file, address = watched
+    page = browser.new_page()
+    complaints = []
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(address)
+    page.wait_for_selector("iframe[data-view=recorded]")
+    page.click("#played")
+    frame = page.frame_locator("iframe[data-view=played]")
+    # it plays at once, from the values that were given
+    frame.locator("#play", has_text="Pause").wait_for()
+    assert frame.locator("#parameters-length").input_value() == "0.3"
+    file.write_text(REDUCED.replace("Reduced {", "Changed {"))
+    page.frame_locator("iframe:last-child").locator("h1", has_text="Changed").wait_for()
+    # a save leaves it in this view, playing
+    page.frame_locator("iframe[data-view=played]:last-child").locator("#play", has_text="Pause").wait_for()
+    file.write_text(REDUCED.replace("dof = 1", "dof = 2"))
+    page.wait_for_selector("#error:not([hidden])")
+    assert "dof" in page.inner_text("#error") and complaints == []
+    page.close()

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
-use super::settings;
-use crate::command::options::option;
+use crate::command::options::{of_values, option, settings};
 use crate::{Error, Models, files, say};
 
 pub(super) fn command() -> Command {
@@ -18,6 +17,7 @@ pub(super) fn command() -> Command {
                 .required(true)
                 .value_parser(value_parser!(PathBuf)),
         )
+        .args(of_values())
         .arg(option("step", "TIME", "Step in s, or with a unit [default: as declared, 0.5ms, or its own]"))
         .arg(option("end", "TIME", "The time that curves and speed are laid out for [default: 1s]"))
 }
@@ -25,6 +25,7 @@ pub(super) fn command() -> Command {
 const EXAMPLES: &str = "\
 Examples:
   mbs export page double-pendulum --out pendulum.html
+  mbs export page slider-crank --set omega=30rpm --end 4s --out slow.html
   mbs export page my.mbs --step 0.1ms --end 4s --out my.html
 
 The file needs no network and no server: the mechanism is in it as WebAssembly. Numbers are
