@@ -171,6 +171,29 @@ fn mechanisms_of_the_library() {
     }
 }
 
+/// Long programs are written as loops.
+#[test]
+fn chains_in_loops() {
+    for file in ["n_pendulum.rs", "n_four_bar.rs"] {
+        agree(&chain(file, 40));
+    }
+    // tables of places that have no rule, loops that run down, chances for loops of few copies
+    for file in
+        ["jansen_walker.rs", "planetary_gear.rs", "v_engine.rs", "excavator.rs", "andrews_squeezer.rs"]
+    {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file);
+        let text = fs::read_to_string(path).unwrap().replacen("dof = ", "limit unrolled = 0; dof = ", 1);
+        agree(&Text::rust(file, text));
+    }
+}
+
+/// A chain of the library with so many links.
+fn chain(file: &str, links: usize) -> Text {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file);
+    let text = fs::read_to_string(path).unwrap().replace("$(#[$($attribute)*])*", "");
+    Text::rust(file, text.replace("$Name", "Chain").replace("$n", &links.to_string())).named("Chain")
+}
+
 /// Coordinates that constraints give are not among the states of a step.
 #[test]
 fn reduced_states() {
@@ -215,4 +238,8 @@ fn module_is_small() {
         println!("{file}: {length} bytes");
         assert!(length < most, "{file}: {length} bytes");
     }
+    // what a link more takes is its places in the tables of loops, and not its instructions, which are 5 kB
+    let [short, long] = [40, 80].map(|links| chain("n_pendulum.rs", links).wasm().unwrap().module.len());
+    println!("n_pendulum.rs: {short} bytes with 40 rods, {long} with 80");
+    assert!(long < short + 40 * 1_500, "{short} and {long} bytes");
 }

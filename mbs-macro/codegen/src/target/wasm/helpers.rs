@@ -1,10 +1,9 @@
 //! Functions that programs call: those of the host, and small ones of the module.
 
-use std::rc::Rc;
-
-use mbs_symbolic::{Function as Elementary, Spline};
+use mbs_symbolic::Function as Elementary;
 use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
 
+use super::memory::{HEAD, SEGMENT};
 use super::program::word;
 
 /// The functions of `Math` with their numbers of arguments.
@@ -177,35 +176,6 @@ fn polynomial(code: &mut InstructionSink<'_>, coefficients: [f64; 6], [z, w]: [u
         code.f64_const((*even).into()).local_get(z).f64_const((*odd).into()).f64_mul().f64_add();
     }
     code.f64_mul().f64_add().f64_mul().f64_add();
-}
-
-/// The splines in memory: origin, period, the number of segments as a number, and per segment where it
-/// begins and its coefficients.
-pub struct Splines {
-    pub bytes: Vec<u8>,
-    addresses: Vec<i32>,
-}
-
-/// Numbers before the segments of a spline,
-const HEAD: usize = 3;
-/// and numbers of a segment.
-const SEGMENT: usize = 5;
-
-impl Splines {
-    pub fn new(splines: &[Rc<Spline>]) -> Self {
-        let (mut bytes, mut addresses) = (Vec::new(), Vec::new());
-        for spline in splines {
-            addresses.push(bytes.len() as i32);
-            let head = [spline.origin, spline.period, spline.segments.len() as f64];
-            let segments = spline.segments.iter().flat_map(|it| [it.from].into_iter().chain(it.coefficients));
-            bytes.extend(head.into_iter().chain(segments).flat_map(f64::to_le_bytes));
-        }
-        Self { bytes, addresses }
-    }
-
-    pub fn address(&self, spline: usize) -> Option<i32> {
-        self.addresses.get(spline).copied()
-    }
 }
 
 /// The segment that x lies in is the last that does not begin behind it, and u counts from there.

@@ -7,22 +7,28 @@
 //! an energy, is returned. What lies in memory below the exported `heap` belongs to the module.
 //!
 //! Results are those of the other targets to the bit: WebAssembly rounds each operation by itself, sines
-//! and cosines up to 10⁵ rad are written with the code, as splines are. Tangents, inverse functions,
+//! and cosines up to 10⁵ rad are written with the code, as splines are. Long programs are written as loops. Tangents, inverse functions,
 //! exponentials and powers are those of the host, which need not agree with Rust's in the last place.
 
 mod helpers;
+mod loops;
+mod memory;
 mod program;
+mod slot;
 mod tables;
 
-use mbs_symbolic::{Inconsistency, Program};
+use mbs_symbolic::layout::Layout;
+use mbs_symbolic::{Block, Inconsistency, Program};
 use wasm_encoder::{
     CodeSection, ConstExpr, DataSection, EntityType, ExportKind, ExportSection, FunctionSection,
     GlobalSection, GlobalType, ImportSection, MemorySection, MemoryType, Module, TypeSection, ValType,
 };
 
-use crate::compiled::{Argument, Compiled, FunctionId, Kinds, Results};
+use crate::compiled::{Argument, Compiled, FunctionId, Kinds, Results, Vector};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use program::{Slot, body};
+use memory::Memory;
+use program::body;
+use slot::Slot;
 
 /// The JavaScript that runs a mechanism in its module: it defines `mbs.Mechanism` and `mbs.Run`. The order of
 /// operations is that of the C target, so that numbers agree with those of C and Rust to the bit.
@@ -72,6 +78,14 @@ pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
     Ok(Wasm { module, tables: tables::tables(compiled) })
 }
 
+/// A function, before it is written.
+struct Planned<'a> {
+    signature: Signature,
+    program: &'a Program,
+    /// Of a long program.
+    layout: Option<Layout<Vector>>,
+}
+
 /// What a function is given and gives.
 struct Signature {
     name: &'static str,
@@ -84,7 +98,9 @@ struct Signature {
 }
 
 fn module(compiled: &Compiled) -> Result<Vec<u8>, Inconsistency> {
-    let splines = helpers::Splines::new(&compiled.splines);
+    let planned = planned(compiled)?;
+    let slots = planned.iter().filter_map(|it| Some(it.layout.as_ref()?.slots)).max().unwrap_or(0);
+    let mut memory = Memory::new(&compiled.splines, slots);
     let mut parts = Parts::default();
     for (name, arity) in helpers::IMPORTS {
         parts.import(name, arity);
@@ -92,25 +108,35 @@ fn module(compiled: &Compiled) -> Result<Vec<u8>, Inconsistency> {
     for helper in helpers::all() {
         parts.function(&helper.parameters, &helper.results, &helper.body);
     }
-    let mut add = |signature: &Signature, program: &Program| {
-        let addresses = signature.lengths.iter().map(|_| ValType::I32);
-        let parameters: Vec<ValType> =
-            signature.slots.iter().map(|slot| slot.kind()).chain(addresses).collect();
-        let results = if signature.returns { &[ValType::F64][..] } else { &[] };
-        let code = body(compiled, program, signature, &splines)?;
+    for it in &planned {
+        let Signature { name, slots, lengths, returns } = &it.signature;
+        let addresses = lengths.iter().map(|_| ValType::I32);
+        let parameters: Vec<ValType> = slots.iter().map(|slot| slot.kind()).chain(addresses).collect();
+        let results = if *returns { &[ValType::F64][..] } else { &[] };
+        let code = body(compiled, it, &mut memory)?;
         let at = parts.function(&parameters, results, &code);
-        parts.exports.export(signature.name, ExportKind::Func, at);
-        Ok(())
-    };
+        parts.exports.export(name, ExportKind::Func, at);
+    }
+    Ok(parts.module(&memory))
+}
+
+/// The functions of a mechanism.
+fn planned(compiled: &Compiled) -> Result<Vec<Planned<'_>>, Inconsistency> {
+    let mut planned = Vec::new();
     for id in FunctionId::all().filter(|id| *id != FunctionId::Implicit) {
-        add(&Signature::of(compiled, id), compiled.program(id))?;
+        let (signature, program) = (Signature::of(compiled, id), compiled.program(id));
+        let blocks = compiled.blocks(program);
+        let is_long = !matches!(blocks[..], [] | [Block::Straight(_)]);
+        let layout = is_long.then(|| compiled.layout(program, &blocks, &signature.lengths)).transpose()?;
+        planned.push(Planned { signature, program, layout });
     }
     if let Some(step) = &compiled.fused_step {
         let Kinds { held, per_stage } = &step.alone;
-        add(&Signature::of_step(compiled, "step_held"), held)?;
-        add(&Signature::of_step(compiled, "step_per_stage"), per_stage)?;
+        for (name, program) in [("step_held", held), ("step_per_stage", per_stage)] {
+            planned.push(Planned { signature: Signature::of_step(compiled, name), program, layout: None });
+        }
     }
-    Ok(parts.module(&splines))
+    Ok(planned)
 }
 
 impl Signature {
@@ -167,11 +193,11 @@ impl Parts {
         self.count - 1
     }
 
-    fn module(mut self, splines: &helpers::Splines) -> Vec<u8> {
+    fn module(mut self, memory: &Memory) -> Vec<u8> {
         const PAGE: usize = 65_536;
-        let heap = splines.bytes.len();
-        let mut memory = MemorySection::new();
-        memory.memory(MemoryType {
+        let heap = memory.heap();
+        let mut pages = MemorySection::new();
+        pages.memory(MemoryType {
             minimum: heap.div_ceil(PAGE).max(1) as u64,
             maximum: None,
             memory64: false,
@@ -183,9 +209,11 @@ impl Parts {
         globals.global(constant, &ConstExpr::i32_const(heap as i32));
         self.exports.export("memory", ExportKind::Memory, 0).export("heap", ExportKind::Global, 0);
         let mut data = DataSection::new();
-        data.active(0, &ConstExpr::i32_const(0), splines.bytes.iter().copied());
+        for (address, bytes) in memory.data() {
+            data.active(0, &ConstExpr::i32_const(address as i32), bytes.iter().copied());
+        }
         let mut module = Module::new();
-        module.section(&self.types).section(&self.imports).section(&self.functions).section(&memory);
+        module.section(&self.types).section(&self.imports).section(&self.functions).section(&pages);
         module.section(&globals).section(&self.exports).section(&self.code).section(&data);
         module.finish()
     }
