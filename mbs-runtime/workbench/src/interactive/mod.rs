@@ -4,7 +4,6 @@
 mod equations;
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
@@ -61,7 +60,6 @@ impl dyn Model + '_ {
         let info = self.info();
         let data = json!({
             "file": file,
-            "module": packed(&wasm.module).map_err(Error::file("write", Path::new(file)))?,
             "step": settings.step,
             "end": settings.end,
             "feedback": feedback(settings),
@@ -73,7 +71,9 @@ impl dyn Model + '_ {
             "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
             "picture": drawn(&picture),
         });
-        Ok(html(info, &[escaped_json(&data), wasm.tables], &equations::mathml(self.derivation())?))
+        let parts = [&wasm.module[..], data.to_string().as_bytes(), wasm.tables.as_bytes()].map(packed);
+        let parts = parts.into_iter().collect::<io::Result<Vec<_>>>().map_err(Error::file("write", file))?;
+        Ok(html(info, &json!(parts), &equations::mathml(self.derivation())?))
     }
 }
 
@@ -149,7 +149,7 @@ pub fn packed(bytes: &[u8]) -> io::Result<String> {
 }
 
 /// The page; its policy of content allows this script, this style and the module, and nothing from elsewhere.
-fn html(info: &Info, [data, tables]: &[String; 2], equations: &str) -> String {
+fn html(info: &Info, packed: &Value, equations: &str) -> String {
     let Sources { style, script } = Sources::of_pages();
     let policy = format!(
         "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}",
@@ -161,8 +161,7 @@ fn html(info: &Info, [data, tables]: &[String; 2], equations: &str) -> String {
         ("TITLE", escaped(info.name)),
         ("LEAD", escaped(info.doc.trim())),
         ("EQUATIONS", equations.to_owned()),
-        ("DATA", data.clone()),
-        ("TABLES", tables.clone()),
+        ("PACKED", escaped_json(packed)),
         ("STYLE", style),
         ("SCRIPT", script),
     ];
@@ -196,7 +195,7 @@ mod tests {
         let html = page_of("double_pendulum.rs");
         assert!(html.contains("default-src 'none'; script-src 'sha256-"));
         // neither a place nor a policy is left open
-        for part in ["@DATA@", "@POLICY@", "unsafe-inline", "'unsafe-eval'", "src=\"", "href=\"", "url("] {
+        for part in ["@PACKED@", "@POLICY@", "unsafe-inline", "'unsafe-eval'", "src=\"", "href=\"", "url("] {
             assert!(!html.contains(part), "{part}");
         }
         assert!(html.contains("<math display=\"block\">"));
@@ -217,9 +216,9 @@ mod tests {
         let text = "/// </script><script>alert(1)</script> <img src=x onerror=alert(1)>
             Hostile { dof = 1; body ball (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
         let model = model::as_declared(&mbs_live::Text::declaration("hostile.mbs", text)).unwrap();
-        let html = model.interactive_page("</script>@DATA@", &model.defaults()).unwrap();
-        assert_eq!(html.matches("<script").count(), 3);
-        assert_eq!(html.matches("</script>").count(), 3);
+        let html = model.interactive_page("</script>@PACKED@", &model.defaults()).unwrap();
+        assert_eq!(html.matches("<script").count(), 2);
+        assert_eq!(html.matches("</script>").count(), 2);
         assert!(!html.contains("<img") && html.contains("&lt;img"));
     }
 }

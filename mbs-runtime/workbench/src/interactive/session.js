@@ -1,10 +1,14 @@
 // The mechanism of this page, its run, and the rows that were recorded of it.
 const session = await (async () => {
-  const read = (id) => JSON.parse(document.getElementById(id).textContent);
-  const data = read("data"), tables = read("tables");
-  const packed = new Blob([Uint8Array.from(atob(data.module), (letter) => letter.charCodeAt(0))]);
-  const bytes = await new Response(packed.stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
-  const mechanism = new mbs.Mechanism(await WebAssembly.compile(bytes), tables);
+  // Module, data of the page and tables of the mechanism, each compressed.
+  const packed = JSON.parse(document.getElementById("packed").textContent);
+  const unpacked = (text) => {
+    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw")));
+  };
+  const module = await WebAssembly.compile(await unpacked(packed[0]).arrayBuffer());
+  const [data, tables] = await Promise.all([unpacked(packed[1]).json(), unpacked(packed[2]).json()]);
+  const mechanism = new mbs.Mechanism(module, tables);
   mechanism.setParameters(Float64Array.from(data.start.parameters));
   const run = new mbs.Run(mechanism, data.step, data.feedback);
   run.inputs.set(data.start.inputs);

@@ -9,6 +9,7 @@ mod fits;
 mod imports;
 mod linear;
 mod linkages;
+mod pages;
 mod prescribed;
 mod runs;
 mod shards;
