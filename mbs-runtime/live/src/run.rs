@@ -38,8 +38,14 @@ use crate::{Live, Prepared, Stepper};
 /// let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
 /// swing.state(&mut q, &mut v);
 /// assert!(q[1] < -0.8);
+///
+/// // A copy goes on by itself from the same state, which it thereby saves.
+/// let saved = swing.clone();
+/// swing.step()?;
+/// assert!(saved.steps() == 500 && swing.steps() == 501);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Clone)]
 pub struct Run<T = f64> {
     mechanism: Live<T>,
     gains: Gains<T>,

@@ -39,6 +39,7 @@ use crate::steps::Steps;
 /// assert!((q[0] - 2.0_f64.cos()).abs() < 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Clone)]
 pub struct Stepper<T = f64>(Steps<T, 1>);
 
 impl<T: Real> Stepper<T> {

@@ -20,6 +20,7 @@ pub type Execute<T, const C: usize> = fn(&[Instruction], &[Spline], &mut [[T; C]
 type Columns<T, const C: usize> = Vec<[T; C]>;
 
 /// Steps of `C` members of one mechanism, and room for them.
+#[derive(Clone)]
 pub struct Steps<T, const C: usize> {
     programs: Arc<Programs>,
     execute: Execute<T, C>,
@@ -33,12 +34,14 @@ pub struct Steps<T, const C: usize> {
 }
 
 /// Slots, and vectors between stages.
+#[derive(Clone)]
 enum Memory<T, const C: usize> {
     /// The whole step is one program.
     Fused(Arc<Code>, Columns<T, C>),
     Staged(Box<Stages<T, C>>),
 }
 
+#[derive(Clone)]
 struct Stages<T, const C: usize> {
     method: Explicit,
     /// The slots of the first stage, and those of the others.
@@ -56,6 +59,7 @@ struct Stages<T, const C: usize> {
 }
 
 /// The slots of the functions that project, and vectors between them.
+#[derive(Clone)]
 struct Projection<T, const C: usize> {
     slots: [Columns<T, C>; 4],
     /// All coordinates, velocities and corrections.
