@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use mbs::{drift, library, paper};
+use mbs_command::{drift, library, paper};
 
 fn main() -> ExitCode {
     let app = library()
