@@ -54,10 +54,12 @@ impl Reading<'_> {
     fn console(&self, shown: &[Shown], is_interrupted: bool, wrong: &mut Vec<String>) -> Option<String> {
         let mut text = String::new();
         for Shown { command, output } in shown {
-            let program = command.split_whitespace().next()?;
-            if !self.shell(&format!("command -v {program}"), false).status.success() {
-                println!("{}: there is no `{program}`", self.chapter);
-                return None;
+            let needed = [command.split_whitespace().next()?, if is_interrupted { "timeout" } else { "sh" }];
+            for program in needed {
+                if !self.shell(&format!("command -v {program}"), false).status.success() {
+                    println!("{}: there is no `{program}`", self.chapter);
+                    return None;
+                }
             }
             let ended = self.shell(command, is_interrupted);
             let actual = String::from_utf8(ended.stdout).unwrap();
@@ -84,7 +86,13 @@ impl Reading<'_> {
         };
         // one stream, as a terminal has it
         let command = format!("exec 2>&1; {command}");
-        shell.args(["-c", &command]).current_dir(self.path).env("PATH", path).output().unwrap()
+        shell
+            .args(["-c", &command])
+            .current_dir(self.path)
+            .env("PATH", path)
+            .env("LC_ALL", "C")
+            .output()
+            .unwrap()
     }
 
     /// Runs the blocks of Python as one program.
@@ -95,7 +103,13 @@ impl Reading<'_> {
         printed: &mut Vec<(Range<usize>, String)>,
     ) {
         let programs: Vec<&Block<'_>> = blocks.iter().filter(|block| block.language == "python").collect();
-        let Some(python) = env::var_os("BOOK_PYTHON").filter(|_| !programs.is_empty()) else { return };
+        if programs.is_empty() {
+            return;
+        }
+        let Some(python) = env::var_os("BOOK_PYTHON") else {
+            println!("{}: BOOK_PYTHON names no interpreter, its Python is skipped", self.chapter);
+            return;
+        };
         let between = "\nprint('\\x1e', end='')\n";
         let program = programs.iter().map(|block| block.text).collect::<Vec<_>>().join(between);
         fs::write(self.path.join("chapter.py"), program).unwrap();
