@@ -18,21 +18,26 @@ pub(crate) fn command() -> Command {
 pub(crate) fn run(models: &Models, parser: Command, matches: &ArgMatches) -> Result<(), Error> {
     let Some(shell) = matches.get_one::<Shell>("shell").copied() else { return Ok(()) };
     let names: Vec<String> = models.names().map(str::to_owned).collect();
-    let with_names = |command: Command, argument: &'static str| {
-        let parser = PossibleValuesParser::new(names.clone());
-        command.mut_arg(argument, |argument| argument.value_parser(parser))
-    };
-    let mut parser = parser
-        .mut_subcommand("simulate", |command| with_names(command, "model"))
-        .mut_subcommand("sweep", |command| with_names(command, "model"))
-        .mut_subcommand("equilibrium", |command| with_names(command, "model"))
-        .mut_subcommand("linearize", |command| with_names(command, "model"))
-        .mut_subcommand("modes", |command| with_names(command, "model"))
-        .mut_subcommand("bode", |command| with_names(command, "model"))
-        .mut_subcommand("explain", |command| with_names(command, "mechanism"));
+    let mut parser = with_names(parser, &names);
     let program = std::env::args_os().next().map(std::path::PathBuf::from);
     let stem = program.as_ref().and_then(|path| path.file_stem()).and_then(|stem| stem.to_str());
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut parser, stem.unwrap_or("mbs"), &mut script);
     say(String::from_utf8_lossy(&script).trim_end())
+}
+
+/// The command with the names of mechanisms as values of every argument that is one, in its subcommands too.
+fn with_names(command: Command, names: &[String]) -> Command {
+    let subcommands: Vec<String> =
+        command.get_subcommands().map(|inner| inner.get_name().to_owned()).collect();
+    let takes_a_model = command.get_arguments().any(|argument| argument.get_id() == "model");
+    let command = if takes_a_model {
+        let parser = PossibleValuesParser::new(names.to_vec());
+        command.mut_arg("model", |argument| argument.value_parser(parser))
+    } else {
+        command
+    };
+    subcommands
+        .into_iter()
+        .fold(command, |command, name| command.mut_subcommand(name, |inner| with_names(inner, names)))
 }

@@ -15,17 +15,17 @@ use crate::{Error, Model, Table, say};
 pub(crate) fn command() -> Command {
     Command::new("explain")
         .about("Print a mechanism's equations, their elimination and its cost")
-        .arg(Arg::new("mechanism").required(true).help("its name, see `list`"))
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
         .arg(
             Arg::new("latex")
                 .long("latex")
                 .action(ArgAction::SetTrue)
-                .help("print the equations as a LaTeX document"),
+                .help("Print the equations as a LaTeX document"),
         )
 }
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let name = matches.get_one::<String>("mechanism").map_or("", String::as_str);
+    let name = matches.get_one::<String>("model").map_or("", String::as_str);
     let found = models.find(name)?;
     let model = found.model();
     let (info, derivation) = (model.info(), model.derivation());

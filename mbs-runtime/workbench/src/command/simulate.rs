@@ -24,7 +24,7 @@ pub(crate) fn command() -> Command {
     Command::new("simulate")
         .about("Simulate a mechanism and record its motion")
         .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`"))
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
         .args(options::of_a_run())
         .arg(option(
             "until",

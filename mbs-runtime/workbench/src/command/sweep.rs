@@ -42,7 +42,7 @@ pub(crate) fn command() -> Command {
     Command::new("sweep")
         .about("Simulate a mechanism over a grid of one or two parameters")
         .after_help(EXAMPLE)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`"))
+        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
         .arg(
             option(
                 "param",

@@ -91,3 +91,17 @@ fn completions_know_the_mechanisms() {
         assert!(script.contains(part), "{part}");
     }
 }
+
+/// `inverse`, `travel`, `fit`, `synthesize` and `export` completed no names.
+#[test]
+fn completions_know_the_mechanisms_of_every_command_that_takes_one() {
+    let script = text(mbs(Path::new("."), "completions bash").stdout);
+    let completed = |command: &str| {
+        let case = script.split(&format!("mbs__subcmd__{command})")).nth(1).unwrap();
+        case.split(";;").next().unwrap().contains("slider-crank-free")
+    };
+    for command in ["simulate", "explain", "inverse", "travel", "fit", "synthesize", "export__subcmd__page"] {
+        assert!(completed(command), "{command}");
+    }
+    assert!(!completed("new"));
+}
