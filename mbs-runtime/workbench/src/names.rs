@@ -1,11 +1,15 @@
 //! Names that people type: what exists, and what they may have meant.
 
 /// The message for a name that nothing has: the nearest name that exists, if
-/// one is near, and the list of all.
+/// one is near, and the list of all. A long list would hide the nearest.
 pub(crate) fn unknown(kind: &str, name: &str, known: &[String]) -> String {
+    const FEW: usize = 12;
     let mut message = format!("there is no {kind} `{name}`");
     if let Some(nearest) = nearest(name, known) {
         message += &format!(", did you mean `{nearest}`?");
+        if known.len() > FEW {
+            return message;
+        }
     }
     if known.is_empty() {
         return message + &format!(" (there is no {kind} at all)");
@@ -85,5 +89,11 @@ mod tests {
         );
         assert!(!unknown("parameter", "colour", &known).contains("did you mean"));
         assert!(unknown("input", "x", &[]).ends_with("(there is no input at all)"));
+        let many: Vec<String> = (1..=13).map(|k| format!("link_{k}_angle")).collect();
+        assert_eq!(
+            unknown("coordinate", "link_3_angel", &many),
+            "there is no coordinate `link_3_angel`, did you mean `link_3_angle`?"
+        );
+        assert!(unknown("coordinate", "colour", &many).ends_with("link_13_angle)"));
     }
 }

@@ -1,11 +1,14 @@
 //! What the command says to people who slip.
 
 use super::sweeps::sweep;
-use super::{mbs, refuses, text};
+use super::{mbs, refusal, refuses, text};
 
 #[test]
 fn names_that_do_not_exist() {
-    refuses("simulate slider-cranck", &["no mechanism `slider-cranck`", "mean `slider-crank`?", "pendulum"]);
+    refuses("simulate slider-cranck", &["no mechanism `slider-cranck`", "mean `slider-crank`?"]);
+    // a long list would hide the nearest, and is there where none is near
+    assert!(!refusal("simulate slider-cranck").contains("metronome"));
+    refuses("simulate xyz", &["no mechanism `xyz`", "slider-crank, ", "metronome"]);
     refuses("simulate slider-crank --set omgea=3", &["no parameter `omgea`", "mean `omega`?", "l1, l2, m1"]);
     refuses("simulate slider-crank --input torque=1", &["no input `torque`", "no input at all"]);
     refuses("simulate slider-crank-free --input crank_torqe=1", &["mean `crank_torque`?"]);
