@@ -36,6 +36,8 @@ const PAGES: &[Page] = &[
         names: &["src/fit/identification.md"], pictures: &["identification.svg"] },
     Page { chapter: "linkages.md", title: "Synthesis", source: "mbs-runtime/analysis/src/synthesis/linkages.md",
         names: &["src/synthesis/linkages.md"], pictures: &["linkages.svg"] },
+    Page { chapter: "libmbs.md", title: "The C library", source: "mbs-runtime/c/README.md",
+        names: &["mbs-runtime/c/README.md"], pictures: &[] },
     Page { chapter: "ode_crates.md", title: "Solvers of other crates", source: "mbs-runtime/analysis/src/ode_crates.md",
         names: &["src/ode_crates.md"], pictures: &["ode_crates.svg"] },
 ];
@@ -57,13 +59,18 @@ pub fn write(places: &Places, chapters: &Path) -> Outcome {
     Ok(())
 }
 
+/// Whether a page begins with the title of a README.
+fn is_title(page: &str) -> bool {
+    page.starts_with("# mbs") || page.starts_with("# Mechanisms for C")
+}
+
 /// A page of rustdoc as a chapter: its headings below the title, its code with a language and without the lines that
 /// rustdoc hides, its links inside the book.
 fn chapter(page: &str) -> String {
     let (mut text, mut prose) = (String::new(), String::new());
     let mut fence: Option<bool> = None;
     // the title of a README is that of the chapter
-    for line in page.lines().skip_while(|line| line.starts_with("# mbs") || line.is_empty()) {
+    for line in page.lines().skip_while(|line| is_title(line) || line.is_empty()) {
         match (fence, line.strip_prefix("```")) {
             (None, Some(language)) => {
                 text += &linked(&std::mem::take(&mut prose));
@@ -82,7 +89,7 @@ fn chapter(page: &str) -> String {
             }
             (Some(_), None) => {}
             (None, None) => {
-                prose += if line.starts_with('#') && !page.starts_with("# mbs") { "#" } else { "" };
+                prose += if line.starts_with('#') && !is_title(page) { "#" } else { "" };
                 prose += line;
                 prose += "\n";
             }
