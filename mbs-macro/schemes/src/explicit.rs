@@ -51,13 +51,6 @@ impl Default for Explicit {
     }
 }
 
-/// The matrix with which a step of length 1 multiplies (e, ė) of ë + aė + be = 0, and a bound
-/// of the terms that its entries are summed from.
-struct Map {
-    entries: [[f64; 2]; 2],
-    size: f64,
-}
-
 impl Explicit {
     /// A scheme with feedback that is held over each step.
     pub const fn held(tableau: &'static Tableau) -> Self {
@@ -111,43 +104,65 @@ impl Explicit {
     /// Whether violations do not grow with steps of `h` seconds under the gains α and β: both
     /// eigenvalues of the step map of ë + 2αė + β²e = 0 lie in the closed unit disc.
     ///
-    /// With trace τ and determinant δ of the map that is |τ| ≤ 1 + δ and δ ≤ 1 (Jury's
-    /// criterion), to rounding, so that the exact limit counts as stable. It is a statement on
-    /// the linear model: a mechanism whose constraints curve strongly within a step may need
-    /// smaller gains.
+    /// It counts as stable to rounding, so that the exact limit does. It is a statement on the linear
+    /// model: a mechanism whose constraints curve strongly within a step may need smaller gains.
     ///
     /// With projection violations do not grow, whatever the gains are.
     pub const fn is_stable(&self, [alpha, beta]: [f64; 2], h: f64) -> bool {
         let (a, b) = (2.0 * alpha * h, beta * h * (beta * h));
-        let Map { entries: [[p, q], [r, s]], size } = match self.stabilization {
-            Stabilization::Held => self.map_of_held(a, b),
-            Stabilization::PerStage => self.map_per_stage(a, b),
-            Stabilization::Projection => return true,
-        };
-        let (trace, determinant) = (p + s, p * s - q * r);
-        // a handful of roundings of products of two such entries
-        let slack = 8.0 * f64::EPSILON * size * size;
-        trace.abs() <= 1.0 + determinant + slack && determinant <= 1.0 + slack
+        match self.stabilization {
+            Stabilization::Held => self.is_stable_held(a, b),
+            Stabilization::PerStage => self.is_stable_per_stage(a, b),
+            Stabilization::Projection => true,
+        }
     }
 
-    /// The map with the force −aė − be of the start.
-    const fn map_of_held(&self, a: f64, b: f64) -> Map {
+    /// Of the force −aė − be of the start the step map has the trace τ = 2 − mb − wa and the determinant
+    /// δ = 1 − mb − wa + w²b. Jury's criterion, |τ| ≤ 1 + δ and δ ≤ 1, is then (w² − m)b ≤ wa and
+    /// 2wa ≤ 4 + (w² − 2m)b, where large terms do not cancel.
+    const fn is_stable_held(&self, a: f64, b: f64) -> bool {
         let [m, w] = self.tableau.response.moments;
-        Map { entries: [[1.0 - m * b, w - m * a], [-w * b, 1.0 - w * a]], size: 1.0 + a + b }
+        is_at_most((w * w - m) * b, w * a) && is_at_most(2.0 * w * a - (w * w - 2.0 * m) * b, 4.0)
     }
 
-    /// R(L) with L = [[0, 1], [−b, −a]], by Horner's scheme.
-    const fn map_per_stage(&self, a: f64, b: f64) -> Map {
+    /// The step map is R(L) with L = [[0, 1], [−b, −a]] and the stability function R. Its eigenvalues are the values of R
+    /// at the roots of z² + az + b.
+    const fn is_stable_per_stage(&self, a: f64, b: f64) -> bool {
+        let (middle, discriminant) = (-0.5 * a, 0.25 * a * a - b);
+        let square = discriminant.abs();
+        // no stability function is bounded there, where roots are far from 0 or no numbers
+        if square.is_nan() || square > 1e200 {
+            return false;
+        }
+        // less does not change the rounded values of R
+        let distance = if square > 1e-60 { sqrt(square) } else { 0.0 };
+        if discriminant < 0.0 {
+            return self.does_not_grow([middle, distance]);
+        }
+        self.does_not_grow([middle - distance, 0.0]) && self.does_not_grow([middle + distance, 0.0])
+    }
+
+    /// Whether |R(x + iy)| ≤ 1, to rounding of the terms of R.
+    const fn does_not_grow(&self, [x, y]: [f64; 2]) -> bool {
         let mut coefficients: &[f64] = &self.tableau.response.stability_function;
-        let (mut entries, mut size) = ([[0.0; 2]; 2], 0.0);
+        let (mut real, mut imaginary, mut size) = (0.0, 0.0, 0.0);
         while let [before @ .., c] = coefficients {
-            let [[p, q], [r, s]] = entries;
-            entries = [[r + *c, s], [-b * p - a * r, -b * q - a * s + *c]];
-            size = (1.0 + a + b) * size + *c;
+            (real, imaginary) = (x * real - y * imaginary + *c, x * imaginary + y * real);
+            size = (x.abs() + y.abs()) * size + c.abs();
             coefficients = before;
         }
-        Map { entries, size }
+        let most = (1.0 + ROUNDINGS * size) * (1.0 + ROUNDINGS * size);
+        most.is_finite() && real * real + imaginary * imaginary <= most
     }
+}
+
+/// A handful of roundings.
+const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
+
+/// Whether one number is at most as large as another, to their roundings; neither is infinite.
+const fn is_at_most(one: f64, other: f64) -> bool {
+    let size = one.abs() + other.abs();
+    size.is_finite() && one - other <= ROUNDINGS * size
 }
 
 #[cfg(test)]
@@ -195,12 +210,66 @@ mod tests {
     fn deadbeat_gains_remove_a_violation_within_two_steps() {
         for scheme in SCHEMES.into_iter().flat_map(|t| [Explicit::held(t), Explicit::per_stage(t)]) {
             let [alpha, beta] = scheme.deadbeat(1.0);
-            let (a, b) = (2.0 * alpha, beta * beta);
-            let map = if scheme.is_held() { scheme.map_of_held(a, b) } else { scheme.map_per_stage(a, b) };
-            let [[p, q], [r, s]] = map.entries;
+            let [[p, q], [r, s]] = map(scheme, [2.0 * alpha, beta * beta]);
             let square = [p * p + q * r, q * (p + s), r * (p + s), s * s + q * r];
             assert!(square.iter().all(|entry| entry.abs() < 1e-13), "{scheme:?}: {square:?}");
             assert!(scheme.is_stable([alpha, beta], 1.0));
+        }
+    }
+
+    /// The matrix with which a step of length 1 multiplies (e, ė) of ë + aė + be = 0: with feedback in every stage
+    /// R(L) with L = [[0, 1], [−b, −a]], by Horner's scheme.
+    fn map(scheme: Explicit, [a, b]: [f64; 2]) -> [[f64; 2]; 2] {
+        let response = &scheme.tableau.response;
+        if scheme.is_held() {
+            let [m, w] = response.moments;
+            return [[1.0 - m * b, w - m * a], [-w * b, 1.0 - w * a]];
+        }
+        response
+            .stability_function
+            .iter()
+            .rev()
+            .fold([[0.0; 2]; 2], |[[p, q], [r, s]], c| [[r + c, s], [-b * p - a * r, -b * q - a * s + c]])
+    }
+
+    /// The criterion against the larger eigenvalue of the map itself, away from the limit.
+    #[test]
+    fn stable_gains_are_those_whose_map_does_not_grow() {
+        let spectral_radius = |[[p, q], [r, s]]: [[f64; 2]; 2]| {
+            let (middle, determinant) = (0.5 * (p + s), p * s - q * r);
+            let discriminant = middle * middle - determinant;
+            if discriminant < 0.0 { determinant.sqrt() } else { middle.abs() + discriminant.sqrt() }
+        };
+        let (mut stable, mut unstable) = (0, 0);
+        for scheme in SCHEMES.into_iter().flat_map(|t| [Explicit::held(t), Explicit::per_stage(t)]) {
+            for (i, k) in (0..40).flat_map(|i| (0..40).map(move |k| (i, k))) {
+                let (alpha, beta) = (0.061 * f64::from(i), 0.083 * f64::from(k));
+                let radius = spectral_radius(map(scheme, [2.0 * alpha, beta * beta]));
+                // entries of 1e3 at most have rounded to 1e-12, whose root is that of a double eigenvalue
+                if (radius - 1.0).abs() > 1e-5 {
+                    let is_stable = scheme.is_stable([alpha, beta], 1.0);
+                    assert_eq!(is_stable, radius < 1.0, "{scheme:?}, {alpha}, {beta}: {radius}");
+                    *(if is_stable { &mut stable } else { &mut unstable }) += 1;
+                }
+            }
+        }
+        assert!(stable > 1000 && unstable > 1000, "{stable} and {unstable}");
+    }
+
+    /// The rounding that the criterion allowed for grew with the square of the entries of the map, and was larger than
+    /// they are: α = β = 1e9 1/s was taken with steps of 2 ms.
+    #[test]
+    fn absurd_gains_are_not_stable() {
+        for scheme in SCHEMES.into_iter().flat_map(|t| [Explicit::held(t), Explicit::per_stage(t)]) {
+            for power in 2..300 {
+                let gain = 10_f64.powi(power);
+                for gains in [[gain, gain], [0.0, gain], [gain, 0.0], [gain, gain.sqrt()], [gain, f64::NAN]] {
+                    assert!(!scheme.is_stable(gains, 2.0), "{scheme:?}, {gains:?}");
+                }
+            }
+            assert!(!scheme.is_stable([f64::INFINITY; 2], 1.0));
+            // without feedback a violation stays as it is
+            assert!(scheme.is_stable([0.0; 2], 1.0));
         }
     }
 }
