@@ -7,7 +7,7 @@ use mbs_symbolic::Function;
 use crate::command::new::KEYWORDS;
 
 /// Words of the language that name nothing else.
-const WORDS: [&str; 8] = ["t", "pi", "der", "lambda", "effort", "ground", "angle", "guess"];
+const WORDS: [&str; 10] = ["t", "pi", "der", "lambda", "effort", "ground", "x", "y", "angle", "guess"];
 
 /// The names that a declaration has so far.
 #[derive(Default)]
@@ -86,6 +86,8 @@ mod tests {
         assert_eq!(take("über"), "ber");
         assert_eq!(take(""), "joint");
         assert_eq!((take("sin"), take("fn"), take("t")), ("sin_2".into(), "fn_2".into(), "t_2".into()));
+        // the coordinates of a body
+        assert_eq!((take("x"), take("y")), ("x_2".into(), "y_2".into()));
         assert_eq!(take("crank_x"), "crank_x_2");
         assert_eq!(
             (camel("Four-bar linkage"), camel("4 bar")),
