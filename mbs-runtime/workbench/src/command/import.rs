@@ -16,14 +16,14 @@ const UNITS: [&str; 6] = ["m", "cm", "mm", "um", "inch", "ft"];
 
 pub(crate) fn command() -> Command {
     Command::new("import")
-        .about("Write the declaration of a linkage from the file of another program")
+        .about("Write the declaration of a linkage or a planar robot from the file of another program")
         .after_help(EXAMPLES)
         .arg(
             Arg::new("file")
                 .value_name("FILE")
                 .required(true)
                 .value_parser(value_parser!(PathBuf))
-                .help("A file of pylinkage (JSON), Linkage (.linkage2) or Pyslvs (an expression M[…])"),
+                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), MuJoCo (MJCF) or ROS (URDF)"),
         )
         .arg(
             option("out", "NAME.mbs", "The file to write [default: standard output]")
@@ -34,7 +34,7 @@ pub(crate) fn command() -> Command {
                 .value_parser(PossibleValuesParser::new(FORMATS.map(|(name, _)| name))),
         )
         .arg(
-            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm]")
+            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm; robots are in m]")
                 .value_parser(PossibleValuesParser::new(UNITS)),
         )
 }

@@ -346,7 +346,7 @@ fn outline(places: &[Point]) -> Outline {
 }
 
 /// A number that reads back the same.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     // no minus before a zero
     let value = if value == 0.0 { 0.0 } else { value };
     let plain = format!("{value}");

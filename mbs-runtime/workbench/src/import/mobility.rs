@@ -75,7 +75,7 @@ impl Rows<'_> {
 }
 
 /// The rank of a matrix by elimination with complete pivots.
-fn rank(mut rows: Vec<Vec<f64>>) -> usize {
+pub(super) fn rank(mut rows: Vec<Vec<f64>>) -> usize {
     let columns = rows.first().map_or(0, Vec::len);
     let mut rank = 0;
     while rank < rows.len() {

@@ -1,8 +1,9 @@
 //! Files of other mechanism programs as declarations.
 //!
-//! A reader makes a [`Linkage`] of a file: pins, links, slots and drives, with the names and
-//! the numbers of the file. [`declaration`] writes it in the language, and what was written
-//! is compiled before anybody gets to see it.
+//! A reader makes a [`Linkage`](linkage::Linkage) of a file: pins, links, slots and drives, with
+//! the names and the numbers of the file. [`declaration`] writes it in the language. Files of
+//! [robots](robot), which have masses and stand in space, become declarations by a way of their
+//! own. What was written is compiled before anybody gets to see it.
 
 mod declaration;
 mod geometry;
@@ -12,6 +13,7 @@ mod mobility;
 mod naming;
 mod pylinkage;
 mod pyslvs;
+mod robot;
 
 use std::time::Duration;
 
@@ -34,11 +36,20 @@ pub(crate) enum Format {
     Linkage,
     /// Pyslvs, in the expressions that it shares with PMKS.
     Pyslvs,
+    /// MJCF, the models of MuJoCo.
+    Mjcf,
+    /// URDF, the robots of ROS.
+    Urdf,
 }
 
 /// The formats with the names that `--format` takes.
-pub(crate) const FORMATS: [(&str, Format); 3] =
-    [("pylinkage", Format::Pylinkage), ("linkage2", Format::Linkage), ("pyslvs", Format::Pyslvs)];
+pub(crate) const FORMATS: [(&str, Format); 5] = [
+    ("pylinkage", Format::Pylinkage),
+    ("linkage2", Format::Linkage),
+    ("pyslvs", Format::Pyslvs),
+    ("mjcf", Format::Mjcf),
+    ("urdf", Format::Urdf),
+];
 
 /// A declaration that compiles, and what its reader should know.
 #[derive(Debug)]
@@ -65,20 +76,37 @@ pub(crate) fn import(
     format: Option<Format>,
     unit: Option<&str>,
 ) -> Result<Imported, Refusal> {
-    let mut linkage = match format.map_or_else(|| recognized(text), Ok)? {
-        Format::Pylinkage => pylinkage::read(text)?,
-        Format::Linkage => linkage2::read(text)?,
-        Format::Pyslvs => pyslvs::read(text)?,
+    let format = format.map_or_else(|| recognized(text), Ok)?;
+    let text = text.trim_start_matches('\u{feff}');
+    let (written, notes) = match format {
+        Format::Pylinkage => of_linkage(pylinkage::read(text)?, file, unit)?,
+        Format::Linkage => of_linkage(linkage2::read(text)?, file, unit)?,
+        Format::Pyslvs => of_linkage(pyslvs::read(text)?, file, unit)?,
+        Format::Mjcf | Format::Urdf if unit.is_some_and(|unit| unit != "m") => {
+            return Err(Refusal(
+                "its lengths are in m; --unit is for files that leave their unit open".into(),
+            ));
+        }
+        Format::Mjcf => robot::of_mjcf(text, file)?,
+        Format::Urdf => robot::of_urdf(text, file)?,
     };
+    compiles(&written)?;
+    let declaration::Written { lines, links, dof } = written;
+    let text = lines.into_iter().map(|line| line.text + "\n").collect();
+    Ok(Imported { text, notes, links, dof })
+}
+
+/// The declaration of a linkage, and its notes.
+fn of_linkage(
+    mut linkage: linkage::Linkage,
+    file: &str,
+    unit: Option<&str>,
+) -> Result<(declaration::Written, Vec<String>), Refusal> {
     if let Some(unit) = unit {
         linkage.say_unit(unit);
     }
     let linkage = linkage.normalized()?;
-    let written = declaration::written(&linkage, file)?;
-    compiles(&written)?;
-    let declaration::Written { lines, links, dof } = written;
-    let text = lines.into_iter().map(|line| line.text + "\n").collect();
-    Ok(Imported { text, notes: linkage.notes, links, dof })
+    Ok((declaration::written(&linkage, file)?, linkage.notes))
 }
 
 /// The format of a file by its content.
@@ -89,6 +117,11 @@ fn recognized(text: &str) -> Result<Format, Refusal> {
     }
     if text.starts_with('<') && text.contains("<linkage2") {
         return Ok(Format::Linkage);
+    }
+    for (root, format) in [("<mujoco", Format::Mjcf), ("<robot", Format::Urdf)] {
+        if text.starts_with('<') && text.contains(root) {
+            return Ok(format);
+        }
     }
     if pyslvs::is_begun(text) {
         return Ok(Format::Pyslvs);

@@ -5,13 +5,20 @@ use proptest::sample::Index;
 
 use super::{FORMATS, import};
 
-const FILES: [&str; 6] = [
+const FILES: [&str; 13] = [
     include_str!("../../../../models/command/tests/command/imported/four_bar.json"),
     include_str!("../../../../models/command/tests/command/imported/slider_crank.json"),
     include_str!("../../../../models/command/tests/command/imported/old_four_bar.json"),
     include_str!("../../../../models/command/tests/command/imported/old_slider.json"),
     include_str!("../../../../models/command/tests/command/imported/crank_rocker.linkage2"),
     include_str!("../../../../models/command/tests/command/imported/block.pyslvs"),
+    include_str!("../../../../models/command/tests/command/imported/double_pendulum.xml"),
+    include_str!("../../../../models/command/tests/command/imported/cart_pole.xml"),
+    include_str!("../../../../models/command/tests/command/imported/four_bar.xml"),
+    include_str!("../../../../models/command/tests/command/imported/table.xml"),
+    include_str!("../../../../models/command/tests/command/imported/arm.urdf"),
+    include_str!("../../../../models/command/tests/command/imported/gripper.urdf"),
+    include_str!("../../../../models/command/tests/command/imported/loops.xml"),
 ];
 
 /// What stands in files in the place of something else.
@@ -63,8 +70,19 @@ fn files_that_nest_deeply_are_refused() {
             assert!(import("deep", &text, Some(format), None).is_err());
         }
     }
-    let elements = format!("<linkage2>{}{}</linkage2>", "<a>".repeat(deep), "</a>".repeat(deep));
-    assert!(import("deep", &elements, None, None).is_err());
+    for (root, part) in [
+        ("linkage2", "a"),
+        ("mujoco", "default"),
+        ("mujoco", "worldbody"),
+        ("mujoco><worldbody", "body"),
+        ("robot", "link"),
+    ] {
+        let begun = format!("<{root}>{}", format!("<{part}>").repeat(deep));
+        let ended: Vec<&str> = root.split("><").collect();
+        let ended: String = ended.iter().rev().map(|name| format!("</{name}>")).collect();
+        let elements = format!("{begun}{}{ended}", format!("</{part}>").repeat(deep));
+        assert!(import("deep", &elements, None, None).is_err());
+    }
 }
 
 /// The files are imported as they are, so that the ones above are damaged and not refused at once.

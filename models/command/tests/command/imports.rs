@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 
 use super::{mbs, text};
 
-fn data(name: &str) -> PathBuf {
+pub(super) fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command/imported").join(name)
 }
 
 /// The declaration of a file, which is left in the folder as `linkage.mbs`.
 #[track_caller]
-fn imported(folder: &Path, file: &Path) -> String {
+pub(super) fn imported(folder: &Path, file: &Path) -> String {
     let output = mbs(folder, &format!("import {} --out linkage.mbs", file.display()));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     fs::read_to_string(folder.join("linkage.mbs")).unwrap()
 }
 
 /// Rows of numbers by the names of their columns, without units; lines of comments aside.
-fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+pub(super) fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let text = fs::read_to_string(path).unwrap();
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let name = |column: &str| column.split(' ').next().unwrap_or_default().to_owned();
@@ -28,7 +28,7 @@ fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 /// The columns of a run of the imported linkage, in the order of `names`.
-fn run(folder: &Path, options: &str, names: &[String]) -> Vec<Vec<f64>> {
+pub(super) fn run(folder: &Path, options: &str, names: &[String]) -> Vec<Vec<f64>> {
     let output =
         mbs(folder, &format!("simulate linkage.mbs --rtol 1e-11 --atol 1e-12 {options} --out run.csv"));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -212,7 +212,7 @@ fn names_stay_in_their_comments() {
 }
 
 #[track_caller]
-fn refused(name: &str, content: &str, options: &str) -> String {
+pub(super) fn refused(name: &str, content: &str, options: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join(name), content).unwrap();
     let output = mbs(folder.path(), &format!("import {name} --out linkage.mbs {options}"));
@@ -351,7 +351,7 @@ fn refusals_of_expressions_say_the_line() {
     says("M[]", "nothing in it moves: no link has two joints");
     says(
         "hello",
-        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs); \
+        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs, mjcf, urdf); \
          --format says which one it is",
     );
 }

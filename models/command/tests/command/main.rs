@@ -11,6 +11,8 @@ mod linear;
 mod linkages;
 mod pages;
 mod prescribed;
+mod robots;
+mod robots_refused;
 mod runs;
 mod shards;
 mod sweeps;

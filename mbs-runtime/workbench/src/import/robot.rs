@@ -1,0 +1,211 @@
+//! Files of robots, trees of bodies in space, as planar mechanisms.
+//!
+//! A reader makes a [`Robot`] of a file. [`plane`] finds the plane in which it moves and
+//! [`flat`] lays it into that plane; what moves across it is refused. [`declaration`] writes
+//! the rest in the language.
+
+mod declaration;
+mod digits;
+mod efforts;
+mod flat;
+mod freedom;
+mod mjcf;
+mod plane;
+mod space;
+mod urdf;
+mod xml;
+
+use space::{Matrix, Pose, Vector};
+
+use super::Refusal;
+use super::declaration::Written;
+
+/// The body that does not move, among those of a [`Robot`].
+const GROUND: usize = 0;
+
+/// A mechanism is at most this large: compiling takes seconds then.
+const MOST_BODIES: usize = 200;
+
+/// A tree of bodies with what moves, closes and drives it, in SI units.
+#[derive(Debug)]
+struct Robot {
+    /// What the file calls it.
+    name: String,
+    /// The program whose file it is.
+    program: &'static str,
+    gravity: Vector,
+    /// The first one is the ground; each of the others comes after its parent.
+    bodies: Vec<Body>,
+    closings: Vec<Closing>,
+    couplings: Vec<Coupling>,
+    actuators: Vec<Actuator>,
+    /// What was assumed, and what was not carried over.
+    notes: Vec<String>,
+}
+
+/// A body, where it is while all of its joints are at their reference.
+#[derive(Debug)]
+struct Body {
+    name: String,
+    /// What the file calls it, for messages.
+    of: String,
+    parent: usize,
+    /// In the frame of the parent.
+    pose: Pose,
+    /// Between the body and its parent, the first one at the parent; without any it is fixed to it.
+    joints: Vec<Joint>,
+    lumps: Vec<Lump>,
+    marks: Vec<Mark>,
+}
+
+/// A mass with its inertia about its own centre, along the axes of the body.
+#[derive(Debug)]
+struct Lump {
+    mass: f64,
+    at: Vector,
+    inertia: Matrix,
+}
+
+/// A place of a body that has a name.
+#[derive(Debug)]
+struct Mark {
+    name: String,
+    of: String,
+    at: Vector,
+    /// Whether it is wanted for the shape of the body alone.
+    is_shape: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Hinge,
+    Slide,
+}
+
+/// One degree of freedom between a body and its parent, in the frame of the body.
+#[derive(Debug)]
+struct Joint {
+    name: String,
+    of: String,
+    kind: Kind,
+    at: Vector,
+    axis: Vector,
+    /// The joint's coordinate where the file draws the body.
+    reference: f64,
+    stiffness: f64,
+    /// The coordinate at which the spring is at rest.
+    rest: f64,
+    damping: f64,
+    /// Inertia that turns with the coordinate, as of a rotor behind a gear.
+    armature: f64,
+}
+
+impl Joint {
+    fn new(name: String, of: String, kind: Kind, at: Vector, axis: Vector) -> Self {
+        let [reference, stiffness, rest, damping, armature] = [0.0; 5];
+        Self { name, of, kind, at, axis, reference, stiffness, rest, damping, armature }
+    }
+}
+
+/// A joint that closes a loop: a place of each of two bodies.
+#[derive(Debug)]
+struct Closing {
+    name: String,
+    of: String,
+    bodies: [usize; 2],
+    at: [Vector; 2],
+    /// The frame of the second body in that of the first one, where they keep their angle.
+    fixed: Option<Pose>,
+}
+
+/// A joint's coordinate as a polynomial of another one's: y - y0 = Σ cᵢ (x - x0)ⁱ.
+#[derive(Debug)]
+struct Coupling {
+    name: String,
+    of: String,
+    /// The name of the joint that follows.
+    follower: String,
+    leader: Option<String>,
+    coefficients: Vec<f64>,
+}
+
+/// What drives a joint: its effort is gear (gain u + b0 + b1 gear q + b2 gear q̇).
+#[derive(Debug)]
+struct Actuator {
+    name: String,
+    of: String,
+    joint: String,
+    gear: f64,
+    gain: f64,
+    bias: [f64; 3],
+    /// What its input is.
+    input: Input,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Input {
+    Effort,
+    Position,
+    Velocity,
+    Number,
+}
+
+impl Robot {
+    fn new(program: &'static str, name: &str, gravity: Vector) -> Self {
+        let ground = Body {
+            name: "ground".into(),
+            of: "the ground".into(),
+            parent: GROUND,
+            pose: Pose::NONE,
+            joints: Vec::new(),
+            lumps: Vec::new(),
+            marks: Vec::new(),
+        };
+        Self {
+            name: name.into(),
+            program,
+            gravity,
+            bodies: vec![ground],
+            closings: Vec::new(),
+            couplings: Vec::new(),
+            actuators: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// One more body.
+    ///
+    /// # Errors
+    /// One too many.
+    fn body(&mut self, body: Body) -> Result<usize, Refusal> {
+        if self.bodies.len() > MOST_BODIES {
+            return Err(Refusal(format!(
+                "it has more than {MOST_BODIES} bodies, which is the most that is imported"
+            )));
+        }
+        self.bodies.push(body);
+        Ok(self.bodies.len() - 1)
+    }
+
+    fn lost(&mut self, what: impl AsRef<str>) {
+        self.notes.push(format!("not carried over: {}", what.as_ref()));
+    }
+}
+
+/// The declaration of what a file of MuJoCo describes, and its notes.
+pub(super) fn of_mjcf(text: &str, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    written(mjcf::read(text)?, file)
+}
+
+/// The declaration of what a file of URDF describes, and its notes.
+pub(super) fn of_urdf(text: &str, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    written(urdf::read(text)?, file)
+}
+
+fn written(robot: Robot, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    let plane = plane::of(&robot)?;
+    let flat = flat::laid(&robot, &plane)?;
+    let mut notes = robot.notes.clone();
+    notes.extend(flat.notes.iter().cloned());
+    Ok((declaration::written(&flat, &notes, robot.program, &robot.name, file)?, notes))
+}

@@ -1,0 +1,139 @@
+//! What a file says of all of its parts: the sections `compiler` and `option`, and those that
+//! are left out or refused.
+
+use roxmltree::Node;
+
+use crate::import::Refusal;
+use crate::import::robot::Robot;
+use crate::import::robot::xml::{described, elements, exactly, numbers};
+
+/// How numbers of the file are to be read.
+pub(super) struct Settings {
+    pub is_in_degrees: bool,
+    /// The axes of Euler angles; capitals are those that do not turn with the body.
+    pub euler: [char; 3],
+    /// Whether masses come from geoms: always, never, or where a body has no `inertial`.
+    pub masses_of_geoms: Option<bool>,
+    /// What all bodies together have, if the masses of the file are to be scaled to it.
+    pub total_mass: Option<f64>,
+    pub has_contacts: bool,
+    pub has_equalities: bool,
+}
+
+impl Settings {
+    /// An angle in rad.
+    pub fn angle(&self, value: f64) -> f64 {
+        if self.is_in_degrees { value.to_radians() } else { value }
+    }
+}
+
+/// Attributes of the compiler that change masses or places, with the value that does not.
+const CHANGING: [(&str, &str); 8] = [
+    ("coordinate", "local"),
+    ("boundmass", "0"),
+    ("boundinertia", "0"),
+    ("balanceinertia", "false"),
+    ("inertiagrouprange", "0 5"),
+    ("fitaabb", "false"),
+    ("discardvisual", "false"),
+    ("alignfree", "false"),
+];
+
+/// Flags of the option that take forces away.
+const TAKING: [&str; 4] = ["passive", "spring", "damper", "actuation"];
+
+/// The settings of a file; gravity goes to the robot.
+pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Refusal> {
+    let mut settings = Settings {
+        is_in_degrees: true,
+        euler: ['x', 'y', 'z'],
+        masses_of_geoms: None,
+        has_contacts: true,
+        total_mass: None,
+        has_equalities: true,
+    };
+    robot.gravity = [0.0, 0.0, -9.81];
+    for section in elements(root) {
+        let name = section.tag_name().name();
+        match name {
+            "compiler" => compiler(section, &mut settings)?,
+            "option" => option(section, &mut settings, robot)?,
+            "keyframe" => robot.lost("the keyframes: it begins at the reference of its joints"),
+            "default" | "worldbody" | "equality" | "actuator" => {}
+            "asset" | "visual" | "statistic" | "size" | "custom" | "contact" | "sensor" => {}
+            _ if name == "tendon" && elements(section).next().is_none() => {}
+            "include" => {
+                let of = described(name, section);
+                return Err(Refusal(format!(
+                    "{of} names another file, which is not read; its content may stand here"
+                )));
+            }
+            other => return Err(Refusal(format!("{} is not imported", described(other, section)))),
+        }
+    }
+    Ok(settings)
+}
+
+fn compiler(node: Node<'_, '_>, settings: &mut Settings) -> Result<(), Refusal> {
+    let of = described("compiler", node);
+    let wrong = |attribute: &str, value: &str| {
+        Refusal(format!("{of}: `{attribute}` = {} is not imported", crate::import::shown(value)))
+    };
+    for (attribute, usual) in CHANGING {
+        if let Some(value) = node.attribute(attribute).filter(|value| value.trim() != usual) {
+            return Err(wrong(attribute, value));
+        }
+    }
+    match node.attribute("angle") {
+        None => {}
+        Some("degree") => settings.is_in_degrees = true,
+        Some("radian") => settings.is_in_degrees = false,
+        Some(other) => return Err(wrong("angle", other)),
+    }
+    match node.attribute("inertiafromgeom") {
+        None => {}
+        Some("true") => settings.masses_of_geoms = Some(true),
+        Some("false") => settings.masses_of_geoms = Some(false),
+        Some("auto") => settings.masses_of_geoms = None,
+        Some(other) => return Err(wrong("inertiafromgeom", other)),
+    }
+    if let Some(total) = node.attribute("settotalmass") {
+        let [total] = exactly(total, "settotalmass", &of)?;
+        settings.total_mass = (total > 0.0).then_some(total);
+    }
+    if let Some(sequence) = node.attribute("eulerseq") {
+        let axes: Vec<char> = sequence.chars().filter(|axis| "xyzXYZ".contains(*axis)).collect();
+        let is_whole = axes.len() == sequence.chars().count();
+        settings.euler =
+            axes.try_into().ok().filter(|_| is_whole).ok_or_else(|| wrong("eulerseq", sequence))?;
+    }
+    Ok(())
+}
+
+fn option(node: Node<'_, '_>, settings: &mut Settings, robot: &mut Robot) -> Result<(), Refusal> {
+    let of = described("option", node);
+    if let Some(gravity) = node.attribute("gravity") {
+        robot.gravity = exactly(gravity, "gravity", &of)?;
+    }
+    for attribute in ["density", "viscosity"] {
+        let value = numbers(node.attribute(attribute).unwrap_or_default(), attribute, &of)?;
+        if value.iter().any(|number| *number != 0.0) {
+            return Err(Refusal(format!("{of}: a fluid around the bodies (`{attribute}`) is not imported")));
+        }
+    }
+    for flag in elements(node).filter(|child| child.tag_name().name() == "flag") {
+        let is_off = |name: &str| flag.attribute(name) == Some("disable");
+        if let Some(taken) = TAKING.iter().find(|name| is_off(name)) {
+            return Err(Refusal(format!(
+                "{}: `{taken}` = `disable` is not imported",
+                described("flag", flag)
+            )));
+        }
+        if is_off("gravity") {
+            robot.gravity = [0.0; 3];
+        }
+        settings.has_contacts &= !is_off("contact") && !is_off("constraint");
+        settings.has_equalities &= !is_off("equality") && !is_off("constraint");
+    }
+    Ok(())
+}
