@@ -3,6 +3,7 @@
 mod c;
 mod dxf;
 mod fmu;
+mod motion;
 mod page;
 mod svg;
 
@@ -19,7 +20,7 @@ pub(crate) fn command() -> Command {
         .subcommand(fmu::command())
         .subcommand(page::command())
         .subcommand(dxf::command())
-        .subcommand(svg::command())
+        .subcommands(motion::FORMATS.iter().map(motion::command))
 }
 
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
@@ -28,9 +29,12 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
         Some(("fmu", matches)) => fmu::run(models, matches),
         Some(("page", matches)) => page::run(models, matches),
         Some(("dxf", matches)) => dxf::run(models, matches),
-        Some(("svg", matches)) => svg::run(models, matches),
-        // the parser requires one that it knows
-        _ => Ok(()),
+        Some((name, matches)) => match motion::FORMATS.iter().find(|format| motion::is(format, name)) {
+            Some(format) => motion::run(format, models, matches),
+            // the parser requires one that it knows
+            None => Ok(()),
+        },
+        None => Ok(()),
     }
 }
 

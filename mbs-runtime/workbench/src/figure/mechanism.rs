@@ -19,7 +19,7 @@ const WHITE: RGBColor = RGBColor(255, 255, 255);
 type Drawn = Result<(), String>;
 type Pixel = (f64, f64);
 
-/// Draws a picture at its start.
+/// Draws a picture at its start, with other poses behind it.
 pub(super) fn draw<B: DrawingBackend>(
     canvas: &Canvas<'_, B>,
     picture: &Picture,
@@ -30,6 +30,20 @@ pub(super) fn draw<B: DrawingBackend>(
         let pen = Pen { canvas, picture, x, y, area, instant: pose, is_faint: true };
         picture.shapes.iter().try_for_each(|shape| pen.body(shape))?;
     }
+    paths(canvas, picture, (x, y), area)?;
+    if picture.points.is_empty() {
+        return Ok(());
+    }
+    pose(canvas, picture, (x, y), area, 0)
+}
+
+/// Draws the paths of points over the whole motion.
+pub(super) fn paths<B: DrawingBackend>(
+    canvas: &Canvas<'_, B>,
+    picture: &Picture,
+    (x, y): (&Span, &Span),
+    area: Area,
+) -> Drawn {
     for (point, of) in &picture.traced {
         let path: Vec<_> = (0..picture.points.len()).map(|instant| picture.place(instant, *point)).collect();
         for piece in lines::pieces(&path, x, y, area) {
@@ -40,10 +54,18 @@ pub(super) fn draw<B: DrawingBackend>(
             }
         }
     }
-    if picture.points.is_empty() {
-        return Ok(());
-    }
-    let pen = Pen { canvas, picture, x, y, area, instant: 0, is_faint: false };
+    Ok(())
+}
+
+/// Draws everything as it stands at one instant.
+pub(super) fn pose<B: DrawingBackend>(
+    canvas: &Canvas<'_, B>,
+    picture: &Picture,
+    (x, y): (&Span, &Span),
+    area: Area,
+    instant: usize,
+) -> Drawn {
+    let pen = Pen { canvas, picture, x, y, area, instant, is_faint: false };
     for shape in &picture.shapes {
         pen.body(shape)?;
         pen.joint(shape)?;
@@ -154,7 +176,7 @@ impl<B: DrawingBackend> Pen<'_, B> {
         vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
     }
 
-    /// What is drawn of the start alone.
+    /// What is not drawn of faint poses.
     fn joint(&self, shape: &Shape) -> Drawn {
         match shape {
             Shape::Rail { from, ahead, reach } => {

@@ -8,6 +8,7 @@ mod colour;
 mod columns;
 mod contour;
 mod draw;
+pub(crate) mod gif;
 #[cfg(feature = "live")]
 pub(crate) mod icon;
 mod labels;
@@ -16,6 +17,7 @@ mod lines;
 mod map;
 mod mechanism;
 mod output;
+mod palette;
 mod ticks;
 
 pub use colour::{SERIES_COLOURS, colour_map};

@@ -190,6 +190,21 @@ impl Picture {
         let places = self.points.get(instant);
         places.and_then(|places| places.get(point)).copied().unwrap_or([f64::NAN; 2])
     }
+
+    /// All points at a time, on straight lines between those of the instants around it.
+    #[cfg(feature = "desk")]
+    pub(crate) fn places_at(&self, time: f64) -> Vec<[f64; 2]> {
+        let after = self.times.partition_point(|instant| *instant < time);
+        let before = after.saturating_sub(1);
+        let (Some(a), Some(b)) = (self.points.get(before), self.points.get(after)) else {
+            return self.points.last().cloned().unwrap_or_default();
+        };
+        let span = self.times[after] - self.times[before];
+        let part = if span > 0.0 { (time - self.times[before]) / span } else { 0.0 };
+        let between =
+            |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|axis| a[axis] + part * (b[axis] - a[axis]));
+        a.iter().zip(b).map(between).collect()
+    }
 }
 
 #[cfg(test)]

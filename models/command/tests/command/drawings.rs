@@ -105,6 +105,54 @@ fn a_motion_is_a_picture_that_moves_by_itself() {
     assert!(close(turned, std::f64::consts::TAU * times[quarter]), "counter-clockwise by {turned}");
     refuses(
         "export svg four-bar --out a.gif",
-        &["`a.gif` cannot be used: a picture that moves ends in .svg"],
+        &["`a.gif` cannot be used: a picture of `mbs export svg` ends in .svg"],
+    );
+}
+
+/// Where the pixels of a colour lie on the average, with y upwards; frame by frame.
+fn middles(file: &[u8], colour: [u8; 3]) -> Vec<[f64; 2]> {
+    let mut decoder = gif::DecodeOptions::new().read_info(file).unwrap();
+    assert_eq!(decoder.repeat(), gif::Repeat::Infinite);
+    let palette = decoder.global_palette().unwrap().as_chunks().0.to_vec();
+    let width = usize::from(decoder.width());
+    let mut shown = vec![0; width * usize::from(decoder.height())];
+    let mut middles = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert_eq!(frame.delay, 2, "hundredths of a second");
+        let wide = usize::from(frame.width);
+        for (row, pixels) in frame.buffer.chunks_exact(wide).enumerate() {
+            let start = (usize::from(frame.top) + row) * width + usize::from(frame.left);
+            shown[start..start + wide].copy_from_slice(pixels);
+        }
+        let of_colour = (0..shown.len()).filter(|at| palette[usize::from(shown[*at])] == colour);
+        let places: Vec<_> = of_colour.map(|at| [(at % width) as f64, -((at / width) as f64)]).collect();
+        let mean = |axis: usize| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64;
+        middles.push([0, 1].map(mean));
+    }
+    middles
+}
+
+/// The crank of the four-bar turns once in a second, in fifty frames.
+#[test]
+fn a_motion_is_a_gif() {
+    const CRANK: [u8; 3] = [0, 114, 178];
+    let folder = tempfile::tempdir().unwrap();
+    let output = mbs(folder.path(), "export gif four-bar --set omega=60rpm --end 1s --out run.gif");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let middles = middles(&fs::read(folder.path().join("run.gif")).unwrap(), CRANK);
+    assert_eq!(middles.len(), 50, "the end is the start of the next turn");
+    let mean = |axis: usize| middles.iter().map(|middle| middle[axis]).sum::<f64>() / 50.0;
+    let pivot = [0, 1].map(mean);
+    let angle = |[x, y]: [f64; 2]| (y - pivot[1]).atan2(x - pivot[0]);
+    let whole = std::f64::consts::TAU;
+    for (frame, pair) in middles.windows(2).enumerate() {
+        let turned = (angle(pair[1]) - angle(pair[0])).rem_euclid(whole);
+        // a middle of hundreds of pixels, half a crank of tens of pixels from the pivot; pins and
+        // other bodies that cover a part of the crank move it by about a pixel
+        assert!((turned - whole / 50.0).abs() < 0.08, "frame {frame} turned by {turned}");
+    }
+    refuses(
+        "export gif four-bar --out a.svg",
+        &["`a.svg` cannot be used: a picture of `mbs export gif` ends in .gif"],
     );
 }

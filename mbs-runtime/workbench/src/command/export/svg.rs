@@ -1,19 +1,12 @@
-//! `mbs export svg`: a motion as a picture that moves by itself.
+//! A motion as an SVG file.
 //!
 //! The animation is declared in the picture (SMIL: `animate` and `animateTransform`), without a
 //! script, so that it also moves where scripts are forbidden, such as in an `img` of a page.
 
 use std::fmt::Write;
-use std::path::PathBuf;
 
-use clap::{Arg, ArgMatches, Command, value_parser};
-
-use crate::command::options::{self, option};
-use crate::command::simulate::recorded;
 use crate::figure::SERIES_COLOURS;
-use crate::models::Models;
 use crate::picture::{Extent, Picture, Shape};
-use crate::{Error, files, say};
 
 /// The longer side of the picture in px, without its margins.
 const SIZE: f64 = 560.0;
@@ -22,48 +15,8 @@ const MARGIN: f64 = 40.0;
 
 type Pixel = [f64; 2];
 
-pub(super) fn command() -> Command {
-    Command::new("svg")
-        .about("Write a motion as a picture that moves by itself and begins again at its end")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .arg(
-            option("out", "FILE.svg", "The picture to write")
-                .required(true)
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .args(options::of_a_run())
-}
-
-const EXAMPLES: &str = "\
-The picture has no script. It takes as long as the motion; a whole period makes it go round without a jump.
-
-Examples:
-  mbs export svg four-bar --set omega=60rpm --end 1s --out four_bar.svg
-  mbs export svg jansen-walker --set omega=30rpm --end 2s --out walker.svg";
-
-pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
-    let path = matches.get_one::<PathBuf>("out").cloned().unwrap_or_default();
-    if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("svg")) {
-        let reason = "a picture that moves ends in .svg".into();
-        return Err(Error::Name { name: path.display().to_string(), reason });
-    }
-    let found = models.find(text("model").unwrap_or_default())?;
-    let (name, model) = (found.name(), found.model());
-    let settings = options::settings(model, matches)?;
-    let recording = recorded(model, &settings)?;
-    let picture = Picture::of(&model.motion(&settings, &recording)?);
-    files::write(&path, animated(name, &picture).as_bytes())?;
-    if let Some(cause) = recording.ended {
-        let kept = format!("; the motion up to there is in {}", path.display());
-        return Err(Error::EndedEarly { cause, kept });
-    }
-    say(format_args!("written: {}", path.display()))
-}
-
 /// The file for a picture.
-fn animated(name: &str, picture: &Picture) -> String {
+pub(super) fn animated(name: &str, picture: &Picture) -> String {
     let pen = Pen::new(picture);
     let mut svg = String::new();
     let [width, height] = pen.size();
