@@ -92,6 +92,8 @@ mod signals;
 #[cfg(feature = "desk")]
 pub mod sweep;
 mod table;
+#[cfg(feature = "desk")]
+mod table_file;
 mod unit;
 mod until;
 #[cfg(all(feature = "desk", feature = "live"))]

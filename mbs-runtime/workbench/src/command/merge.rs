@@ -8,13 +8,14 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::options::option;
 use super::sweep::shard::Heading;
-use crate::files::Output;
+use crate::table_file::{self, TableFile};
 use crate::{Error, say};
 
 const EXAMPLE: &str = "\
 Example:
   mbs merge part-*.csv --out sweep.csv
 
+Shares and table may also be Parquet files, by the ending .parquet, in a program that is built with it.
 The table is the one that a sweep without --shard writes, to the byte. Shares that are missing, given twice or of
 another sweep are refused.";
 
@@ -25,7 +26,7 @@ pub(crate) fn command() -> Command {
         .after_help(EXAMPLE)
         .arg(
             Arg::new("share")
-                .value_name("SHARE.csv")
+                .value_name("SHARE")
                 .required(true)
                 .num_args(1..)
                 .value_parser(path())
@@ -48,7 +49,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     shares.sort_by_key(|share| share.heading.shard.number);
     check(&shares)?;
     let Some(out) = matches.get_one::<PathBuf>("out") else { return Ok(()) };
-    let mut output = Output::create(out)?;
+    let mut output = TableFile::create(out)?;
     let columns = shares.first().map_or("", |share| &share.columns);
     output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;
     let mut count = 0;
@@ -60,8 +61,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
 
 impl Share {
     fn open(path: &Path) -> Result<Self, Error> {
-        let file = File::open(path).map_err(Error::file("read", path))?;
-        let mut rows = BufReader::new(file);
+        let mut rows = table_file::lines(path)?;
         let mut line = || {
             let mut line = String::new();
             rows.read_line(&mut line).map_err(Error::file("read", path))?;
@@ -75,7 +75,7 @@ impl Share {
     }
 
     /// Writes the rows, as many as the share has to have.
-    fn copy(mut self, output: &mut Output, out: &Path) -> Result<usize, Error> {
+    fn copy(mut self, output: &mut TableFile, out: &Path) -> Result<usize, Error> {
         let expected = self.heading.shard.members(self.heading.count).len();
         let (mut line, mut count) = (Vec::new(), 0);
         loop {

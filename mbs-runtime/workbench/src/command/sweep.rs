@@ -67,7 +67,7 @@ pub(crate) fn command() -> Command {
         )
         .args(options::of_a_run())
         .arg(
-            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run")
+            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run; .parquet if that is built in")
                 .value_parser(value_parser!(PathBuf)),
         )
         .arg(

@@ -8,6 +8,7 @@ mod colour;
 mod columns;
 mod contour;
 mod draw;
+#[cfg(feature = "live")]
 pub(crate) mod gif;
 #[cfg(feature = "live")]
 pub(crate) mod icon;
@@ -17,6 +18,7 @@ mod lines;
 mod map;
 mod mechanism;
 mod output;
+#[cfg(feature = "live")]
 mod palette;
 mod ticks;
 

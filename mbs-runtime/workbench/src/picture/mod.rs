@@ -192,7 +192,7 @@ impl Picture {
     }
 
     /// All points at a time, on straight lines between those of the instants around it.
-    #[cfg(feature = "desk")]
+    #[cfg(all(feature = "desk", feature = "live"))]
     pub(crate) fn places_at(&self, time: f64) -> Vec<[f64; 2]> {
         let after = self.times.partition_point(|instant| *instant < time);
         let before = after.saturating_sub(1);

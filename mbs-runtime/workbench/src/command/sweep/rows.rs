@@ -8,14 +8,14 @@ use super::Watched;
 use super::axis::Grid;
 use super::shard::{Heading, Part};
 use crate::csv_file::csv_number;
-use crate::files::Output;
 use crate::members::Member;
+use crate::table_file::TableFile;
 use crate::{Error, unit};
 
 /// A process that ends at once loses the rows of this time.
 const SAFE: Duration = Duration::from_millis(500);
 
-/// A CSV file that has its name once it is complete.
+/// A file that has its name once it is complete.
 pub struct Rows {
     path: PathBuf,
     writer: csv::Writer<Target>,
@@ -25,7 +25,7 @@ pub struct Rows {
 /// What rows are written to.
 enum Target {
     /// All rows of a sweep,
-    Whole(Output),
+    Whole(TableFile),
     /// or those of a share of it.
     Share(Part),
 }
@@ -50,7 +50,7 @@ impl Rows {
     /// The file with its headings: parameters, three columns per quantity, and why a
     /// run failed.
     pub fn create(path: &Path, grid: &Grid, watched: &[Watched]) -> Result<Self, Error> {
-        let mut rows = Self::to(path, Target::Whole(Output::create(path)?));
+        let mut rows = Self::to(path, Target::Whole(TableFile::create(path)?));
         rows.write_record(headings(grid, watched))?;
         Ok(rows)
     }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use super::Watched;
 use super::axis::Grid;
-use crate::{Error, Model, Settings};
+use crate::{Error, Model, Settings, table_file};
 
 /// Which share of how many, from 1 on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,12 +107,11 @@ impl Heading {
 
     /// Whether a file is this share, complete. One of another sweep is refused, because it would be lost.
     pub fn is_complete(&self, path: &Path) -> Result<bool, Error> {
-        let file = match File::open(path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
-            file => file.map_err(Error::file("read", path))?,
-        };
+        if !path.try_exists().map_err(Error::file("read", path))? {
+            return Ok(false);
+        }
         let mut line = String::new();
-        BufReader::new(file).read_line(&mut line).map_err(Error::file("read", path))?;
+        table_file::lines(path)?.read_line(&mut line).map_err(Error::file("read", path))?;
         if Self::parse(&line).as_ref() == Some(self) {
             return Ok(true);
         }
@@ -129,6 +128,7 @@ impl Heading {
 impl Part {
     /// Begins the file of a share, or goes on with it: `head` is its first lines.
     pub fn open(path: &Path, head: &str) -> Result<Self, Error> {
+        table_file::is_parquet(path)?;
         let part = unfinished(path);
         let failed = || Error::file("write", &part);
         let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&part);
@@ -151,10 +151,15 @@ impl Part {
         Ok(Self { path: path.to_owned(), file, rows })
     }
 
-    /// Gives the file its name.
+    /// Gives the file its form and its name.
     pub fn finish(self) -> Result<PathBuf, Error> {
         self.file.sync_all().map_err(Error::file("write", &self.path))?;
-        fs::rename(unfinished(&self.path), &self.path).map_err(Error::file("write", &self.path))?;
+        let rows = unfinished(&self.path);
+        if table_file::is_parquet(&self.path)? {
+            table_file::to_parquet(&rows, &self.path)?;
+        } else {
+            fs::rename(rows, &self.path).map_err(Error::file("write", &self.path))?;
+        }
         Ok(self.path)
     }
 
