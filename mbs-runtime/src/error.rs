@@ -1,6 +1,10 @@
 //! What can go wrong at run time.
 
+mod shown;
+
 use core::fmt;
+
+use shown::Shown;
 
 /// Why a mechanism could not be built, started or advanced.
 ///
@@ -229,12 +233,15 @@ impl fmt::Display for Error {
             }
             Self::EndTime { end, now } => write!(
                 f,
-                "the end time is {end} s, but it has to be finite and not before the current {now} s"
+                "the end time is {end} s, but it has to be finite and not before the current {now} s",
+                now = Shown(now),
+                end = Shown(end)
             ),
             Self::Time { t, step } => write!(
                 f,
                 "the time is {t} s, but it has to be finite and small enough for a step of {step} s to be more \
-                 than its rounding"
+                 than its rounding",
+                t = Shown(t)
             ),
             Self::Gain { name, value } => {
                 write!(f, "the gain {name} is {value} 1/s, but it has to be finite and not negative")
@@ -252,12 +259,14 @@ impl fmt::Display for Error {
             Self::StepTooShort { t, step } => write!(
                 f,
                 "the tolerance cannot be met at t = {t} s: the next step would be {step:.1e} s long; the motion \
-                 has a jump there, or the tolerance is below the rounding of the forces"
+                 has a jump there, or the tolerance is below the rounding of the forces",
+                t = Shown(t)
             ),
             Self::NotConverged { t, step } => write!(
                 f,
                 "the positions at the end of the step from t = {t} s do not converge to the constraints; \
-                 take a step shorter than {step} s"
+                 take a step shorter than {step} s",
+                t = Shown(t)
             ),
             Self::VelocityForce { coordinate } => write!(
                 f,
@@ -284,7 +293,7 @@ impl fmt::Display for Error {
                  or take `deadbeat({step})`"
             ),
             Self::Singular { t, constraint, coordinate, growth } => {
-                write!(f, "singular position at t = {t} s: ")?;
+                write!(f, "singular position at t = {t} s: ", t = Shown(t))?;
                 match (constraint, coordinate) {
                     ("", "") => write!(
                         f,
@@ -300,17 +309,19 @@ impl fmt::Display for Error {
                 f,
                 "out of reach at t = {t} s: constraint `{constraint}` cannot be met there any more, it stays \
                  violated by {violation:.1e}; check the dimensions and how far the drives go, or take a \
-                 smaller step if the mechanism can get there"
+                 smaller step if the mechanism can get there",
+                t = Shown(t)
             ),
             Self::NonFinite { t, coordinate } => {
                 write!(
                     f,
                     "the motion of `{coordinate}` is no longer finite at t = {t} s; if the mechanism can reach \
-                 that position at all, take a smaller step or smaller gains"
+                 that position at all, take a smaller step or smaller gains",
+                    t = Shown(t)
                 )
             }
             Self::Undefined { t, what, name, value } => {
-                write!(f, "{what} `{name}` is {value} at t = {t} s, but it has to be finite")
+                write!(f, "{what} `{name}` is {value} at t = {t} s, but it has to be finite", t = Shown(t))
             }
             Self::Inconsistent { t, constraint, is_rate, violation, allowed } => {
                 let (what, per_second) =
@@ -319,8 +330,9 @@ impl fmt::Display for Error {
                     f,
                     "the start at t = {t} s is not consistent: the {what} `{constraint}` is violated by \
                      {violation:.3e}{per_second}, and at most {allowed:.1e}{per_second} is kept as it is; \
-                     `start::project` makes it consistent, if it is told to keep no more than the degrees of \
-                     freedom"
+                     projecting the start (`start::project`) makes it consistent, if that keeps no more \
+                     coordinates than there are degrees of freedom",
+                    t = Shown(t)
                 )
             }
             Self::NoTranspose { mechanism } => write!(
@@ -346,7 +358,8 @@ impl fmt::Display for Error {
             Self::NotAssembled { t, constraint, violation } => write!(
                 f,
                 "the mechanism cannot be assembled at t = {t} s: constraint `{constraint}` stays violated \
-                 by {violation:.3e}; check the dimensions, or start from a closer guess"
+                 by {violation:.3e}; check the dimensions, or start from a closer guess",
+                t = Shown(t)
             ),
             Self::NotDriven { dof } => write!(
                 f,

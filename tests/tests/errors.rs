@@ -303,3 +303,21 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         assert!(text.contains(part) && text.len() > 30, "{text}");
     }
 }
+
+/// Times of steps are sums and products, whose rounding is nobody's concern.
+#[test]
+fn times_are_shown_without_their_rounding() {
+    let message = |t: f64| Error::NonFinite { t, coordinate: "x" }.to_string();
+    for (t, shown) in [
+        (0.072_000_000_000_000_01, "t = 0.072 s"),
+        (0.1 + 0.2, "t = 0.3 s"),
+        (1.0 / 3.0, "t = 0.333333333333 s"),
+        (-1.234_567_890_12e-300, "0123456789012 s"),
+        (1e15, "t = 1000000000000000 s"),
+        (0.0, "t = 0 s"),
+        (f64::NEG_INFINITY, "t = -inf s"),
+        (f64::NAN, "t = NaN s"),
+    ] {
+        assert!(message(t).contains(shown), "{}", message(t));
+    }
+}
