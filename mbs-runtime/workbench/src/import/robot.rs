@@ -66,6 +66,19 @@ struct Lump {
     inertia: Matrix,
 }
 
+impl Lump {
+    /// Of a part of a file: its centre and the axes of its inertia as a frame of the body.
+    ///
+    /// # Errors
+    /// A negative mass.
+    fn new(of: &str, mass: f64, pose: &Pose, inertia: Matrix) -> Result<Self, Refusal> {
+        if mass < 0.0 {
+            return Err(Refusal(format!("{of} has a negative mass")));
+        }
+        Ok(Self { mass, at: pose.at, inertia: pose.turn.tensor(inertia) })
+    }
+}
+
 /// A place of a body that has a name.
 #[derive(Debug)]
 struct Mark {
@@ -127,6 +140,14 @@ struct Coupling {
     follower: String,
     leader: Option<String>,
     coefficients: Vec<f64>,
+}
+
+impl Coupling {
+    /// Of a joint that says itself which one it follows.
+    fn mimic(of: &str, follower: String, leader: String, coefficients: Vec<f64>) -> Self {
+        let name = format!("{follower}_mimic");
+        Self { name, of: of.to_owned(), follower, leader: Some(leader), coefficients }
+    }
 }
 
 /// What drives a joint: its effort is gear (gain u + b0 + b1 gear q + b2 gear q̇).

@@ -128,7 +128,10 @@ fn refusals_of_masses_name_them() {
     says("<geom type='box' size='1 1'/>", "the geom in line 1: a box has 3 positive numbers as its `size`");
     says("<inertial pos='0 0 0'/>", "the inertial in line 1 has no `mass`");
     says("<inertial mass='1'/>", "the inertial in line 1 has no `pos`");
-    says("<inertial mass='-1' pos='0 0 0'/>", "the inertial in line 1 has a negative mass");
+    says(
+        "<inertial mass='-1' pos='0 0 0' diaginertia='1 1 1'/>",
+        "the inertial in line 1 has a negative mass",
+    );
     says(
         "<inertial mass='1' pos='0 0 0'/>",
         "the inertial in line 1 has neither `diaginertia` nor `fullinertia`",

@@ -37,6 +37,11 @@ pub(super) fn diagonal([x, y, z]: Vector) -> Matrix {
     [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
 }
 
+/// The symmetric matrix that has these entries: xx, yy, zz, xy, xz, yz.
+pub(super) fn symmetric([x, y, z, xy, xz, yz]: [f64; 6]) -> Matrix {
+    [[x, xy, xz], [xy, y, yz], [xz, yz, z]]
+}
+
 /// An orthogonal matrix, which turns vectors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rotation(pub Matrix);
@@ -64,6 +69,13 @@ impl Rotation {
             [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
             [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
         ]))
+    }
+
+    /// By angles in rad about the axes x, y and z, in this order, which do not turn with it.
+    pub fn of_roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> Self {
+        Self::about([0.0, 0.0, 1.0], yaw)
+            .after(&Self::about([0.0, 1.0, 0.0], pitch))
+            .after(&Self::about([1.0, 0.0, 0.0], roll))
     }
 
     /// The frame with these axes, which are of length 1 and at right angles.
@@ -121,5 +133,11 @@ impl Pose {
     /// A frame that is in this one, in the frame around this one.
     pub fn of(&self, inner: &Self) -> Self {
         Self { at: self.place(inner.at), turn: self.turn.after(&inner.turn) }
+    }
+
+    /// This frame as another one has it, where both are in the same frame.
+    pub fn seen_from(&self, other: &Self) -> Self {
+        let back = other.turn.back();
+        Self { at: back.apply(minus(self.at, other.at)), turn: back.after(&self.turn) }
     }
 }

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
-use super::space::{Matrix, Pose, Rotation, unit};
-use super::xml::{described, elements, elements_named, exactly, parsed};
+use super::space::{Pose, Rotation, symmetric, unit};
+use super::xml::{described, elements, elements_named, exactly, not_negative, parsed};
 use super::{Actuator, Body, Coupling, GROUND, Input, Joint, Kind, Lump, Robot};
 use crate::import::{Refusal, shown};
 
@@ -61,28 +61,18 @@ fn number(node: Node<'_, '_>, part: &'static str, name: &str, of: &str) -> Resul
 fn origin(node: Node<'_, '_>, of: &str) -> Result<Pose, Refusal> {
     let at = attribute(node, "origin", "xyz").map_or(Ok([0.0; 3]), |text| exactly(text, "xyz", of))?;
     let angles = attribute(node, "origin", "rpy").map_or(Ok([0.0; 3]), |text| exactly(text, "rpy", of))?;
-    let [roll, pitch, yaw] = angles;
-    let turn = Rotation::about([0.0, 0.0, 1.0], yaw)
-        .after(&Rotation::about([0.0, 1.0, 0.0], pitch))
-        .after(&Rotation::about([1.0, 0.0, 0.0], roll));
-    Ok(Pose { at, turn })
+    Ok(Pose { at, turn: Rotation::of_roll_pitch_yaw(angles) })
 }
 
 fn lump(link: Node<'_, '_>, of: &str) -> Result<Option<Lump>, Refusal> {
     let Some(inertial) = elements_named(link, "inertial").next() else { return Ok(None) };
     let mass = number(inertial, "mass", "value", of)?
         .ok_or_else(|| Refusal(format!("{of} has no value of its `mass`")))?;
-    if mass < 0.0 {
-        return Err(Refusal(format!("{of} has a negative mass")));
-    }
     let mut entries = [0.0; 6];
     for (entry, name) in entries.iter_mut().zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"]) {
         *entry = number(inertial, "inertia", name, of)?.unwrap_or_default();
     }
-    let [x, y, z, xy, xz, yz] = entries;
-    let tensor: Matrix = [[x, xy, xz], [xy, y, yz], [xz, yz, z]];
-    let pose = origin(inertial, of)?;
-    Ok(Some(Lump { mass, at: pose.at, inertia: pose.turn.tensor(tensor) }))
+    Lump::new(of, mass, &origin(inertial, of)?, symmetric(entries)).map(Some)
 }
 
 struct Reader {
@@ -171,10 +161,8 @@ impl Reader {
         let axis = unit(axis).ok_or_else(|| Refusal(format!("{of}: its `axis` has no direction")))?;
         let name = node.attribute("name").unwrap_or("joint").to_owned();
         let mut joint = Joint::new(name, of.clone(), kind, [0.0; 3], axis);
-        joint.damping = number(*node, "dynamics", "damping", of)?.unwrap_or_default();
-        if joint.damping < 0.0 {
-            return Err(Refusal(format!("{of}: its `damping` is negative")));
-        }
+        let damping = number(*node, "dynamics", "damping", of)?.unwrap_or_default();
+        joint.damping = not_negative(damping, "damping", of)?;
         if number(*node, "dynamics", "friction", of)?.is_some_and(|friction| friction != 0.0) {
             self.robot.lost(format!("the dry friction of {of}"));
         }
@@ -195,14 +183,7 @@ impl Reader {
         let factor = number(*node, "mimic", "multiplier", of)?.unwrap_or(1.0);
         let offset = number(*node, "mimic", "offset", of)?.unwrap_or_default();
         let follower = node.attribute("name").unwrap_or("joint").to_owned();
-        let (name, coefficients) = (format!("{follower}_mimic"), vec![offset, factor]);
-        self.robot.couplings.push(Coupling {
-            name,
-            of: of.clone(),
-            follower,
-            leader: Some(leader),
-            coefficients,
-        });
+        self.robot.couplings.push(Coupling::mimic(of, follower, leader, vec![offset, factor]));
         Ok(())
     }
 

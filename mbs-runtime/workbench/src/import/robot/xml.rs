@@ -62,3 +62,11 @@ pub(super) fn exactly<const N: usize>(text: &str, attribute: &str, of: &str) -> 
         ))
     })
 }
+
+/// A number that may be zero and not less.
+pub(super) fn not_negative(number: f64, attribute: &str, of: &str) -> Result<f64, Refusal> {
+    match number < 0.0 {
+        true => Err(Refusal(format!("{of}: its `{attribute}` is negative"))),
+        false => Ok(number),
+    }
+}

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use super::settings::Settings;
 use crate::import::robot::space::{Rotation, Vector, cross, dot, minus, scaled, unit};
-use crate::import::robot::xml::{described, elements, elements_named, exactly, numbers};
+use crate::import::robot::xml::{described, elements, elements_named, exactly, not_negative, numbers};
 use crate::import::{Refusal, shown};
 
 /// Defaults are nested at most so deep.
@@ -135,10 +135,7 @@ impl<'a> Element<'a, '_, '_> {
                 "{of}: a `{attribute}` that grows with its argument is not imported"
             )));
         }
-        match found.first().copied().unwrap_or_default() {
-            negative if negative < 0.0 => Err(Refusal(format!("{of}: its `{attribute}` is negative"))),
-            coefficient => Ok(coefficient),
-        }
+        not_negative(found.first().copied().unwrap_or_default(), attribute, of)
     }
 
     /// The two places of `fromto`.

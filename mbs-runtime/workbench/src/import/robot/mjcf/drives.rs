@@ -10,13 +10,6 @@ use crate::import::robot::xml::{described, elements};
 use crate::import::robot::{Actuator, Closing, Coupling, GROUND, Input};
 use crate::import::{Refusal, shown};
 
-/// The second frame in the first one.
-fn between(first: &Pose, second: &Pose) -> Pose {
-    let back = first.turn.back();
-    let way = [0, 1, 2].map(|axis| second.at[axis] - first.at[axis]);
-    Pose { at: back.apply(way), turn: back.after(&second.turn) }
-}
-
 impl<'a, 'i> Reader<'a, 'i> {
     pub(super) fn equalities(&mut self, section: Node<'a, 'i>) -> Result<(), Refusal> {
         for node in elements(section) {
@@ -61,10 +54,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let first =
             self.find(element.get("body1").ok_or_else(|| Refusal(format!("{of} has no `body1`")))?, &of)?;
         let second = element.get("body2").map_or(Ok(GROUND), |body| self.find(body, &of))?;
-        let drawn = between(&poses[first], &poses[second]);
+        let drawn = poses[second].seen_from(&poses[first]);
         if !is_weld {
             let anchor = element.vector("anchor")?.ok_or_else(|| Refusal(format!("{of} has no `anchor`")))?;
-            let to = between(&poses[second], &poses[first]).place(anchor);
+            let to = poses[first].seen_from(&poses[second]).place(anchor);
             return Ok(Closing { name, of, bodies: [first, second], at: [anchor, to], fixed: None });
         }
         let fixed = match element.exactly::<7>("relpose")? {

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use super::Reader;
 use super::classes::Element;
-use crate::import::robot::space::{Matrix, Pose, Rotation, Vector, diagonal, dot, minus, unit};
+use crate::import::robot::space::{Matrix, Pose, Rotation, Vector, diagonal, dot, minus, symmetric, unit};
 use crate::import::robot::xml::{elements, elements_named};
 use crate::import::robot::{GROUND, Lump, Mark};
 use crate::import::{Refusal, shown};
@@ -174,12 +174,9 @@ fn capsule(r: f64, half: f64) -> Solid {
 fn inertia(element: &Element<'_, '_, '_>, reader: &Reader<'_, '_>) -> Result<Lump, Refusal> {
     let of = &element.of;
     let mass = element.number("mass")?.ok_or_else(|| Refusal(format!("{of} has no `mass`")))?;
-    if mass < 0.0 {
-        return Err(Refusal(format!("{of} has a negative mass")));
-    }
     let at = element.vector("pos")?.ok_or_else(|| Refusal(format!("{of} has no `pos`")))?;
     let tensor: Matrix = match element.exactly::<6>("fullinertia")? {
-        Some([x, y, z, xy, xz, yz]) => [[x, xy, xz], [xy, y, yz], [xz, yz, z]],
+        Some(entries) => symmetric(entries),
         None => {
             let principal = element.vector("diaginertia")?;
             diagonal(
@@ -188,5 +185,5 @@ fn inertia(element: &Element<'_, '_, '_>, reader: &Reader<'_, '_>) -> Result<Lum
             )
         }
     };
-    Ok(Lump { mass, at, inertia: element.turn(&reader.settings)?.tensor(tensor) })
+    Lump::new(of, mass, &Pose { at, turn: element.turn(&reader.settings)? }, tensor)
 }
