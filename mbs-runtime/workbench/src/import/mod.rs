@@ -109,19 +109,34 @@ fn of_linkage(
     Ok((declaration::written(&linkage, file)?, linkage.notes))
 }
 
+/// The roots of the formats that are XML.
+const ROOTS: [(&str, Format); 3] =
+    [("linkage2", Format::Linkage), ("mujoco", Format::Mjcf), ("robot", Format::Urdf)];
+
+/// The name of the first element of an XML, behind what may come before it.
+fn root(text: &str) -> Option<&str> {
+    let mut text = text;
+    loop {
+        text = text.trim_start();
+        let end = match text {
+            comment if comment.starts_with("<!--") => "-->",
+            instruction if instruction.starts_with("<?") => "?>",
+            declaration if declaration.starts_with("<!") => ">",
+            _ => break,
+        };
+        (_, text) = text.split_once(end)?;
+    }
+    text.strip_prefix('<')?.split(|letter: char| letter.is_whitespace() || "/>".contains(letter)).next()
+}
+
 /// The format of a file by its content.
 fn recognized(text: &str) -> Result<Format, Refusal> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.starts_with('{') {
         return Ok(Format::Pylinkage);
     }
-    if text.starts_with('<') && text.contains("<linkage2") {
-        return Ok(Format::Linkage);
-    }
-    for (root, format) in [("<mujoco", Format::Mjcf), ("<robot", Format::Urdf)] {
-        if text.starts_with('<') && text.contains(root) {
-            return Ok(format);
-        }
+    if let Some((_, format)) = ROOTS.iter().find(|(name, _)| root(text) == Some(name)) {
+        return Ok(*format);
     }
     if pyslvs::is_begun(text) {
         return Ok(Format::Pyslvs);

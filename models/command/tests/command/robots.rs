@@ -118,6 +118,19 @@ fn a_joint_that_mimics_another_follows_it() {
     }
 }
 
+/// URDF may say to MuJoCo, in an element of that name, how it is to be read.
+#[test]
+fn a_file_of_urdf_that_speaks_to_mujoco_is_urdf() {
+    let folder = tempfile::tempdir().unwrap();
+    let gripper = fs::read_to_string(data("gripper.urdf")).unwrap();
+    let (head, rest) = gripper.split_once("<link").unwrap();
+    let head = format!("<!-- for <mujoco> -->\n{}", head.replace("<?xml version=\"1.0\"?>", ""));
+    let file = format!("{head}<mujoco><compiler discardvisual=\"false\"/></mujoco><link{rest}");
+    fs::write(folder.path().join("both.urdf"), file).unwrap();
+    let text = imported(folder.path(), &folder.path().join("both.urdf"));
+    assert!(text.contains("of ROS (URDF)"), "{text}");
+}
+
 /// A file may have equalities and take them away.
 #[test]
 fn equalities_that_a_flag_takes_away_are_left_out() {
