@@ -131,6 +131,23 @@ fn a_file_of_urdf_that_speaks_to_mujoco_is_urdf() {
     assert!(text.contains("of ROS (URDF)"), "{text}");
 }
 
+/// An equality of one joint has the usual polynomial of two, of which its constant counts.
+#[test]
+fn an_equality_of_one_joint_fixes_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let pendulum = fs::read_to_string(data("double_pendulum.xml")).unwrap();
+    let held = |equality: &str| {
+        let end = format!("<equality>{equality}</equality></mujoco>");
+        fs::write(folder.path().join("held.xml"), pendulum.replace("</mujoco>", &end)).unwrap();
+        imported(folder.path(), &folder.path().join("held.xml"))
+    };
+    let joint = pendulum.split("<joint name=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+    let text = held(&format!("<joint joint1=\"{joint}\"/>"));
+    assert!(text.contains("dof = 1;") && text.contains(" = 0;"), "{text}");
+    let text = held(&format!("<joint joint1=\"{joint}\" polycoef=\"0.2 1 0 0 0\"/>"));
+    assert!(text.contains("dof = 1;") && text.contains(" = (0.2);"), "{text}");
+}
+
 /// A file may have equalities and take them away.
 #[test]
 fn equalities_that_a_flag_takes_away_are_left_out() {

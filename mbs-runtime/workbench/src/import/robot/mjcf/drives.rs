@@ -107,12 +107,17 @@ fn coupling(element: &Element<'_, '_, '_>) -> Result<Coupling, Refusal> {
     let of = element.of.clone();
     let joint = |attribute: &str| element.get(attribute).map(str::to_owned);
     let follower = joint("joint1").ok_or_else(|| Refusal(format!("{of} has no `joint1`")))?;
-    let coefficients = match element.list("polycoef")? {
+    let leader = joint("joint2");
+    let mut coefficients = match element.list("polycoef")? {
         none if none.is_empty() => vec![0.0, 1.0],
         coefficients => coefficients,
     };
+    // Without another joint the first coefficient alone counts: the joint is fixed there.
+    if leader.is_none() {
+        coefficients.truncate(1);
+    }
     let name = element.node.attribute("name").unwrap_or("coupling").to_owned();
-    Ok(Coupling { name, of, follower, leader: joint("joint2"), coefficients })
+    Ok(Coupling { name, of, follower, leader, coefficients })
 }
 
 /// The gain and the bias of an actuator, as MuJoCo makes them of the short forms.
