@@ -26,6 +26,9 @@ const GROUND: usize = 0;
 /// A mechanism is at most this large: compiling takes seconds then.
 const MOST_BODIES: usize = 200;
 
+/// Joints that close loops, couplings and actuators together are at most so many.
+const MOST_TIES: usize = 1000;
+
 /// A tree of bodies with what moves, closes and drives it, in SI units.
 #[derive(Debug)]
 struct Robot {
@@ -224,6 +227,12 @@ pub(super) fn of_urdf(text: &str, file: &str) -> Result<(Written, Vec<String>), 
 }
 
 fn written(robot: Robot, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    let ties = robot.closings.len() + robot.couplings.len() + robot.actuators.len();
+    if ties > MOST_TIES {
+        return Err(Refusal(format!(
+            "it has {ties} closed loops, couplings and actuators; at most {MOST_TIES} are imported"
+        )));
+    }
     let plane = plane::of(&robot)?;
     let flat = flat::laid(&robot, &plane)?;
     let mut notes = robot.notes.clone();

@@ -193,6 +193,10 @@ fn refusals_of_equalities_and_actuators_name_them() {
         "<joint joint1='z'/>",
         "the joint in line 2 refers to the joint `z`, which does not move or is not there",
     );
+    equality(
+        &"<joint joint1='j'/>".repeat(1001),
+        "it has 1001 closed loops, couplings and actuators; at most 1000 are imported",
+    );
     let actuator = |inside: &str, message: &str| {
         let file = body(BALL) + &format!("\n<actuator>{inside}</actuator>");
         assert_eq!(of_mjcf(&file), message);
