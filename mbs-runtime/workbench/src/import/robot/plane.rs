@@ -105,6 +105,8 @@ fn directions(normal: Vector) -> (Vector, Vector, Vector, String) {
         return (Y, Z, X, "y-z".into());
     }
     let up = unit(minus(Z, scaled(normal, dot(Z, normal)))).unwrap_or(Z);
+    // It is seen from the side on which x goes to the right, as in the plane x-z.
+    let normal = if cross(up, normal)[0] < 0.0 { scaled(normal, -1.0) } else { normal };
     (cross(up, normal), up, normal, format!("across {}", written(normal)))
 }
 
@@ -113,4 +115,20 @@ fn written(direction: Vector) -> String {
     // no minus before a zero
     let [x, y, z] = direction.map(|entry| (1e4 * entry).round() / 1e4 + 0.0);
     format!("({x}, {y}, {z})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The two directions of an axis are one plane; it was seen from behind for one of them.
+    #[test]
+    fn x_goes_to_the_right_in_every_plane_that_has_it() {
+        for y in [[0.6, 0.8, 0.0], [-0.6, -0.8, 0.0], [0.48, -0.64, 0.6], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]] {
+            let (right, up, normal, name) = directions(y);
+            assert!(right[0] > 0.0 && up[2] > 0.0, "{name}: {right:?}, {up:?}");
+            let turned = minus(cross(right, up), normal);
+            assert!(dot(turned, turned) < 1e-30, "{name}: {turned:?}");
+        }
+    }
 }
