@@ -88,7 +88,7 @@ struct Mark {
     name: String,
     of: String,
     at: Vector,
-    /// Whether it is wanted for the shape of the body alone.
+    /// Whether it only gives the body a shape, and may be left out of a body that has one.
     is_shape: bool,
 }
 

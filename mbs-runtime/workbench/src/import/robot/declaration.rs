@@ -249,7 +249,7 @@ impl<'a> Writer<'a> {
         if second.is_empty() { first.clone() } else { format!("{first} - {second}") }
     }
 
-    /// The joints' coordinates, as the file counts them.
+    /// The joints' coordinates, with the signs and the zeros that they have in the file.
     fn coordinates(&mut self) {
         self.line("", "");
         for (at, coordinate) in self.flat.coordinates.iter().enumerate() {
@@ -322,7 +322,7 @@ impl<'a> Writer<'a> {
         self.line("", "    }");
     }
 
-    /// The joints' coordinates.
+    /// An output for each joint's coordinate.
     fn outputs(&mut self) {
         self.line("", "");
         for (at, coordinate) in self.flat.coordinates.iter().enumerate() {

@@ -38,7 +38,7 @@ pub(super) struct Part<'a> {
     pub centre: Point,
     pub mass: f64,
     pub inertia: f64,
-    /// Names, where they are from, places.
+    /// The places that have names, in the frame of the part.
     pub marks: Vec<(&'a super::Mark, Point)>,
 }
 
@@ -267,7 +267,7 @@ impl<'a> Layer<'a> {
         for (at, body) in self.robot.bodies.iter().enumerate().skip(1) {
             let Some(first) = body.joints.first() else { continue };
             let freedom = self.freedom(at, body)?;
-            // Hinges are where they turn; of slides alone any line will do.
+            // A hinge has a place; a slide may be drawn at any parallel line.
             let pivot = body.joints.iter().find(|joint| joint.kind == Kind::Hinge).unwrap_or(first);
             let ends = [self.place(at, pivot.at), self.place(body.parent, body.pose.place(pivot.at))];
             let parts = [self.places[at].0, self.places[body.parent].0];

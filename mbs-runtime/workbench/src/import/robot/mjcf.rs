@@ -148,7 +148,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             "" => format!("{}_{}", body.name, if kind == Kind::Hinge { "hinge" } else { "slide" }),
             name => name.to_owned(),
         };
-        // Angles of slides are lengths.
+        // The coordinate of a slide is a length: no unit of angles applies to it.
         let travel = |value: f64| if kind == Kind::Hinge { self.settings.angle(value) } else { value };
         let mut joint = Joint::new(name, of.clone(), kind, element.vector("pos")?.unwrap_or_default(), axis);
         joint.reference = travel(element.number("ref")?.unwrap_or_default());

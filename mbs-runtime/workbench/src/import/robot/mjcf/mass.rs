@@ -124,7 +124,7 @@ fn solid(element: &Element<'_, '_, '_>, ends: Option<[Vector; 2]>) -> Result<Opt
             )));
         }
     };
-    // With `fromto` the length is theirs: half of it along z.
+    // With `fromto` the distance between its two places is the length, of which a size has half.
     let long = ends.map(|[a, b]| 0.5 * dot(minus(b, a), minus(b, a)).sqrt());
     let given = match (long, kind) {
         (None, _) => size,
