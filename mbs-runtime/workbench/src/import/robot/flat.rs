@@ -1,13 +1,12 @@
 //! A robot laid into its plane: parts of bodies that are fixed to each other, and what joins them.
 
+mod joints;
+
 use super::plane::Plane;
 use super::space::{Pose, Rotation, Vector, dot};
-use super::{Actuator, Body, Closing, Coupling, GROUND, Joint, Kind, Robot};
+use super::{Actuator, Body, Closing, Coupling, GROUND, Joint, Robot};
 use crate::import::Refusal;
 use crate::import::geometry::{Point, distance, turned};
-
-/// Directions whose product is below this one are at right angles.
-const ACROSS: f64 = 1e-9;
 
 /// The planar mechanism. Points of a part are in its frame, whose origin is that of its first body.
 #[derive(Debug)]
@@ -261,70 +260,6 @@ impl<'a> Layer<'a> {
         }
         (found.mass, found.centre) = (mass, centre);
         Ok(())
-    }
-
-    fn joints(&mut self) -> Result<(), Refusal> {
-        for (at, body) in self.robot.bodies.iter().enumerate().skip(1) {
-            let Some(first) = body.joints.first() else { continue };
-            let freedom = self.freedom(at, body)?;
-            // A hinge has a place; a slide may be drawn at any parallel line.
-            let pivot = body.joints.iter().find(|joint| joint.kind == Kind::Hinge).unwrap_or(first);
-            let ends = [self.place(at, pivot.at), self.place(body.parent, body.pose.place(pivot.at))];
-            let parts = [self.places[at].0, self.places[body.parent].0];
-            let held = self.flat.joints.len();
-            self.flat.joints.push(Held { joint: first, parts, at: ends, freedom });
-            for joint in &body.joints {
-                let measure = self.measure(at, body, joint, freedom);
-                self.flat.coordinates.push(Coordinate { joint, held, measure });
-            }
-        }
-        Ok(())
-    }
-
-    /// The direction of a slide in the frame of the parent's part, and in that of the body's.
-    fn along(&self, at: usize, body: &Body, joint: &Joint) -> [Point; 2] {
-        [self.vector(body.parent, body.pose.turn.apply(joint.axis)), self.vector(at, joint.axis)]
-    }
-
-    fn freedom(&self, at: usize, body: &Body) -> Result<Freedom, Refusal> {
-        let along = |joint: &Joint| self.along(at, body, joint);
-        let [first, rest @ ..] = &body.joints[..] else { return Ok(Freedom::All) };
-        let is_across = |other: &Joint| {
-            let ([a, _], [b, _]) = (along(first), along(other));
-            (a[0] * b[0] + a[1] * b[1]).abs() < ACROSS
-        };
-        use Kind::{Hinge, Slide};
-        match (first.kind, rest.iter().map(|joint| joint.kind).collect::<Vec<_>>().as_slice()) {
-            (Hinge, []) => Ok(Freedom::Turn),
-            (Slide, []) => Ok(Freedom::Slide { along: along(first)[0] }),
-            (Slide, [Hinge]) => Ok(Freedom::SlideAndTurn { along: along(first)[0] }),
-            (Hinge, [Slide]) => Ok(Freedom::TurnAndSlide { along: along(&rest[0])[1] }),
-            (Slide, [Slide]) if is_across(&rest[0]) => Ok(Freedom::Shift),
-            (Slide, [Slide, Hinge]) if is_across(&rest[0]) => Ok(Freedom::All),
-            _ => {
-                let last = &rest.last().unwrap_or(first).of;
-                Err(Refusal(format!(
-                    "{last} follows others on {} in a way that is not imported; a body has a hinge, slides at right \
-                     angles, and a hinge after them or before one",
-                    body.of
-                )))
-            }
-        }
-    }
-
-    fn measure(&self, at: usize, body: &Body, joint: &Joint, freedom: Freedom) -> Measure {
-        let [of_parent, of_body] = self.along(at, body, joint);
-        match (joint.kind, freedom) {
-            (Kind::Hinge, _) => {
-                let plane = self.flat.plane;
-                let axis = plane.poses[at].turn.apply(joint.axis);
-                Measure::Angle { sign: dot(axis, plane.normal).signum() }
-            }
-            (Kind::Slide, Freedom::TurnAndSlide { .. }) => {
-                Measure::Along { along: of_body, is_of_body: true }
-            }
-            (Kind::Slide, _) => Measure::Along { along: of_parent, is_of_body: false },
-        }
     }
 
     fn closings(&mut self) {
