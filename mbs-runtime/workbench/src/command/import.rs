@@ -23,7 +23,7 @@ pub(crate) fn command() -> Command {
                 .value_name("FILE")
                 .required(true)
                 .value_parser(value_parser!(PathBuf))
-                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), MuJoCo (MJCF) or ROS (URDF)"),
+                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), MuJoCo (MJCF), ROS (URDF) or Gazebo (SDF)"),
         )
         .arg(
             option("out", "NAME.mbs", "The file to write [default: standard output]")
@@ -43,7 +43,8 @@ const EXAMPLES: &str = "\
 Examples:
   mbs import four_bar.json --out four_bar.mbs    # a mechanism of pylinkage
   mbs import walker.linkage2 --out walker.mbs && mbs watch walker.mbs
-  mbs import crank.txt --format pyslvs --unit cm";
+  mbs import crank.txt --format pyslvs --unit cm
+  mbs import double_pendulum.sdf --out double_pendulum.mbs    # a model of Gazebo";
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let path = matches.get_one::<PathBuf>("file").cloned().unwrap_or_default();

@@ -40,15 +40,18 @@ pub(crate) enum Format {
     Mjcf,
     /// URDF, the robots of ROS.
     Urdf,
+    /// SDF, the models of Gazebo.
+    Sdf,
 }
 
 /// The formats with the names that `--format` takes.
-pub(crate) const FORMATS: [(&str, Format); 5] = [
+pub(crate) const FORMATS: [(&str, Format); 6] = [
     ("pylinkage", Format::Pylinkage),
     ("linkage2", Format::Linkage),
     ("pyslvs", Format::Pyslvs),
     ("mjcf", Format::Mjcf),
     ("urdf", Format::Urdf),
+    ("sdf", Format::Sdf),
 ];
 
 /// A declaration that compiles, and what its reader should know.
@@ -82,13 +85,14 @@ pub(crate) fn import(
         Format::Pylinkage => of_linkage(pylinkage::read(text)?, file, unit)?,
         Format::Linkage => of_linkage(linkage2::read(text)?, file, unit)?,
         Format::Pyslvs => of_linkage(pyslvs::read(text)?, file, unit)?,
-        Format::Mjcf | Format::Urdf if unit.is_some_and(|unit| unit != "m") => {
+        Format::Mjcf | Format::Urdf | Format::Sdf if unit.is_some_and(|unit| unit != "m") => {
             return Err(Refusal(
                 "its lengths are in m; --unit is for files that leave their unit open".into(),
             ));
         }
         Format::Mjcf => robot::of_mjcf(text, file)?,
         Format::Urdf => robot::of_urdf(text, file)?,
+        Format::Sdf => robot::of_sdf(text, file)?,
     };
     compiles(&written)?;
     let declaration::Written { lines, links, dof } = written;
@@ -110,8 +114,8 @@ fn of_linkage(
 }
 
 /// The roots of the formats that are XML.
-const ROOTS: [(&str, Format); 3] =
-    [("linkage2", Format::Linkage), ("mujoco", Format::Mjcf), ("robot", Format::Urdf)];
+const ROOTS: [(&str, Format); 4] =
+    [("linkage2", Format::Linkage), ("mujoco", Format::Mjcf), ("robot", Format::Urdf), ("sdf", Format::Sdf)];
 
 /// The name of the first element of an XML, behind what may come before it.
 fn root(text: &str) -> Option<&str> {

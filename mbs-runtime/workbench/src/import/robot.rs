@@ -11,6 +11,7 @@ mod flat;
 mod freedom;
 mod mjcf;
 mod plane;
+mod sdf;
 mod space;
 mod urdf;
 mod xml;
@@ -39,6 +40,7 @@ struct Robot {
     gravity: Vector,
     /// The first one is the ground; each of the others comes after its parent.
     bodies: Vec<Body>,
+    loops: Vec<LoopJoint>,
     closings: Vec<Closing>,
     couplings: Vec<Coupling>,
     actuators: Vec<Actuator>,
@@ -123,7 +125,16 @@ impl Joint {
     }
 }
 
-/// A joint that closes a loop: a place of each of two bodies.
+/// A joint between two bodies that the tree joins already, with a coordinate as those of the tree.
+#[derive(Debug)]
+struct LoopJoint {
+    /// The one that moves along the coordinate, and the one that counts as its parent.
+    bodies: [usize; 2],
+    /// In the frame of the first one.
+    joint: Joint,
+}
+
+/// What closes a loop and has no coordinate: a place of each of two bodies.
 #[derive(Debug)]
 struct Closing {
     name: String,
@@ -190,6 +201,7 @@ impl Robot {
             program,
             gravity,
             bodies: vec![ground],
+            loops: Vec::new(),
             closings: Vec::new(),
             couplings: Vec::new(),
             actuators: Vec::new(),
@@ -226,8 +238,13 @@ pub(super) fn of_urdf(text: &str, file: &str) -> Result<(Written, Vec<String>), 
     written(urdf::read(text)?, file)
 }
 
+/// The declaration of what a file of SDF describes, and its notes.
+pub(super) fn of_sdf(text: &str, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    written(sdf::read(text)?, file)
+}
+
 fn written(robot: Robot, file: &str) -> Result<(Written, Vec<String>), Refusal> {
-    let ties = robot.closings.len() + robot.couplings.len() + robot.actuators.len();
+    let ties = robot.loops.len() + robot.closings.len() + robot.couplings.len() + robot.actuators.len();
     if ties > MOST_TIES {
         return Err(Refusal(format!(
             "it has {ties} closed loops, couplings and actuators; at most {MOST_TIES} are imported"

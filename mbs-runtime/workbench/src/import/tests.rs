@@ -5,7 +5,7 @@ use proptest::sample::Index;
 
 use super::{FORMATS, import};
 
-const FILES: [&str; 13] = [
+const FILES: [&str; 17] = [
     include_str!("../../../../models/command/tests/command/imported/four_bar.json"),
     include_str!("../../../../models/command/tests/command/imported/slider_crank.json"),
     include_str!("../../../../models/command/tests/command/imported/old_four_bar.json"),
@@ -19,6 +19,10 @@ const FILES: [&str; 13] = [
     include_str!("../../../../models/command/tests/command/imported/arm.urdf"),
     include_str!("../../../../models/command/tests/command/imported/gripper.urdf"),
     include_str!("../../../../models/command/tests/command/imported/loops.xml"),
+    include_str!("../../../../models/command/tests/command/imported/crane.sdf"),
+    include_str!("../../../../models/command/tests/command/imported/press.sdf"),
+    include_str!("../../../../models/command/tests/command/imported/gears.sdf"),
+    include_str!("../../../../models/command/tests/command/imported/pendulum.sdf"),
 ];
 
 /// What stands in files in the place of something else.
@@ -62,6 +66,18 @@ proptest! {
     }
 }
 
+/// A file that was copied half is none, wherever it ends.
+#[test]
+fn files_that_are_cut_never_panic() {
+    for file in FILES {
+        for (end, _) in file.char_indices() {
+            if let Err(refusal) = import("cut", &file[..end], None, None) {
+                assert!(!refusal.0.is_empty());
+            }
+        }
+    }
+}
+
 #[test]
 fn files_that_nest_deeply_are_refused() {
     let deep = 100_000;
@@ -76,6 +92,7 @@ fn files_that_nest_deeply_are_refused() {
         ("mujoco", "worldbody"),
         ("mujoco><worldbody", "body"),
         ("robot", "link"),
+        ("sdf", "model"),
     ] {
         let begun = format!("<{root}>{}", format!("<{part}>").repeat(deep));
         let ended: Vec<&str> = root.split("><").collect();

@@ -351,7 +351,7 @@ fn refusals_of_expressions_say_the_line() {
     says("M[]", "nothing in it moves: no link has two joints");
     says(
         "hello",
-        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs, mjcf, urdf); \
+        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs, mjcf, urdf, sdf); \
          --format says which one it is",
     );
 }

@@ -13,6 +13,7 @@ mod pages;
 mod prescribed;
 mod robots;
 mod robots_refused;
+mod robots_refused_sdf;
 mod runs;
 mod shards;
 mod sweeps;

@@ -299,7 +299,9 @@ impl<'a> Writer<'a> {
     fn start(&mut self) {
         self.line("", "");
         self.line("", "    start {");
-        let is_tree = self.flat.closings.is_empty() && self.flat.couplings.is_empty();
+        // A tree has one joint for each part that moves.
+        let closes_no_loop = self.flat.closings.is_empty() && self.flat.joints.len() < self.flat.parts.len();
+        let is_tree = closes_no_loop && self.flat.couplings.is_empty();
         let turns: Vec<usize> = self
             .flat
             .coordinates

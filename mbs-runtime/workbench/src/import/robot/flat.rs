@@ -66,7 +66,8 @@ pub(super) enum Freedom {
     All,
 }
 
-/// A body and its parent, with a point in the frame of each.
+/// A body and its parent, or the two bodies of a joint that closes a loop, with a point in the
+/// frame of each.
 #[derive(Debug)]
 pub(super) struct Held<'a> {
     /// The first joint of the body.
@@ -139,6 +140,11 @@ pub(super) fn laid<'a>(robot: &'a Robot, plane: &'a Plane) -> Result<Flat<'a>, R
     layer.actuators()?;
     layer.size();
     Ok(layer.flat)
+}
+
+/// What is said of a joint between bodies that are fixed to each other.
+fn idle(of: &str) -> String {
+    format!("{of} joins what is one part already: it was left out")
 }
 
 struct Layer<'a> {
@@ -274,8 +280,7 @@ impl<'a> Layer<'a> {
                 a - b - self.angle(&turn).unwrap_or(0.0)
             });
             if parts[0] == parts[1] {
-                let of = &closing.of;
-                self.flat.notes.push(format!("{of} joins what is one part already: it was left out"));
+                self.flat.notes.push(idle(&closing.of));
                 continue;
             }
             self.flat.closings.push(Closed { closing, parts, at, angle });

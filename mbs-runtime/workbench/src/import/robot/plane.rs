@@ -37,15 +37,11 @@ const Z: Vector = [0.0, 0.0, 1.0];
 /// Axes that leave no plane, with the joints by name.
 pub(super) fn of(robot: &Robot) -> Result<Plane, Refusal> {
     let poses = poses(robot);
-    let axes: Vec<(&super::Joint, Vector)> = robot
-        .bodies
-        .iter()
-        .zip(&poses)
-        .skip(GROUND + 1)
-        .flat_map(|(body, pose)| body.joints.iter().map(|joint| (joint, pose.turn.apply(joint.axis))))
-        .collect();
-    let (hinges, slides): (Vec<_>, Vec<_>) =
-        axes.into_iter().partition(|(joint, _)| joint.kind == Kind::Hinge);
+    let of_tree = robot.bodies.iter().zip(&poses).skip(GROUND + 1);
+    let of_tree = of_tree.flat_map(|(body, pose)| body.joints.iter().map(move |joint| (joint, pose)));
+    let of_loops = robot.loops.iter().map(|closing| (&closing.joint, &poses[closing.bodies[0]]));
+    let axes = of_tree.chain(of_loops).map(|(joint, pose)| (joint, pose.turn.apply(joint.axis)));
+    let (hinges, slides): (Vec<_>, Vec<_>) = axes.partition(|(joint, _)| joint.kind == Kind::Hinge);
     let first = hinges
         .first()
         .or(slides.first())

@@ -1,6 +1,6 @@
 //! What the joints leave of the motions of bodies, and how their coordinates are measured.
 
-use super::{Coordinate, Freedom, Held, Layer, Measure};
+use super::{Coordinate, Freedom, Held, Layer, Measure, idle};
 use crate::import::Refusal;
 use crate::import::geometry::Point;
 use crate::import::robot::space::{Pose, dot};
@@ -18,10 +18,21 @@ struct Between<'a> {
 }
 
 impl<'a> Layer<'a> {
+    /// The joints of the tree, and those that close its loops.
     pub(super) fn joints(&mut self) -> Result<(), Refusal> {
         let robot = self.robot;
         for (at, body) in robot.bodies.iter().enumerate().skip(1) {
             self.hold(&Between { bodies: [at, body.parent], pose: body.pose, joints: &body.joints })?;
+        }
+        for closing in &robot.loops {
+            let [first, second] = closing.bodies.map(|body| self.flat.plane.poses[body]);
+            let [part, other] = closing.bodies.map(|body| self.places[body].0);
+            if part == other {
+                self.flat.notes.push(idle(&closing.joint.of));
+                continue;
+            }
+            let joints = std::slice::from_ref(&closing.joint);
+            self.hold(&Between { bodies: closing.bodies, pose: first.seen_from(&second), joints })?;
         }
         Ok(())
     }
