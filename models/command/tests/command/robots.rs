@@ -125,6 +125,18 @@ fn gears_of_sdf_turn_as_their_ratios_say() {
     }
 }
 
+/// Gravity is taken from all links or from none.
+#[test]
+fn a_model_of_sdf_whose_links_float_has_no_gravity() {
+    let folder = tempfile::tempdir().unwrap();
+    let gears = fs::read_to_string(data("gears.sdf")).unwrap();
+    let floating = gears.replace("<link name=\"case\"/>", "<link name=\"case\"></link>");
+    let floating = floating.replace("</link>", "<gravity>false</gravity></link>");
+    fs::write(folder.path().join("floating.sdf"), floating).unwrap();
+    let text = imported(folder.path(), &folder.path().join("floating.sdf"));
+    assert!(text.contains("gravity = (0, 0) [m/s^2];"), "{text}");
+}
+
 /// The plane of a file says where its axes point: along y or, in the frame of a link that is
 /// turned, along z. SDF 1.4 and a flag of 1.5 and 1.6 mean the model's y; since 1.7 the flag is
 /// gone and axes may name their frame.
