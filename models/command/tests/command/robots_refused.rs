@@ -20,7 +20,8 @@ fn refusals_of_sections_name_the_line() {
     says("<tendon><fixed/></tendon>", "the tendon in line 1 is not imported");
     says(
         "\n<include file='other.xml'/>",
-        "the include in line 2 names another file, which is not read; its content may stand here",
+        "the include in line 2 names another file, which is not read; `mj_saveLastXML` of MuJoCo writes a file with its \
+         includes in it",
     );
     says("<compiler angle='turns'/>", "the compiler in line 1: `angle` = `turns` is not imported");
     says("<compiler boundmass='3'/>", "the compiler in line 1: `boundmass` = `3` is not imported");

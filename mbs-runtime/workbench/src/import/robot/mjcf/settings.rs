@@ -65,7 +65,8 @@ pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Re
             "include" => {
                 let of = described(name, section);
                 return Err(Refusal(format!(
-                    "{of} names another file, which is not read; its content may stand here"
+                    "{of} names another file, which is not read; `mj_saveLastXML` of MuJoCo writes a file with its \
+                     includes in it"
                 )));
             }
             other => return Err(Refusal(format!("{} is not imported", described(other, section)))),
