@@ -69,6 +69,19 @@ pub fn add<T: Real>(from: &[T], to: &mut [T], places: &[[u32; 2]]) {
     }
 }
 
+/// What a function gives at every place.
+///
+/// `core::array::from_fn` is a function that is called if the array is long. In a loop over lanes
+/// no function may be called, or there are no vectors.
+#[inline(always)]
+pub fn each<T: Real, const N: usize>(mut value: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [T::ZERO; N];
+    for (at, one) in all.iter_mut().enumerate() {
+        *one = value(at);
+    }
+    all
+}
+
 /// x and y in turn as points.
 pub fn pairs<T: Real, const N: usize>(values: &[T]) -> [[T; 2]; N] {
     core::array::from_fn(|at| [read(values, 2 * at), read(values, 2 * at + 1)])

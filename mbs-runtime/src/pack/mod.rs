@@ -265,9 +265,11 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         let t = start_time + Straight::from_f64(taken) * step;
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
         let at = now.state_of(lane);
-        let fused = is_fused_for::<M, X>()
-            .then(|| mechanism.fused_step::<X>(&at, &inputs, &gains, step, t))
-            .flatten();
+        // without a closure, which may be a function of its own, of a target that has no such vectors
+        let fused = match is_fused_for::<M, X>() {
+            true => mechanism.fused_step::<X>(&at, &inputs, &gains, step, t),
+            false => None,
+        };
         let stepped = match fused {
             Some(stepped) => stepped,
             None => staged_step::<Each<M>, X>(&mechanism, &at, &inputs, &gains, step, t),

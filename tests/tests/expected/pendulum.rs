@@ -1541,7 +1541,7 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
     ) -> Self {
         Self {
             parameters,
-            hoisted: ::core::array::from_fn(hoisted),
+            hoisted: ::mbs_runtime::__private::each(hoisted),
         }
     }
     fn declared_start(&self) -> ::mbs_runtime::State<PendulumCoordinates<T>> {

@@ -194,7 +194,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             }
             #[inline(always)]
             fn from_hoisted(parameters: #parameters<T>, hoisted: impl ::core::ops::FnMut(::core::primitive::usize) -> T) -> Self {
-                Self { parameters, hoisted: ::core::array::from_fn(hoisted) }
+                Self { parameters, hoisted: #runtime::__private::each(hoisted) }
             }
             fn declared_start(&self) -> #state { #start }
             #inline
