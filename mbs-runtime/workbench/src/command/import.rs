@@ -23,7 +23,7 @@ pub(crate) fn command() -> Command {
                 .value_name("FILE")
                 .required(true)
                 .value_parser(value_parser!(PathBuf))
-                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), MuJoCo (MJCF), ROS (URDF) or Gazebo (SDF)"),
+                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), PMKS and PMKS+ (texts, addresses, .pmks), MuJoCo (MJCF), ROS (URDF) or Gazebo (SDF)"),
         )
         .arg(
             option("out", "NAME.mbs", "The file to write [default: standard output]")
@@ -34,7 +34,7 @@ pub(crate) fn command() -> Command {
                 .value_parser(PossibleValuesParser::new(FORMATS.map(|(name, _)| name))),
         )
         .arg(
-            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm; robots are in m]")
+            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm; files of PMKS+ and of robots say it]")
                 .value_parser(PossibleValuesParser::new(UNITS)),
         )
 }
@@ -44,6 +44,8 @@ Examples:
   mbs import four_bar.json --out four_bar.mbs    # a mechanism of pylinkage
   mbs import walker.linkage2 --out walker.mbs && mbs watch walker.mbs
   mbs import crank.txt --format pyslvs --unit cm
+  mbs import mechanism.pmks --out mechanism.mbs    # saved by PMKS+
+
   mbs import double_pendulum.sdf --out double_pendulum.mbs    # a model of Gazebo";
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {

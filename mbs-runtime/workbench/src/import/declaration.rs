@@ -1,7 +1,8 @@
 //! A linkage written in the language.
 
 use super::geometry::{Point, distance, minus, polar, turned};
-use super::linkage::{Drive, GROUND, Linkage, Motion, Slot};
+use super::linkage::{Drive, GROUND, Link, Linkage, Motion, Slot};
+use super::masses::{Outline, outline};
 use super::naming::{Names, camel};
 use super::{Refusal, mobility, shown};
 
@@ -32,6 +33,7 @@ pub(super) fn written(linkage: &Linkage, file: &str) -> Result<Written, Refusal>
     writer.bodies();
     writer.joints();
     writer.slots();
+    writer.forces();
     writer.drives();
     writer.start();
     writer.outputs();
@@ -62,8 +64,8 @@ struct Writer<'a> {
     pins: Vec<String>,
 }
 
-/// The endings of names that belong to a link: its length, its motor and the motor's speed.
-const OF_A_LINK: [&str; 3] = ["_length", "_motor", "_speed"];
+/// The endings of names that belong to a link: its length, its mass, its motor and the motor's speed.
+const OF_A_LINK: [&str; 5] = ["_length", "_mass", "_inertia", "_motor", "_speed"];
 
 /// Those that belong to a joint: the rows of its equations, its outputs, and its slot.
 const OF_A_PIN: [&str; 5] = ["_x", "_y", "_slot", "_slot_normal", "_slot_angle"];
@@ -89,9 +91,11 @@ impl<'a> Writer<'a> {
             let coordinates =
                 ["x", "y", "angle"].map(|letter| names.take(&format!("{letter}_{name}"), letter, &[]));
             let places: Vec<Point> = link.pins.iter().map(|pin| linkage.pins[*pin].at).collect();
-            let length = (places.len() == 2).then(|| format!("{name}_length"));
+            let is_bar = places.len() == 2 && link.mass.is_none();
+            let length = is_bar.then(|| format!("{name}_length"));
             let angle = if let [first, second, ..] = places[..] { polar(minus(second, first)) } else { 0.0 };
-            bodies.push(Body { name, coordinates, centre: outline(&places).centre, angle, length });
+            let centre = link.mass.map_or_else(|| outline(&places).centre, |mass| mass.centre);
+            bodies.push(Body { name, coordinates, centre, angle, length });
         }
         let pins = linkage.pins.iter().map(|pin| names.take(&pin.name, "joint", &OF_A_PIN)).collect();
         Self { linkage, names, lines: Vec::new(), bodies, pins }
@@ -112,7 +116,14 @@ impl<'a> Writer<'a> {
             "// The linkage{of} from the file {} of {program}. Lengths are in {unit}.",
             shown(file)
         ));
-        self.line("// The file has no masses: links are thin bars between their joints, of `density`.");
+        let massless = self.massless().count();
+        if massless + 1 == self.linkage.links.len() {
+            self.line("// The file has no masses: links are thin bars between their joints, of `density`.");
+        } else if massless > 0 {
+            self.line(
+                "// Links without a mass in the file are thin bars between their joints, of `density`.",
+            );
+        }
         for note in notes {
             self.line(format!("// Note: {note}."));
         }
@@ -127,10 +138,17 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// The links that move and whose mass is assumed.
+    fn massless(&self) -> impl Iterator<Item = &'a Link> + use<'a> {
+        self.linkage.links.iter().skip(1).filter(|link| link.mass.is_none())
+    }
+
     fn parameters(&mut self) {
-        self.line("    /// Mass of the links per length; assumed.");
-        self.line("    param density = 1 [kg/m] where density > 0;");
-        if self.linkage.links.iter().skip(1).any(|link| link.pins.len() < 2) {
+        if self.massless().next().is_some() {
+            self.line("    /// Mass of the links per length; assumed.");
+            self.line("    param density = 1 [kg/m] where density > 0;");
+        }
+        if self.massless().any(|link| link.pins.len() < 2) {
             self.line("    /// Mass of a block that slides; assumed.");
             self.line("    param block_mass = 0.1 [kg] where block_mass > 0;");
             self.line("    /// Inertia of a block that slides; assumed.");
@@ -140,38 +158,21 @@ impl<'a> Writer<'a> {
             self.line(format!("    /// Time of a step of {}; assumed.", self.linkage.program));
             self.line("    param step_time = 10 [ms] where step_time > 0;");
         }
-        self.line("    gravity = (0, -9.81) [m/s^2];    // assumed");
+        if self.linkage.has_gravity {
+            let remark = if self.linkage.says_gravity { "" } else { "    // assumed" };
+            self.line(format!("    gravity = (0, -9.81) [m/s^2];{remark}"));
+        }
     }
 
     fn bodies(&mut self) {
-        let unit = &self.linkage.unit;
         for (at, link) in self.linkage.links.iter().enumerate() {
             self.line("");
             if at != GROUND {
-                let places: Vec<Point> = link.pins.iter().map(|pin| self.linkage.pins[*pin].at).collect();
-                let body = &self.bodies[at];
-                let (name, [x, y, angle]) = (body.name.clone(), body.coordinates.clone());
-                let (mass, inertia) = match &body.length {
-                    Some(length) => {
-                        let value = number(distance(places[0], places[1]));
-                        let length = length.clone();
-                        self.line_of(
-                            &link.of,
-                            format!("    param {length} = {value} [{unit}] where {length} > 0;"),
-                        );
-                        (format!("density*{length}"), format!("density*{length}^3/12"))
-                    }
-                    None if places.len() < 2 => ("block_mass".into(), "block_inertia".into()),
-                    None => {
-                        let Outline { length, inertia, .. } = outline(&places);
-                        let (length, inertia) = (number(length), number(inertia));
-                        (format!("density*({length} [{unit}])"), format!("density*({inertia} [{unit}^3])"))
-                    }
-                };
-                self.line_of(
-                    &link.of,
-                    format!("    body {name} ({x}, {y}, {angle}) {{ mass = {mass}; inertia = {inertia}; }}"),
-                );
+                let (mass, inertia) = self.mass(at, link);
+                let Body { name, coordinates: [x, y, angle], .. } = &self.bodies[at];
+                let text =
+                    format!("    body {name} ({x}, {y}, {angle}) {{ mass = {mass}; inertia = {inertia}; }}");
+                self.line_of(&link.of, text);
             }
             for (order, &pin) in link.pins.iter().enumerate() {
                 let place = self.place(at, order, pin);
@@ -180,6 +181,32 @@ impl<'a> Writer<'a> {
                 self.line_of(&self.linkage.pins[pin].of, text);
             }
         }
+    }
+
+    /// The mass and the inertia of a link, and the lines of the parameters that they take.
+    fn mass(&mut self, at: usize, link: &Link) -> (String, String) {
+        let unit = &self.linkage.unit;
+        let places: Vec<Point> = link.pins.iter().map(|pin| self.linkage.pins[*pin].at).collect();
+        let name = self.bodies[at].name.clone();
+        if let Some(mass) = link.mass {
+            let (kilograms, inertia) = (number(mass.mass), number(mass.inertia));
+            let names = [format!("{name}_mass"), format!("{name}_inertia")];
+            let [m, j] = &names;
+            self.line_of(&link.of, format!("    param {m} = {kilograms} [kg] where {m} > 0;"));
+            self.line_of(&link.of, format!("    param {j} = {inertia} [kg*{unit}^2] where {j} > 0;"));
+            return names.into();
+        }
+        if let Some(length) = self.bodies[at].length.clone() {
+            let value = number(distance(places[0], places[1]));
+            self.line_of(&link.of, format!("    param {length} = {value} [{unit}] where {length} > 0;"));
+            return (format!("density*{length}"), format!("density*{length}^3/12"));
+        }
+        if places.len() < 2 {
+            return ("block_mass".into(), "block_inertia".into());
+        }
+        let Outline { length, inertia, .. } = outline(&places);
+        let (length, inertia) = (number(length), number(inertia));
+        (format!("density*({length} [{unit}])"), format!("density*({inertia} [{unit}^3])"))
     }
 
     /// Where a pin is in the frame of a link.
@@ -218,8 +245,7 @@ impl<'a> Writer<'a> {
     fn slots(&mut self) {
         for slot in &self.linkage.slots {
             let pin = &self.linkage.pins[slot.pin];
-            let rider = self.linkage.on(slot.pin).find(|link| *link != slot.link);
-            match rider {
+            match self.linkage.rider(slot) {
                 Some(rider) => self.slot(slot, rider),
                 None => self.line(format!("    // {} carries no link that could slide.", pin.of)),
             }
@@ -249,6 +275,24 @@ impl<'a> Writer<'a> {
         self.line_of(&pin.of, joint_of);
     }
 
+    fn forces(&mut self) {
+        for force in &self.linkage.forces {
+            self.line("");
+            let name = self.names.take(&force.name, "force", &["_point"]);
+            let place = self.vector(self.local(force.link, force.at));
+            let body = &self.bodies[force.link];
+            let (along, frame) = if force.turns {
+                (turned(force.force, -body.angle), format!(" in {}", body.name))
+            } else {
+                (force.force, String::new())
+            };
+            let ([x, y], body) = (along.map(number), body.name.clone());
+            self.line_of(&force.of, format!("    point {name}_point on {body} = {place};"));
+            let text = format!("    force {name} on {body}.{name}_point{frame} = ({x}, {y}) [N];");
+            self.line_of(&force.of, text);
+        }
+    }
+
     fn drives(&mut self) {
         for drive in &self.linkage.drives {
             self.line("");
@@ -257,12 +301,16 @@ impl<'a> Writer<'a> {
     }
 
     fn drive(&mut self, drive: &Drive) {
-        let body = &self.bodies[drive.link];
+        let (body, carrier) = (&self.bodies[drive.link], &self.bodies[drive.against]);
         let name = body.name.clone();
         let drawn = polar(minus(self.linkage.pins[drive.to].at, self.linkage.pins[drive.from].at));
         // The angle of the body is that of its first two pins, which may be others.
-        let offset = body.angle - drawn;
+        let offset = body.angle - drawn - carrier.angle;
         let start = number(drive.start.unwrap_or(drawn) + offset);
+        let mut what = format!("{name}.angle");
+        if drive.against != GROUND {
+            what = format!("{what} - {}.angle", carrier.name);
+        }
         let (motor, speed) = (format!("{name}_motor"), format!("{name}_speed"));
         let turned = match drive.motion {
             Motion::Rpm(rpm) => {
@@ -273,6 +321,17 @@ impl<'a> Writer<'a> {
                 self.line_of(&drive.of, format!("    /// Angle of a step of {}.", self.linkage.program));
                 self.line_of(&drive.of, format!("    param {speed} = {} [rad];", number(angle)));
                 format!("{start} [rad] + {speed}/step_time*t")
+            }
+            Motion::Slide { along: [x, y], speed: value } => {
+                let (pin, unit) = (&self.linkage.pins[drive.to], &self.linkage.unit);
+                let place = number(x * pin.at[0] + y * pin.at[1]);
+                let point = format!("{name}.{}", self.pins[drive.to]);
+                what = format!("{}*{point}.x + {}*{point}.y", number(x), number(y));
+                let value = number(value);
+                let text = format!("    param {speed} = {value} [{unit}/s];");
+                let start = format!("{place} [{unit}] + {speed}*t");
+                self.line_of(&drive.of, text);
+                start
             }
             Motion::Swing { per_step, from, to } => {
                 let (half, middle) = (0.5 * (to - from), 0.5 * (to + from));
@@ -286,7 +345,7 @@ impl<'a> Writer<'a> {
                 format!("{middle} [rad] + {half_text} [rad]*sin({phase} + {speed}/step_time*t)")
             }
         };
-        self.line_of(&drive.of, format!("    drive {motor}: {name}.angle = {turned};"));
+        self.line_of(&drive.of, format!("    drive {motor}: {what} = {turned};"));
     }
 
     fn start(&mut self) {
@@ -318,31 +377,6 @@ impl<'a> Writer<'a> {
             self.line_of(&pin.of, format!("    {}    {}", text[0], text[1]));
         }
     }
-}
-
-/// Thin bars along the sides of the polygon through some places.
-struct Outline {
-    centre: Point,
-    length: f64,
-    /// About the centre, per mass of a unit length.
-    inertia: f64,
-}
-
-fn outline(places: &[Point]) -> Outline {
-    let count = if places.len() == 2 { 1 } else { places.len() };
-    let sides = || (0..count).map(|at| (places[at], places[(at + 1) % places.len()]));
-    let length: f64 = sides().map(|(a, b)| distance(a, b)).sum();
-    if length == 0.0 {
-        return Outline { centre: places.first().copied().unwrap_or_default(), length, inertia: 0.0 };
-    }
-    let middle = |a: Point, b: Point| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-    let mean = |axis: usize| sides().map(|(a, b)| distance(a, b) * middle(a, b)[axis]).sum::<f64>() / length;
-    let centre = [mean(0), mean(1)];
-    let about = |(a, b): (Point, Point)| {
-        let (side, arm) = (distance(a, b), distance(middle(a, b), centre));
-        side * (side * side / 12.0 + arm * arm)
-    };
-    Outline { centre, length, inertia: sides().map(about).sum() }
 }
 
 /// A number that reads back the same.

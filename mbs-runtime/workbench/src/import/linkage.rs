@@ -1,6 +1,7 @@
 //! A linkage as the files of other programs describe it: rigid links that share pins.
 
 use super::geometry::{Point, distance};
+use super::masses::Mass;
 use super::{Refusal, shown};
 
 /// The link that does not move, among the links of a [`Linkage`].
@@ -19,6 +20,12 @@ pub(super) struct Linkage {
     pub program: &'static str,
     /// The unit of lengths.
     pub unit: String,
+    /// Whether the file says the unit.
+    pub has_unit: bool,
+    /// Whether weights act, along −y.
+    pub has_gravity: bool,
+    /// Whether the file says so.
+    pub says_gravity: bool,
     /// The length of a step, where the file counts time in steps.
     pub has_steps: bool,
     pub pins: Vec<Pin>,
@@ -26,6 +33,7 @@ pub(super) struct Linkage {
     pub links: Vec<Link>,
     pub slots: Vec<Slot>,
     pub drives: Vec<Drive>,
+    pub forces: Vec<Force>,
     /// What was assumed, and what was not carried over.
     pub notes: Vec<String>,
 }
@@ -47,12 +55,31 @@ pub(super) struct Link {
     /// What the file calls it, for messages.
     pub of: String,
     pub pins: Vec<usize>,
+    /// Where the file says it; a thin bar otherwise.
+    pub mass: Option<Mass>,
+}
+
+/// A force on a point of a link.
+#[derive(Debug)]
+pub(super) struct Force {
+    pub name: String,
+    /// What the file calls it, for messages.
+    pub of: String,
+    pub link: usize,
+    /// Where it acts at the start.
+    pub at: Point,
+    /// In N, at the start.
+    pub force: Point,
+    /// Whether it turns with the link.
+    pub turns: bool,
 }
 
 /// A pin that slides along a line of a link.
 #[derive(Debug)]
 pub(super) struct Slot {
     pub pin: usize,
+    /// The link that slides; nothing is the first other one on the pin.
+    pub rider: Option<usize>,
     /// The link that has the line.
     pub link: usize,
     /// A point of the line, at the start.
@@ -63,10 +90,12 @@ pub(super) struct Slot {
     pub keeps_angle: bool,
 }
 
-/// A motor at a pin of the ground.
+/// A motor between two links.
 #[derive(Debug)]
 pub(super) struct Drive {
     pub link: usize,
+    /// The link that carries the motor.
+    pub against: usize,
     /// What the file calls it, for messages.
     pub of: String,
     /// The polar angle in rad of `to` seen from `from` at t = 0, where the file says it.
@@ -84,29 +113,45 @@ pub(super) enum Motion {
     Rpm(f64),
     /// Radians per step of the program.
     PerStep(f64),
+    /// A motor that pushes the pin `to` along a direction, by so many lengths per second.
+    Slide { along: Point, speed: f64 },
     /// Forth and back between two angles in rad, with so many radians per step.
     Swing { per_step: f64, from: f64, to: f64 },
 }
 
 impl Linkage {
     pub fn new(program: &'static str, unit: &str) -> Self {
-        let ground = Link { name: "ground".into(), of: "the ground".into(), pins: Vec::new() };
+        let ground = Link { name: "ground".into(), of: "the ground".into(), pins: Vec::new(), mass: None };
         Self {
             name: String::new(),
             program,
             unit: unit.into(),
+            has_unit: false,
+            has_gravity: true,
+            says_gravity: false,
             has_steps: false,
             pins: Vec::new(),
             links: vec![ground],
             slots: Vec::new(),
             drives: Vec::new(),
+            forces: Vec::new(),
             notes: Vec::new(),
         }
     }
 
     /// The unit of lengths, as the caller knows it.
-    pub fn say_unit(&mut self, unit: &str) {
+    ///
+    /// # Errors
+    /// Another unit than the one of the file.
+    pub fn say_unit(&mut self, unit: &str) -> Result<(), Refusal> {
+        if self.has_unit && self.unit != unit {
+            return Err(Refusal(format!(
+                "its lengths are in {}; --unit is for files that leave their unit open",
+                self.unit
+            )));
+        }
         unit.clone_into(&mut self.unit);
+        Ok(())
     }
 
     /// One more pin.
@@ -124,7 +169,7 @@ impl Linkage {
 
     /// One more link.
     pub fn link(&mut self, name: &str, of: String, pins: Vec<usize>) -> usize {
-        self.links.push(Link { name: name.to_owned(), of, pins });
+        self.links.push(Link { name: name.to_owned(), of, pins, mass: None });
         self.links.len() - 1
     }
 
@@ -135,6 +180,12 @@ impl Linkage {
     /// The links that a pin is on.
     pub fn on(&self, pin: usize) -> impl Iterator<Item = usize> {
         self.links.iter().enumerate().filter(move |(_, link)| link.pins.contains(&pin)).map(|(at, _)| at)
+    }
+
+    /// The link that slides in a slot.
+    pub fn rider(&self, slot: &Slot) -> Option<usize> {
+        let said = slot.rider.filter(|rider| *rider != slot.link);
+        said.or_else(|| self.on(slot.pin).find(|link| *link != slot.link))
     }
 
     /// The same mechanism in which two links share at most one pin, and every link that moves
@@ -187,7 +238,8 @@ impl Linkage {
             self.links[kept].of, self.links[gone].of
         );
         self.note(note);
-        let Link { pins, .. } = self.links.remove(gone);
+        let Link { pins, mass, .. } = self.links.remove(gone);
+        self.links[kept].mass = self.links[kept].mass.zip(mass).map(|(a, b)| a.joined(b));
         for pin in pins {
             if !self.links[kept].pins.contains(&pin) {
                 self.links[kept].pins.push(pin);
@@ -196,7 +248,7 @@ impl Linkage {
         self.renumber(|link| if link == gone { kept } else { link - usize::from(link > gone) });
         let mut left = Vec::new();
         for drive in std::mem::take(&mut self.drives) {
-            if drive.link == GROUND {
+            if drive.link == drive.against {
                 self.note(format!("{} turns what does not move: it was left out", drive.of));
             } else {
                 left.push(drive);
@@ -220,14 +272,20 @@ impl Linkage {
             }
             let gone = self.links.remove(at);
             self.note(format!("{} has fewer than two joints and holds nothing: it was left out", gone.of));
-            self.drives.retain(|drive| drive.link != at);
+            self.drives.retain(|drive| drive.link != at && drive.against != at);
+            self.forces.retain(|force| force.link != at);
             self.renumber(|link| link - usize::from(link > at));
         }
     }
 
     fn renumber(&mut self, new: impl Fn(usize) -> usize) {
-        self.slots.iter_mut().for_each(|slot| slot.link = new(slot.link));
-        self.drives.iter_mut().for_each(|drive| drive.link = new(drive.link));
+        for slot in &mut self.slots {
+            (slot.link, slot.rider) = (new(slot.link), slot.rider.map(&new));
+        }
+        for drive in &mut self.drives {
+            (drive.link, drive.against) = (new(drive.link), new(drive.against));
+        }
+        self.forces.iter_mut().for_each(|force| force.link = new(force.link));
     }
 
     /// Two pins of a link that are at one place.

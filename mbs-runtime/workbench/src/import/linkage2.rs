@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
         }
         self.linkage
             .note(format!("{of} stops at the ends of its slot in Linkage; here its line has no ends"));
-        self.linkage.slots.push(Slot { pin, link, through, along, keeps_angle: false });
+        self.linkage.slots.push(Slot { pin, rider: None, link, through, along, keeps_angle: false });
         Ok(())
     }
 
@@ -175,7 +175,15 @@ impl<'a> Reader<'a> {
             };
             // clockwise
             let motion = Motion::Rpm(-rpm);
-            self.linkage.drives.push(Drive { link, of: of.clone(), start: None, from: pin, to, motion });
+            self.linkage.drives.push(Drive {
+                link,
+                against: GROUND,
+                of: of.clone(),
+                start: None,
+                from: pin,
+                to,
+                motion,
+            });
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! How many degrees of freedom a linkage has where it is drawn.
 
 use super::geometry::{Point, minus};
-use super::linkage::{GROUND, Linkage};
+use super::linkage::{GROUND, Linkage, Motion};
 
 /// What the constraints of a linkage leave.
 pub(super) struct Mobility {
@@ -38,7 +38,7 @@ impl Rows<'_> {
             }
         }
         for slot in &self.linkage.slots {
-            let Some(rider) = self.linkage.on(slot.pin).find(|link| *link != slot.link) else { continue };
+            let Some(rider) = self.linkage.rider(slot) else { continue };
             let length = slot.along[0].hypot(slot.along[1]);
             let normal = [-slot.along[1] / length, slot.along[0] / length];
             self.row(&[(rider, 1.0), (slot.link, -1.0)], self.linkage.pins[slot.pin].at, normal);
@@ -47,7 +47,11 @@ impl Rows<'_> {
             }
         }
         for drive in &self.linkage.drives {
-            self.turn(&[(drive.link, 1.0)]);
+            let links = [(drive.link, 1.0), (drive.against, -1.0)];
+            match drive.motion {
+                Motion::Slide { along, .. } => self.row(&links, self.linkage.pins[drive.to].at, along),
+                _ => self.turn(&links),
+            }
         }
         self.rows
     }

@@ -9,11 +9,15 @@ mod declaration;
 mod geometry;
 mod linkage;
 mod linkage2;
+mod masses;
 mod mobility;
 mod naming;
+mod pmks;
+mod pmks_plus;
 mod pylinkage;
 mod pyslvs;
 mod robot;
+mod values;
 
 use std::time::Duration;
 
@@ -34,8 +38,12 @@ pub(crate) enum Format {
     Pylinkage,
     /// Linkage, by David Rector.
     Linkage,
-    /// Pyslvs, in the expressions that it shares with PMKS.
+    /// Pyslvs, in its expressions.
     Pyslvs,
+    /// PMKS by M. I. Campbell: its text, its web addresses and its JSON.
+    Pmks,
+    /// PMKS+ of PMKS-Web, as it saves and shares.
+    PmksPlus,
     /// MJCF, the models of MuJoCo.
     Mjcf,
     /// URDF, the robots of ROS.
@@ -45,10 +53,12 @@ pub(crate) enum Format {
 }
 
 /// The formats with the names that `--format` takes.
-pub(crate) const FORMATS: [(&str, Format); 6] = [
+pub(crate) const FORMATS: [(&str, Format); 8] = [
     ("pylinkage", Format::Pylinkage),
     ("linkage2", Format::Linkage),
     ("pyslvs", Format::Pyslvs),
+    ("pmks", Format::Pmks),
+    ("pmks-plus", Format::PmksPlus),
     ("mjcf", Format::Mjcf),
     ("urdf", Format::Urdf),
     ("sdf", Format::Sdf),
@@ -82,9 +92,6 @@ pub(crate) fn import(
     let format = format.map_or_else(|| recognized(text), Ok)?;
     let text = text.trim_start_matches('\u{feff}');
     let (written, notes) = match format {
-        Format::Pylinkage => of_linkage(pylinkage::read(text)?, file, unit)?,
-        Format::Linkage => of_linkage(linkage2::read(text)?, file, unit)?,
-        Format::Pyslvs => of_linkage(pyslvs::read(text)?, file, unit)?,
         Format::Mjcf | Format::Urdf | Format::Sdf if unit.is_some_and(|unit| unit != "m") => {
             return Err(Refusal(
                 "its lengths are in m; --unit is for files that leave their unit open".into(),
@@ -93,11 +100,24 @@ pub(crate) fn import(
         Format::Mjcf => robot::of_mjcf(text, file)?,
         Format::Urdf => robot::of_urdf(text, file)?,
         Format::Sdf => robot::of_sdf(text, file)?,
+        format => of_linkage(linkage_of(text, format)?, file, unit)?,
     };
     compiles(&written)?;
     let declaration::Written { lines, links, dof } = written;
     let text = lines.into_iter().map(|line| line.text + "\n").collect();
     Ok(Imported { text, notes, links, dof })
+}
+
+/// The linkage of a file; robots are none.
+fn linkage_of(text: &str, format: Format) -> Result<linkage::Linkage, Refusal> {
+    match format {
+        Format::Pylinkage => pylinkage::read(text),
+        Format::Linkage => linkage2::read(text),
+        Format::Pyslvs => pyslvs::read(text),
+        Format::Pmks => pmks::read(text),
+        Format::PmksPlus => pmks_plus::read(text),
+        Format::Mjcf | Format::Urdf => Err(Refusal("it describes a robot and no linkage".into())),
+    }
 }
 
 /// The declaration of a linkage, and its notes.
@@ -107,7 +127,7 @@ fn of_linkage(
     unit: Option<&str>,
 ) -> Result<(declaration::Written, Vec<String>), Refusal> {
     if let Some(unit) = unit {
-        linkage.say_unit(unit);
+        linkage.say_unit(unit)?;
     }
     let linkage = linkage.normalized()?;
     Ok((declaration::written(&linkage, file)?, linkage.notes))
@@ -137,13 +157,19 @@ fn root(text: &str) -> Option<&str> {
 fn recognized(text: &str) -> Result<Format, Refusal> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.starts_with('{') {
-        return Ok(Format::Pylinkage);
+        return Ok(if text.contains("\"TypeOfJoint\"") { Format::Pmks } else { Format::Pylinkage });
     }
     if let Some((_, format)) = ROOTS.iter().find(|(name, _)| root(text) == Some(name)) {
         return Ok(*format);
     }
     if pyslvs::is_begun(text) {
         return Ok(Format::Pyslvs);
+    }
+    if pmks_plus::is_begun(text) {
+        return Ok(Format::PmksPlus);
+    }
+    if pmks::is_begun(text) {
+        return Ok(Format::Pmks);
     }
     let known: Vec<&str> = FORMATS.iter().map(|(name, _)| *name).collect();
     Err(Refusal(format!(

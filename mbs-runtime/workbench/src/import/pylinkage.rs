@@ -3,12 +3,11 @@
 
 mod joints;
 mod mechanism;
-mod values;
 
 use serde_json::Value;
 
-use super::Refusal;
 use super::linkage::Linkage;
+use super::{Refusal, values};
 
 /// The names that the older form has for its joints.
 const OLDER: [&str; 7] = ["Static", "_StaticBase", "Crank", "Fixed", "Linear", "Prismatic", "Revolute"];

@@ -87,7 +87,7 @@ fn add(joint: &Joint, links: &mut Vec<String>, linkage: &mut Linkage) -> Result<
             };
             let along = from([0.0; 2], 1.0, joint.degrees.to_radians());
             let keeps_angle = joint.kind == Kind::Prismatic;
-            linkage.slots.push(Slot { pin, link: *base, through: joint.at, along, keeps_angle });
+            linkage.slots.push(Slot { pin, rider: None, link: *base, through: joint.at, along, keeps_angle });
             if keeps_angle && riders.len() > 1 {
                 return Err(Refusal(format!("{of} slides without turning and joins more than two links")));
             }

@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-use super::{FORMATS, import};
+use super::{FORMATS, Format, import};
 
-const FILES: [&str; 17] = [
+const FILES: [&str; 24] = [
     include_str!("../../../../models/command/tests/command/imported/four_bar.json"),
     include_str!("../../../../models/command/tests/command/imported/slider_crank.json"),
     include_str!("../../../../models/command/tests/command/imported/old_four_bar.json"),
@@ -23,6 +23,13 @@ const FILES: [&str; 17] = [
     include_str!("../../../../models/command/tests/command/imported/press.sdf"),
     include_str!("../../../../models/command/tests/command/imported/gears.sdf"),
     include_str!("../../../../models/command/tests/command/imported/pendulum.sdf"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_four_bar.txt"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_quick_return.txt"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_slider_crank.txt"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_four_bar.pmks"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_plus_slider.pmks"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_plus_whitworth.pmks"),
+    include_str!("../../../../models/command/tests/command/imported/pmks_plus_watt.pmks"),
 ];
 
 /// What stands in files in the place of something else.
@@ -99,6 +106,25 @@ fn files_that_nest_deeply_are_refused() {
         let ended: String = ended.iter().rev().map(|name| format!("</{name}>")).collect();
         let elements = format!("{begun}{}{ended}", format!("</{part}>").repeat(deep));
         assert!(import("deep", &elements, None, None).is_err());
+    }
+}
+
+/// Texts of PMKS and PMKS+ that end anywhere. The checks of PMKS+ refuse nearly all of its; they are
+/// written anew here, so that what is behind them is cut as well.
+#[test]
+fn texts_of_pmks_may_be_cut_anywhere() {
+    const DIGITS: &[u8] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    for file in &FILES[13..] {
+        let is_plus = file.starts_with('2') || file.starts_with("0P");
+        let end = file.rfind('*').unwrap_or(file.len());
+        for cut in 0..end {
+            // The compiler, whose answers other tests have, takes seconds of all positions.
+            let begun = &file[..cut];
+            let last =
+                if is_plus { char::from(DIGITS[cut % DIGITS.len()]).to_string() } else { String::new() };
+            let format = if is_plus { Format::PmksPlus } else { Format::Pmks };
+            let _ = super::linkage_of(&format!("{begun}{last}"), format);
+        }
     }
 }
 

@@ -63,7 +63,7 @@ fn positions_are_those_of_pylinkage() {
 }
 
 /// A point where two circles meet, on the left of the way from the first to the second.
-fn left_of(a: [f64; 2], ra: f64, b: [f64; 2], rb: f64) -> [f64; 2] {
+pub(super) fn left_of(a: [f64; 2], ra: f64, b: [f64; 2], rb: f64) -> [f64; 2] {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let d = dx.hypot(dy);
     let along = (d * d + ra * ra - rb * rb) / (2.0 * d);
@@ -351,7 +351,8 @@ fn refusals_of_expressions_say_the_line() {
     says("M[]", "nothing in it moves: no link has two joints");
     says(
         "hello",
-        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs, mjcf, urdf, sdf); \
+        "it begins like none of the files that are known (pylinkage, linkage2, pyslvs, pmks, \
+         pmks-plus, mjcf, urdf, sdf); \
          --format says which one it is",
     );
 }

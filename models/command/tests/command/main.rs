@@ -10,6 +10,8 @@ mod imports;
 mod linear;
 mod linkages;
 mod pages;
+mod pmks;
+mod pmks_refused;
 mod prescribed;
 mod robots;
 mod robots_refused;

@@ -98,7 +98,15 @@ impl Reader<'_> {
         }
         self.linkage.has_steps = true;
         let motion = Motion::PerStep(per_step);
-        self.linkage.drives.push(Drive { link, of, start: None, from: centre, to: pin, motion });
+        self.linkage.drives.push(Drive {
+            link,
+            against: GROUND,
+            of,
+            start: None,
+            from: centre,
+            to: pin,
+            motion,
+        });
         Ok(pin)
     }
 
@@ -121,6 +129,7 @@ impl Reader<'_> {
                     self.linkage.link(&format!("{name}_link"), format!("the link of {of}"), vec![first, pin]);
                 let through = self.at(first);
                 self.linkage.slots.push(Slot {
+                    rider: None,
                     pin: second,
                     link,
                     through,
@@ -174,7 +183,7 @@ impl Reader<'_> {
             )));
         };
         let along = minus(line[1], line[0]);
-        self.linkage.slots.push(Slot { pin, link, through: line[0], along, keeps_angle: false });
+        self.linkage.slots.push(Slot { pin, rider: None, link, through: line[0], along, keeps_angle: false });
         Ok(pin)
     }
 }

@@ -120,7 +120,7 @@ fn drive(
             Motion::Swing { per_step, from, to }
         }
     };
-    Ok(Drive { link, of, start, from: motor, to, motion })
+    Ok(Drive { link, against: GROUND, of, start, from: motor, to, motion })
 }
 
 /// A joint that stays on a line of the ground.
@@ -131,7 +131,14 @@ fn slider(joint: &Joint<'_>, linkage: &mut Linkage) -> Result<(), Refusal> {
     if !(along[0].hypot(along[1]) > 0.0 && along.iter().chain(&through).all(|number| number.abs() < 1e9)) {
         return Err(Refusal(format!("{of} has no axis along which it could slide")));
     }
-    linkage.slots.push(Slot { pin: joint.pin, link: GROUND, through, along, keeps_angle: false });
+    linkage.slots.push(Slot {
+        pin: joint.pin,
+        rider: None,
+        link: GROUND,
+        through,
+        along,
+        keeps_angle: false,
+    });
     Ok(())
 }
 

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::import::geometry::Point;
-use crate::import::{Refusal, shown};
+use super::geometry::Point;
+use super::{Refusal, shown};
 
 /// A list that has to be there.
 pub(super) fn list<'a>(of: &'a Value, key: &str, place: &str) -> Result<&'a [Value], Refusal> {
