@@ -5,6 +5,7 @@
 //! [robots](robot), which have masses and stand in space, become declarations by a way of their
 //! own. What was written is compiled before anybody gets to see it.
 
+mod address;
 mod declaration;
 mod geometry;
 mod linkage;

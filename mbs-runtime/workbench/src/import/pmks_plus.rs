@@ -8,6 +8,7 @@ mod digits;
 mod records;
 
 use super::Refusal;
+use super::address::query;
 use super::geometry::{Point, distance, from, minus};
 use super::linkage::{self, Drive, GROUND, Linkage, Motion, Slot};
 use super::masses::{Mass, outline};
@@ -25,21 +26,18 @@ const UNITS: [(&str, f64, f64, f64); 3] = [
 
 /// Whether a text begins as a file or an address does.
 pub(super) fn is_begun(text: &str) -> bool {
-    records::is_begun(content(text))
+    records::is_begun(&content(text))
 }
 
 /// The part of a web address behind `?`; all of a file.
-fn content(text: &str) -> &str {
-    let text = text.trim();
-    match text.split_once('?') {
-        Some((before, behind)) if before.starts_with("http") => behind,
-        _ => text,
-    }
+fn content(text: &str) -> String {
+    query(text).unwrap_or_else(|| text.trim().to_owned())
 }
 
 /// What a text describes.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
-    let drawing = records::read(content(text))?;
+    let text = content(text);
+    let drawing = records::read(&text)?;
     let units = UNITS.iter().enumerate().find(|(at, _)| drawing.settings.length_unit == *at as f64);
     let Some((_, &units)) = units else {
         return Err(Refusal("its lengths are in none of the units inch, cm and m".into()));

@@ -183,6 +183,19 @@ fn an_address_of_pmks_plus_moves_as_pmks_computes() {
     }
 }
 
+/// The check of an address is that of its text, in which a space is a space and no `%20`.
+#[test]
+fn an_address_of_pmks_plus_may_have_names_of_words() {
+    let file = fs::read_to_string(data("pmks_plus_slider.pmks")).unwrap();
+    // Eight letters more are eight digits more in the check, which was `e`.
+    let named = file.replacen("YRAB,AB,", "YRAB,Crank of B,", 1).replace("JAe", "JAm");
+    let folder = tempfile::tempdir().unwrap();
+    let address = format!("https://app.pmksplus.com/?{}\n", named.replace(' ', "%20"));
+    fs::write(folder.path().join("file.url"), address).unwrap();
+    let text = imported(folder.path(), &folder.path().join("file.url"));
+    assert!(text.contains("body Crank_of_B ("), "{text}");
+}
+
 /// The torque that a motor needs against masses, weights and a load, as the routines for MATLAB of
 /// PMKS_Verification compute it by Newton's and Euler's equations (case `watt_i`, `newton_gravity`), at
 /// 0° to 4° of the crank. The file has one of the load's digits rounded (55.902 N for √3125 N) and one
@@ -198,10 +211,10 @@ fn torques_are_those_of_newton_and_euler() {
     let names = ["torque".to_owned()];
     let rows = run(folder.path(), &format!("--step {step}s --end {}s", 4.0 * step), &names);
     let expected = [
-        1844.317_474_993_1,
-        3483.304_148_264_8,
-        6371.762_446_230_6,
-        13428.684_543_542_464,
+        1_844.317_474_993_1,
+        3_483.304_148_264_8,
+        6_371.762_446_230_6,
+        13_428.684_543_542_464,
         41_870.483_757_103_4,
     ];
     for (row, expected) in rows.iter().zip(expected) {

@@ -1,6 +1,7 @@
 //! Joints line by line, `ground,input,R,0.0,350.0,0.0,tfft`, or in a web address between `|`.
 
 use super::{Joint, Kind, Sheet, Speed};
+use crate::import::address::query;
 use crate::import::{Refusal, shown};
 
 /// Whether a text begins as a file or an address does.
@@ -35,35 +36,10 @@ pub(super) fn read(text: &str) -> Result<Sheet, Refusal> {
 
 /// The part of a web address behind `?`, decoded; all of another text.
 fn content(text: &str) -> String {
-    let text = text.trim();
-    let Some((_, query)) = text.split_once('?').filter(|(before, _)| before.starts_with("http")) else {
-        return text.replace('\r', "\n");
-    };
-    decoded(query).replace('"', "").replace('&', "\n")
-}
-
-/// A text in which `%7C` stands for a byte.
-fn decoded(text: &str) -> String {
-    let mut bytes = Vec::new();
-    let mut rest = text.as_bytes();
-    while let [first, behind @ ..] = rest {
-        let hex = |digit: u8| char::from(digit).to_digit(16);
-        let code = match behind {
-            [high, low, ..] if *first == b'%' => hex(*high).zip(hex(*low)),
-            _ => None,
-        };
-        match code.and_then(|(high, low)| u8::try_from(16 * high + low).ok()) {
-            Some(byte) => {
-                bytes.push(byte);
-                rest = &behind[2..];
-            }
-            None => {
-                bytes.push(*first);
-                rest = behind;
-            }
-        }
+    match query(text) {
+        Some(query) => query.replace('"', "").replace('&', "\n"),
+        None => text.replace('\r', "\n"),
     }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// Joints and settings; the settings of `set` have the bar of joints between them.
