@@ -45,7 +45,6 @@ Examples:
   mbs import walker.linkage2 --out walker.mbs && mbs watch walker.mbs
   mbs import crank.txt --format pyslvs --unit cm
   mbs import mechanism.pmks --out mechanism.mbs    # saved by PMKS+
-
   mbs import double_pendulum.sdf --out double_pendulum.mbs    # a model of Gazebo";
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {

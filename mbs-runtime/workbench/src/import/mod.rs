@@ -101,24 +101,16 @@ pub(crate) fn import(
         Format::Mjcf => robot::of_mjcf(text, file)?,
         Format::Urdf => robot::of_urdf(text, file)?,
         Format::Sdf => robot::of_sdf(text, file)?,
-        format => of_linkage(linkage_of(text, format)?, file, unit)?,
+        Format::Pylinkage => of_linkage(pylinkage::read(text)?, file, unit)?,
+        Format::Linkage => of_linkage(linkage2::read(text)?, file, unit)?,
+        Format::Pyslvs => of_linkage(pyslvs::read(text)?, file, unit)?,
+        Format::Pmks => of_linkage(pmks::read(text)?, file, unit)?,
+        Format::PmksPlus => of_linkage(pmks_plus::read(text)?, file, unit)?,
     };
     compiles(&written)?;
     let declaration::Written { lines, links, dof } = written;
     let text = lines.into_iter().map(|line| line.text + "\n").collect();
     Ok(Imported { text, notes, links, dof })
-}
-
-/// The linkage of a file; robots are none.
-fn linkage_of(text: &str, format: Format) -> Result<linkage::Linkage, Refusal> {
-    match format {
-        Format::Pylinkage => pylinkage::read(text),
-        Format::Linkage => linkage2::read(text),
-        Format::Pyslvs => pyslvs::read(text),
-        Format::Pmks => pmks::read(text),
-        Format::PmksPlus => pmks_plus::read(text),
-        Format::Mjcf | Format::Urdf => Err(Refusal("it describes a robot and no linkage".into())),
-    }
 }
 
 /// The declaration of a linkage, and its notes.
