@@ -27,7 +27,7 @@ fn refusals_of_pmks_name_the_joint() {
     says(
         "d=first\nground,a,R,0,0",
         "it begins like none of the files that are known (pylinkage, linkage2, \
-         pyslvs, pmks, pmks-plus, mjcf, urdf); --format says which one it is",
+         pyslvs, pmks, pmks-plus, mjcf, urdf, sdf); --format says which one it is",
     );
     says("mech=\nd=first", "its input `d` is `first`, not the number of a joint");
     says("set=sfast\nground,a,R,0,0", "its speed `set=s` has `fast` in the place of a number below 1e9");
