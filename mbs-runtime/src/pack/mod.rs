@@ -272,7 +272,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         };
         let stepped = match fused {
             Some(stepped) => stepped,
-            None => staged_step::<Each<M>, X>(&mechanism, &at, &inputs, &gains, step, t),
+            None => long_step::<Each<M>, X>(&mechanism, &at, &inputs, &gains, step, t),
         };
         let growth = stepped.growth.0;
         margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
@@ -287,7 +287,27 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     }
 }
 
-/// A step stage by stage, of mechanisms that are too large for another.
+/// A step of mechanisms that are too large for a fused one: of those whose programs became loops on
+/// arrays, as the scalar's, and else stage by stage.
+#[inline(always)]
+fn long_step<M: Mechanism, X: Method>(
+    mechanism: &M,
+    at: &State<M::States>,
+    inputs: &M::Inputs,
+    gains: &Gains<M::Real>,
+    h: M::Real,
+    t_next: M::Real,
+) -> Stepped<M::States> {
+    let mut next = *at;
+    // which growths are alarming is found out for many steps at once
+    let alarm = M::Real::from_f64(f64::INFINITY);
+    match mechanism.long_step::<X>(&mut next, inputs, gains, h, t_next, alarm) {
+        Some(growth) => Stepped { next, growth, sum: sum_of(next.q) + sum_of(next.v) },
+        None => staged_step::<M, X>(mechanism, at, inputs, gains, h, t_next),
+    }
+}
+
+/// A step stage by stage.
 #[inline(always)]
 fn staged_step<M: Mechanism, X: Method>(
     mechanism: &M,
