@@ -2,6 +2,7 @@
 //! is done on the same operands, so that results agree to the bit.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
+use mbs_runtime::lanes::Pack;
 use mbs_runtime::{
     Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Simulation, State, mechanism,
 };
@@ -130,7 +131,7 @@ mechanism! {
     }
 }
 
-/// Runs steps whole, and in stages, as errors are looked for.
+/// Runs steps whole, in stages, as errors are looked for, and in lanes.
 fn whole_and_in_stages<M: Mechanism<Real = f64>, X: Method>(feedback: fn(f64) -> Baumgarte<X>) {
     let mechanism = M::new(M::Parameters::default()).expect("declared values are valid");
     let mut whole = Simulation::builder(mechanism, 1e-3)
@@ -138,8 +139,8 @@ fn whole_and_in_stages<M: Mechanism<Real = f64>, X: Method>(feedback: fn(f64) ->
         .build()
         .expect("the start is consistent");
     let mut stages = whole;
-    let bits = |simulation: &Simulation<M, X>| {
-        let State { t, q, v } = simulation.state();
+    let mut lanes = Pack::new([whole; 3]);
+    let bits = |State { t, q, v }: State<M::Coordinates>| {
         let (q, v) = (q.into_array(), v.into_array());
         let all = q.as_ref().iter().chain(v.as_ref()).chain([&t]).map(|x| x.to_bits());
         all.collect::<Vec<_>>()
@@ -147,7 +148,9 @@ fn whole_and_in_stages<M: Mechanism<Real = f64>, X: Method>(feedback: fn(f64) ->
     for _ in 0..100 {
         whole.step().expect("no step ends in a singular position");
         stages.step_in_stages().expect("nor in stages");
-        assert_eq!(bits(&whole), bits(&stages));
+        assert_eq!(lanes.step(), [true; 3]);
+        assert_eq!(bits(whole.state()), bits(stages.state()));
+        assert_eq!(bits(whole.state()), bits(lanes.state(2)));
     }
 }
 
