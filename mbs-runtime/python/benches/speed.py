@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import resource
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -98,7 +99,7 @@ def a_million() -> None:
 def start() -> None:
     """A new interpreter."""
     with tempfile.TemporaryDirectory() as folder:
-        took = taken(lambda: subprocess.run(["python", "-c", "import mbs"], cwd=folder, check=True), 7)
+        took = taken(lambda: subprocess.run([sys.executable, "-c", "import mbs"], cwd=folder, check=True), 7)
     print(f"a new interpreter with the package: {1e3 * took:.0f} ms")
 
 
