@@ -1,5 +1,7 @@
 //! An explicit step on the first-order form (q, v)˙ = (v, q̈), for any tableau.
 
+use core::marker::PhantomData;
+
 use mbs_schemes::{Row, Stabilization, Tableau};
 
 use crate::arrays::States;
@@ -93,12 +95,27 @@ pub struct Slopes<'a, V> {
     pub accelerations: &'a mut [V],
 }
 
+/// What computes the accelerations of stages.
+///
+/// A closure is one. It is a function of its own where the compiler finds it long, which costs
+/// nothing but in lanes: a function that is called there has no vectors.
+pub trait Solve<E, V> {
+    /// Given the number of a stage, its time and state, writes its q̈ and returns its growth.
+    fn solve(&mut self, stage: usize, t: E, q: &V, v: &V, acceleration: &mut V) -> E;
+}
+
+impl<E, V, F: FnMut(usize, E, &V, &V, &mut V) -> E> Solve<E, V> for F {
+    #[inline(always)]
+    fn solve(&mut self, stage: usize, t: E, q: &V, v: &V, acceleration: &mut V) -> E {
+        self(stage, t, q, v, acceleration)
+    }
+}
+
 /// A step, and the pivot growths of its stages, added: q becomes that of its end, and so does
 /// the first of the velocities.
 ///
-/// `solve` is given the number of a stage, its time and state, writes its q̈ and returns its
-/// growth. `there` is room for the position of a stage. With fewer vectors than stages there
-/// is no step, and the growth is no number.
+/// `solve` is asked for the accelerations of the stages. `there` is room for the position of a
+/// stage. With fewer vectors than stages there is no step, and the growth is no number.
 #[inline(always)]
 pub fn step<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
     tableau: &Tableau,
@@ -107,6 +124,19 @@ pub fn step<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
     slopes: Slopes<'_, V>,
     there: &mut V,
     solve: impl FnMut(usize, E, &V, &V, &mut V) -> E,
+) -> E {
+    step_of(tableau, span, q, slopes, there, solve)
+}
+
+/// The same with whatever solves.
+#[inline(always)]
+fn step_of<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
+    tableau: &Tableau,
+    span: &Span<E>,
+    q: &mut V,
+    slopes: Slopes<'_, V>,
+    there: &mut V,
+    solve: impl Solve<E, V>,
 ) -> E {
     checked(tableau, span, q, slopes, there, solve).unwrap_or(E::constant(f64::NAN))
 }
@@ -118,10 +148,10 @@ fn checked<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
     q: &mut V,
     slopes: Slopes<'_, V>,
     there: &mut V,
-    mut solve: impl FnMut(usize, E, &V, &V, &mut V) -> E,
+    mut solve: impl Solve<E, V>,
 ) -> Option<E> {
     let Slopes { velocities, accelerations } = slopes;
-    let mut growth = solve(0, span.t, q, velocities.first()?, accelerations.first_mut()?);
+    let mut growth = solve.solve(0, span.t, q, velocities.first()?, accelerations.first_mut()?);
     for (before, row) in tableau.stages.iter().enumerate() {
         let stage = before + 1;
         let (v, later) = velocities.split_at_mut_checked(stage)?;
@@ -129,7 +159,7 @@ fn checked<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
         let (v_there, a_there) = (later.first_mut()?, unknown.first_mut()?);
         lead(row, span.h, v, q, there);
         lead(row, span.h, a, v.first()?, v_there);
-        growth = growth.plus(solve(stage, span.time(row.node()), there, v_there, a_there));
+        growth = growth.plus(solve.solve(stage, span.time(row.node()), there, v_there, a_there));
     }
     advance(&tableau.update, span.h, velocities, q);
     advance(&tableau.update, span.h, accelerations, velocities.first_mut()?);
@@ -246,7 +276,9 @@ fn block<const N: usize, E: Element, V: AsRef<[E]>>(
     });
     let mut sums = [E::constant(f64::NAN); N];
     if let Some((weight, slope)) = terms.next() {
-        sums = slope.map(|slope| weight.times(slope));
+        for (sum, slope) in sums.iter_mut().zip(slope) {
+            *sum = weight.times(*slope);
+        }
     }
     for (weight, slope) in terms {
         for (sum, slope) in sums.iter_mut().zip(slope) {
@@ -286,6 +318,37 @@ pub(crate) struct Trial<M: Mechanism> {
     pub growth: M::Real,
 }
 
+/// The stages of a step of a mechanism.
+struct Stages<'a, M: Mechanism, X> {
+    mechanism: &'a M,
+    inputs: &'a M::Inputs,
+    gains: &'a Gains<M::Real>,
+    /// That of the first stage, where it is held.
+    feedback: Option<M::Constraints>,
+    method: PhantomData<X>,
+}
+
+impl<M: Mechanism, X: Method> Solve<M::Real, States<M>> for Stages<'_, M, X> {
+    #[inline(always)]
+    fn solve(&mut self, _: usize, t: M::Real, q: &States<M>, v: &States<M>, a: &mut States<M>) -> M::Real {
+        let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
+        let given = match X::EXPLICIT.stabilization {
+            Stabilization::Held => self.feedback,
+            Stabilization::PerStage => None,
+            Stabilization::Projection => Some(Components::splat(M::Real::default())),
+        };
+        if let Some(given) = &given {
+            let solved = self.mechanism.constrained(&at, self.inputs, given);
+            *a = solved.acceleration.into_array();
+            solved.growth
+        } else {
+            let solved = self.mechanism.stabilized(&at, self.inputs, self.gains);
+            (*a, self.feedback) = (solved.acceleration.into_array(), Some(solved.feedback));
+            solved.growth
+        }
+    }
+}
+
 /// The step of a mechanism stage by stage, without a branch.
 #[inline(always)]
 pub(crate) fn trial<M: Mechanism, X: Method>(
@@ -295,28 +358,39 @@ pub(crate) fn trial<M: Mechanism, X: Method>(
     gains: &Gains<M::Real>,
     span: &Span<M::Real>,
 ) -> Trial<M> {
+    let mut stages = Stages::<M, X> { mechanism, inputs, gains, feedback: None, method: PhantomData };
+    let solve = |stage: usize, t: M::Real, q: &States<M>, v: &States<M>, a: &mut States<M>| {
+        stages.solve(stage, t, q, v, a)
+    };
+    tried::<M, X>(mechanism, at, span, solve)
+}
+
+/// The same with all stages in place, for lanes.
+#[inline(always)]
+pub(crate) fn trial_in_place<M: Mechanism, X: Method>(
+    mechanism: &M,
+    at: &State<M::States>,
+    inputs: &M::Inputs,
+    gains: &Gains<M::Real>,
+    span: &Span<M::Real>,
+) -> Trial<M> {
+    let stages = Stages::<M, X> { mechanism, inputs, gains, feedback: None, method: PhantomData };
+    tried::<M, X>(mechanism, at, span, stages)
+}
+
+#[inline(always)]
+fn tried<M: Mechanism, X: Method>(
+    mechanism: &M,
+    at: &State<M::States>,
+    span: &Span<M::Real>,
+    solve: impl Solve<M::Real, States<M>>,
+) -> Trial<M> {
     // Each vector becomes an array once: of long chains these are calls.
     let (mut q, v) = (at.q.into_array(), at.v.into_array());
     let (mut velocities, mut accelerations) = (X::Scheme::stages(v), X::Scheme::stages(v));
     let slopes = Slopes { velocities: velocities.as_mut(), accelerations: accelerations.as_mut() };
-    let (mut there, mut feedback) = (q, None);
-    let mut growth = step(X::Scheme::TABLEAU, span, &mut q, slopes, &mut there, |_, t, q, v, a| {
-        let at = State { t, q: Components::from_array(*q), v: Components::from_array(*v) };
-        let given = match X::EXPLICIT.stabilization {
-            Stabilization::Held => feedback,
-            Stabilization::PerStage => None,
-            Stabilization::Projection => Some(Components::splat(M::Real::default())),
-        };
-        if let Some(given) = &given {
-            let solved = mechanism.constrained(&at, inputs, given);
-            *a = solved.acceleration.into_array();
-            solved.growth
-        } else {
-            let solved = mechanism.stabilized(&at, inputs, gains);
-            (*a, feedback) = (solved.acceleration.into_array(), Some(solved.feedback));
-            solved.growth
-        }
-    });
+    let mut there = q;
+    let mut growth = step_of(X::Scheme::TABLEAU, span, &mut q, slopes, &mut there, solve);
     let [v, ..] = velocities.as_mut() else { return Trial { next: *at, growth } };
     if X::EXPLICIT.is_projected() {
         growth =

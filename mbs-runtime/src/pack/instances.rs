@@ -49,8 +49,8 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
 /// and how they advance.
 #[derive(Clone, Copy)]
 pub(super) struct Pace<T, const N: usize> {
-    gains: Gains<Lanes<T, N>>,
-    step: Lanes<T, N>,
+    pub gains: Gains<Lanes<T, N>>,
+    pub step: Lanes<T, N>,
     start_time: Lanes<T, N>,
 }
 

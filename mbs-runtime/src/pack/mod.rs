@@ -15,12 +15,12 @@ pub use instances::unpack;
 pub use snapshot::{Snapshot, and};
 
 use crate::components::sum_of;
-use crate::explicit::{Span, Trial, trial};
+use crate::explicit::{Span, Trial, trial, trial_in_place};
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
 use crate::watch::{Watch, rise_after};
-use crate::{Gains, Mechanism, Method, Real, Simulation, State, Stepped, spare};
+use crate::{Components, Gains, Mechanism, Method, Real, Simulation, State, Stepped, spare};
 use instances::{Instances, Moment, Pace};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -259,6 +259,10 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     now: &mut Moment<M, N>,
     margin: &mut Lanes<M::Real, N>,
 ) {
+    if N > 1 && !is_fused_for::<M, X>() && !is_in_loops::<M>() {
+        step_together::<M, X, N>(instances, pace, watches, uncounted, now, margin);
+        return;
+    }
     for lane in 0..N {
         let (gains, step, start_time) = pace.of_lane(lane);
         let taken = now.steps.0[lane] + uncounted;
@@ -284,6 +288,48 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         now.alarm.0[lane] = rise_after(growth);
         now.worst.0[lane] = now.worst.0[lane].worse(growth);
         now.put(lane, stepped.next);
+    }
+}
+
+/// Whether programs of a mechanism became loops, which go lane after lane.
+#[inline(always)]
+fn is_in_loops<M: Mechanism>() -> bool {
+    M::INFO.functions.iter().any(|function| function.loops > 0)
+}
+
+/// A step of every lane of a method that has no fused step: its stages are a loop, of which a loop
+/// over lanes around it would make no vectors. So every operation is one of all lanes.
+#[inline(always)]
+fn step_together<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
+    instances: &Instances<M, N>,
+    pace: &Pace<M::Real, N>,
+    watches: &[Watch<M::Real>; N],
+    uncounted: f64,
+    now: &mut Moment<M, N>,
+    margin: &mut Lanes<M::Real, N>,
+) {
+    let mut t_next = Lanes::default();
+    for lane in 0..N {
+        let (_, step, start_time) = pace.of_lane(lane);
+        t_next.0[lane] = (start_time + Straight::from_f64(now.steps.0[lane] + uncounted) * step).0;
+    }
+    let at = State { t: now.t, q: Components::from_array(now.q), v: Components::from_array(now.v) };
+    let inputs = Components::from_array(instances.inputs);
+    let span = Span { t: now.t, h: pace.step, t_next };
+    let Trial { next, growth } =
+        trial_in_place::<Many<M, N>, X>(&instances.mechanism, &at, &inputs, &pace.gains, &span);
+    (now.t, now.q, now.v) = (next.t, next.q.into_array(), next.v.into_array());
+    for lane in 0..N {
+        let growth = growth.0[lane];
+        margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
+        if !M::INFO.redundant.is_empty() {
+            let (mechanism, next) = (instances.mechanism_of(lane), now.state_of(lane));
+            let spare = spare::margin(&mechanism, &next, Straight(watches[lane].length));
+            margin.0[lane] =
+                margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
+        }
+        now.alarm.0[lane] = rise_after(growth);
+        now.worst.0[lane] = now.worst.0[lane].worse(growth);
     }
 }
 
