@@ -198,7 +198,7 @@ mod tests {
     fn every_wrong_slot_and_operation_is_caught() {
         let compiled = analyse(DECLARATION.parse().unwrap()).unwrap();
         let program = compiled.program(FunctionId::Stabilized);
-        let code = || Code::new(&compiled, program).unwrap();
+        let code = || Code::in_order(&compiled, program).unwrap();
         let is_accepted = |code: &Code| super::check(&compiled, program, code).is_ok();
         let right = code();
         assert!(is_accepted(&right));

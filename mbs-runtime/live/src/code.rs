@@ -6,6 +6,7 @@ use mbs_symbolic::{Inconsistency, Operand, Program};
 
 use crate::arguments::{Arguments, Given};
 use crate::check::check;
+use crate::grouped::grouped;
 use crate::instruction::Instruction;
 use crate::slots::allocate;
 
@@ -54,6 +55,11 @@ impl Code {
     /// # Errors
     /// The code does not do what the program does, which is a mistake of this crate.
     pub fn new(compiled: &Compiled, program: &Program) -> Result<Self, Inconsistency> {
+        Self::in_order(compiled, &grouped(program))
+    }
+
+    /// The same, its instructions in the order of the program.
+    pub fn in_order(compiled: &Compiled, program: &Program) -> Result<Self, Inconsistency> {
         let code = allocate(program, &|operand| role(compiled, operand))?;
         check(compiled, program, &code)?;
         Ok(code)

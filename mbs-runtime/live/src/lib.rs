@@ -51,6 +51,7 @@ mod code;
 mod equations;
 mod error;
 mod find;
+mod grouped;
 mod instruction;
 mod lanes;
 mod lexing;

@@ -10,7 +10,7 @@ pub struct Products {
 }
 
 /// A sum or a difference with one of its operands a product.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sum {
     /// c + a·b
     MulAdd,

@@ -1,0 +1,180 @@
+//! The order in which an interpreter goes through a program.
+//!
+//! An interpreter branches by the kind of each instruction. A processor foresees branches that are the same
+//! many times in a row, and hardly those of a thousand instructions of changing kinds. It also waits where an
+//! instruction reads a number that the one before has just written. So instructions of a kind are put behind
+//! each other, those first that could have been done for longest. What they compute, and of what, stays as it is.
+
+use std::collections::{HashMap, VecDeque};
+
+use mbs_symbolic::{Instruction, Operand, Operation, Program, SinCos};
+
+use crate::products::{Products, Sum};
+
+/// What an interpreter branches by.
+type Kind = (Operation, Option<Sum>);
+
+/// A program with the same instructions, those of a kind together.
+pub fn grouped(program: &Program) -> Program {
+    let mut units = Units::of(program);
+    let mut order = Vec::with_capacity(program.instructions.len());
+    // a turn takes at least one unit, and no unit twice
+    while let Some(kind) = units.most_ready() {
+        while let Some(unit) = units.take(kind) {
+            order.extend_from_slice(&units.members[unit]);
+            units.release(unit);
+        }
+    }
+    reordered(program, &order)
+}
+
+/// What an interpreter does as one instruction, each named after one that belongs to it: a sum with its product,
+/// a sine with its cosine, and any other by itself.
+struct Units {
+    /// The instructions of each unit, in their order; none of what belongs to another unit.
+    members: Vec<Vec<usize>>,
+    /// What branches tell apart, by number.
+    kinds: Vec<usize>,
+    /// The units that read a result of each, once for every reading.
+    readers: Vec<Vec<usize>>,
+    /// How many readings each one still waits for.
+    waits: Vec<usize>,
+    /// Those that wait for nothing, by kind.
+    ready: Vec<VecDeque<usize>>,
+}
+
+impl Units {
+    fn of(program: &Program) -> Self {
+        let (pairs, products) = (SinCos::of(program), Products::of(program));
+        let count = program.instructions.len();
+        // a product belongs to its sum, and of a sine and a cosine the later one to the earlier
+        let unit_of = |at: usize| {
+            let earlier = pairs.partner(at).map_or(at, |partner| partner.min(at));
+            products.reader(at).unwrap_or(earlier)
+        };
+        let unit_of: Vec<usize> = (0..count).map(unit_of).collect();
+        let (mut members, mut readers) = (vec![Vec::new(); count], vec![Vec::new(); count]);
+        let (mut kinds, mut waits) = (Vec::with_capacity(count), vec![0; count]);
+        let mut numbers: HashMap<Kind, usize> = HashMap::new();
+        for (at, step) in program.instructions.iter().enumerate() {
+            let unit = unit_of[at];
+            members[unit].push(at);
+            for operand in [step.a, step.b] {
+                if let Operand::Value(read) = operand
+                    && unit_of[read] != unit
+                {
+                    readers[unit_of[read]].push(unit);
+                    waits[unit] += 1;
+                }
+            }
+            let sum = products.product(program, at).map(|(_, sum, _)| sum);
+            let next = numbers.len();
+            kinds.push(*numbers.entry((step.operation, sum)).or_insert(next));
+        }
+        let mut ready = vec![VecDeque::new(); numbers.len()];
+        for unit in (0..count).filter(|&unit| waits[unit] == 0 && !members[unit].is_empty()) {
+            ready[kinds[unit]].push_back(unit);
+        }
+        Self { members, kinds, readers, waits, ready }
+    }
+
+    /// The kind with the most units that are ready.
+    fn most_ready(&self) -> Option<usize> {
+        let ready = self.ready.iter().enumerate().filter(|(_, units)| !units.is_empty());
+        ready.max_by_key(|(_, units)| units.len()).map(|(kind, _)| kind)
+    }
+
+    /// The unit of a kind that has been ready for longest.
+    fn take(&mut self, kind: usize) -> Option<usize> {
+        self.ready[kind].pop_front()
+    }
+
+    /// What waits for nothing else than this unit is ready from now on.
+    fn release(&mut self, unit: usize) {
+        for reader in std::mem::take(&mut self.readers[unit]) {
+            self.waits[reader] -= 1;
+            if self.waits[reader] == 0 {
+                self.ready[self.kinds[reader]].push_back(reader);
+            }
+        }
+    }
+}
+
+/// The instructions in another order, and what reads them.
+fn reordered(program: &Program, order: &[usize]) -> Program {
+    let mut places = vec![0; order.len()];
+    for (place, &at) in order.iter().enumerate() {
+        places[at] = place;
+    }
+    let moved = |operand: Operand| match operand {
+        Operand::Value(at) => Operand::Value(places[at]),
+        _ => operand,
+    };
+    let instructions = order.iter().map(|&at| {
+        let step = &program.instructions[at];
+        Instruction { operation: step.operation, a: moved(step.a), b: moved(step.b), name: None }
+    });
+    Program {
+        instructions: instructions.collect(),
+        outputs: program.outputs.iter().map(|&output| moved(output)).collect(),
+        splines: program.splines.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem;
+
+    use mbs_codegen::compiled::Compiled;
+    use mbs_codegen::{FunctionId, analyse};
+    use mbs_symbolic::{Program, probe};
+
+    use super::grouped;
+    use crate::code::Code;
+
+    const DECLARATION: &str = "Crank {
+        dof = 1;
+        param r = 60 [mm];
+        param l = 180 [mm];
+        param k = 3;
+        gravity = (0, -9.81) [m/s^2];
+        body crank (theta) { inertia = 1e-3 [kg*m^2]; }
+        body rod (phi) { inertia = 2e-3 [kg*m^2]; }
+        body slider (x) { mass = 2 [kg]; }
+        profile wave = spline((0 [deg], 1), (90 [deg], 2), (200 [deg], 0)) period 360 [deg];
+        torque load on crank = -0.1 [N*m]*wave(theta) - k*1 [N*m]*tanh(der(theta)/(1 [rad/s]));
+        constraint guide: r*sin(theta) + l*sin(phi) = 0;
+        constraint pin: x = r*cos(theta) + l*cos(phi);
+        start { theta = 0.3; der(theta) = 10 [rad/s]; guess x = r + l; }
+    }";
+
+    /// How often the interpreter goes from one kind of instruction to another.
+    fn changes_of_kind(compiled: &Compiled, program: &Program) -> usize {
+        let code = Code::in_order(compiled, program).unwrap();
+        let kinds: Vec<_> = code.instructions.iter().map(mem::discriminant).collect();
+        kinds.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    }
+
+    /// To the bit, for every function and for the whole step; of its transpose the order is looked at.
+    #[test]
+    fn a_program_computes_the_same_in_its_new_order() {
+        let compiled = analyse(DECLARATION.parse().unwrap()).unwrap();
+        let step = &compiled.fused_step.as_ref().unwrap().alone;
+        let functions = FunctionId::all().map(|function| compiled.program(function));
+        for program in functions.chain([&step.held, &step.per_stage]) {
+            let ordered = grouped(program);
+            assert_eq!(ordered.instructions.len(), program.instructions.len());
+            for point in 0..probe::POINTS {
+                let of = |program: &Program| -> Vec<u64> {
+                    let results = program.evaluate_with(&probe::symbol(point), &probe::hoisted(point));
+                    results.into_iter().map(f64::to_bits).collect()
+                };
+                assert_eq!(of(&ordered), of(program));
+            }
+        }
+        let transposes = compiled.transposes().unwrap();
+        let long = &transposes.step.as_ref().unwrap().held.program;
+        let [before, after] = [long, &grouped(long)].map(|program| changes_of_kind(&compiled, program));
+        assert!(2 * after < before, "{after} in place of {before}");
+    }
+}
