@@ -38,9 +38,12 @@ pub type ManyStates<M, const N: usize> = <Many<M, N> as Mechanism>::States;
 /// The outputs of `N` instances.
 pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 
-/// Steps that are tested for health together: the first ones, and the most. What is done
-/// once for all of them costs about as much as a step.
-const FIRST_STRIDE: u64 = 128;
+/// Steps that are tested for health together: the first ones, how many times as many the next
+/// ones, and the most. What is done once for all of them costs about as much as a step. Where one
+/// of them is bad, up to twice as many are computed in vain; the first step of a long chain is, which
+/// is examined.
+const FIRST_STRIDE: u64 = 4;
+const LENGTHENING: u64 = 4;
 const LONGEST_STRIDE: u64 = 1024;
 
 /// `N` simulations that advance by a step at once, one in each lane: parameters,
@@ -144,7 +147,8 @@ where
                 good = taken + next - 1;
             }
             let is_longer = good == steps;
-            stride = if is_longer { LONGEST_STRIDE.min(2 * stride) } else { (good - taken).div_ceil(2) };
+            stride =
+                if is_longer { LONGEST_STRIDE.min(LENGTHENING * stride) } else { (good - taken).div_ceil(2) };
         }
         taken
     }

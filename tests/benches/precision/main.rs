@@ -77,7 +77,9 @@ fn draw(
         let of_method =
             programs.iter().zip(errors).zip(times).filter(|((program, _), _)| program.method == method);
         let points = of_method.map(|((_, error), [least, _])| [*error, *least]);
-        Series::new(method, points).stroke(Stroke::Dotted)
+        // there are more methods than colours
+        let stroke = if method == programs::BY_HAND { Stroke::Dashed } else { Stroke::Dotted };
+        Series::new(method, points).stroke(stroke)
     });
     let (error, time) = (Axis::new("largest error of x3", "m").log(), Axis::new("time of a run", "µs").log());
     let curves: Vec<Series> = curves.collect();

@@ -1,7 +1,8 @@
 //! What is compared: methods, each with several steps or tolerances.
 
 use mbs_runtime::{
-    Adaptive, Bs3, Dop853, Dopri5, Held, Heun, Method, Projected, Rk4, Scheme, Simulation, Tolerances,
+    Adaptive, Bs3, Components, Dop853, Dopri5, Held, Heun, Mechanism, Method, Projected, Rk4, Scheme,
+    Simulation, Tolerances,
 };
 use models::{SliderCrankFree, SliderCrankFreeInputs};
 
@@ -10,6 +11,8 @@ use super::by_hand;
 const END: f64 = 0.3;
 const TORQUE: f64 = 0.5;
 const INPUTS: SliderCrankFreeInputs<f64> = SliderCrankFreeInputs { crank_torque: TORQUE };
+/// The place of x3 among the coordinates.
+const X3: usize = 6;
 /// x3 is compared at so many instants at equal distances.
 pub const SAMPLES: u32 = 30;
 
@@ -32,15 +35,19 @@ impl Program {
     }
 }
 
+/// What it is all compared with.
+pub const BY_HAND: &str = "by hand, RK4 in the angle";
+
 /// The names of the methods.
 pub fn methods() -> impl Iterator<Item = &'static str> {
     [
-        "by hand, RK4 in the angle",
+        BY_HAND,
         "Heun, feedback",
         "RK4, feedback",
         "RK4, projection",
         "BS3(2) to a tolerance",
         "DP5(4) to a tolerance",
+        "DP5(4), reduced states",
         "DOP853 to a tolerance",
     ]
     .into_iter()
@@ -81,15 +88,20 @@ fn constant<X: Method>(method: &'static str, steps: u32) -> Program {
     Program { method, effort: format!("{steps} steps"), run: Box::new(run), sampled }
 }
 
-fn adaptive<S: Scheme>(method: &'static str, power: i32) -> Program
+/// Of the mechanism with some choice of states.
+fn adaptive<S: Scheme, M: Mechanism<Real = f64> + 'static>(
+    method: &'static str,
+    mechanism: M,
+    power: i32,
+) -> Program
 where
-    S::Stages<[f64; 7]>: 'static,
+    S::Stages<<M::States as Components>::Array>: 'static,
 {
     let rtol = 10_f64.powi(-power);
     let tolerances = Tolerances { rtol, atol: 1e-2 * rtol, ..Tolerances::default() };
     let start = move || {
-        let builder = Adaptive::builder(SliderCrankFree::declared()).scheme::<S>();
-        builder.tolerances(tolerances).inputs(INPUTS).build().expect("a start")
+        let builder = Adaptive::builder(mechanism).scheme::<S>();
+        builder.tolerances(tolerances).inputs(M::Inputs::splat(TORQUE)).build().expect("a start")
     };
     // the start is made consistent outside of the time that is taken, as for the others
     let at_start = start();
@@ -103,7 +115,7 @@ where
         let times = (0..=SAMPLES).map(|at| END * f64::from(at) / f64::from(SAMPLES));
         let x3 = |t: f64| {
             run.cover(t).expect("a regular motion");
-            run.at(t).expect("within the step").q.x3
+            run.at(t).expect("within the step").q.into_array().as_ref()[X3]
         };
         times.map(x3).collect()
     };
@@ -131,14 +143,16 @@ fn by_hand(method: &'static str, steps: u32) -> Program {
 /// All programs, those of a method one after the other.
 pub fn all() -> Vec<Program> {
     let names: Vec<&'static str> = methods().collect();
-    let [hand, heun, rk4, projected, bs3, dopri5, dop853] = names[..] else { return Vec::new() };
+    let [hand, heun, rk4, projected, bs3, dopri5, angles, dop853] = names[..] else { return Vec::new() };
     let mut all = Vec::new();
     all.extend([60, 120, 240, 480, 960, 1920].map(|steps| by_hand(hand, steps)));
     all.extend([300, 600, 1200, 2400, 4800].map(|steps| constant::<Held<Heun>>(heun, steps)));
     all.extend([120, 240, 480, 960, 1920].map(|steps| constant::<Held<Rk4>>(rk4, steps)));
     all.extend([120, 240, 480, 960, 1920].map(|steps| constant::<Projected<Rk4>>(projected, steps)));
-    all.extend((3..=7).map(|power| adaptive::<Bs3>(bs3, power)));
-    all.extend((3..=11).map(|power| adaptive::<Dopri5>(dopri5, power)));
-    all.extend((3..=11).map(|power| adaptive::<Dop853>(dop853, power)));
+    let (free, with_angles) = (SliderCrankFree::declared(), reduced::SliderCrankFree::declared());
+    all.extend((3..=7).map(|power| adaptive::<Bs3, _>(bs3, free, power)));
+    all.extend((3..=11).map(|power| adaptive::<Dopri5, _>(dopri5, free, power)));
+    all.extend((3..=11).map(|power| adaptive::<Dopri5, _>(angles, with_angles, power)));
+    all.extend((3..=11).map(|power| adaptive::<Dop853, _>(dop853, free, power)));
     all
 }
