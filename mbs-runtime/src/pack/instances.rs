@@ -111,6 +111,17 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
         State { t: self.t.0[lane], q: scalars_of(&self.q, lane), v: scalars_of(&self.v, lane) }
     }
 
+    /// And back.
+    pub fn put_scalar(&mut self, lane: usize, state: &State<M::States>) {
+        self.t.0[lane] = state.t;
+        let vectors = [(&mut self.q, state.q.into_array()), (&mut self.v, state.v.into_array())];
+        for (vector, scalars) in vectors {
+            for (lanes, scalar) in vector.as_mut().iter_mut().zip(scalars.as_ref()) {
+                lanes.0[lane] = *scalar;
+            }
+        }
+    }
+
     #[inline(always)]
     pub fn state_of(&self, lane: usize) -> State<<Each<M> as Mechanism>::States> {
         State { t: Straight(self.t.0[lane]), q: take(&self.q, lane), v: take(&self.v, lane) }

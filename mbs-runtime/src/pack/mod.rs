@@ -5,6 +5,7 @@
 )]
 
 mod instances;
+mod long;
 mod snapshot;
 
 use core::array::from_fn;
@@ -15,13 +16,14 @@ pub use instances::unpack;
 pub use snapshot::{Snapshot, and};
 
 use crate::components::sum_of;
-use crate::explicit::{Span, Trial, trial, trial_in_place};
+use crate::explicit::{Span, Trial, trial_in_place};
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
 use crate::watch::{Watch, rise_after};
-use crate::{Components, Gains, Mechanism, Method, Real, Simulation, State, Stepped, spare};
+use crate::{Components, Mechanism, Method, Real, Simulation, State, spare};
 use instances::{Instances, Moment, Pace};
+use long::{lane_after_lane, step_in_place};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
 pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>::Real, N>>;
@@ -182,15 +184,20 @@ where
     /// In this loop the numbers are nobody else's, so they can stay in registers.
     #[inline(always)]
     fn stride(&mut self, steps: u64) -> bool {
-        let Self { instances, pace, watches, .. } = self;
+        let Self { members, instances, pace, watches, .. } = self;
         let mut now = self.now;
         let mut margin = Lanes::default();
-        let mut taken = 0.0;
-        for _ in 0..steps {
-            taken += 1.0;
-            step_all::<M, X, N>(instances, pace, watches, taken, &mut now, &mut margin);
+        if !is_fused_for::<M, X>() && is_in_loops::<M>() {
+            lane_after_lane::<M, X, S, N>(members, watches, steps, &mut now, &mut margin);
+        } else {
+            // counted in the number that is computed with: to make one of an integer takes as long as ten operations
+            let mut taken = 0.0;
+            for _ in 0..steps {
+                taken += 1.0;
+                step_all::<M, X, N>(instances, pace, watches, taken, &mut now, &mut margin);
+            }
         }
-        now.count(taken);
+        now.count(steps as f64);
         let are_calm = is_calm(&margin, &now, watches);
         if are_calm {
             self.now = now;
@@ -278,20 +285,23 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
             true => mechanism.fused_step::<X>(&at, &inputs, &gains, step, t),
             false => None,
         };
-        let stepped = match fused {
-            Some(stepped) => stepped,
-            None => long_step::<Each<M>, X>(&mechanism, &at, &inputs, &gains, step, t),
+        let (next, growth) = match fused {
+            Some(stepped) => (stepped.next, stepped.growth.0),
+            None => {
+                let mut next = at;
+                let growth = step_in_place::<Each<M>, X>(&mechanism, &mut next, &inputs, &gains, step, t);
+                (next, growth.0)
+            }
         };
-        let growth = stepped.growth.0;
         margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
         if !M::INFO.redundant.is_empty() {
-            let spare = spare::margin(&mechanism, &stepped.next, Straight(watches[lane].length));
+            let spare = spare::margin(&mechanism, &next, Straight(watches[lane].length));
             margin.0[lane] =
                 margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
         }
         now.alarm.0[lane] = rise_after(growth);
         now.worst.0[lane] = now.worst.0[lane].worse(growth);
-        now.put(lane, stepped.next);
+        now.put(lane, next);
     }
 }
 
@@ -335,40 +345,6 @@ fn step_together<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         now.alarm.0[lane] = rise_after(growth);
         now.worst.0[lane] = now.worst.0[lane].worse(growth);
     }
-}
-
-/// A step of mechanisms that are too large for a fused one: of those whose programs became loops on
-/// arrays, as the scalar's, and else stage by stage.
-#[inline(always)]
-fn long_step<M: Mechanism, X: Method>(
-    mechanism: &M,
-    at: &State<M::States>,
-    inputs: &M::Inputs,
-    gains: &Gains<M::Real>,
-    h: M::Real,
-    t_next: M::Real,
-) -> Stepped<M::States> {
-    let mut next = *at;
-    // which growths are alarming is found out for many steps at once
-    let alarm = M::Real::from_f64(f64::INFINITY);
-    match mechanism.long_step::<X>(&mut next, inputs, gains, h, t_next, alarm) {
-        Some(growth) => Stepped { next, growth, sum: sum_of(next.q) + sum_of(next.v) },
-        None => staged_step::<M, X>(mechanism, at, inputs, gains, h, t_next),
-    }
-}
-
-/// A step stage by stage.
-#[inline(always)]
-fn staged_step<M: Mechanism, X: Method>(
-    mechanism: &M,
-    at: &State<M::States>,
-    inputs: &M::Inputs,
-    gains: &Gains<M::Real>,
-    h: M::Real,
-    t_next: M::Real,
-) -> Stepped<M::States> {
-    let Trial { next, growth } = trial::<M, X>(mechanism, at, inputs, gains, &Span { t: at.t, h, t_next });
-    Stepped { next, growth, sum: sum_of(next.q) + sum_of(next.v) }
 }
 
 /// Whether no growth was over its alarm or is to be remembered, and all is finite, in
