@@ -243,6 +243,10 @@ fn refusals_of_urdf_name_the_part() {
         &format!("{}{second}", joint("fixed", "")),
         "the joint `k` (line 2): its child `a` has another parent already, and URDF has trees alone",
     );
+    says(
+        &format!("{}{}", joint("fixed", ""), second.replace("'k'", "'j'")),
+        "the joint `j` (line 2) is there twice",
+    );
     let circle = joint("fixed", "").replace("parent link='w'", "parent link='a'");
     says(&circle, "the joint `j` (line 2) is in a circle of joints, and URDF has trees alone");
     says(&joint("floating", ""), "the joint `j` (line 2) lets its link move through space: it is not planar");

@@ -90,9 +90,15 @@ struct Edge<'a, 'i> {
 impl Reader {
     /// The bodies from the root on.
     fn tree<'a>(&mut self, root: Node<'a, '_>, links: &Links<'a, '_>) -> Result<(), Refusal> {
-        let mut edges = Vec::new();
+        let mut edges: Vec<Edge<'a, '_>> = Vec::new();
         for node in elements_named(root, "joint") {
-            edges.push(edge(node, links)?);
+            let edge = edge(node, links)?;
+            // others are coupled to joints by their names
+            let name = node.attribute("name");
+            if name.is_some() && edges.iter().any(|other| other.node.attribute("name") == name) {
+                return Err(Refusal(format!("{} is there twice", edge.of)));
+            }
+            edges.push(edge);
         }
         for (at, edge) in edges.iter().enumerate() {
             if edges.iter().take(at).any(|other| other.child == edge.child) {
