@@ -255,6 +255,19 @@ fn equalities_that_a_flag_takes_away_are_left_out() {
     assert!(text.contains("// Not carried over: the equality in line 20: a flag takes it away."), "{text}");
 }
 
+/// An `option` behind the one with the flag gave it back.
+#[test]
+fn gravity_that_a_flag_takes_away_stays_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let four_bar = fs::read_to_string(data("four_bar.xml")).unwrap();
+    let flag = "<option><flag gravity=\"disable\"/></option>";
+    let without = four_bar.replacen("<option", &format!("{flag}<option"), 1);
+    assert_ne!(without, four_bar);
+    fs::write(folder.path().join("without.xml"), without).unwrap();
+    let text = imported(folder.path(), &folder.path().join("without.xml"));
+    assert!(text.contains("gravity = (0, 0) [m/s^2];"), "{text}");
+}
+
 #[test]
 fn what_a_robot_loses_is_said() {
     let folder = tempfile::tempdir().unwrap();

@@ -16,6 +16,7 @@ pub(super) struct Settings {
     pub masses_of_geoms: Option<bool>,
     /// What all bodies together have, if the masses of the file are to be scaled to it.
     pub total_mass: Option<f64>,
+    pub has_gravity: bool,
     pub has_contacts: bool,
     pub has_equalities: bool,
 }
@@ -48,8 +49,9 @@ pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Re
         is_in_degrees: true,
         euler: ['x', 'y', 'z'],
         masses_of_geoms: None,
-        has_contacts: true,
         total_mass: None,
+        has_gravity: true,
+        has_contacts: true,
         has_equalities: true,
     };
     robot.gravity = [0.0, 0.0, -9.81];
@@ -71,6 +73,10 @@ pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Re
             }
             other => return Err(Refusal(format!("{} is not imported", described(other, section)))),
         }
+    }
+    // whichever of several sections says so
+    if !settings.has_gravity {
+        robot.gravity = [0.0; 3];
     }
     Ok(settings)
 }
@@ -130,9 +136,7 @@ fn option(node: Node<'_, '_>, settings: &mut Settings, robot: &mut Robot) -> Res
                 described("flag", flag)
             )));
         }
-        if is_off("gravity") {
-            robot.gravity = [0.0; 3];
-        }
+        settings.has_gravity &= !is_off("gravity");
         settings.has_contacts &= !is_off("contact") && !is_off("constraint");
         settings.has_equalities &= !is_off("equality") && !is_off("constraint");
     }
