@@ -141,13 +141,14 @@ impl Follower<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use mbs_codegen::{FunctionId, analyse};
 
     use crate::code::Code;
     use crate::instruction::Instruction;
 
-    const DECLARATION: &str = "Crank {
+    /// With all kinds of instructions.
+    pub const DECLARATION: &str = "Crank {
         dof = 1;
         param r = 60 [mm];
         param l = 180 [mm];

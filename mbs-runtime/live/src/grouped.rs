@@ -130,23 +130,8 @@ mod tests {
     use mbs_symbolic::{Program, probe};
 
     use super::grouped;
+    use crate::check::tests::DECLARATION;
     use crate::code::Code;
-
-    const DECLARATION: &str = "Crank {
-        dof = 1;
-        param r = 60 [mm];
-        param l = 180 [mm];
-        param k = 3;
-        gravity = (0, -9.81) [m/s^2];
-        body crank (theta) { inertia = 1e-3 [kg*m^2]; }
-        body rod (phi) { inertia = 2e-3 [kg*m^2]; }
-        body slider (x) { mass = 2 [kg]; }
-        profile wave = spline((0 [deg], 1), (90 [deg], 2), (200 [deg], 0)) period 360 [deg];
-        torque load on crank = -0.1 [N*m]*wave(theta) - k*1 [N*m]*tanh(der(theta)/(1 [rad/s]));
-        constraint guide: r*sin(theta) + l*sin(phi) = 0;
-        constraint pin: x = r*cos(theta) + l*cos(phi);
-        start { theta = 0.3; der(theta) = 10 [rad/s]; guess x = r + l; }
-    }";
 
     /// How often the interpreter goes from one kind of instruction to another.
     fn changes_of_kind(compiled: &Compiled, program: &Program) -> usize {

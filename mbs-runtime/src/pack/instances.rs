@@ -7,6 +7,7 @@
 use super::{Each, Many, ManyStates};
 use crate::lanes::{Lane, Lanes};
 use crate::straight::Straight;
+use crate::watch::rise_after;
 use crate::{Components, Gains, Mechanism, Method, Simulation, State};
 
 /// State by state, the lanes.
@@ -136,6 +137,25 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
         for lanes in self.q.as_mut().iter_mut().chain(self.v.as_mut()) {
             lanes.0[to] = lanes.0[from];
         }
+    }
+
+    /// Notes the growth of a step in one lane, and where constraints are redundant, what is left to
+    /// them. `margin` keeps the worst of it, below zero where the step is not calm.
+    #[inline(always)]
+    pub fn note(
+        &mut self,
+        lane: usize,
+        growth: M::Real,
+        spare: Option<M::Real>,
+        margin: &mut Lanes<M::Real, N>,
+    ) {
+        let mut worst = margin.0[lane].worse(self.alarm.0[lane] - growth);
+        if let Some(spare) = spare {
+            worst = worst.worse(if spare >= M::Real::default() { growth } else { spare });
+        }
+        margin.0[lane] = worst;
+        self.alarm.0[lane] = rise_after(growth);
+        self.worst.0[lane] = self.worst.0[lane].worse(growth);
     }
 
     /// Counts steps that were taken.

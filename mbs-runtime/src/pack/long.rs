@@ -6,7 +6,7 @@ use core::borrow::Borrow;
 use super::instances::Moment;
 use crate::explicit::{Span, Trial, trial};
 use crate::lanes::{Lane, Lanes};
-use crate::watch::{Watch, rise_after};
+use crate::watch::Watch;
 use crate::{Gains, Mechanism, Method, Real, Simulation, State, spare};
 
 /// Takes steps in each lane before the next one begins, as its scalar does. What is watched is what
@@ -26,19 +26,16 @@ pub(super) fn lane_after_lane<M, X, S, const N: usize>(
     for lane in 0..N {
         let member = members[lane].borrow();
         let (mechanism, gains, h) = (member.mechanism(), member.baumgarte().gains(), member.step_size());
-        let (mut alarm, mut worst, mut nearest) = (now.alarm.0[lane], now.worst.0[lane], margin.0[lane]);
         let mut at = now.scalar_state(lane);
         for taken in 1..=steps {
             let t = member.start_time() + M::Real::from_f64(now.steps.0[lane] + taken as f64) * h;
             let growth = step_in_place::<M, X>(mechanism, &mut at, member.inputs(), &gains, h, t);
-            nearest = nearest.worse(alarm - growth);
-            if !M::INFO.redundant.is_empty() {
-                let spare = spare::margin(mechanism, &at, watches[lane].length);
-                nearest = nearest.worse(if spare >= M::Real::default() { growth } else { spare });
-            }
-            (alarm, worst) = (rise_after(growth), worst.worse(growth));
+            let spare = match M::INFO.redundant.is_empty() {
+                true => None,
+                false => Some(spare::margin(mechanism, &at, watches[lane].length)),
+            };
+            now.note(lane, growth, spare, margin);
         }
-        (now.alarm.0[lane], now.worst.0[lane], margin.0[lane]) = (alarm, worst, nearest);
         now.put_scalar(lane, &at);
     }
 }

@@ -20,7 +20,7 @@ use crate::explicit::{Span, Trial, trial_in_place};
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
-use crate::watch::{Watch, rise_after};
+use crate::watch::Watch;
 use crate::{Components, Mechanism, Method, Real, Simulation, State, spare};
 use instances::{Instances, Moment, Pace};
 use long::{lane_after_lane, step_in_place};
@@ -293,14 +293,11 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
                 (next, growth.0)
             }
         };
-        margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
-        if !M::INFO.redundant.is_empty() {
-            let spare = spare::margin(&mechanism, &next, Straight(watches[lane].length));
-            margin.0[lane] =
-                margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
-        }
-        now.alarm.0[lane] = rise_after(growth);
-        now.worst.0[lane] = now.worst.0[lane].worse(growth);
+        let spare = match M::INFO.redundant.is_empty() {
+            true => None,
+            false => Some(spare::margin(&mechanism, &next, Straight(watches[lane].length)).0),
+        };
+        now.note(lane, growth, spare, margin);
         now.put(lane, next);
     }
 }
@@ -334,16 +331,14 @@ fn step_together<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         trial_in_place::<Many<M, N>, X>(&instances.mechanism, &at, &inputs, &pace.gains, &span);
     (now.t, now.q, now.v) = (next.t, next.q.into_array(), next.v.into_array());
     for lane in 0..N {
-        let growth = growth.0[lane];
-        margin.0[lane] = margin.0[lane].worse(now.alarm.0[lane] - growth);
-        if !M::INFO.redundant.is_empty() {
-            let (mechanism, next) = (instances.mechanism_of(lane), now.state_of(lane));
-            let spare = spare::margin(&mechanism, &next, Straight(watches[lane].length));
-            margin.0[lane] =
-                margin.0[lane].worse(if spare.0 >= M::Real::default() { growth } else { spare.0 });
-        }
-        now.alarm.0[lane] = rise_after(growth);
-        now.worst.0[lane] = now.worst.0[lane].worse(growth);
+        let spare = match M::INFO.redundant.is_empty() {
+            true => None,
+            false => {
+                let (mechanism, next) = (instances.mechanism_of(lane), now.state_of(lane));
+                Some(spare::margin(&mechanism, &next, Straight(watches[lane].length)).0)
+            }
+        };
+        now.note(lane, growth.0[lane], spare, margin);
     }
 }
 
