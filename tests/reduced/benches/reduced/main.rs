@@ -23,59 +23,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     // `cargo test --benches` only looks whether it runs
     let repetitions = if is_bench { REPETITIONS } else { 1 };
     println!("ns per Heun step, medians of {repetitions} interleaved repetitions: all, reduced, reduced/all");
-    let (torque, none) = (|_: &str| 0.5, |_: &str| 0.0);
-    compare(
-        "driven slider-crank",
-        models::SliderCrank::declared(),
-        reduced::SliderCrank::declared(),
-        none,
-        repetitions,
-    )?;
+    compare(models::SliderCrank::declared(), reduced::SliderCrank::declared(), 0.0, repetitions)?;
     compare_with_hand(repetitions)?;
-    compare(
-        "free slider-crank",
-        models::SliderCrankFree::declared(),
-        reduced::SliderCrankFree::declared(),
-        torque,
-        repetitions,
-    )?;
-    compare(
-        "double pendulum",
-        models::DoublePendulum::declared(),
-        reduced::DoublePendulum::declared(),
-        none,
-        repetitions,
-    )?;
-    compare(
-        "free four-bar",
-        models::FourBarFree::declared(),
-        reduced::FourBarFree::declared(),
-        none,
-        repetitions,
-    )?;
-    compare(
-        "pendulum of 10",
-        models::NPendulum10::declared(),
-        reduced::NPendulum10::declared(),
-        none,
-        repetitions,
-    )?;
-    compare(
-        "pendulum of 40",
-        models::NPendulum40::declared(),
-        reduced::NPendulum40::declared(),
-        none,
-        repetitions,
-    )?;
+    compare(models::SliderCrankFree::declared(), reduced::SliderCrankFree::declared(), 0.5, repetitions)?;
+    compare(models::DoublePendulum::declared(), reduced::DoublePendulum::declared(), 0.0, repetitions)?;
+    compare(models::FourBarFree::declared(), reduced::FourBarFree::declared(), 0.0, repetitions)?;
+    compare(models::NPendulum10::declared(), reduced::NPendulum10::declared(), 0.0, repetitions)?;
+    compare(models::NPendulum40::declared(), reduced::NPendulum40::declared(), 0.0, repetitions)?;
     Ok(())
 }
 
 /// Times of both, by turns.
 fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
-    name: &str,
     all: A,
     reduced: R,
-    input: impl Fn(&str) -> f64 + Copy,
+    input: f64,
     repetitions: usize,
 ) -> Result<(), Box<dyn Error>> {
     // chains cost more, and so fewer members do; a run's first step, which is examined, costs a hundred others
@@ -98,7 +60,8 @@ fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
     }
     let [all, reduced, all_in_lanes, reduced_in_lanes] = times.map(median);
     println!(
-        "{name:20} alone {all:8.1} {reduced:8.1} {:5.2}   a member in lanes {all_in_lanes:8.1} {reduced_in_lanes:8.1} {:5.2}",
+        "{:20} alone {all:8.1} {reduced:8.1} {:5.2}   a member in lanes {all_in_lanes:8.1} {reduced_in_lanes:8.1} {:5.2}",
+        A::INFO.name,
         reduced / all,
         reduced_in_lanes / all_in_lanes
     );
@@ -107,7 +70,7 @@ fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
 
 /// Times of the driven slider-crank with reduced states and by hand, which end in the same state.
 fn compare_with_hand(repetitions: usize) -> Result<(), Box<dyn Error>> {
-    let mut generated = start(reduced::SliderCrank::declared(), H, |_| 0.0)?;
+    let mut generated = start(reduced::SliderCrank::declared(), H, 0.0)?;
     let first = generated;
     let parameters = first.mechanism().parameters();
     let crank = black_box(by_hand::Crank {
@@ -143,16 +106,13 @@ fn compare_with_hand(repetitions: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// A run with this value of every input.
 fn start<M: Mechanism<Real = f64>>(
     mechanism: M,
     h: f64,
-    input: impl Fn(&str) -> f64,
+    input: f64,
 ) -> Result<Simulation<M>, mbs_runtime::Error> {
-    let mut inputs = M::Inputs::default().into_array();
-    for (value, name) in inputs.as_mut().iter_mut().zip(M::Inputs::NAMES) {
-        *value = input(name);
-    }
-    Simulation::builder(mechanism, h).inputs(M::Inputs::from_array(inputs)).build()
+    Simulation::builder(mechanism, h).inputs(M::Inputs::splat(input)).build()
 }
 
 /// ns per step of a simulation.
