@@ -2,8 +2,9 @@
 //!
 //! An interpreter branches by the kind of each instruction. A processor foresees branches that are the same
 //! many times in a row, and hardly those of a thousand instructions of changing kinds. It also waits where an
-//! instruction reads a number that the one before has just written. So instructions of a kind are put behind
-//! each other, those first that could have been done for longest. What they compute, and of what, stays as it is.
+//! instruction reads a number that the one before has just written. So instructions of one kind follow each
+//! other. Among them the one comes first whose operands have been there for longest. The operations and their
+//! operands stay the same.
 
 use std::collections::{HashMap, VecDeque};
 

@@ -40,10 +40,10 @@ pub type ManyStates<M, const N: usize> = <Many<M, N> as Mechanism>::States;
 /// The outputs of `N` instances.
 pub type ManyOutputs<M, const N: usize> = <Many<M, N> as Mechanism>::Outputs;
 
-/// Steps that are tested for health together: the first ones, how many times as many the next
-/// ones, and the most. What is done once for all of them costs about as much as a step. Where one
-/// of them is bad, up to twice as many are computed in vain; the first step of a long chain is, which
-/// is examined.
+/// How many steps are tested for health together: at first, by what factor the number rises from
+/// one test to the next, and at most. A test costs about as much as a step. Where one step of them
+/// has to be examined, up to twice as many are computed in vain. That is why the number begins
+/// small: the first step of a long chain is examined.
 const FIRST_STRIDE: u64 = 4;
 const LENGTHENING: u64 = 4;
 const LONGEST_STRIDE: u64 = 1024;
@@ -190,7 +190,7 @@ where
         if !is_fused_for::<M, X>() && is_in_loops::<M>() {
             lane_after_lane::<M, X, S, N>(members, watches, steps, &mut now, &mut margin);
         } else {
-            // counted in the number that is computed with: to make one of an integer takes as long as ten operations
+            // a float, because the conversion of an integer would take as long as ten operations
             let mut taken = 0.0;
             for _ in 0..steps {
                 taken += 1.0;
