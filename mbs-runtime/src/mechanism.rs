@@ -5,10 +5,12 @@ use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<C: Components> {
-    /// Time in s.
-    pub t: C::Real,
+    // The time stands between the others: a compiler that writes neighbours at once would make
+    // the last coordinate wait for the first velocity, where there is one of each.
     /// Coordinates q: lengths in m, angles in rad.
     pub q: C,
+    /// Time in s.
+    pub t: C::Real,
     /// Velocities v = q̇, per second.
     pub v: C,
 }
