@@ -11,10 +11,16 @@ use proptest::prelude::*;
 
 /// Symbols with even numbers lie before their successors.
 fn woven(program: &Program) -> Woven {
+    woven_for_runs(program, &|_| None)
+}
+
+/// The same where a run reads symbols from the outputs of the run before.
+fn woven_for_runs(program: &Program, carried: &dyn Fn(Symbol) -> Option<usize>) -> Woven {
     let layout = Layout {
         are_neighbours: &|a, b| a.index() % 2 == 0 && b.index() == a.index() + 1,
         are_written_together: &|a, b| a % 2 == 0 && b == a + 1,
         is_constant: &|_| false,
+        carried,
     };
     weave(program, &layout)
 }
@@ -134,4 +140,23 @@ fn what_waits_for_each_other_is_no_pair() {
     let woven = woven(&program);
     assert_eq!(woven.census()[0], program.instructions.len());
     assert_eq!(woven.census()[1], 0);
+}
+
+/// Where x and y of a run come from the run before, x ← p/(p y + q) and y ← p/(p (x + q) + q) by
+/// turns, both would wait for x + q in one vector.
+#[test]
+fn what_makes_the_way_from_run_to_run_longer_is_no_pair() {
+    let (mut arena, [x, y, p, q]) = letters();
+    let later = arena.add(x, q);
+    let outputs = [y, later].map(|factor| {
+        let product = arena.mul(p, factor);
+        let sum = arena.add(product, q);
+        arena.div(p, sum).expect("no division by 0")
+    });
+    let program = lower_whole(&mut arena, &outputs, 1024).expect("a program");
+    let pairs = |woven: &Woven| woven.census()[1];
+    let alone = woven(&program);
+    assert_eq!(pairs(&alone), 3, "{alone:?}");
+    let by_turns = woven_for_runs(&program, &|symbol| Some(symbol.index()).filter(|&at| at < 2));
+    assert_eq!(pairs(&by_turns), 0, "{by_turns:?}");
 }

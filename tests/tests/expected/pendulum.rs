@@ -712,65 +712,65 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p16 = p7 * p15;
         let v17 = v6 - p16.second();
         let v18 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
-        let p19 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
-        let p20 = p0 * p0;
-        let v21 = p20.second() + p20.first();
-        let p22 = p3 * p2;
-        let p23 = p0 + p22;
-        let p24 = p23 * p23;
-        let v25 = p24.second() + p24.first();
-        let p26 = T::Pair::join(v21, v25);
-        let p27 = p7 * p26;
-        let p28 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
-        let p29 = p27 - p28;
-        let p30 = p19 * p29;
-        let feedback_rod = v18 + p30.first();
-        let v32 = v17 + feedback_rod;
-        let p33 = p5 * p5;
-        let v34 = p33.second() + p33.first();
-        let v35 = v32 / v34;
-        let p36 = T::Pair::splat(v35);
-        let p37 = p5 * p36;
-        let acc_y = p37.second() - Single::<T>::new(T::from_f64(9.81));
-        let p39 = T::Pair::join(p37.first(), acc_y);
-        let p40 = p3 * p39;
-        let p41 = p2 + p40;
-        let p42 = p2 + p41;
-        let p43 = p1 * p42;
-        let p44 = p0 + p43;
-        let p45 = p23 * p4;
-        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
-        let p47 = T::Pair::join(p23.first(), p41.second());
-        let p48 = p9 * p41;
-        let p49 = p47 * p48;
-        let p50 = T::Pair::join(p23.second(), p41.first());
-        let p51 = p48.swap();
-        let p52 = p50 * p51;
-        let p53 = p49 + p52;
-        let p54 = p7 * p53;
-        let v55 = v46 - p54.second();
-        let v56 = Single::<T>::new(gains.minus_two_alpha) * p54.first();
-        let v57 = v56 + p30.second();
-        let v58 = v55 + v57;
-        let p59 = p45 * p45;
+        let p19 = p0 * p0;
+        let v20 = p19.second() + p19.first();
+        let v21 = Single::<T>::new(self.hoisted[1]) * v20;
+        let phi_rod = v21 - Single::<T>::new(self.hoisted[0]);
+        let v23 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let feedback_rod = v18 + v23;
+        let v25 = v17 + feedback_rod;
+        let p26 = p5 * p5;
+        let v27 = p26.second() + p26.first();
+        let v28 = v25 / v27;
+        let p29 = T::Pair::splat(v28);
+        let p30 = p5 * p29;
+        let acc_y = p30.second() - Single::<T>::new(T::from_f64(9.81));
+        let p32 = T::Pair::join(p30.first(), acc_y);
+        let p33 = p3 * p32;
+        let p34 = p2 + p33;
+        let p35 = p2 + p34;
+        let p36 = p1 * p35;
+        let p37 = p0 + p36;
+        let p38 = p3 * p2;
+        let p39 = p0 + p38;
+        let p40 = p39 * p4;
+        let v41 = Single::<T>::new(T::from_f64(9.81)) * p40.second();
+        let p42 = T::Pair::join(p39.first(), p34.second());
+        let p43 = p9 * p34;
+        let p44 = p42 * p43;
+        let p45 = T::Pair::join(p39.second(), p34.first());
+        let p46 = p43.swap();
+        let p47 = p45 * p46;
+        let p48 = p44 + p47;
+        let p49 = p7 * p48;
+        let v50 = v41 - p49.second();
+        let v51 = Single::<T>::new(gains.minus_two_alpha) * p49.first();
+        let p52 = p39 * p39;
+        let v53 = p52.second() + p52.first();
+        let v54 = Single::<T>::new(self.hoisted[1]) * v53;
+        let v55 = v54 - Single::<T>::new(self.hoisted[0]);
+        let v56 = Single::<T>::new(gains.minus_beta_squared) * v55;
+        let v57 = v51 + v56;
+        let v58 = v50 + v57;
+        let p59 = p40 * p40;
         let v60 = p59.second() + p59.first();
         let v61 = v58 / v60;
         let p62 = T::Pair::splat(v61);
-        let p63 = p45 * p62;
-        let v64 = p37.first() + p63.first();
+        let p63 = p40 * p62;
+        let v64 = p30.first() + p63.first();
         let v65 = p63.second() - Single::<T>::new(T::from_f64(9.81));
         let v66 = acc_y + v65;
         let p67 = T::Pair::join(v64, v66);
         let p68 = p1 * p67;
         let p69 = p2 + p68;
-        let p70 = p44 + p69;
+        let p70 = p37 + p69;
         let v71 = p70.first() + p70.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p44.first().get(),
-                    y: p44.second().get(),
+                    x: p37.first().get(),
+                    y: p37.second().get(),
                 },
                 v: PendulumCoordinates {
                     x: p69.first().get(),
@@ -936,65 +936,65 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         let p17 = p8 * p16;
         let v18 = v7 - p17.second();
         let v19 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
-        let p20 = T::Pair::splat(Single::<T>::new(gains.minus_beta_squared));
-        let p21 = p0 * p0;
-        let v22 = p21.second() + p21.first();
-        let p23 = p3 * p2;
-        let p24 = p0 + p23;
-        let p25 = p24 * p24;
-        let v26 = p25.second() + p25.first();
-        let p27 = T::Pair::join(v22, v26);
-        let p28 = p8 * p27;
-        let p29 = T::Pair::splat(Single::<T>::new(self.hoisted[0]));
-        let p30 = p28 - p29;
-        let p31 = p20 * p30;
-        let feedback_rod = v19 + p31.first();
-        let v33 = v18 + feedback_rod;
-        let p34 = T::Pair::join(v33, v18);
-        let p35 = p5 * p5;
-        let v36 = p35.second() + p35.first();
-        let p37 = T::Pair::splat(v36);
-        let p38 = p34 / p37;
-        let p39 = p6 * p38;
-        let p40 = T::Pair::splat(p5.second());
-        let p41 = p40 * p38;
-        let p42 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p43 = p41 - p42;
-        let p44 = T::Pair::join(p39.first(), p43.first());
-        let p45 = p3 * p44;
-        let p46 = p2 + p45;
-        let p47 = p2 + p46;
-        let p48 = p1 * p47;
-        let p49 = p0 + p48;
-        let p50 = p24 * p4;
-        let v51 = Single::<T>::new(T::from_f64(9.81)) * p50.second();
-        let p52 = T::Pair::join(p24.first(), p46.second());
-        let p53 = p10 * p46;
-        let p54 = p52 * p53;
-        let p55 = T::Pair::join(p24.second(), p46.first());
-        let p56 = p53.swap();
-        let p57 = p55 * p56;
-        let p58 = p54 + p57;
-        let p59 = p8 * p58;
-        let v60 = v51 - p59.second();
-        let v61 = Single::<T>::new(gains.minus_two_alpha) * p59.first();
-        let v62 = v61 + p31.second();
-        let v63 = v60 + v62;
-        let p64 = p50 * p50;
+        let p20 = p0 * p0;
+        let v21 = p20.second() + p20.first();
+        let v22 = Single::<T>::new(self.hoisted[1]) * v21;
+        let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
+        let v24 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let feedback_rod = v19 + v24;
+        let v26 = v18 + feedback_rod;
+        let p27 = T::Pair::join(v26, v18);
+        let p28 = p5 * p5;
+        let v29 = p28.second() + p28.first();
+        let p30 = T::Pair::splat(v29);
+        let p31 = p27 / p30;
+        let p32 = p6 * p31;
+        let p33 = T::Pair::splat(p5.second());
+        let p34 = p33 * p31;
+        let p35 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p36 = p34 - p35;
+        let p37 = T::Pair::join(p32.first(), p36.first());
+        let p38 = p3 * p37;
+        let p39 = p2 + p38;
+        let p40 = p2 + p39;
+        let p41 = p1 * p40;
+        let p42 = p0 + p41;
+        let p43 = p3 * p2;
+        let p44 = p0 + p43;
+        let p45 = p44 * p4;
+        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
+        let p47 = T::Pair::join(p44.first(), p39.second());
+        let p48 = p10 * p39;
+        let p49 = p47 * p48;
+        let p50 = T::Pair::join(p44.second(), p39.first());
+        let p51 = p48.swap();
+        let p52 = p50 * p51;
+        let p53 = p49 + p52;
+        let p54 = p8 * p53;
+        let v55 = v46 - p54.second();
+        let v56 = Single::<T>::new(gains.minus_two_alpha) * p54.first();
+        let p57 = p44 * p44;
+        let v58 = p57.second() + p57.first();
+        let v59 = Single::<T>::new(self.hoisted[1]) * v58;
+        let v60 = v59 - Single::<T>::new(self.hoisted[0]);
+        let v61 = Single::<T>::new(gains.minus_beta_squared) * v60;
+        let v62 = v56 + v61;
+        let v63 = v55 + v62;
+        let p64 = p45 * p45;
         let v65 = p64.second() + p64.first();
         let v66 = v63 / v65;
         let p67 = T::Pair::splat(v66);
-        let p68 = p50 * p67;
-        let v69 = p39.first() + p68.first();
+        let p68 = p45 * p67;
+        let v69 = p32.first() + p68.first();
         let acc_y = p68.second() - Single::<T>::new(T::from_f64(9.81));
-        let v71 = p43.first() + acc_y;
+        let v71 = p36.first() + acc_y;
         let p72 = T::Pair::join(v69, v71);
         let p73 = p1 * p72;
         let p74 = p2 + p73;
-        let v75 = Single::<T>::new(self.parameters.mass) * p38.second();
+        let v75 = Single::<T>::new(self.parameters.mass) * p31.second();
         let lambda_rod = -v75;
-        let p77 = p39 + p43;
-        let p78 = p49 + p74;
+        let p77 = p32 + p36;
+        let p78 = p42 + p74;
         let p79 = p77 + p78;
         let v80 = lambda_rod + p79.first();
         let v81 = v80 + p79.second();
@@ -1003,8 +1003,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p49.first().get(),
-                        y: p49.second().get(),
+                        x: p42.first().get(),
+                        y: p42.second().get(),
                     },
                     v: PendulumCoordinates {
                         x: p74.first().get(),
@@ -1016,8 +1016,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p39.second().get(),
-                    y: p43.second().get(),
+                    x: p32.second().get(),
+                    y: p36.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),

@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};
 
 use super::ancestors::Ancestors;
+use super::interval::interval;
+use super::nodes::Nodes;
 use super::trial::Trial;
 use super::{Angles, Kind, Lane, Layout, Partner, is_sine_or_cosine, kind, matchings};
 use crate::program::{Instruction, Operand, Program};
@@ -54,6 +56,8 @@ struct Chooser<'a> {
     /// For sines and cosines of a pair of angles the first of them; for every other
     /// instruction itself.
     turns: Vec<usize>,
+    /// Cycles from run to run with the pairs so far; no pair makes it longer.
+    interval: f32,
 }
 
 impl<'a> Chooser<'a> {
@@ -75,7 +79,7 @@ impl<'a> Chooser<'a> {
                 outputs[*at] = Some(position);
             }
         }
-        Self {
+        let mut chooser = Self {
             program,
             layout,
             kinds: program.instructions.iter().map(kind).collect(),
@@ -85,7 +89,11 @@ impl<'a> Chooser<'a> {
             ancestors: Ancestors::new(program),
             partners: vec![None; length],
             turns: turns(program, angles),
-        }
+            interval: f32::INFINITY,
+        };
+        // Without pairs nothing waits for each other, and else nothing is known of the interval.
+        chooser.interval = chooser.interval_with(&[]).unwrap_or(f32::INFINITY);
+        chooser
     }
 
     /// Takes seeds until none gains; whether there was any.
@@ -113,8 +121,11 @@ impl<'a> Chooser<'a> {
             }
             if seeds.peek().is_some_and(|next| next.gain > judged.gain) {
                 seeds.push(judged);
-            } else if self.is_acyclic_with(trial.pairs()) {
+            } else if let Some(interval) = self.interval_with(trial.pairs())
+                && interval <= self.interval
+            {
                 self.take(trial.pairs());
+                self.interval = interval;
                 is_changed = true;
             }
         }
@@ -315,10 +326,8 @@ impl<'a> Chooser<'a> {
         }
     }
 
-    /// Whether pairs can be computed one after the other: each alone joins
-    /// independent instructions, but two together may wait for each other.
-    fn is_acyclic_with(&self, pairs: &[(usize, usize)]) -> bool {
-        let length = self.partners.len();
+    /// The cycles from run to run with these pairs too; nothing if some pairs wait for each other.
+    fn interval_with(&self, pairs: &[(usize, usize)]) -> Option<f32> {
         // Instructions that are computed at once are known by one of them.
         let mut node = self.turns.clone();
         for (at, partner) in self.partners.iter().enumerate() {
@@ -330,29 +339,8 @@ impl<'a> Chooser<'a> {
             node[first] = first.min(second);
             node[second] = first.min(second);
         }
-        let mut waits = vec![0_usize; length];
-        let mut users: Vec<Vec<usize>> = vec![Vec::new(); length];
-        for (at, instruction) in self.program.instructions.iter().enumerate() {
-            for operand in [instruction.a, instruction.b] {
-                if let Operand::Value(value) = operand {
-                    waits[node[at]] += 1;
-                    users[node[value]].push(node[at]);
-                }
-            }
-        }
-        let is_node = |at: &usize| node[*at] == *at;
-        let mut ready: Vec<usize> = (0..length).filter(|at| is_node(at) && waits[*at] == 0).collect();
-        let mut done = 0;
-        while let Some(at) = ready.pop() {
-            done += 1;
-            for &user in &users[at] {
-                waits[user] -= 1;
-                if waits[user] == 0 {
-                    ready.push(user);
-                }
-            }
-        }
-        done == (0..length).filter(is_node).count()
+        let nodes = Nodes::new(self.program, &node)?;
+        Some(interval(self.program, &nodes, self.layout))
     }
 }
 

@@ -13,6 +13,8 @@
 
 mod ancestors;
 mod choose;
+mod interval;
+mod nodes;
 mod trial;
 mod weave;
 
@@ -96,6 +98,8 @@ pub struct Layout<'a> {
     /// Whether a symbol is the same in run after run of the program, so that a loop
     /// moves it into both lanes once.
     pub is_constant: &'a dyn Fn(Symbol) -> bool,
+    /// The output from which the next run of the program reads a symbol.
+    pub carried: &'a dyn Fn(Symbol) -> Option<usize>,
 }
 
 /// Weaves a program.

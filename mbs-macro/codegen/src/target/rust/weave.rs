@@ -43,10 +43,21 @@ pub fn woven(compiled: &Compiled, program: &Program, with_reactions: bool) -> Re
                 | Input::StateVelocity(_)
         )
     };
+    // the step after this one begins where this one ends
+    let carried = |symbol: Symbol| match compiled.input(symbol) {
+        Input::StatePosition(state) => Some(state),
+        Input::StateVelocity(state) => Some(s + state),
+        Input::Position(of) => compiled.states.iter().position(|&coordinate| coordinate == of),
+        Input::Velocity(of) => {
+            compiled.states.iter().position(|&coordinate| coordinate == of).map(|state| s + state)
+        }
+        _ => None,
+    };
     let layout = Layout {
         are_neighbours: &are_neighbours,
         are_written_together: &are_written_together,
         is_constant: &is_constant,
+        carried: &carried,
     };
     let mut woven = weave(program, &layout);
     let finite = if with_reactions { 2 * s + n + compiled.constraints.len() } else { 2 * s };
