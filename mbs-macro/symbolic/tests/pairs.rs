@@ -160,3 +160,28 @@ fn what_makes_the_way_from_run_to_run_longer_is_no_pair() {
     let by_turns = woven_for_runs(&program, &|symbol| Some(symbol.index()).filter(|&at| at < 2));
     assert_eq!(pairs(&by_turns), 0, "{by_turns:?}");
 }
+
+#[test]
+fn the_longest_way_to_an_end_begins_first() {
+    // sums and products, which are asked for first, beside a sine of a sine, which takes longer
+    let (mut arena, [x, y, angle]) = letters();
+    let mut sum = x;
+    for _ in 0..4 {
+        let product = arena.mul(sum, y);
+        sum = arena.add(product, x);
+        sum = arena.share(sum);
+    }
+    let sine = arena.call(Function::Sin, angle);
+    let of_sine = arena.call(Function::Sin, sine);
+    let program = lower_whole(&mut arena, &[sum, of_sine], 1024).expect("a program");
+    let steps = woven(&program).steps;
+    let [first_sum, last_sum] = [
+        steps.iter().position(|step| matches!(step, Step::Scalar(Operation::Add, ..))),
+        steps.iter().rposition(|step| matches!(step, Step::Scalar(Operation::Add, ..))),
+    ];
+    let [first_sine, last_sine] = [
+        steps.iter().position(|step| matches!(step, Step::Sines(_))),
+        steps.iter().rposition(|step| matches!(step, Step::Sines(_))),
+    ];
+    assert!(first_sine < first_sum && last_sum < last_sine, "{steps:?}");
+}

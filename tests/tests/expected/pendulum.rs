@@ -601,73 +601,73 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Single;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p1 = T::Pair::splat(Single::<T>::new(half_h));
-        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p5 = p0 * p4;
-        let v6 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p8 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p9 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p10 = p9 * p2;
-        let p11 = p8 * p10;
-        let p12 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p13 = p10.swap();
-        let p14 = p12 * p13;
-        let p15 = p11 + p14;
-        let p16 = p7 * p15;
-        let v17 = v6 - p16.second();
-        let v18 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
-        let p19 = p0 * p0;
-        let v20 = p19.second() + p19.first();
-        let v21 = Single::<T>::new(self.hoisted[1]) * v20;
-        let phi_rod = v21 - Single::<T>::new(self.hoisted[0]);
-        let v23 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let feedback_rod = v18 + v23;
-        let v25 = v17 + feedback_rod;
-        let p26 = p5 * p5;
-        let v27 = p26.second() + p26.first();
-        let v28 = v25 / v27;
-        let p29 = T::Pair::splat(v28);
-        let p30 = p5 * p29;
-        let acc_y = p30.second() - Single::<T>::new(T::from_f64(9.81));
-        let p32 = T::Pair::join(p30.first(), acc_y);
-        let p33 = p3 * p32;
-        let p34 = p2 + p33;
-        let p35 = p2 + p34;
-        let p36 = p1 * p35;
-        let p37 = p0 + p36;
-        let p38 = p3 * p2;
-        let p39 = p0 + p38;
-        let p40 = p39 * p4;
-        let v41 = Single::<T>::new(T::from_f64(9.81)) * p40.second();
-        let v42 = feedback_rod + v41;
-        let p43 = p9 * p34;
-        let p44 = p34 * p43;
-        let v45 = p44.second() + p44.first();
-        let v46 = Single::<T>::new(self.hoisted[1]) * v45;
-        let v47 = v42 - v46;
-        let p48 = p40 * p40;
-        let v49 = p48.second() + p48.first();
-        let v50 = v47 / v49;
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = p2 * p7;
+        let p10 = T::Pair::splat(Single::<T>::new(h));
+        let p11 = p3.swap();
+        let p12 = p5 * p3;
+        let p13 = p6 * p11;
+        let v14 = p4.second() + p4.first();
+        let p15 = p10 * p0;
+        let p16 = T::Pair::splat(Single::<T>::new(half_h));
+        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let p18 = p9 * p9;
+        let p19 = p12 + p13;
+        let v20 = Single::<T>::new(self.hoisted[1]) * v14;
+        let p21 = p2 + p15;
+        let v22 = p18.second() + p18.first();
+        let p23 = p8 * p19;
+        let phi_rod = v20 - Single::<T>::new(self.hoisted[0]);
+        let p25 = p21 * p7;
+        let v26 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
+        let v27 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v28 = v17 - p23.second();
+        let v29 = Single::<T>::new(T::from_f64(9.81)) * p25.second();
+        let p30 = p25 * p25;
+        let feedback_rod = v26 + v27;
+        let v32 = p30.second() + p30.first();
+        let v33 = v28 + feedback_rod;
+        let v34 = feedback_rod + v29;
+        let v35 = v33 / v22;
+        let p36 = T::Pair::splat(v35);
+        let p37 = p9 * p36;
+        let acc_y = p37.second() - Single::<T>::new(T::from_f64(9.81));
+        let p39 = T::Pair::join(p37.first(), acc_y);
+        let p40 = p10 * p39;
+        let p41 = p0 + p40;
+        let p42 = p1 * p41;
+        let p43 = p0 + p41;
+        let p44 = p41 * p42;
+        let p45 = p16 * p43;
+        let v46 = p44.second() + p44.first();
+        let p47 = p2 + p45;
+        let v48 = Single::<T>::new(self.hoisted[1]) * v46;
+        let v49 = v34 - v48;
+        let v50 = v49 / v32;
         let p51 = T::Pair::splat(v50);
-        let p52 = p40 * p51;
-        let v53 = p30.first() + p52.first();
-        let v54 = p52.second() - Single::<T>::new(T::from_f64(9.81));
-        let v55 = acc_y + v54;
-        let p56 = T::Pair::join(v53, v55);
-        let p57 = p1 * p56;
-        let p58 = p2 + p57;
-        let p59 = p37 + p58;
+        let p52 = p25 * p51;
+        let v53 = p52.second() - Single::<T>::new(T::from_f64(9.81));
+        let v54 = p37.first() + p52.first();
+        let v55 = acc_y + v53;
+        let p56 = T::Pair::join(v54, v55);
+        let p57 = p16 * p56;
+        let p58 = p0 + p57;
+        let p59 = p47 + p58;
         let v60 = p59.first() + p59.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p37.first().get(),
-                    y: p37.second().get(),
+                    x: p47.first().get(),
+                    y: p47.second().get(),
                 },
                 v: PendulumCoordinates {
                     x: p58.first().get(),
@@ -693,84 +693,84 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Single;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p1 = T::Pair::splat(Single::<T>::new(half_h));
-        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p5 = p0 * p4;
-        let v6 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p8 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p9 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p10 = p9 * p2;
-        let p11 = p8 * p10;
-        let p12 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p13 = p10.swap();
-        let p14 = p12 * p13;
-        let p15 = p11 + p14;
-        let p16 = p7 * p15;
-        let v17 = v6 - p16.second();
-        let v18 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
-        let p19 = p0 * p0;
-        let v20 = p19.second() + p19.first();
-        let v21 = Single::<T>::new(self.hoisted[1]) * v20;
-        let phi_rod = v21 - Single::<T>::new(self.hoisted[0]);
-        let v23 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let feedback_rod = v18 + v23;
-        let v25 = v17 + feedback_rod;
-        let p26 = p5 * p5;
-        let v27 = p26.second() + p26.first();
-        let v28 = v25 / v27;
-        let p29 = T::Pair::splat(v28);
-        let p30 = p5 * p29;
-        let acc_y = p30.second() - Single::<T>::new(T::from_f64(9.81));
-        let p32 = T::Pair::join(p30.first(), acc_y);
-        let p33 = p3 * p32;
-        let p34 = p2 + p33;
-        let p35 = p2 + p34;
-        let p36 = p1 * p35;
-        let p37 = p0 + p36;
-        let p38 = p3 * p2;
-        let p39 = p0 + p38;
-        let p40 = p39 * p4;
-        let v41 = Single::<T>::new(T::from_f64(9.81)) * p40.second();
-        let p42 = T::Pair::join(p39.first(), p34.second());
-        let p43 = p9 * p34;
-        let p44 = p42 * p43;
-        let p45 = T::Pair::join(p39.second(), p34.first());
-        let p46 = p43.swap();
-        let p47 = p45 * p46;
-        let p48 = p44 + p47;
-        let p49 = p7 * p48;
-        let v50 = v41 - p49.second();
-        let v51 = Single::<T>::new(gains.minus_two_alpha) * p49.first();
-        let p52 = p39 * p39;
-        let v53 = p52.second() + p52.first();
-        let v54 = Single::<T>::new(self.hoisted[1]) * v53;
-        let v55 = v54 - Single::<T>::new(self.hoisted[0]);
-        let v56 = Single::<T>::new(gains.minus_beta_squared) * v55;
-        let v57 = v51 + v56;
-        let v58 = v50 + v57;
-        let p59 = p40 * p40;
-        let v60 = p59.second() + p59.first();
-        let v61 = v58 / v60;
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p9 = p2 * p7;
+        let p10 = T::Pair::splat(Single::<T>::new(h));
+        let p11 = p3.swap();
+        let p12 = p5 * p3;
+        let p13 = p6 * p11;
+        let v14 = p4.second() + p4.first();
+        let p15 = p10 * p0;
+        let p16 = T::Pair::splat(Single::<T>::new(half_h));
+        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let p18 = p9 * p9;
+        let p19 = p12 + p13;
+        let v20 = Single::<T>::new(self.hoisted[1]) * v14;
+        let p21 = p2 + p15;
+        let v22 = p18.second() + p18.first();
+        let p23 = p8 * p19;
+        let phi_rod = v20 - Single::<T>::new(self.hoisted[0]);
+        let p25 = p21 * p21;
+        let p26 = p21 * p7;
+        let v27 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
+        let v28 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v29 = v17 - p23.second();
+        let v30 = p25.second() + p25.first();
+        let v31 = Single::<T>::new(T::from_f64(9.81)) * p26.second();
+        let p32 = p26 * p26;
+        let feedback_rod = v27 + v28;
+        let v34 = Single::<T>::new(self.hoisted[1]) * v30;
+        let v35 = p32.second() + p32.first();
+        let v36 = v29 + feedback_rod;
+        let v37 = v34 - Single::<T>::new(self.hoisted[0]);
+        let v38 = v36 / v22;
+        let v39 = Single::<T>::new(gains.minus_beta_squared) * v37;
+        let p40 = T::Pair::splat(v38);
+        let p41 = p9 * p40;
+        let acc_y = p41.second() - Single::<T>::new(T::from_f64(9.81));
+        let p43 = T::Pair::join(p41.first(), acc_y);
+        let p44 = p10 * p43;
+        let p45 = p0 + p44;
+        let p46 = p1 * p45;
+        let p47 = T::Pair::join(p21.first(), p45.second());
+        let p48 = T::Pair::join(p21.second(), p45.first());
+        let p49 = p0 + p45;
+        let p50 = p46.swap();
+        let p51 = p47 * p46;
+        let p52 = p48 * p50;
+        let p53 = p16 * p49;
+        let p54 = p51 + p52;
+        let p55 = p2 + p53;
+        let p56 = p8 * p54;
+        let v57 = Single::<T>::new(gains.minus_two_alpha) * p56.first();
+        let v58 = v31 - p56.second();
+        let v59 = v57 + v39;
+        let v60 = v58 + v59;
+        let v61 = v60 / v35;
         let p62 = T::Pair::splat(v61);
-        let p63 = p40 * p62;
-        let v64 = p30.first() + p63.first();
-        let v65 = p63.second() - Single::<T>::new(T::from_f64(9.81));
-        let v66 = acc_y + v65;
-        let p67 = T::Pair::join(v64, v66);
-        let p68 = p1 * p67;
-        let p69 = p2 + p68;
-        let p70 = p37 + p69;
+        let p63 = p26 * p62;
+        let v64 = p63.second() - Single::<T>::new(T::from_f64(9.81));
+        let v65 = p41.first() + p63.first();
+        let v66 = acc_y + v64;
+        let p67 = T::Pair::join(v65, v66);
+        let p68 = p16 * p67;
+        let p69 = p0 + p68;
+        let p70 = p55 + p69;
         let v71 = p70.first() + p70.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p37.first().get(),
-                    y: p37.second().get(),
+                    x: p55.first().get(),
+                    y: p55.second().get(),
                 },
                 v: PendulumCoordinates {
                     x: p69.first().get(),
@@ -799,74 +799,74 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Single;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p1 = T::Pair::splat(Single::<T>::new(half_h));
-        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p5 = p0 * p4;
-        let p6 = T::Pair::splat(p5.first());
-        let v7 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
         let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p11 = p10 * p2;
-        let p12 = p9 * p11;
-        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p14 = p11.swap();
-        let p15 = p13 * p14;
-        let p16 = p12 + p15;
-        let p17 = p8 * p16;
-        let v18 = v7 - p17.second();
-        let v19 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
-        let p20 = p0 * p0;
-        let v21 = p20.second() + p20.first();
-        let v22 = Single::<T>::new(self.hoisted[1]) * v21;
+        let p9 = p2 * p7;
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p11 = p3.swap();
+        let p12 = p5 * p3;
+        let p13 = p6 * p11;
+        let v14 = p4.second() + p4.first();
+        let p15 = T::Pair::splat(Single::<T>::new(h));
+        let p16 = T::Pair::splat(Single::<T>::new(half_h));
+        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let p18 = p9 * p9;
+        let p19 = T::Pair::splat(p9.second());
+        let p20 = T::Pair::splat(p9.first());
+        let p21 = p12 + p13;
+        let v22 = Single::<T>::new(self.hoisted[1]) * v14;
+        let p23 = p15 * p0;
+        let v24 = p18.second() + p18.first();
+        let p25 = p8 * p21;
         let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
-        let v24 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let feedback_rod = v19 + v24;
-        let v26 = v18 + feedback_rod;
-        let p27 = T::Pair::join(v26, v18);
-        let p28 = p5 * p5;
-        let v29 = p28.second() + p28.first();
-        let p30 = T::Pair::splat(v29);
-        let p31 = p27 / p30;
-        let p32 = p6 * p31;
-        let p33 = T::Pair::splat(p5.second());
-        let p34 = p33 * p31;
-        let p35 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p36 = p34 - p35;
-        let p37 = T::Pair::join(p32.first(), p36.first());
-        let p38 = p3 * p37;
-        let p39 = p2 + p38;
-        let p40 = p2 + p39;
-        let p41 = p1 * p40;
-        let p42 = p0 + p41;
-        let p43 = p3 * p2;
-        let p44 = p0 + p43;
-        let p45 = p44 * p4;
-        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
-        let v47 = feedback_rod + v46;
-        let p48 = p10 * p39;
-        let p49 = p39 * p48;
-        let v50 = p49.second() + p49.first();
-        let v51 = Single::<T>::new(self.hoisted[1]) * v50;
-        let v52 = v47 - v51;
-        let p53 = p45 * p45;
-        let v54 = p53.second() + p53.first();
-        let v55 = v52 / v54;
-        let p56 = T::Pair::splat(v55);
-        let p57 = p45 * p56;
-        let v58 = p32.first() + p57.first();
-        let acc_y = p57.second() - Single::<T>::new(T::from_f64(9.81));
-        let v60 = p36.first() + acc_y;
-        let p61 = T::Pair::join(v58, v60);
-        let p62 = p1 * p61;
-        let p63 = p2 + p62;
-        let v64 = Single::<T>::new(self.parameters.mass) * p31.second();
-        let lambda_rod = -v64;
-        let p66 = p32 + p36;
-        let p67 = p42 + p63;
+        let p27 = p2 + p23;
+        let p28 = T::Pair::splat(v24);
+        let v29 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
+        let v30 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v31 = v17 - p25.second();
+        let p32 = p27 * p7;
+        let feedback_rod = v29 + v30;
+        let v34 = Single::<T>::new(T::from_f64(9.81)) * p32.second();
+        let p35 = p32 * p32;
+        let v36 = v31 + feedback_rod;
+        let v37 = feedback_rod + v34;
+        let v38 = p35.second() + p35.first();
+        let p39 = T::Pair::join(v36, v31);
+        let p40 = p39 / p28;
+        let p41 = p19 * p40;
+        let p42 = p20 * p40;
+        let v43 = Single::<T>::new(self.parameters.mass) * p40.second();
+        let p44 = p41 - p10;
+        let lambda_rod = -v43;
+        let p46 = T::Pair::join(p42.first(), p44.first());
+        let p47 = p15 * p46;
+        let p48 = p0 + p47;
+        let p49 = p1 * p48;
+        let p50 = p0 + p48;
+        let p51 = p48 * p49;
+        let p52 = p16 * p50;
+        let v53 = p51.second() + p51.first();
+        let p54 = p2 + p52;
+        let v55 = Single::<T>::new(self.hoisted[1]) * v53;
+        let v56 = v37 - v55;
+        let v57 = v56 / v38;
+        let p58 = T::Pair::splat(v57);
+        let p59 = p32 * p58;
+        let acc_y = p59.second() - Single::<T>::new(T::from_f64(9.81));
+        let v61 = p42.first() + p59.first();
+        let v62 = p44.first() + acc_y;
+        let p63 = T::Pair::join(v61, v62);
+        let p64 = p16 * p63;
+        let p65 = p0 + p64;
+        let p66 = p42 + p44;
+        let p67 = p54 + p65;
         let p68 = p66 + p67;
         let v69 = lambda_rod + p68.first();
         let v70 = v69 + p68.second();
@@ -875,12 +875,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p42.first().get(),
-                        y: p42.second().get(),
+                        x: p54.first().get(),
+                        y: p54.second().get(),
                     },
                     v: PendulumCoordinates {
-                        x: p63.first().get(),
-                        y: p63.second().get(),
+                        x: p65.first().get(),
+                        y: p65.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -888,8 +888,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p32.second().get(),
-                    y: p36.second().get(),
+                    x: p42.second().get(),
+                    y: p44.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),
@@ -916,85 +916,85 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Single;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p1 = T::Pair::splat(Single::<T>::new(half_h));
-        let p2 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p5 = p0 * p4;
-        let p6 = T::Pair::splat(p5.first());
-        let v7 = Single::<T>::new(T::from_f64(9.81)) * p5.second();
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
         let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p11 = p10 * p2;
-        let p12 = p9 * p11;
-        let p13 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p14 = p11.swap();
-        let p15 = p13 * p14;
-        let p16 = p12 + p15;
-        let p17 = p8 * p16;
-        let v18 = v7 - p17.second();
-        let v19 = Single::<T>::new(gains.minus_two_alpha) * p17.first();
-        let p20 = p0 * p0;
-        let v21 = p20.second() + p20.first();
-        let v22 = Single::<T>::new(self.hoisted[1]) * v21;
+        let p9 = p2 * p7;
+        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p11 = p3.swap();
+        let p12 = p5 * p3;
+        let p13 = p6 * p11;
+        let v14 = p4.second() + p4.first();
+        let p15 = T::Pair::splat(Single::<T>::new(h));
+        let p16 = T::Pair::splat(Single::<T>::new(half_h));
+        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let p18 = p9 * p9;
+        let p19 = T::Pair::splat(p9.second());
+        let p20 = T::Pair::splat(p9.first());
+        let p21 = p12 + p13;
+        let v22 = Single::<T>::new(self.hoisted[1]) * v14;
+        let p23 = p15 * p0;
+        let v24 = p18.second() + p18.first();
+        let p25 = p8 * p21;
         let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
-        let v24 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let feedback_rod = v19 + v24;
-        let v26 = v18 + feedback_rod;
-        let p27 = T::Pair::join(v26, v18);
-        let p28 = p5 * p5;
-        let v29 = p28.second() + p28.first();
-        let p30 = T::Pair::splat(v29);
-        let p31 = p27 / p30;
-        let p32 = p6 * p31;
-        let p33 = T::Pair::splat(p5.second());
-        let p34 = p33 * p31;
-        let p35 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p36 = p34 - p35;
-        let p37 = T::Pair::join(p32.first(), p36.first());
-        let p38 = p3 * p37;
-        let p39 = p2 + p38;
-        let p40 = p2 + p39;
-        let p41 = p1 * p40;
-        let p42 = p0 + p41;
-        let p43 = p3 * p2;
-        let p44 = p0 + p43;
-        let p45 = p44 * p4;
-        let v46 = Single::<T>::new(T::from_f64(9.81)) * p45.second();
-        let p47 = T::Pair::join(p44.first(), p39.second());
-        let p48 = p10 * p39;
-        let p49 = p47 * p48;
-        let p50 = T::Pair::join(p44.second(), p39.first());
-        let p51 = p48.swap();
-        let p52 = p50 * p51;
-        let p53 = p49 + p52;
-        let p54 = p8 * p53;
-        let v55 = v46 - p54.second();
-        let v56 = Single::<T>::new(gains.minus_two_alpha) * p54.first();
-        let p57 = p44 * p44;
-        let v58 = p57.second() + p57.first();
-        let v59 = Single::<T>::new(self.hoisted[1]) * v58;
-        let v60 = v59 - Single::<T>::new(self.hoisted[0]);
-        let v61 = Single::<T>::new(gains.minus_beta_squared) * v60;
-        let v62 = v56 + v61;
-        let v63 = v55 + v62;
-        let p64 = p45 * p45;
-        let v65 = p64.second() + p64.first();
-        let v66 = v63 / v65;
-        let p67 = T::Pair::splat(v66);
-        let p68 = p45 * p67;
-        let v69 = p32.first() + p68.first();
-        let acc_y = p68.second() - Single::<T>::new(T::from_f64(9.81));
-        let v71 = p36.first() + acc_y;
-        let p72 = T::Pair::join(v69, v71);
-        let p73 = p1 * p72;
-        let p74 = p2 + p73;
-        let v75 = Single::<T>::new(self.parameters.mass) * p31.second();
-        let lambda_rod = -v75;
-        let p77 = p32 + p36;
-        let p78 = p42 + p74;
+        let p27 = p2 + p23;
+        let p28 = T::Pair::splat(v24);
+        let v29 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
+        let v30 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v31 = v17 - p25.second();
+        let p32 = p27 * p27;
+        let p33 = p27 * p7;
+        let feedback_rod = v29 + v30;
+        let v35 = p32.second() + p32.first();
+        let v36 = Single::<T>::new(T::from_f64(9.81)) * p33.second();
+        let p37 = p33 * p33;
+        let v38 = v31 + feedback_rod;
+        let v39 = Single::<T>::new(self.hoisted[1]) * v35;
+        let v40 = p37.second() + p37.first();
+        let p41 = T::Pair::join(v38, v31);
+        let p42 = p41 / p28;
+        let v43 = v39 - Single::<T>::new(self.hoisted[0]);
+        let v44 = Single::<T>::new(gains.minus_beta_squared) * v43;
+        let p45 = p19 * p42;
+        let p46 = p20 * p42;
+        let v47 = Single::<T>::new(self.parameters.mass) * p42.second();
+        let p48 = p45 - p10;
+        let lambda_rod = -v47;
+        let p50 = T::Pair::join(p46.first(), p48.first());
+        let p51 = p15 * p50;
+        let p52 = p0 + p51;
+        let p53 = p1 * p52;
+        let p54 = T::Pair::join(p27.first(), p52.second());
+        let p55 = T::Pair::join(p27.second(), p52.first());
+        let p56 = p0 + p52;
+        let p57 = p53.swap();
+        let p58 = p54 * p53;
+        let p59 = p55 * p57;
+        let p60 = p16 * p56;
+        let p61 = p58 + p59;
+        let p62 = p2 + p60;
+        let p63 = p8 * p61;
+        let v64 = Single::<T>::new(gains.minus_two_alpha) * p63.first();
+        let v65 = v36 - p63.second();
+        let v66 = v64 + v44;
+        let v67 = v65 + v66;
+        let v68 = v67 / v40;
+        let p69 = T::Pair::splat(v68);
+        let p70 = p33 * p69;
+        let acc_y = p70.second() - Single::<T>::new(T::from_f64(9.81));
+        let v72 = p46.first() + p70.first();
+        let v73 = p48.first() + acc_y;
+        let p74 = T::Pair::join(v72, v73);
+        let p75 = p16 * p74;
+        let p76 = p0 + p75;
+        let p77 = p46 + p48;
+        let p78 = p62 + p76;
         let p79 = p77 + p78;
         let v80 = lambda_rod + p79.first();
         let v81 = v80 + p79.second();
@@ -1003,12 +1003,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p42.first().get(),
-                        y: p42.second().get(),
+                        x: p62.first().get(),
+                        y: p62.second().get(),
                     },
                     v: PendulumCoordinates {
-                        x: p74.first().get(),
-                        y: p74.second().get(),
+                        x: p76.first().get(),
+                        y: p76.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -1016,8 +1016,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p32.second().get(),
-                    y: p36.second().get(),
+                    x: p46.second().get(),
+                    y: p48.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),

@@ -5,7 +5,8 @@
 //! and the y of a place, two angles, two stages of a step.
 //!
 //! 1. `choose` decides which instructions share a vector;
-//! 2. `weave` writes them down, with what brings operands into their lanes.
+//! 2. `weave` writes them down, with what brings operands into their lanes;
+//! 3. `order` puts them where a processor finds several to do at a time.
 //!
 //! Results are those of the program, bit for bit but for the sign of a zero: lanes
 //! do the same operations on the same operands. Where one lane adds and the other
@@ -15,6 +16,7 @@ mod ancestors;
 mod choose;
 mod interval;
 mod nodes;
+mod order;
 mod trial;
 mod weave;
 
@@ -58,6 +60,25 @@ pub enum Scalar {
     Lane(usize, Lane),
 }
 
+impl Scalar {
+    /// The step that it is found in.
+    fn step(&self) -> Option<usize> {
+        match *self {
+            Self::Given(_) => None,
+            Self::Step(at) | Self::Lane(at, _) => Some(at),
+        }
+    }
+
+    /// The same where steps have other positions.
+    fn renamed(&self, position: impl Fn(usize) -> usize) -> Self {
+        match *self {
+            Self::Given(given) => Self::Given(given),
+            Self::Step(at) => Self::Step(position(at)),
+            Self::Lane(at, lane) => Self::Lane(position(at), lane),
+        }
+    }
+}
+
 /// What a step computes; pairs are named by the position of their steps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
@@ -78,6 +99,35 @@ pub enum Step {
     Sines(usize),
     /// The cosines of the same pair of angles.
     Cosines(usize),
+}
+
+impl Step {
+    /// The steps whose results it takes.
+    fn operands(&self) -> impl Iterator<Item = usize> {
+        let operands = match self {
+            Self::Scalar(_, a, b, _) | Self::Join(a, b) => [a.step(), b.step()],
+            Self::Splat(a) => [a.step(), None],
+            Self::Swap(of) | Self::Flip(of) | Self::Sines(of) | Self::Cosines(of) => [Some(*of), None],
+            Self::Pair(_, a, b) => [Some(*a), Some(*b)],
+        };
+        operands.into_iter().flatten()
+    }
+
+    /// The same where steps have other positions.
+    fn renamed(&self, position: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Scalar(operation, a, b, name) => {
+                Self::Scalar(*operation, a.renamed(&position), b.renamed(&position), name.clone())
+            }
+            Self::Join(a, b) => Self::Join(a.renamed(&position), b.renamed(&position)),
+            Self::Splat(a) => Self::Splat(a.renamed(&position)),
+            Self::Swap(of) => Self::Swap(position(*of)),
+            Self::Flip(of) => Self::Flip(position(*of)),
+            Self::Pair(operation, a, b) => Self::Pair(*operation, position(*a), position(*b)),
+            Self::Sines(angles) => Self::Sines(position(*angles)),
+            Self::Cosines(angles) => Self::Cosines(position(*angles)),
+        }
+    }
 }
 
 /// A program on pairs and scalars.
@@ -106,7 +156,7 @@ pub struct Layout<'a> {
 pub fn weave(program: &Program, layout: &Layout<'_>) -> Woven {
     let angles = pair_angles(program);
     let partners = choose::choose(program, &angles, layout);
-    weave::weave(program, &partners, &angles, layout)
+    order::in_order(&weave::weave(program, &partners, &angles, layout))
 }
 
 /// Two operands, as the lanes of a pair.
