@@ -57,7 +57,7 @@ struct Chooser<'a> {
     /// instruction itself.
     turns: Vec<usize>,
     /// Cycles from run to run with the pairs so far; no pair makes it longer.
-    interval: f32,
+    interval: Option<f32>,
 }
 
 impl<'a> Chooser<'a> {
@@ -89,10 +89,9 @@ impl<'a> Chooser<'a> {
             ancestors: Ancestors::new(program),
             partners: vec![None; length],
             turns: turns(program, angles),
-            interval: f32::INFINITY,
+            interval: None,
         };
-        // Without pairs nothing waits for each other, and else nothing is known of the interval.
-        chooser.interval = chooser.interval_with(&[]).unwrap_or(f32::INFINITY);
+        chooser.interval = chooser.interval_with(&[]);
         chooser
     }
 
@@ -122,10 +121,10 @@ impl<'a> Chooser<'a> {
             if seeds.peek().is_some_and(|next| next.gain > judged.gain) {
                 seeds.push(judged);
             } else if let Some(interval) = self.interval_with(trial.pairs())
-                && interval <= self.interval
+                && self.interval.is_none_or(|before| interval <= before)
             {
                 self.take(trial.pairs());
-                self.interval = interval;
+                self.interval = Some(interval);
                 is_changed = true;
             }
         }

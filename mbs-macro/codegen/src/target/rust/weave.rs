@@ -43,14 +43,13 @@ pub fn woven(compiled: &Compiled, program: &Program, with_reactions: bool) -> Re
                 | Input::StateVelocity(_)
         )
     };
-    // the step after this one begins where this one ends
+    // the next step begins where this one ends
+    let state_of = |coordinate: usize| compiled.states.iter().position(|&of| of == coordinate);
     let carried = |symbol: Symbol| match compiled.input(symbol) {
         Input::StatePosition(state) => Some(state),
         Input::StateVelocity(state) => Some(s + state),
-        Input::Position(of) => compiled.states.iter().position(|&coordinate| coordinate == of),
-        Input::Velocity(of) => {
-            compiled.states.iter().position(|&coordinate| coordinate == of).map(|state| s + state)
-        }
+        Input::Position(coordinate) => state_of(coordinate),
+        Input::Velocity(coordinate) => Some(s + state_of(coordinate)?),
         _ => None,
     };
     let layout = Layout {
