@@ -31,7 +31,7 @@ Operations per call:
 
 | function | mul | add | div | sincos | other | pivot watch |
 |---|---|---|---|---|---|---|
-| `new` | 26 | 5 | 1 | 0 | 2 | 0 |
+| `new` | 28 | 5 | 1 | 0 | 2 | 0 |
 | `phi` | 8 | 9 | 0 | 2 | 0 | 0 |
 | `phi_dot` | 12 | 9 | 0 | 2 | 0 | 0 |
 | `phi_q` | 8 | 3 | 0 | 2 | 0 | 0 |
@@ -42,12 +42,12 @@ Operations per call:
 | `forces` | 0 | 2 | 0 | 0 | 0 | 0 |
 | `kinetic_energy` | 14 | 6 | 0 | 0 | 0 | 0 |
 | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 0 |
-| `stabilized` | 84 | 63 | 2 | 2 | 0 | 3 |
-| `constrained` | 64 | 39 | 2 | 2 | 0 | 3 |
-| `reactions` | 76 | 49 | 2 | 2 | 0 | 3 |
+| `stabilized` | 80 | 60 | 1 | 2 | 0 | 3 |
+| `constrained` | 60 | 36 | 1 | 2 | 0 | 3 |
+| `reactions` | 71 | 44 | 1 | 2 | 0 | 3 |
 | `position_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
 | `velocity_correction` | 6 | 3 | 1 | 1 | 0 | 2 |
-| `projection` | 54 | 26 | 2 | 2 | 0 | 3 |
+| `projection` | 50 | 23 | 1 | 2 | 0 | 3 |
 | `outputs` | 1 | 0 | 0 | 0 | 0 | 0 |
 */
 #[derive(
@@ -78,7 +78,7 @@ pub struct SliderCrankFree<T = ::core::primitive::f64> {
 14: 1/2*l1*l2*m2 + l1*l2*m3
 15: l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2
 16: l1^2*m3
-17: abs(l1)^2 + abs(l2)^2
+17: (l1^2*m1*inertia_factor + 1/4*l1^2*m1 + l1^2*m2)*abs(l2)^2 + (l2^2*inertia_factor*m2 + 1/4*l2^2*m2)*abs(l1)^2
 18: 1/l2
 19: abs(l2)
 ```
@@ -486,7 +486,7 @@ Cost: 0 mul + 2 add + 0 div + 0 sincos.*/
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
 
-Cost: 76 mul + 49 add + 2 div + 2 sincos.*/
+Cost: 71 mul + 44 add + 1 div + 2 sincos.*/
     #[inline]
     pub fn accelerations(
         &self,

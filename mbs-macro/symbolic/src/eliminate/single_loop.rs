@@ -5,9 +5,13 @@
 //! ⎢B  C  b⎥ ⎢v⎥ = ⎢g⎥
 //! ⎣a  b  0⎦ ⎣λ⎦   ⎣h⎦
 //!
-//! With the null vector n = (−b, a) of the row, (u, v) = (a, b) h/s + n y, where
-//! s = a² + b² and D = nᵀMn: two divisions that do not wait for each other, and
-//! both safe: s vanishes only with the row, D is positive with the masses.
+//! By Cramer's rule, with the null vector n = (−b, a) of the row, (p, q) = Mn and
+//! D = nᵀMn, the negative of the determinant:
+//!
+//! u = (q h − b r)/D, v = (a r − p h)/D, λ = (q f − p g − (AC − B²) h)/D, r = a g − b f.
+//!
+//! One division, and no sum waits for it. D is positive with the masses, and vanishes only
+//! with the row.
 
 use std::collections::BTreeMap;
 
@@ -25,12 +29,10 @@ pub(super) struct SingleLoop {
     entries: [Expr; 2],
     /// A, B, C
     masses: [Expr; 3],
-    /// (Mn)ᵀ(a, b)
-    coupling: Expr,
-    /// 1/s
-    inverse_square: Expr,
+    /// (p, q)
+    momentum: [Expr; 2],
     /// 1/D
-    inverse_mass: Expr,
+    inverse: Expr,
 }
 
 impl Work<'_> {
@@ -48,11 +50,9 @@ impl Work<'_> {
             difference(self.arena, (a, masses[1]), (b, masses[0])),
             difference(self.arena, (a, masses[2]), (b, masses[1])),
         ];
-        let reduced_mass = difference(self.arena, (a, momentum[1]), (b, momentum[0]));
-        let coupling = inner(self.arena, [a, b], momentum);
-        let square = inner(self.arena, [a, b], [a, b]);
-        let (inverse_square, inverse_mass) = (self.inverse(square), self.inverse(reduced_mass));
-        self.watch_loop(row, coordinates, [a, b], inverse_square);
+        let determinant = difference(self.arena, (a, momentum[1]), (b, momentum[0]));
+        let inverse = self.inverse(determinant);
+        self.watch_loop(row, coordinates, [a, b], [masses[0], masses[2]], inverse);
 
         for unknown in [row, first, second] {
             self.matrix.remove(unknown);
@@ -62,24 +62,35 @@ impl Work<'_> {
             coordinates,
             entries: [a, b],
             masses,
-            coupling,
-            inverse_square,
-            inverse_mass,
+            momentum,
+            inverse,
         }));
     }
 
-    /// Measures s against what a and b can be at most.
-    fn watch_loop(&mut self, row: Unknown, coordinates: [Unknown; 2], entries: [Expr; 2], inverse: Expr) {
+    /// Measures D against b²A + a²C: with what a and b can be at most, and what the masses
+    /// never fall below.
+    fn watch_loop(
+        &mut self,
+        row: Unknown,
+        coordinates: [Unknown; 2],
+        entries: [Expr; 2],
+        masses: [Expr; 2],
+        inverse: Expr,
+    ) {
         let [a, b] = entries.map(|entry| self.arena.bound(entry));
-        let bound = a.zip(b).map(|(a, b)| inner(self.arena, [a, b], [a, b]));
-        let size = bound.unwrap_or_else(|| inner(self.arena, entries, entries));
+        let bounds = a.zip(b);
+        let (a, b) = bounds.unwrap_or((entries[0], entries[1]));
+        let [of_a, of_b] = masses.map(|mass| self.arena.anchor(mass).unwrap_or(mass));
+        let terms = [&[(b, 2), (of_a, 1)], &[(a, 2), (of_b, 1)]];
+        let terms = terms.map(|factors| (self.arena.product(factors), Number::ONE));
+        let size = self.arena.sum(&terms);
         let squared = self.ratio(size, inverse);
-        self.watch(Some(row), Some(coordinates[1]), [None, Some(squared)], bound.is_some());
+        self.watch(Some(row), Some(coordinates[1]), [None, Some(squared)], bounds.is_some());
     }
 }
 
 impl SingleLoop {
-    /// Takes (f, g, h) out of the right-hand side; gives y and h/s.
+    /// Takes (f, g, h) out of the right-hand side; gives r, h, f and g.
     pub(super) fn forward(&self, arena: &mut Arena, rhs: &mut BTreeMap<Unknown, Expr>) -> Half {
         let zero = arena.zero();
         let mut take = |unknown| {
@@ -88,32 +99,25 @@ impl SingleLoop {
         };
         let [f, g] = self.coordinates.map(&mut take);
         let h = take(self.row);
-        let along = arena.mul(h, self.inverse_square);
-        let along = arena.share(along);
         let [a, b] = self.entries;
-        let (driven, lost) = (difference(arena, (a, g), (b, f)), arena.mul(self.coupling, along));
-        let force = arena.sub(driven, lost);
-        let y = arena.mul(force, self.inverse_mass);
-        [arena.share(y), along, f, g]
+        [difference(arena, (a, g), (b, f)), h, f, g]
     }
 
     pub(super) fn backward(
         &self,
         arena: &mut Arena,
-        [y, along, f, g]: Half,
+        [r, h, f, g]: Half,
         solution: &mut BTreeMap<Unknown, Expr>,
     ) {
-        let [a, b] = self.entries;
-        let u = difference(arena, (a, along), (b, y));
-        let v = inner(arena, [a, b], [y, along]);
+        let ([a, b], [p, q]) = (self.entries, self.momentum);
         let [m_uu, m_uv, m_vv] = self.masses;
-        let (mu, mv) = (inner(arena, [m_uu, m_uv], [u, v]), inner(arena, [m_uv, m_vv], [u, v]));
-        let residual = [arena.sub(f, mu), arena.sub(g, mv)];
-        let across = inner(arena, [a, b], residual);
-        let multiplier = arena.mul(across, self.inverse_square);
-        let multiplier = arena.share(multiplier);
-        for (unknown, value) in self.coordinates.into_iter().zip([u, v]).chain([(self.row, multiplier)]) {
-            solution.insert(unknown, value);
+        let (u, v) = (difference(arena, (q, h), (b, r)), difference(arena, (a, r), (p, h)));
+        let driven = difference(arena, (q, f), (p, g));
+        let inertia = difference(arena, (m_uu, m_vv), (m_uv, m_uv));
+        let multiplier = difference(arena, (driven, arena.one()), (inertia, h));
+        for (unknown, numerator) in self.coordinates.into_iter().zip([u, v]).chain([(self.row, multiplier)]) {
+            let value = arena.mul(numerator, self.inverse);
+            solution.insert(unknown, arena.share(value));
         }
     }
 }
@@ -123,11 +127,4 @@ fn difference(arena: &mut Arena, (x1, y1): (Expr, Expr), (x2, y2): (Expr, Expr))
     let (first, second) = (arena.mul(x1, y1), arena.mul(x2, y2));
     let difference = arena.sub(first, second);
     arena.share(difference)
-}
-
-/// x₁y₁ + x₂y₂, computed once.
-fn inner(arena: &mut Arena, x: [Expr; 2], y: [Expr; 2]) -> Expr {
-    let (first, second) = (arena.mul(x[0], y[0]), arena.mul(x[1], y[1]));
-    let sum = arena.sum(&[(first, Number::ONE), (second, Number::ONE)]);
-    arena.share(sum)
 }
