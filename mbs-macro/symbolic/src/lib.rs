@@ -66,7 +66,8 @@ pub mod units;
 pub use algebra::{Algebra, Scalar, Vector};
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
 pub use eliminate::{
-    Elimination, Factorization, Kkt, Strategy, Undetermined, Unknown, WatchedPivot, factor, factor_within,
+    Elimination, Factorization, Kkt, Strategy, Sums, Undetermined, Unknown, WatchedPivot, factor,
+    factor_within,
 };
 pub use evaluate::{Tape, Values};
 pub use inconsistency::Inconsistency;

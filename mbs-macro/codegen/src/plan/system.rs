@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{
-    Expr, Factorization, Hoisted, Kkt, Strategy, Undetermined, Unknown, factor, factor_within, lower,
+    Expr, Factorization, Hoisted, Kkt, Strategy, Sums, Undetermined, Unknown, factor, factor_within, lower,
 };
 
 use super::{Unsolvable, minimum_norm};
@@ -72,6 +72,8 @@ pub struct Solver {
     pub strategy: Strategy,
     pub factorization: Factorization,
     pub forces: Forces,
+    /// How right-hand sides of steps go through the elimination.
+    sums: Sums,
 }
 
 /// An order that changes more entries than this per unknown fills the matrix of a
@@ -80,32 +82,34 @@ const LARGEST_FILL: usize = 24;
 
 /// The elimination that costs least in the function that runs most.
 pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsolvable> {
-    let Problem { equations, rows, .. } = problem;
-    let kkt = system(model, equations, rows, &BTreeSet::new());
-    let unknowns = model.coordinates.len() + model.constraints.len();
+    let kkt = system(model, problem.equations, problem.rows, &BTreeSet::new());
     let mut best: Option<(u32, Solver)> = None;
-    let last = Strategy::ALL.len() - 1;
-    for (at, strategy) in Strategy::ALL.into_iter().enumerate() {
-        let most = match strategy {
-            Strategy::NullSpace => LARGEST_FILL * unknowns,
-            Strategy::Cheapest => usize::MAX,
-        };
-        let factorization = factor_within(&mut model.arena, &kkt, strategy, most)?;
-        let Some(factorization) = factorization else { continue };
-        let forces = reactive::forces(model, &equations.forces, equations, &factorization)?;
-        let solver = Solver { strategy, factorization, forces };
-        if best.is_none() && at == last {
-            // nothing to compare with
-            return Ok(solver);
-        }
-        let roots = solver.stabilized(model, problem);
-        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
-        let cost = program.operations_for(roots.len() - 1).total();
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, solver));
+    for strategy in Strategy::ALL {
+        let Some(mut solver) = eliminated(model, problem, &kkt, strategy)? else { continue };
+        let operations = solver.choose_sums(model, problem)?;
+        if best.as_ref().is_none_or(|(least, _)| operations < *least) {
+            best = Some((operations, solver));
         }
     }
     best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
+}
+
+/// The elimination in an order of pivots, `None` where that fills the matrix.
+fn eliminated(
+    model: &mut Model,
+    problem: Problem<'_>,
+    kkt: &Kkt,
+    strategy: Strategy,
+) -> Result<Option<Solver>, Unsolvable> {
+    let equations = problem.equations;
+    let most = match strategy {
+        Strategy::NullSpace => LARGEST_FILL * (model.coordinates.len() + model.constraints.len()),
+        Strategy::Cheapest => usize::MAX,
+    };
+    let factorization = factor_within(&mut model.arena, kkt, strategy, most)?;
+    let Some(factorization) = factorization else { return Ok(None) };
+    let forces = reactive::forces(model, &equations.forces, equations, &factorization)?;
+    Ok(Some(Solver { strategy, factorization, forces, sums: Sums::Closed }))
 }
 
 /// The elimination of an implicit stage, in the order that is cheapest for the others.
@@ -120,10 +124,34 @@ pub fn implicit(
     stiffness.add_to(model, &mut kkt);
     let factorization = factor(&mut model.arena, &kkt, strategy)?;
     let forces = reactive::forces(model, &stiffness.forces, equations, &factorization)?;
-    Ok(Solver { strategy, factorization, forces })
+    Ok(Solver { strategy, factorization, forces, sums: Sums::Closed })
 }
 
 impl Solver {
+    /// Takes the sums with which the function that runs most has the fewest operations; their
+    /// number.
+    fn choose_sums(&mut self, model: &mut Model, problem: Problem<'_>) -> Result<u32, Unsolvable> {
+        let closed = self.operations(model, problem)?;
+        // Behind closed entries nothing cancels, and where all coordinates are integrated their
+        // feedback keeps most terms apart.
+        if self.strategy != Strategy::NullSpace || problem.reduction.rows.is_empty() {
+            return Ok(closed);
+        }
+        self.sums = Sums::Open;
+        let open = self.operations(model, problem)?;
+        if closed <= open {
+            self.sums = Sums::Closed;
+        }
+        Ok(open.min(closed))
+    }
+
+    /// The operations of the function that runs most.
+    fn operations(&self, model: &mut Model, problem: Problem<'_>) -> Result<u32, Unsolvable> {
+        let roots = self.stabilized(model, problem);
+        let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;
+        Ok(program.operations_for(roots.len() - 1).total())
+    }
+
     /// q̈ of the states, the feedback and the growth, with feedback from the states.
     pub fn stabilized(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
         let Problem { equations, reduction, .. } = problem;
@@ -133,7 +161,7 @@ impl Solver {
             if reduction.rows.contains(&row) { model.arena.zero() } else { model.arena.share(feedback) }
         });
         let feedback: Vec<Expr> = feedback.collect();
-        let solution = self.solution(model, problem, &feedback);
+        let solution = self.solution(model, problem, &feedback, self.sums);
         let mut roots = accelerations_of_states(model, problem, &solution);
         roots.extend(feedback);
         roots.push(self.growth(model));
@@ -147,7 +175,7 @@ impl Solver {
             if reduction.rows.contains(&row) { model.arena.zero() } else { model.arena.variable(feedback) }
         });
         let feedback: Vec<Expr> = feedback.collect();
-        let solution = self.solution(model, problem, &feedback);
+        let solution = self.solution(model, problem, &feedback, self.sums);
         let mut roots = accelerations_of_states(model, problem, &solution);
         roots.push(self.growth(model));
         in_states(model, problem, &roots)
@@ -156,7 +184,7 @@ impl Solver {
     /// q̈ of the states and the growth, without feedback.
     pub fn without_feedback(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
         let none = vec![model.arena.zero(); model.constraints.len()];
-        let solution = self.solution(model, problem, &none);
+        let solution = self.solution(model, problem, &none, self.sums);
         let mut roots = accelerations_of_states(model, problem, &solution);
         roots.push(self.growth(model));
         in_states(model, problem, &roots)
@@ -166,7 +194,7 @@ impl Solver {
     pub fn reactions(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
         let Problem { equations, rows, inputs, .. } = problem;
         let feedback: Vec<Expr> = inputs.feedback.iter().map(|&row| model.arena.variable(row)).collect();
-        let solution = self.solution(model, problem, &feedback);
+        let solution = self.solution(model, problem, &feedback, Sums::Closed);
         let mut roots = accelerations(model, &solution);
         let factorization = &self.factorization;
         let multipliers =
@@ -200,6 +228,7 @@ impl Solver {
         model: &mut Model,
         problem: Problem<'_>,
         feedback: &[Expr],
+        sums: Sums,
     ) -> BTreeMap<Unknown, Expr> {
         let Problem { equations, rows, .. } = problem;
         let mut rhs: BTreeMap<Unknown, Expr> = BTreeMap::new();
@@ -209,7 +238,7 @@ impl Solver {
         for &at in &rows.basis {
             rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
         }
-        self.factorization.solve(&mut model.arena, &rhs)
+        self.factorization.solve_with(&mut model.arena, &rhs, sums)
     }
 
     /// The growth of the elimination, and of what solves for the forces.

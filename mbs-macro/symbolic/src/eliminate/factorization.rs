@@ -5,14 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
 use super::steps::Step;
+use super::sums::{LONGEST_OPEN, Sums, length};
 use super::unit;
 use super::watch::WatchedPivot;
-use crate::arena::{Arena, Expr, Node, Stage};
+use crate::arena::{Arena, Expr, Stage};
 use crate::number::Number;
-
-/// Matrix entries with more terms than this are computed once instead of
-/// being opened in the sums that use them.
-const LONGEST_OPEN_SUM: usize = 12;
 
 /// One step of the elimination, for people to read.
 #[derive(Clone, Debug)]
@@ -252,24 +249,31 @@ impl<'a> Work<'a> {
 
     /// Leaves a short entry open to algebra, closes a long one.
     pub(super) fn settle(&mut self, entry: Expr) -> Expr {
-        let length = match self.arena.node(entry) {
-            Node::Sum(_, terms) => terms.len(),
-            _ => 1,
-        };
-        if self.is_open && length <= LONGEST_OPEN_SUM { entry } else { self.arena.share(entry) }
+        let is_short = length(self.arena, entry) <= LONGEST_OPEN;
+        if self.is_open && is_short { entry } else { self.arena.share(entry) }
     }
 }
 
 impl Factorization {
     /// The solution for the right-hand side `rhs`, 0 where it has no entry.
     pub fn solve(&self, arena: &mut Arena, rhs: &BTreeMap<Unknown, Expr>) -> BTreeMap<Unknown, Expr> {
+        self.solve_with(arena, rhs, Sums::Closed)
+    }
+
+    /// The same with sums of `rhs` treated like this.
+    pub fn solve_with(
+        &self,
+        arena: &mut Arena,
+        rhs: &BTreeMap<Unknown, Expr>,
+        sums: Sums,
+    ) -> BTreeMap<Unknown, Expr> {
         let mut b = rhs.clone();
         for (unknown, force) in &mut b {
             if matches!(unknown, Unknown::Coordinate(_)) {
                 *force = arena.mul(*force, self.per_unit);
             }
         }
-        let halves: Vec<_> = self.steps.iter().map(|step| step.forward(arena, &mut b)).collect();
+        let halves: Vec<_> = self.steps.iter().map(|step| step.forward(arena, &mut b, sums)).collect();
         let mut solution = BTreeMap::new();
         for (step, half) in self.steps.iter().zip(halves).rev() {
             step.backward(arena, half, &mut solution);

@@ -27,12 +27,14 @@ mod order;
 mod signs;
 mod single_loop;
 mod steps;
+mod sums;
 mod unit;
 mod watch;
 
 pub use factorization::{Elimination, Factorization};
 pub use matrix::{Kkt, Unknown};
 pub use order::{Strategy, Undetermined};
+pub use sums::Sums;
 pub use watch::WatchedPivot;
 
 use crate::arena::Arena;

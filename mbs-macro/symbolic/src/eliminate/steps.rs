@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::matrix::Unknown;
 use super::single_loop::SingleLoop;
+use super::sums::Sums;
 use crate::arena::{Arena, Expr};
 use crate::number::Number;
 
@@ -41,21 +42,22 @@ pub(super) enum Step {
 impl Step {
     /// Carries the right-hand side `b` through this step and gives what the
     /// way back needs.
-    pub fn forward(&self, arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>) -> Half {
+    pub fn forward(&self, arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>, sums: Sums) -> Half {
         let zero = arena.zero();
         match self {
             Self::Pair { row, coordinate, inverse, mass, weights, couplings } => {
                 let of_row = b.remove(row).unwrap_or(zero);
-                let g = arena.mul(of_row, *inverse);
-                let g = arena.share(g);
+                let g = sums.product(arena, of_row, *inverse);
+                let g = sums.settle(arena, g);
                 let of_coordinate = b.remove(coordinate).unwrap_or(zero);
-                let inertia = arena.mul(*mass, g);
+                let inertia = sums.product(arena, *mass, g);
                 let f = arena.sub(of_coordinate, inertia);
-                let f = arena.share(f);
+                let f = sums.settle(arena, f);
                 for (other, factor, value) in
                     weights.iter().map(|(u, w)| (u, w, f)).chain(couplings.iter().map(|(u, k)| (u, k, g)))
                 {
-                    subtract_product(arena, b, *other, *factor, value);
+                    let product = sums.product(arena, *factor, value);
+                    subtract(arena, b, *other, product);
                 }
                 [g, f, zero, zero]
             }
@@ -64,7 +66,8 @@ impl Step {
                 let of_row = b.get(row).copied().unwrap_or(zero);
                 let negative = arena.neg(of_row);
                 for (other, factor) in weighted {
-                    subtract_product(arena, b, *other, *factor, negative);
+                    let product = arena.mul(*factor, negative);
+                    subtract(arena, b, *other, product);
                 }
                 [zero; 4]
             }
@@ -72,7 +75,8 @@ impl Step {
                 let own = b.remove(unknown).unwrap_or(zero);
                 let own = arena.share(own);
                 for (other, multiplier) in multipliers {
-                    subtract_product(arena, b, *other, *multiplier, own);
+                    let product = arena.mul(*multiplier, own);
+                    subtract(arena, b, *other, product);
                 }
                 [arena.mul(own, *inverse), zero, zero, zero]
             }
@@ -109,8 +113,7 @@ impl Step {
     }
 }
 
-fn subtract_product(arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>, at: Unknown, x: Expr, y: Expr) {
-    let product = arena.mul(x, y);
+fn subtract(arena: &mut Arena, b: &mut BTreeMap<Unknown, Expr>, at: Unknown, product: Expr) {
     let entry = b.get(&at).copied().unwrap_or(arena.zero());
     let entry = arena.sub(entry, product);
     b.insert(at, entry);
