@@ -117,6 +117,11 @@ impl fmt::Display for Operations {
 }
 
 impl Program {
+    /// How long the longest chain of operations takes that wait for each other, in cycles.
+    pub fn critical_path(&self) -> u32 {
+        self.latencies().into_iter().max().unwrap_or(0)
+    }
+
     /// For every instruction how long its result takes from the inputs, in cycles.
     pub(crate) fn latencies(&self) -> Vec<u32> {
         let mut latencies: Vec<u32> = Vec::with_capacity(self.instructions.len());

@@ -350,3 +350,24 @@ fn what_cancels_in_open_sums_is_gone() {
     // θ̈ = torque/(j + m l²)
     assert!(acceleration[0] > 1 && acceleration[1] == 1, "{acceleration:?}");
 }
+
+/// A chain of masses, each tied to the next by a row: from both ends its pivots wait for each
+/// other half as long as from one, with the same operations.
+#[test]
+fn a_chain_is_eliminated_from_both_ends() {
+    let rows = 16;
+    let tied = |row| [(row, row, Entry::Variable), (row, row + 1, Entry::Variable)];
+    let entries = (0..rows).flat_map(tied).collect();
+    let chain = System { masses: vec![Mass::Positive; rows + 1], entries, rows, seed: 0 };
+    let costs = [Order::Cheapest, Order::BothEnds].map(|order| {
+        let Problem { mut arena, kkt, rhs, unknowns } = problem(&chain);
+        let solution = factor(&mut arena, &kkt, order).unwrap().solve(&mut arena, &rhs);
+        let roots: Vec<Expr> = unknowns.iter().map(|unknown| solution[unknown]).collect();
+        let program = lower(&mut arena, &roots, &mut Hoisted::default(), 1024).unwrap();
+        (program.operations().total(), program.critical_path())
+    });
+    let [(from_one, long), (from_both, short)] = costs;
+    assert!(from_both <= from_one, "{from_both} operations, and {from_one} from one end");
+    // the ends and the middle are not halved
+    assert!(10 * short <= 6 * long, "{short} cycles, and {long} from one end");
+}

@@ -104,6 +104,55 @@ fn symbols_of_different_classes_do_not_take_each_others_place() {
     assert!(blocks.iter().all(|block| matches!(block, Block::Straight(_)) || block.range().len() < 150));
 }
 
+/// xᵢ = xᵢ₋₁·qᵢ + 1/(xᵢ₋₁ + qᵢ) from the first link to the last, and yᵢ = pᵢ/(yᵢ₊₁ − pᵢ) from
+/// the last to the first, from where x ends if `follows`. In loops or in straight lines.
+fn two_chains(links: usize, follows: bool, unrolled: usize) -> Program {
+    let mut arena = mbs_symbolic::Arena::new();
+    let mut symbols = |name: &str| -> Vec<_> {
+        let symbol = |link| arena.symbol(&format!("{name}{link}"), Stage::Variable);
+        (0..links).map(symbol).collect()
+    };
+    let (q, p) = (symbols("q"), symbols("p"));
+    let mut x = arena.one();
+    for symbol in q {
+        let q = arena.variable(symbol);
+        let (product, sum) = (arena.mul(x, q), arena.add(x, q));
+        let sum = arena.share(sum);
+        let inverse = arena.powi(sum, -1);
+        let next = arena.add(product, inverse);
+        x = arena.share(next);
+    }
+    let mut y = if follows { x } else { arena.one() };
+    for symbol in p.into_iter().rev() {
+        let p = arena.variable(symbol);
+        let difference = arena.sub(y, p);
+        let difference = arena.share(difference);
+        let inverse = arena.powi(difference, -1);
+        let next = arena.mul(p, inverse);
+        y = arena.share(next);
+    }
+    lower_whole(&mut arena, &[x, y], unrolled).expect("a program")
+}
+
+/// A processor waits for a link of one while it works at a link of the other.
+#[test]
+fn loops_that_do_not_need_each_other_are_one() {
+    let loops = |follows| {
+        let blocks = assert_cut(&two_chains(40, follows, 0), &|_| 0);
+        blocks.iter().filter(|block| matches!(block, Block::Repeated(_))).count()
+    };
+    assert_eq!(loops(false), 1);
+    assert_eq!(loops(true), 2);
+}
+
+/// Their operations are those of straight lines, in another order.
+#[test]
+fn loops_side_by_side_compute_the_same() {
+    let value = |symbol: Symbol| 0.2 + 0.7 * (symbol.index() as f64).sin().abs();
+    let results = [0, usize::MAX].map(|unrolled| two_chains(40, false, unrolled).evaluate(&value, &[]));
+    assert_eq!(results[0], results[1]);
+}
+
 /// A short program is left alone.
 #[test]
 fn nothing_is_gained_in_a_short_program() {

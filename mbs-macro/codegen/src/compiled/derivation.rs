@@ -161,5 +161,6 @@ fn strategy(strategy: Strategy) -> &'static str {
     match strategy {
         Strategy::NullSpace => "constraints first, then what motion they leave free (null space)",
         Strategy::Cheapest => "the locally cheapest safe pivot first (Markowitz)",
+        Strategy::BothEnds => "masses first, then constraints, a chain from both ends at once",
     }
 }

@@ -16,11 +16,15 @@ pub enum Strategy {
     NullSpace,
     /// The locally cheapest pivot, mass or constraint. Keeps chains sparse.
     Cheapest,
+    /// Masses first, then the locally cheapest row, of equally cheap ones that which waits
+    /// for the fewest pivots. A chain is then eliminated from both ends at once (twisted
+    /// factorization), and a processor works at two pivots in the time of one.
+    BothEnds,
 }
 
 impl Strategy {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::NullSpace, Self::Cheapest];
+    pub const ALL: [Self; 3] = [Self::NullSpace, Self::Cheapest, Self::BothEnds];
 }
 
 /// A chosen pivot.
@@ -83,8 +87,8 @@ enum Class {
 const LARGEST_WEIGHT: f64 = 1e3;
 
 /// What speaks for a pivot, the best one least: whether it is not urgent, its
-/// cost and class as the strategy weighs them, and its place in the mechanism.
-type Key = (bool, (usize, usize), Unknown);
+/// cost, class and depth as the strategy weighs them, and its place in the mechanism.
+type Key = (bool, [usize; 3], Unknown);
 
 #[derive(Clone, Copy)]
 struct Candidate {
@@ -93,6 +97,8 @@ struct Candidate {
     /// their zero diagonal entry.
     is_urgent: bool,
     cost: usize,
+    /// How many pivots, one after the other, come before it.
+    depth: usize,
     pivot: Pivot,
 }
 
@@ -100,8 +106,9 @@ impl Candidate {
     fn key(&self, strategy: Strategy) -> Key {
         let class = self.class as usize;
         let weighed = match strategy {
-            Strategy::NullSpace => (class, self.cost),
-            Strategy::Cheapest => (self.cost, class),
+            Strategy::NullSpace => [class, self.cost, 0],
+            Strategy::Cheapest => [self.cost, class, 0],
+            Strategy::BothEnds => [usize::from(self.class == Class::SchurRow), self.cost, self.depth],
         };
         (!self.is_urgent, weighed, first_unknown(self.pivot))
     }
@@ -116,6 +123,8 @@ pub(super) struct Order {
     /// accelerations moves no mass, only the constraints determine it. The mass
     /// block is positive definite over all other coordinates, in any position.
     uncertain: BTreeSet<Unknown>,
+    /// How many pivots, one after the other, have changed the entries of an unknown.
+    depths: BTreeMap<Unknown, usize>,
 }
 
 impl Order {
@@ -123,7 +132,13 @@ impl Order {
         let is_uncertain =
             |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(_)) && !matrix.is_massive(*unknown);
         let uncertain = matrix.unknowns().filter(is_uncertain).collect();
-        let mut order = Self { strategy, candidates: BTreeMap::new(), queue: BTreeSet::new(), uncertain };
+        let mut order = Self {
+            strategy,
+            candidates: BTreeMap::new(),
+            queue: BTreeSet::new(),
+            uncertain,
+            depths: BTreeMap::new(),
+        };
         for unknown in matrix.unknowns() {
             order.judge(arena, matrix, unknown);
         }
@@ -136,6 +151,11 @@ impl Order {
         taken.iter().for_each(|unknown| {
             self.uncertain.remove(unknown);
         });
+        let depth = self.depth(taken) + 1;
+        for &unknown in touched {
+            let known = self.depths.entry(unknown).or_insert(0);
+            *known = depth.max(*known);
+        }
         let coordinates = touched.iter().filter(|unknown| matches!(unknown, Unknown::Coordinate(_)));
         let rows = coordinates.flat_map(|&unknown| matrix.neighbours(unknown)).map(|(other, _)| other);
         let rows = rows.filter(|other| matches!(other, Unknown::Row(_)));
@@ -208,6 +228,12 @@ impl Order {
         Ok(rows.into_iter().collect())
     }
 
+    /// How many pivots, one after the other, come before one of these.
+    fn depth(&self, unknowns: &[Unknown]) -> usize {
+        let depths = unknowns.iter().filter_map(|unknown| self.depths.get(unknown));
+        depths.max().copied().unwrap_or(0)
+    }
+
     fn candidates_of(&self, arena: &Arena, matrix: &Kkt, unknown: Unknown) -> Vec<Candidate> {
         match unknown {
             Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => {
@@ -216,11 +242,11 @@ impl Order {
             Unknown::Row(_) => {
                 let is_coupled =
                     matrix.neighbours(unknown).any(|(other, _)| matches!(other, Unknown::Coordinate(_)));
-                if is_coupled { Vec::new() } else { vec![diagonal(matrix, unknown, Class::SchurRow)] }
+                if is_coupled { Vec::new() } else { vec![self.diagonal(matrix, unknown, Class::SchurRow)] }
             }
             Unknown::Coordinate(_) => {
                 let is_safe = matrix.get(unknown, unknown).is_some() && !self.uncertain.contains(&unknown);
-                if is_safe { vec![diagonal(matrix, unknown, Class::Mass)] } else { Vec::new() }
+                if is_safe { vec![self.diagonal(matrix, unknown, Class::Mass)] } else { Vec::new() }
             }
         }
     }
@@ -246,10 +272,18 @@ impl Order {
                 class,
                 is_urgent: self.uncertain.contains(&coordinate),
                 cost: pair_cost(matrix, row, coordinate) + usize::from(!is_unit),
+                depth: self.depth(&[row, coordinate]),
                 pivot: Pivot::Pair { row, coordinate },
             });
         }
         candidates
+    }
+
+    fn diagonal(&self, matrix: &Kkt, unknown: Unknown, class: Class) -> Candidate {
+        let neighbours = matrix.neighbours(unknown).count();
+        let cost = neighbours * (neighbours + 1) / 2;
+        let depth = self.depth(&[unknown]);
+        Candidate { class, is_urgent: false, cost, depth, pivot: Pivot::Diagonal(unknown) }
     }
 }
 
@@ -300,10 +334,4 @@ fn pair_cost(matrix: &Kkt, row: Unknown, coordinate: Unknown) -> usize {
         matrix.neighbours(coordinate).map(|(other, _)| other).filter(is_other).collect();
     let only_coordinate = of_coordinate.difference(&of_row).count();
     of_row.len() * (of_row.len() + 1) / 2 + of_row.len() * only_coordinate
-}
-
-fn diagonal(matrix: &Kkt, unknown: Unknown, class: Class) -> Candidate {
-    let neighbours = matrix.neighbours(unknown).count();
-    let cost = neighbours * (neighbours + 1) / 2;
-    Candidate { class, is_urgent: false, cost, pivot: Pivot::Diagonal(unknown) }
 }

@@ -9,6 +9,7 @@
 
 mod factoring;
 mod flatten;
+mod fusion;
 mod order;
 mod schedule;
 mod signs;

@@ -3,28 +3,41 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use super::flatten::{Definition, Flat, Signed, Value};
+use super::fusion::fuse;
 use super::order::order;
 use crate::number::Number;
 use crate::program::{Instruction, Operand, Operation, Program};
 
 pub(super) fn schedule(flat: &Flat, outputs: &[Value], unrolled: usize) -> Program {
     let order = order(flat, outputs, unrolled);
+    let (program, starts) = in_order(flat, outputs, &order);
+    if order.len() <= unrolled {
+        return program;
+    }
+    let order = fuse(flat, &order, &starts, &program);
+    in_order(flat, outputs, &order).0
+}
+
+/// The program, and with which instruction each value begins.
+fn in_order(flat: &Flat, outputs: &[Value], order: &[Value]) -> (Program, Vec<usize>) {
     let mut schedule = Schedule {
         flat,
         outputs,
         program: Program::default(),
         // none is asked for before it is there
         operands: vec![Operand::Number(Number::ZERO); flat.definitions.len()],
-        uses: count_uses(flat, &order),
+        uses: count_uses(flat, order),
         latencies: Vec::new(),
-        summands: Summands::new(flat, &order),
+        summands: Summands::new(flat, order),
     };
-    for &value in &order {
+    let mut starts = Vec::with_capacity(order.len());
+    for &value in order {
+        starts.push(schedule.program.instructions.len());
         schedule.emit(value);
         schedule.gather(value);
     }
     schedule.program.outputs = outputs.iter().map(|&value| schedule.operands[value]).collect();
-    schedule.program
+    (schedule.program, starts)
 }
 
 /// Rows with more terms or factors than this are gathered one after the other.
