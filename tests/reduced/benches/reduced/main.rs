@@ -49,14 +49,16 @@ fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
     let pool = ThreadPoolBuilder::new().num_threads(1).build()?;
     let (of_all, of_reduced) = (start(all, h, input)?, start(reduced, h, input)?);
     let mut times = [const { Vec::new() }; 4];
+    let [all_alone, reduced_alone, all_together, reduced_together] = &mut times;
     for _ in 0..repetitions {
-        let measured = [
-            alone(of_all, STEPS)?,
-            alone(of_reduced, STEPS)?,
-            pool.install(|| together(of_all, STEPS, members)),
-            pool.install(|| together(of_reduced, STEPS, members)),
-        ];
-        times.iter_mut().zip(measured).for_each(|(times, time)| times.push(time));
+        all_alone.push(alone(of_all, STEPS)?);
+        reduced_alone.push(alone(of_reduced, STEPS)?);
+    }
+    // apart from the others: a thread that waits for work looks for it for a while, and may do so on
+    // the other half of the same core
+    for _ in 0..repetitions {
+        all_together.push(pool.install(|| together(of_all, STEPS, members)));
+        reduced_together.push(pool.install(|| together(of_reduced, STEPS, members)));
     }
     let [all, reduced, all_in_lanes, reduced_in_lanes] = times.map(median);
     println!(
