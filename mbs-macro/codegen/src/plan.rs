@@ -1,6 +1,7 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
+mod clock;
 mod correction;
 mod minimum_norm;
 mod step;
@@ -20,6 +21,7 @@ use crate::model::Model;
 use crate::reactive::Circular;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
+pub use clock::Clocked;
 use correction::correction;
 pub use step::{FusedStep, Kinds};
 use system::{Problem, cheapest};
@@ -195,7 +197,7 @@ pub fn plan(
 
     let unrolled = model.solver.unrolled();
     let mut program = |roots: &[Expr]| lower(&mut model.arena, roots, &mut hoisted, unrolled);
-    let plan = Plan {
+    let mut plan = Plan {
         inputs,
         reduction,
         strategy,
@@ -237,11 +239,12 @@ pub fn plan(
     let reactions = program(&reactions_in_states)?;
     let stages =
         step::Stages { stabilized: &plan.stabilized, constrained: &plan.constrained, reactions: &reactions };
+    let fused_step = step::fused(model, &mut plan.inputs, stages)?;
     let requirements = requirements(model, equations);
     let start = declared_start(model);
     let points = model.sketch.places(&mut model.arena);
     Ok(Plan {
-        fused_step: step::fused(model, &plan.inputs, stages)?,
+        fused_step,
         prepare: lower_whole(&mut model.arena, hoisted.values(), unrolled)?,
         hoisted: hoisted.values().to_vec(),
         requirements: lower_whole(&mut model.arena, &requirements, unrolled)?,

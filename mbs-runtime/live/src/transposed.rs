@@ -48,6 +48,7 @@ fn place(compiled: &Compiled, operand: Operand) -> Option<(usize, usize)> {
         | Input::MinusBetaSquared
         | Input::Shift
         | Input::Predicted(_)
+        | Input::Clock(_)
         | Input::Weight(_) => return None,
     })
 }

@@ -117,6 +117,7 @@ impl<'a> Evaluator<'a> {
             | Input::NextTime
             | Input::Shift
             | Input::Predicted(_)
+            | Input::Clock(_)
             | Input::Weight(_) => f64::NAN,
         }
     }

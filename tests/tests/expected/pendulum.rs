@@ -1759,6 +1759,11 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
             growth: T::from_f64(0.0),
         }
     }
+    type Clock = [T; 0];
+    #[inline(always)]
+    fn clock(&self, t: T) -> [T; 0] {
+        []
+    }
     #[inline(always)]
     fn fused_step<X: ::mbs_runtime::Method>(
         &self,

@@ -605,6 +605,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrank<T> {
         q: &SliderCrankCoordinates<T>,
         feedback: &SliderCrankConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankCoordinates<T>> {}
+    type Clock = [T; 0];
+    #[inline(always)]
+    fn clock(&self, t: T) -> [T; 0] {}
     #[inline(always)]
     fn fused_step<X: ::mbs_runtime::Method>(
         &self,

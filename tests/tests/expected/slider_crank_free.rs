@@ -656,6 +656,9 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for SliderCrankFree<T> {
         q: &SliderCrankFreeCoordinates<T>,
         feedback: &SliderCrankFreeConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<SliderCrankFreeCoordinates<T>> {}
+    type Clock = [T; 0];
+    #[inline(always)]
+    fn clock(&self, t: T) -> [T; 0] {}
     #[inline(always)]
     fn fused_step<X: ::mbs_runtime::Method>(
         &self,

@@ -56,7 +56,7 @@ use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use crate::inputs::Input;
-pub use crate::plan::{FusedStep, Kinds};
+pub use crate::plan::{Clocked, FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use functions::{Argument, Count, FunctionId, Results};
@@ -268,6 +268,11 @@ impl Compiled {
     /// The program of a function.
     pub fn program(&self, function: FunctionId) -> &Program {
         &self.programs[function as usize]
+    }
+
+    /// The functions of time that a step is given which has a clock, of [`FusedStep::clocked`].
+    pub fn clock(&self) -> Option<&Program> {
+        self.fused_step.as_ref()?.clocked.as_ref().map(|clocked| &clocked.clock)
     }
 
     /// What a symbol of the programs stands for. Those behind the symbols of the mechanism are the weights

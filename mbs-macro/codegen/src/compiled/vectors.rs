@@ -54,7 +54,8 @@ impl Input {
             | Self::Step
             | Self::HalfStep
             | Self::Shift
-            | Self::NextTime => return None,
+            | Self::NextTime
+            | Self::Clock(_) => return None,
         };
         Some(Component { vector, place })
     }

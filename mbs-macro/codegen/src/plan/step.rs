@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use mbs_schemes::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 
-use crate::inputs::State;
-use crate::inputs::{Input, Inputs};
+use super::clock::{Clocked, clocked};
+use crate::inputs::{Input, Inputs, State};
 use crate::model::Model;
 
 /// Longer steps are left in stages: rustc nests a scope per statement, and its
@@ -19,6 +19,9 @@ pub struct FusedStep {
     pub alone: Kinds,
     /// That also give the reactions at their start.
     pub with_reactions: Option<Kinds>,
+    /// Those that give the state, for many steps in a row, where functions of time have a part in
+    /// them.
+    pub clocked: Option<Clocked>,
 }
 
 /// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages,
@@ -44,13 +47,19 @@ pub struct Stages<'a> {
 ///
 /// # Errors
 /// A step that does not compute what its stages do.
-pub fn fused(model: &Model, inputs: &Inputs, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
+pub fn fused(
+    model: &mut Model,
+    inputs: &mut Inputs,
+    stages: Stages<'_>,
+) -> Result<Option<FusedStep>, Inconsistency> {
     // constraints give the whole motion
     if inputs.states.is_empty() {
         return Ok(None);
     }
     let Some(alone) = kinds(model, inputs, stages, None)? else { return Ok(None) };
-    Ok(Some(FusedStep { alone, with_reactions: kinds(model, inputs, stages, Some(stages.reactions))? }))
+    let with_reactions = kinds(model, inputs, stages, Some(stages.reactions))?;
+    let clocked = clocked(model, inputs, &alone)?;
+    Ok(Some(FusedStep { alone, with_reactions, clocked }))
 }
 
 fn kinds(
@@ -201,7 +210,7 @@ fn step(
     let growths = solved.iter().filter_map(|stage| stage.last().copied());
     outputs.extend(growths.reduce(|sum, growth| steps.push(Operation::Add, sum, growth, None)));
     outputs.extend(clean.iter().filter_map(|clean| clean.last()));
-    Program { instructions: steps.instructions, outputs, splines: first.splines.clone() }.without_dead_code()
+    Program { outputs, splines: first.splines.clone(), ..steps.into() }.without_dead_code()
 }
 
 fn number(value: f64) -> Operand {
@@ -210,13 +219,25 @@ fn number(value: f64) -> Operand {
 
 /// Instructions one after the other, none of them twice.
 #[derive(Default)]
-struct Fusion {
+pub(super) struct Fusion {
     instructions: Vec<Instruction>,
     known: HashMap<(Operation, Operand, Operand), Operand>,
 }
 
+impl From<Fusion> for Program {
+    fn from(fusion: Fusion) -> Self {
+        Self { instructions: fusion.instructions, ..Self::default() }
+    }
+}
+
 impl Fusion {
-    fn push(&mut self, operation: Operation, a: Operand, b: Operand, name: Option<String>) -> Operand {
+    pub(super) fn push(
+        &mut self,
+        operation: Operation,
+        a: Operand,
+        b: Operand,
+        name: Option<String>,
+    ) -> Operand {
         if let Some(known) = self.without_zero(operation, a, b) {
             return known;
         }

@@ -10,88 +10,146 @@ use quote::{ToTokens, format_ident, quote};
 use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
-use super::program::{named, number_tokens, operation_tokens, symbol_tokens};
+use super::program::{body_of, named, number_tokens, operation_tokens, symbol_tokens};
 use super::weave;
-use crate::compiled::Compiled;
+use crate::compiled::{Compiled, Kinds};
 
-/// The functions of both kinds of feedback, without and with the reactions; nothing
+/// A fused step with what else it gives or is given, for both kinds of feedback.
+struct Variant<'a> {
+    /// Of the names of its functions.
+    suffix: &'static str,
+    doc: &'static str,
+    programs: &'a Kinds,
+    gives_reactions: bool,
+    has_clock: bool,
+}
+
+/// Those of a mechanism; none if it is too large.
+fn variants(compiled: &Compiled) -> Vec<Variant<'_>> {
+    let Some(step) = &compiled.fused_step else { return Vec::new() };
+    let alone =
+        Variant { suffix: "", doc: "", programs: &step.alone, gives_reactions: false, has_clock: false };
+    let with_reactions = step.with_reactions.as_ref().map(|programs| Variant {
+        suffix: "_with_reactions",
+        doc: ", and the reactions at its start",
+        programs,
+        gives_reactions: true,
+        has_clock: false,
+    });
+    let with_clock = step.clocked.as_ref().map(|clocked| Variant {
+        suffix: "_with_clock",
+        doc: ", given the functions of time at both of its ends",
+        programs: &clocked.step,
+        gives_reactions: false,
+        has_clock: true,
+    });
+    [Some(alone), with_reactions, with_clock].into_iter().flatten().collect()
+}
+
+impl Variant<'_> {
+    /// What its functions give.
+    fn result(&self, names: &Names) -> TokenStream {
+        let Names { runtime, reactions, .. } = names;
+        let states = &names.states.of_t;
+        let stepped = quote!(#runtime::Stepped<#states>);
+        if self.gives_reactions { quote!((#stepped, #reactions)) } else { stepped }
+    }
+
+    /// One of its functions.
+    fn function(
+        &self,
+        compiled: &Compiled,
+        names: &Names,
+        (name, feedback): (&str, &str),
+        program: &Program,
+    ) -> Result<TokenStream, Inconsistency> {
+        let Names { runtime, stepped: state, .. } = names;
+        let (inputs, result) = (&names.inputs.of_t, self.result(names));
+        let woven = weave::woven(compiled, program, self.gives_reactions)?;
+        let Body { statements, stepped, reactions } =
+            Body::new(compiled, names, &Fields::new(compiled), &woven);
+        let value = if self.gives_reactions { quote!((#stepped, #reactions)) } else { stepped };
+        let clock = self.has_clock.then(|| quote!([now, next]: [&<Self as #runtime::Mechanism>::Clock; 2],));
+        let name = format_ident!("{name}{}", self.suffix);
+        let doc = format!("A step with feedback {feedback}{}.", self.doc);
+        Ok(quote! {
+            #[doc = #doc]
+            #[inline(always)]
+            fn #name(&self, at: &#state, #clock inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #result {
+                #statements #value
+            }
+        })
+    }
+
+    /// The trait's function, which chooses between the two.
+    fn choice(&self, names: &Names) -> TokenStream {
+        let Names { runtime, stepped: state, .. } = names;
+        let (inputs, result) = (&names.inputs.of_t, self.result(names));
+        let [name, held, per_stage] =
+            ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{}", self.suffix));
+        let (given, clock) = match self.has_clock {
+            true => (quote!(clock: [&Self::Clock; 2],), quote!(clock,)),
+            false => (TokenStream::new(), TokenStream::new()),
+        };
+        quote! {
+            #[inline(always)]
+            fn #name<X: #runtime::Method>(&self, at: &#state, #given inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
+                ::core::option::Option::Some(if X::EXPLICIT.is_held() {
+                    self.#held(at, #clock inputs, gains, h, t_next)
+                } else {
+                    self.#per_stage(at, #clock inputs, gains, h, t_next)
+                })
+            }
+        }
+    }
+}
+
+/// The functions of both kinds of feedback, also with the reactions and with a clock; nothing
 /// if the mechanism is too large.
 ///
 /// # Errors
 /// A step on pairs that does not compute what its program does.
 pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inconsistency> {
-    let Some(step) = &compiled.fused_step else { return Ok(TokenStream::new()) };
-    let Names { mechanism, runtime, stepped: state, reactions, .. } = names;
-    let (states, inputs) = (&names.states.of_t, &names.inputs.of_t);
-    let fields = Fields::new(compiled);
-    let function = |doc: &str, name: &str, result: &TokenStream, body: &TokenStream| {
-        let name = Ident::new(name, Span::call_site());
-        quote! {
-            #[doc = #doc]
-            #[inline(always)]
-            fn #name(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #result {
-                #body
-            }
-        }
-    };
-    let stepped = quote!(#runtime::Stepped<#states>);
-    let alone = |doc: &str, name: &str, program: &Program| -> Result<TokenStream, Inconsistency> {
-        let woven = weave::woven(compiled, program, false)?;
-        let Body { statements, stepped: value, .. } = Body::new(compiled, names, &fields, &woven);
-        Ok(function(doc, name, &stepped, &quote!(#statements #value)))
-    };
-    let held = alone("A step with feedback held over it.", "step_held", &step.alone.held)?;
-    let per_stage = alone("A step with feedback in every stage.", "step_per_stage", &step.alone.per_stage)?;
-    let both = quote!((#stepped, #reactions));
-    let with_reactions = |doc: &str, name: &str, program: &Program| -> Result<TokenStream, Inconsistency> {
-        let woven = weave::woven(compiled, program, true)?;
-        let Body { statements, stepped, reactions } = Body::new(compiled, names, &fields, &woven);
-        Ok(function(doc, name, &both, &quote!(#statements (#stepped, #reactions))))
-    };
-    let mut functions = quote!(#held #per_stage);
-    if let Some(step) = &step.with_reactions {
-        functions.extend(with_reactions(
-            "A step with feedback held over it, and the reactions at its start.",
-            "step_held_with_reactions",
-            &step.held,
-        )?);
-        functions.extend(with_reactions(
-            "A step with feedback in every stage, and the reactions at its start.",
-            "step_per_stage_with_reactions",
-            &step.per_stage,
-        )?);
+    let mut functions = TokenStream::new();
+    for variant in variants(compiled) {
+        let Kinds { held, per_stage } = variant.programs;
+        functions.extend(variant.function(compiled, names, ("step_held", "held over it"), held)?);
+        let per_stage = variant.function(compiled, names, ("step_per_stage", "in every stage"), per_stage)?;
+        functions.extend(per_stage);
     }
+    if functions.is_empty() {
+        return Ok(functions);
+    }
+    let Names { mechanism, runtime, .. } = names;
     Ok(quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> { #functions }
     })
 }
 
-/// The trait's functions, which choose between the two.
+/// The trait's functions.
 pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
-    let Some(step) = &compiled.fused_step else { return TokenStream::new() };
-    let Names { runtime, stepped: state, reactions, .. } = names;
-    let (states, inputs) = (&names.states.of_t, &names.inputs.of_t);
-    let choice = |suffix: &str, result: TokenStream| {
-        let [name, held, per_stage] =
-            ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{suffix}"));
-        quote! {
+    variants(compiled).iter().map(|variant| variant.choice(names)).collect()
+}
+
+/// The type of the functions of time of a step, and their values.
+pub fn clock(compiled: &Compiled, names: &Names) -> TokenStream {
+    let Some(clock) = compiled.clock() else {
+        return quote! {
+            type Clock = [T; 0];
             #[inline(always)]
-            fn #name<X: #runtime::Method>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
-                ::core::option::Option::Some(if X::EXPLICIT.is_held() {
-                    self.#held(at, inputs, gains, h, t_next)
-                } else {
-                    self.#per_stage(at, inputs, gains, h, t_next)
-                })
-            }
-        }
+            fn clock(&self, t: T) -> [T; 0] { [] }
+        };
     };
-    let alone = choice("", quote!(#runtime::Stepped<#states>));
-    let with_reactions = step
-        .with_reactions
-        .as_ref()
-        .map(|_| choice("_with_reactions", quote!((#runtime::Stepped<#states>, #reactions))));
-    quote!(#alone #with_reactions)
+    let body = body_of(compiled, names, clock, &Access::of_position());
+    let count = clock.outputs.len();
+    let (statements, values) = (&body.statements, body.array(0..count));
+    let count = Literal::usize_unsuffixed(count);
+    quote! {
+        type Clock = [T; #count];
+        #[inline(always)]
+        fn clock(&self, t: T) -> [T; #count] { #statements #values }
+    }
 }
 
 /// What a step's function does, and the values that it ends with.
