@@ -371,3 +371,31 @@ fn a_chain_is_eliminated_from_both_ends() {
     // the ends and the middle are not halved
     assert!(10 * short <= 6 * long, "{short} cycles, and {long} from one end");
 }
+
+/// f = c p + c q over a mass: computed as c (p + q), where sums are open.
+#[test]
+fn open_sums_get_their_common_factors_back() {
+    let mut arena = Arena::new();
+    let mut letter = |name: &str, stage| {
+        let symbol = arena.symbol(name, stage);
+        arena.variable(symbol)
+    };
+    // with nothing in common that all masses would be measured in
+    let masses = ["m", "n"].map(|name| letter(name, Stage::Parameter));
+    let [c, p, q] = ["c", "p", "q"].map(|name| letter(name, Stage::Variable));
+    let x = Unknown::Coordinate(0);
+    let mut kkt = Kkt::new();
+    for (at, mass) in masses.into_iter().enumerate() {
+        kkt.set(&arena, Unknown::Coordinate(at), Unknown::Coordinate(at), mass);
+        kkt.mark_massive(at);
+    }
+    let (cp, cq) = (arena.mul(c, p), arena.mul(c, q));
+    let rhs = BTreeMap::from([(x, arena.add(cp, cq))]);
+    let factorization = factor(&mut arena, &kkt, Order::NullSpace).unwrap();
+    let products = [Sums::Closed, Sums::Open].map(|sums| {
+        let solution = factorization.solve_with(&mut arena, &rhs, sums);
+        lower(&mut arena, &[solution[&x]], &mut Hoisted::default(), 1024).unwrap().operations().mul
+    });
+    // one of them by 1/m
+    assert_eq!(products, [3, 2]);
+}

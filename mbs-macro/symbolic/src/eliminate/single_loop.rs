@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 use super::factorization::Work;
 use super::matrix::Unknown;
 use super::steps::{Half, Step};
+use super::sums::Sums;
 use crate::arena::{Arena, Expr};
 use crate::number::Number;
 
@@ -91,11 +92,11 @@ impl Work<'_> {
 
 impl SingleLoop {
     /// Takes (f, g, h) out of the right-hand side; gives r, h, f and g.
-    pub(super) fn forward(&self, arena: &mut Arena, rhs: &mut BTreeMap<Unknown, Expr>) -> Half {
+    pub(super) fn forward(&self, arena: &mut Arena, rhs: &mut BTreeMap<Unknown, Expr>, sums: Sums) -> Half {
         let zero = arena.zero();
         let mut take = |unknown| {
             let value = rhs.remove(&unknown).unwrap_or(zero);
-            arena.share(value)
+            sums.close(arena, value)
         };
         let [f, g] = self.coordinates.map(&mut take);
         let h = take(self.row);

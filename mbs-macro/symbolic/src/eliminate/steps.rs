@@ -61,7 +61,7 @@ impl Step {
                 }
                 [g, f, zero, zero]
             }
-            Self::Loop(single_loop) => single_loop.forward(arena, b),
+            Self::Loop(single_loop) => single_loop.forward(arena, b, sums),
             Self::Augmentation { row, weighted } => {
                 let of_row = b.get(row).copied().unwrap_or(zero);
                 let negative = arena.neg(of_row);
@@ -73,7 +73,7 @@ impl Step {
             }
             Self::Diagonal { unknown, inverse, multipliers } => {
                 let own = b.remove(unknown).unwrap_or(zero);
-                let own = arena.share(own);
+                let own = sums.close(arena, own);
                 for (other, multiplier) in multipliers {
                     let product = arena.mul(*multiplier, own);
                     subtract(arena, b, *other, product);

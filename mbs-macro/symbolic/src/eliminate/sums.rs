@@ -1,6 +1,6 @@
 //! Whether the sums of a right-hand side are computed once or multiplied out.
 
-use crate::arena::{Arena, Expr, Node};
+use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
 
 /// Sums with more terms than this are computed once instead of being opened where they
@@ -25,6 +25,31 @@ impl Sums {
             Self::Open if length(arena, value) <= LONGEST_OPEN => value,
             _ => arena.share(value),
         }
+    }
+
+    /// A value that is computed once. An open sum gets its common factors back, the most frequent
+    /// first: x p + x q + r = x (p + q) + r.
+    pub(super) fn close(self, arena: &mut Arena, value: Expr) -> Expr {
+        let mut left = terms(arena, value);
+        let mut grouped = Vec::new();
+        while self == Self::Open
+            && let Some(factor) = most_frequent(arena, &left)
+        {
+            // each round takes two terms at least
+            let (with, without): (Vec<_>, _) =
+                left.into_iter().partition(|&(term, _)| factors(arena, term).contains(&factor));
+            let (base, exponent) = factor;
+            let cofactors =
+                with.iter().map(|&(term, of_term)| (arena.product(&[(term, 1), (base, -exponent)]), of_term));
+            let cofactors: Vec<_> = cofactors.collect();
+            let cofactor = arena.sum(&cofactors);
+            let cofactor = arena.share(cofactor);
+            grouped.push((arena.product(&[(base, exponent), (cofactor, 1)]), Number::ONE));
+            left = without;
+        }
+        grouped.extend(left);
+        let value = arena.sum(&grouped);
+        arena.share(value)
     }
 
     /// x·y
@@ -59,4 +84,26 @@ fn terms(arena: &Arena, value: Expr) -> Vec<(Expr, Number)> {
         }
         _ => vec![(value, Number::ONE)],
     }
+}
+
+/// The factors of a term that do not depend on parameters alone.
+fn factors(arena: &Arena, term: Expr) -> Vec<(Expr, i32)> {
+    let factors = match arena.node(term) {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![(term, 1)],
+    };
+    factors.into_iter().filter(|&(factor, _)| arena.stage(factor) > Stage::Parameter).collect()
+}
+
+/// The factor that most terms have, two at least; of several the first.
+fn most_frequent(arena: &Arena, terms: &[(Expr, Number)]) -> Option<(Expr, i32)> {
+    let mut counts: Vec<((Expr, i32), usize)> = Vec::new();
+    for factor in terms.iter().flat_map(|&(term, _)| factors(arena, term)) {
+        match counts.iter_mut().find(|(known, _)| *known == factor) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((factor, 1)),
+        }
+    }
+    let most = counts.iter().map(|(_, count)| *count).max().filter(|&most| most > 1)?;
+    counts.into_iter().find(|&(_, count)| count == most).map(|(factor, _)| factor)
 }
