@@ -105,15 +105,13 @@ pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsol
         let Some(mut solver) = eliminated(model, problem, &kkt, strategy)? else { continue };
         found.push((solver.choose_sums(model, problem)?, solver));
     }
-    found.sort_by_key(|(cost, _)| cost.operations);
-    let shorter = match &found[..] {
-        [(fewest, _), others @ ..] => {
-            let others = others.iter().enumerate().filter(|(_, (cost, _))| cost.is_better_than(*fewest));
-            others.min_by_key(|(_, (cost, _))| cost.critical_path).map(|(at, _)| at + 1)
-        }
-        [] => None,
+    let fewest = found.iter().map(|(cost, _)| *cost).min_by_key(|cost| cost.operations);
+    // those that are better first, by their way
+    let rank = |cost: Cost| match fewest.is_some_and(|fewest| cost.is_better_than(fewest)) {
+        true => (0, cost.critical_path),
+        false => (1, cost.operations),
     };
-    let best = found.into_iter().nth(shorter.unwrap_or(0));
+    let best = found.into_iter().min_by_key(|(cost, _)| rank(*cost));
     best.map(|(_, solver)| solver).ok_or_else(|| Undetermined { unknowns: Vec::new() }.into())
 }
 
