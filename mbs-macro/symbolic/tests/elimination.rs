@@ -312,45 +312,6 @@ fn growth_tells_how_much_is_left_of_a_pivot() {
     }
 }
 
-/// A rod on a pivot: x = l cos θ and y = l sin θ give it one mass about the pivot, and what
-/// centripetal accelerations do along x cancels with what they do along y.
-#[test]
-fn what_cancels_in_open_sums_is_gone() {
-    let mut arena = Arena::new();
-    let mut letter = |name: &str, stage| {
-        let symbol = arena.symbol(name, stage);
-        arena.variable(symbol)
-    };
-    let [m, j, l] = ["m", "j", "l"].map(|name| letter(name, Stage::Parameter));
-    let [angle, rate, torque] = ["theta", "omega", "torque"].map(|name| letter(name, Stage::Variable));
-    let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| arena.call(function, angle));
-    let [x, y, theta] = [0, 1, 2].map(Unknown::Coordinate);
-    let mut kkt = Kkt::new();
-    let mut rhs = BTreeMap::from([(theta, torque)]);
-    for (at, mass) in [m, m, j].into_iter().enumerate() {
-        kkt.set(&arena, Unknown::Coordinate(at), Unknown::Coordinate(at), mass);
-        kkt.mark_massive(at);
-    }
-    let (of_x, of_y) = (arena.mul(l, sine), arena.mul(l, cosine));
-    let of_y = arena.neg(of_y);
-    // γ = −l ω² (cos θ, sin θ)
-    for (row, (coordinate, entry, direction)) in [(x, of_x, cosine), (y, of_y, sine)].into_iter().enumerate()
-    {
-        kkt.set(&arena, Unknown::Row(row), coordinate, arena.one());
-        kkt.set(&arena, Unknown::Row(row), theta, entry);
-        let gamma = arena.product(&[(l, 1), (rate, 2), (direction, 1)]);
-        rhs.insert(Unknown::Row(row), arena.neg(gamma));
-    }
-    let factorization = factor(&mut arena, &kkt, Order::NullSpace).unwrap();
-    let acceleration = [Sums::Closed, Sums::Open].map(|sums| {
-        let solution = factorization.solve_with(&mut arena, &rhs, sums);
-        let program = lower(&mut arena, &[solution[&theta]], &mut Hoisted::default(), 1024).unwrap();
-        program.operations().total()
-    });
-    // θ̈ = torque/(j + m l²)
-    assert!(acceleration[0] > 1 && acceleration[1] == 1, "{acceleration:?}");
-}
-
 /// A chain of masses, each tied to the next by a row: from both ends its pivots wait for each
 /// other half as long as from one, with the same operations.
 #[test]
@@ -370,32 +331,4 @@ fn a_chain_is_eliminated_from_both_ends() {
     assert!(from_both <= from_one, "{from_both} operations, and {from_one} from one end");
     // the ends and the middle are not halved
     assert!(10 * short <= 6 * long, "{short} cycles, and {long} from one end");
-}
-
-/// f = c p + c q over a mass: computed as c (p + q), where sums are open.
-#[test]
-fn open_sums_get_their_common_factors_back() {
-    let mut arena = Arena::new();
-    let mut letter = |name: &str, stage| {
-        let symbol = arena.symbol(name, stage);
-        arena.variable(symbol)
-    };
-    // with nothing in common that all masses would be measured in
-    let masses = ["m", "n"].map(|name| letter(name, Stage::Parameter));
-    let [c, p, q] = ["c", "p", "q"].map(|name| letter(name, Stage::Variable));
-    let x = Unknown::Coordinate(0);
-    let mut kkt = Kkt::new();
-    for (at, mass) in masses.into_iter().enumerate() {
-        kkt.set(&arena, Unknown::Coordinate(at), Unknown::Coordinate(at), mass);
-        kkt.mark_massive(at);
-    }
-    let (cp, cq) = (arena.mul(c, p), arena.mul(c, q));
-    let rhs = BTreeMap::from([(x, arena.add(cp, cq))]);
-    let factorization = factor(&mut arena, &kkt, Order::NullSpace).unwrap();
-    let products = [Sums::Closed, Sums::Open].map(|sums| {
-        let solution = factorization.solve_with(&mut arena, &rhs, sums);
-        lower(&mut arena, &[solution[&x]], &mut Hoisted::default(), 1024).unwrap().operations().mul
-    });
-    // one of them by 1/m
-    assert_eq!(products, [3, 2]);
 }
