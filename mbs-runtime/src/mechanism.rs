@@ -239,9 +239,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     #[doc(hidden)]
     fn clock(&self, t: Self::Real) -> Self::Clock;
 
-    /// The [fused step](Self::fused_step), given the functions of time at its start and at its end. Who
-    /// takes many steps in a row computes each once: those at the end of a step are those at the start of
-    /// the next one.
+    /// The [fused step](Self::fused_step), given the functions of time at its start and at its end.
+    /// Their values at the end of a step are those at the start of the next one, so that many
+    /// steps in a row compute each function once for a step.
     #[doc(hidden)]
     #[inline(always)]
     fn fused_step_with_clock<X: Method>(

@@ -313,7 +313,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     }
 }
 
-/// Puts functions of time into a lane; those that were there.
+/// Puts functions of time into a lane, and gives those that were there.
 #[inline(always)]
 fn tick<S, C, T, const N: usize>(clock: &mut C, lane: usize, next: S) -> S
 where

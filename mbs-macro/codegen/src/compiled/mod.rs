@@ -270,7 +270,7 @@ impl Compiled {
         &self.programs[function as usize]
     }
 
-    /// The functions of time that a step is given which has a clock, of [`FusedStep::clocked`].
+    /// The functions of time whose values a step of [`FusedStep::clocked`] is given.
     pub fn clock(&self) -> Option<&Program> {
         self.fused_step.as_ref()?.clocked.as_ref().map(|clocked| &clocked.clock)
     }

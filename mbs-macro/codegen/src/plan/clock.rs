@@ -1,8 +1,8 @@
 //! Functions of time in a fused step, apart from it.
 //!
-//! What depends on time and parameters alone, as the sine of a crank's prescribed angle, has at the
-//! end of a step the value that it has at the start of the next one. Who takes many steps in a row
-//! needs it once for each.
+//! A function of time and parameters alone, as the sine of a crank's prescribed angle, has at the
+//! end of a step the value that it has at the start of the next one. Many steps in a row need it
+//! once for each step.
 
 use std::collections::HashMap;
 
@@ -32,7 +32,7 @@ enum End {
 struct Timed {
     /// The same in the program of the clock.
     value: Operand,
-    /// Of which time; nothing of parameters alone.
+    /// The end whose time it depends on; `None` where it depends on parameters alone.
     end: Option<End>,
 }
 

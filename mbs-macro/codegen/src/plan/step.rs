@@ -19,8 +19,8 @@ pub struct FusedStep {
     pub alone: Kinds,
     /// That also give the reactions at their start.
     pub with_reactions: Option<Kinds>,
-    /// Those that give the state, for many steps in a row, where functions of time have a part in
-    /// them.
+    /// Those that are given the functions of time, for many steps in a row; `None` where a step
+    /// needs no function of time at its end.
     pub clocked: Option<Clocked>,
 }
 

@@ -97,7 +97,7 @@ impl Cost {
 }
 
 /// The elimination that costs least in the function that runs most: the one with the fewest
-/// operations, unless others have hardly more that wait for each other far less.
+/// operations, unless another [is better](Cost::is_better_than).
 pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsolvable> {
     let kkt = system(model, problem.equations, problem.rows, &BTreeSet::new());
     let mut found = Vec::new();
@@ -106,7 +106,7 @@ pub fn cheapest(model: &mut Model, problem: Problem<'_>) -> Result<Solver, Unsol
         found.push((solver.choose_sums(model, problem)?, solver));
     }
     let fewest = found.iter().map(|(cost, _)| *cost).min_by_key(|cost| cost.operations);
-    // those that are better first, by their way
+    // Eliminations that are better come first, the shortest way before others.
     let rank = |cost: Cost| match fewest.is_some_and(|fewest| cost.is_better_than(fewest)) {
         true => (0, cost.critical_path),
         false => (1, cost.operations),

@@ -16,9 +16,9 @@ pub enum Strategy {
     NullSpace,
     /// The locally cheapest pivot, mass or constraint. Keeps chains sparse.
     Cheapest,
-    /// Masses first, then the locally cheapest row, of equally cheap ones that which waits
+    /// Masses first, then the locally cheapest row; among equally cheap rows the one that waits
     /// for the fewest pivots. A chain is then eliminated from both ends at once (twisted
-    /// factorization), and a processor works at two pivots in the time of one.
+    /// factorization), and each pivot waits for half as many others.
     BothEnds,
 }
 

@@ -1,9 +1,9 @@
 //! Repeated parts that do not need each other, side by side.
 //!
-//! A chain that is eliminated from both ends gives two loops, one after the other. Each
-//! waits from copy to copy for a pivot, and a processor does not look far enough ahead to work at
-//! both. Here a copy of one follows a copy of the other, so that one loop does both, in
-//! little more time than one (loop fusion).
+//! A chain that is eliminated from both ends gives two loops, one after the other. In each,
+//! a copy waits for the pivot of the copy before, and a processor does not look far enough ahead to
+//! work at both. Here a copy of one follows a copy of the other, so that one loop does both
+//! (loop fusion), and a processor has operations of one end while it waits for a pivot of the other.
 
 use std::ops::Range;
 
