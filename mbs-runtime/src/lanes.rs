@@ -21,9 +21,9 @@ use crate::{Real, Two};
 /// gives, bit for bit, with two exceptions for `N` > 1, which keep sines and
 /// cosines free of branches:
 ///
-/// * [`sin_cos`](Real::sin_cos) of an `f64` lane beyond 10⁵ rad is NaN;
+/// * [`sin_cos`](Real::sin_cos) of an `f64` lane beyond 10⁹ rad is NaN;
 /// * that of an `f32` lane is that of the `f64` angle, rounded: it may differ from
-///   the scalar's in the last place, and is NaN beyond 10⁵ rad too.
+///   the scalar's in the last place up to 10⁵ rad, and is NaN beyond 10⁹ rad too.
 ///
 /// Lanes do not branch apart, so what is a decision for a scalar is one for all
 /// lanes together: a comparison holds if it holds in every lane, a value
@@ -40,7 +40,7 @@ pub struct Lanes<T, const N: usize>(pub [T; N]);
 
 /// A scalar that can stand in a lane: `f32` or `f64`.
 pub trait Lane: Real + sealed::Sealed {
-    /// Sine and cosine without a branch; NaN beyond 10⁵ rad.
+    /// Sine and cosine without a branch; NaN beyond 10⁹ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
     /// The larger of two magnitudes; NaN if one is. What has a minus sign is larger than
@@ -312,9 +312,9 @@ mod tests {
 
     #[test]
     fn far_angles_are_refused_where_branches_are() {
-        let (sine, cosine) = Lanes([1.0, 1.1e5]).sin_cos();
+        let (sine, cosine) = Lanes([1.0, 1.1e9]).sin_cos();
         assert_eq!((sine.0[0], cosine.0[0]), 1.0_f64.sin_cos());
         assert!(sine.0[1].is_nan() && cosine.0[1].is_nan());
-        assert_eq!(Lanes([1.1e5]).sin_cos().0.0, [Real::sin_cos(1.1e5).0]);
+        assert_eq!(Lanes([1.1e9]).sin_cos().0.0, [Real::sin_cos(1.1e9).0]);
     }
 }

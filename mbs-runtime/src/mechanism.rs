@@ -207,6 +207,10 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// update, in the operations of [`stabilized`](Self::stabilized) and
     /// [`constrained`](Self::constrained). `None` if the mechanism is too large for that to
     /// pay. Of the method `X` it uses the feedback alone.
+    ///
+    /// It has no branch, so it gives no number where an angle is beyond the reach of
+    /// [straight sines](crate::Pair::straight_sin_cos): `sum` tells, and the step is made in
+    /// stages.
     #[inline(always)]
     fn fused_step<X: Method>(
         &self,

@@ -31,6 +31,12 @@ pub trait Pair<T>:
     fn flip(self) -> Self;
     /// Sines and cosines.
     fn sin_cos(self) -> (Self, Self);
+    /// The same without a branch, where processors do better without one: of an angle that it
+    /// does not reach there is no number.
+    #[inline(always)]
+    fn straight_sin_cos(self) -> (Self, Self) {
+        self.sin_cos()
+    }
 }
 
 /// A scalar that is computed with next to pairs, where that is another register
@@ -193,6 +199,11 @@ impl Pair<f64> for Vector {
         } else {
             far_sin_cos(self)
         }
+    }
+    #[inline(always)]
+    fn straight_sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = sincos::straight_sin_cos_of_vector(self.0);
+        (Self(sine), Self(cosine))
     }
 }
 

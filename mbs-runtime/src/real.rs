@@ -13,8 +13,9 @@ use crate::spline::Spline;
 /// their partial derivatives ([`Dual`](crate::Dual)). With the feature `std` the elementary
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
-/// 10⁵ rad are this crate's own, inlined, within 2 units in the last place up to
-/// 10³ rad, and within 2.5 beyond.
+/// 10⁹ rad are this crate's own, inlined: within 2 units in the last place up to
+/// 10³ rad, within 2.5 up to 10⁵ rad, and beyond those of an angle that differs from
+/// the given one by no more than half a unit in its last place.
 pub trait Real:
     Copy
     + Debug
@@ -174,7 +175,7 @@ fn sin_cos_f64(x: f64) -> (f64, f64) {
     if x.abs() <= crate::sincos::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
 }
 
-/// The library's, for angles of more than 15 000 turns, infinities and NaN. A
+/// The library's, for angles of more than 10⁸ turns, infinities and NaN. A
 /// compiler that sees through it calls it for every angle in a loop, to choose
 /// afterwards.
 #[cold]

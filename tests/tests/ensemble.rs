@@ -344,7 +344,7 @@ fn members_that_cannot_start() {
     assert!(matches!(late[0], Err(Error::EndTime { .. })));
 }
 
-/// Beyond 10⁵ rad the lanes compute nothing; the scalar does.
+/// Beyond 10⁹ rad the lanes compute nothing; the scalar does.
 #[test]
 fn angles_beyond_the_range_of_the_lanes() {
     let fast = |step: f64, omega: f64| {
@@ -352,14 +352,14 @@ fn angles_beyond_the_range_of_the_lanes() {
         Simulation::builder(SliderCrank::new(parameters)?, step).baumgarte(Baumgarte::<Held>::NONE).build()
     };
     let member = |index: usize| match index {
-        1 => fast(1e-7, 1.05e9),
+        1 => fast(1e-7, 1.05e13),
         _ => fast(1e-7, 100.0),
     };
     let ended = same_end(3, 1e-4, member);
     let mut fast = member(1).expect("a start");
     let end = fast.advance_to(1e-4);
     assert_eq!(end.err(), ended[1]);
-    assert!(fast.state().q.theta1 > 1e5 || ended[1].is_some());
+    assert!(fast.state().q.theta1 > 1e9 || ended[1].is_some());
 }
 
 #[test]

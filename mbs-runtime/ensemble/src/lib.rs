@@ -58,7 +58,7 @@
 //! whoever its neighbours are, whatever the number of threads, and on every
 //! processor for which elementary functions other than sine and cosine come out
 //! the same: vectors of any width round as scalars do, and no multiplication is
-//! fused with an addition. Lanes do not compute sines of angles beyond 10⁵ rad: there a
+//! fused with an addition. Lanes do not compute sines of angles beyond 10⁹ rad: there a
 //! block goes on lane after lane. In `f32` lanes, sines and cosines may
 //! differ from those of the scalar in the last place.
 //!

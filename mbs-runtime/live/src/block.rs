@@ -26,7 +26,7 @@ pub struct Member<'a> {
 
 /// As many members as there are lanes. A member comes out as its
 /// [`Stepper`](crate::Stepper) alone does, to the last bit. What lanes cannot compute is a
-/// sine or cosine beyond 10⁵ rad, which is no number there.
+/// sine or cosine beyond 10⁹ rad, which is no number there.
 pub struct Block {
     stepper: Steps<Vector, VECTORS>,
     q: Vec<Column>,

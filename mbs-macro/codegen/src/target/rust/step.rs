@@ -222,7 +222,7 @@ impl Writer<'_> {
             Step::Sines(angles) => {
                 let angles = pair(angles);
                 let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
-                let statement = quote!(let (#sines, #cosines) = #angles.sin_cos(););
+                let statement = quote!(let (#sines, #cosines) = #angles.straight_sin_cos(););
                 self.names.extend([sines, cosines]);
                 return statement;
             }

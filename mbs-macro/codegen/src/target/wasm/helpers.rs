@@ -100,35 +100,50 @@ fn sign() -> Function {
 }
 
 /// Sine and cosine as `mbs-runtime` computes them: the quarter turns are taken off by Cody and Waite's
-/// reduction, polynomials of Sun's fdlibm give the rest. Beyond 10⁵ rad the host computes them.
+/// reduction, polynomials of Sun's fdlibm give the rest. Beyond 10⁹ rad the host computes them.
 fn sin_cos() -> Function {
-    let mut function = Function::new([(8, ValType::F64), (1, ValType::I64)]);
-    let [x, turns, n, r, z, w, s, c, half] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
-    let quadrant = 9;
+    let mut function = Function::new([(9, ValType::F64), (1, ValType::I64)]);
+    let [x, turns, n, r, z, w, ww, s, c, half] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+    let quadrant = 10;
     let mut code = function.instructions();
-    code.local_get(x).f64_abs().f64_const(1.0e5.into()).f64_le().i32_eqz().if_(BlockType::Empty);
+    code.local_get(x).f64_abs().f64_const(1.0e9.into()).f64_le().i32_eqz().if_(BlockType::Empty);
     code.local_get(x).call(0).local_get(x).call(1).return_().end();
     // the low bits of the sum are the nearest number of quarter turns
     let shift = 6_755_399_441_055_744.0;
     code.local_get(x).f64_const(std::f64::consts::FRAC_2_PI.into()).f64_mul();
     code.f64_const(shift.into()).f64_add().local_tee(turns).f64_const(shift.into()).f64_sub().local_set(n);
     code.local_get(x);
-    for part in [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21] {
+    for part in [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11] {
         code.local_get(n).f64_const(f64::into(part)).f64_mul().f64_sub();
     }
-    code.local_tee(r).local_get(r).f64_mul().local_tee(z).local_get(z).f64_mul().local_set(w);
-    // s = r + r z P(z)
+    // with its last part r is exact, without it r² is
+    let near = half;
+    code.local_tee(near).local_get(n).f64_const(2.022_266_248_795_950_6e-21.into()).f64_mul().f64_sub();
+    code.local_set(r);
+    code.local_get(near).local_get(near).f64_mul().local_tee(z).local_get(z).f64_mul().local_tee(w);
+    code.local_get(w).f64_mul().local_set(ww);
+    // s = r + r z ((first + w second) + w² third)
     code.local_get(r).local_get(r).local_get(z).f64_mul();
-    polynomial(&mut code, SINE, [z, w]);
-    code.f64_mul().f64_add().local_set(s);
-    // c = (1 − z/2) + (((1 − (1 − z/2)) − z/2) + z z P(z)), the bracketed difference being a rounding
+    let [first, second, third] = SINE;
+    pair_of_terms(&mut code, z, first);
+    code.local_get(w);
+    pair_of_terms(&mut code, z, second);
+    code.f64_mul().f64_add().local_get(ww);
+    pair_of_terms(&mut code, z, third);
+    code.f64_mul().f64_add().f64_mul().f64_add().local_set(s);
+    // c = whole + ((rounding + w first) + w² (second + w third)), with whole = 1 − z/2 and its rounding
     let whole = n;
     code.f64_const(0.5.into()).local_get(z).f64_mul().local_set(half);
     code.f64_const(1.0.into()).local_get(half).f64_sub().local_tee(whole);
     code.f64_const(1.0.into()).local_get(whole).f64_sub().local_get(half).f64_sub();
-    code.local_get(z).local_get(z).f64_mul();
-    polynomial(&mut code, COSINE, [z, w]);
-    code.f64_mul().f64_add().f64_add().local_set(c);
+    let [first, second, third] = COSINE;
+    code.local_get(w);
+    pair_of_terms(&mut code, z, first);
+    code.f64_mul().f64_add().local_get(ww);
+    pair_of_terms(&mut code, z, second);
+    code.local_get(w);
+    pair_of_terms(&mut code, z, third);
+    code.f64_mul().f64_add().f64_mul().f64_add().f64_add().local_set(c);
     // odd quarter turns exchange the two; the sine is negative in the second half of a turn, the cosine
     // in the second and the third quarter
     code.local_get(turns).i64_reinterpret_f64().local_set(quadrant);
@@ -148,34 +163,21 @@ fn sin_cos() -> Function {
     function
 }
 
-const SINE: [f64; 6] = [
-    -1.666_666_666_666_663_2e-1,
-    8.333_333_333_322_49e-3,
-    -1.984_126_982_985_795e-4,
-    2.755_731_370_707_007e-6,
-    -2.505_076_025_340_686_3e-8,
-    1.589_690_995_211_55e-10,
+const SINE: [[f64; 2]; 3] = [
+    [-1.666_666_666_666_663_2e-1, 8.333_333_333_322_49e-3],
+    [-1.984_126_982_985_795e-4, 2.755_731_370_707_007e-6],
+    [-2.505_076_025_340_686_3e-8, 1.589_690_995_211_55e-10],
 ];
 
-const COSINE: [f64; 6] = [
-    4.166_666_666_666_66e-2,
-    -1.388_888_888_887_411e-3,
-    2.480_158_728_947_673e-5,
-    -2.755_731_435_139_066e-7,
-    2.087_572_321_298_175e-9,
-    -1.135_964_755_778_819_5e-11,
+const COSINE: [[f64; 2]; 3] = [
+    [4.166_666_666_666_66e-2, -1.388_888_888_887_411e-3],
+    [2.480_158_728_947_673e-5, -2.755_731_435_139_066e-7],
+    [2.087_572_321_298_175e-9, -1.135_964_755_778_819_5e-11],
 ];
 
-/// (c₀ + c₁z) + w ((c₂ + c₃z) + w (c₄ + c₅z)) with w = z².
-fn polynomial(code: &mut InstructionSink<'_>, coefficients: [f64; 6], [z, w]: [u32; 2]) {
-    let (pairs, _) = coefficients.as_chunks::<2>();
-    for (at, [even, odd]) in pairs.iter().enumerate() {
-        if at > 0 {
-            code.local_get(w);
-        }
-        code.f64_const((*even).into()).local_get(z).f64_const((*odd).into()).f64_mul().f64_add();
-    }
-    code.f64_mul().f64_add().f64_mul().f64_add();
+/// c₀ + c₁z
+fn pair_of_terms(code: &mut InstructionSink<'_>, z: u32, [c0, c1]: [f64; 2]) {
+    code.f64_const(c0.into()).local_get(z).f64_const(c1.into()).f64_mul().f64_add();
 }
 
 /// The segment that x lies in is the last that does not begin behind it, and u counts from there.

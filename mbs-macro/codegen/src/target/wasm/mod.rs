@@ -7,8 +7,9 @@
 //! an energy, is returned. What lies in memory below the exported `heap` belongs to the module.
 //!
 //! Results are those of the other targets to the bit: WebAssembly rounds each operation by itself, sines
-//! and cosines up to 10⁵ rad are written with the code, as splines are. Long programs are written as loops. Tangents, inverse functions,
-//! exponentials and powers are those of the host, which need not agree with Rust's in the last place.
+//! and cosines up to 10⁹ rad are written with the code, as splines are. Long programs are written as
+//! loops. Tangents, inverse functions, exponentials and powers are those of the host, which need not agree
+//! with Rust's in the last place.
 
 mod helpers;
 mod loops;
