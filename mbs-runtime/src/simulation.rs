@@ -8,6 +8,8 @@ mod reverse;
 
 pub use self::builder::Builder;
 
+use core::hint::black_box;
+
 use crate::components::sum_of;
 use crate::explicit::{Span, Trial, trial};
 use crate::mechanism::{growth_limit, is_fused_for};
@@ -47,7 +49,8 @@ pub struct Simulation<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> 
     gains: Gains<M::Real>,
     step: M::Real,
     start_time: M::Real,
-    steps: u64,
+    /// A whole number; time is a product of it in every step, for which it would be converted.
+    steps: f64,
     watch: Watch<M::Real>,
 }
 
@@ -82,13 +85,13 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         // pair by pair; through a `Result` it would be copied in other pieces than
         // those in which it was written, for which processors wait.
         if is_fused_for::<M, X>()
-            && let Some(fused) = mechanism.fused_step::<X>(&self.counted(), inputs, gains, *step, t_next)
+            && let Some(fused) = mechanism.fused_step::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
         {
             self.state = fused.next;
-            self.steps += 1;
+            self.steps += 1.0;
             self.watch.note(fused.growth);
             return Ok(());
         }
@@ -97,7 +100,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         if M::INFO.redundant.is_empty()
             && let Some(growth) = mechanism.long_step::<X>(state, inputs, gains, *step, t_next, watch.alarm)
         {
-            self.steps += 1;
+            self.steps += 1.0;
             self.watch.note(growth);
             return Ok(());
         }
@@ -118,7 +121,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
             && self.keeps_redundant(&next);
         if is_calm {
             self.state = next;
-            self.steps += 1;
+            self.steps += 1.0;
             self.watch.note(growth);
         }
         is_calm
@@ -159,13 +162,13 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         if is_fused_for::<M, X>()
             && let Some((fused, reactions)) =
-                mechanism.fused_step_with_reactions::<X>(&self.counted(), inputs, gains, *step, t_next)
+                mechanism.fused_step_with_reactions::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
             && self.keeps_redundant(&fused.next)
         {
             self.state = fused.next;
-            self.steps += 1;
+            self.steps += 1.0;
             self.watch.note(fused.growth);
             return Ok(reactions);
         }
@@ -174,19 +177,25 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         Ok(reactions)
     }
 
-    /// The present state with its time counted anew, which gives the same number: read from the
-    /// state, it would be loaded in one piece with the coordinate behind it, and wait for the
-    /// writes of both.
+    /// The present state, read in the pieces in which it was written: a processor waits where a
+    /// load takes parts of two stores that have just been made.
+    ///
+    /// Compilers load a number together with the one behind it where they know that there is
+    /// one, so several coordinates are read from a place of which they do not know. One or two
+    /// stay in registers from step to step, which is faster still. Time is counted anew, which
+    /// gives the same number.
     #[inline(always)]
-    fn counted(&self) -> State<M::States> {
-        let t = self.start_time + M::Real::from_f64(self.steps as f64) * self.step;
-        State { t, ..self.state }
+    fn present(&self) -> State<M::States> {
+        let t = self.start_time + M::Real::from_f64(self.steps) * self.step;
+        let stays_in_registers = M::INFO.states.len() <= 2;
+        let state = if stays_in_registers { &self.state } else { black_box(&self.state) };
+        State { t, ..*state }
     }
 
     /// The time after the next step.
     #[inline(always)]
     fn next_time(&self) -> M::Real {
-        self.start_time + M::Real::from_f64((self.steps + 1) as f64) * self.step
+        self.start_time + M::Real::from_f64(self.steps + 1.0) * self.step
     }
 
     /// Advances by whole steps until less than half a step is left to `end` seconds.
@@ -207,7 +216,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// [`Error::EndTime`], or [`Error::Time`] if it is so far away that time would stand
     /// still before.
     pub fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps, end)
+        clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps(), end)
     }
 
     /// Time, positions and velocities of all coordinates.
@@ -240,7 +249,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// The same run, that many steps after its start.
     pub(crate) fn moved_to(&self, state: State<M::States>, steps: u64, watch: Watch<M::Real>) -> Self {
-        Self { state, steps, watch, ..*self }
+        Self { state, steps: steps as f64, watch, ..*self }
     }
 
     pub(crate) fn watch(&self) -> &Watch<M::Real> {
@@ -249,7 +258,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// Steps taken since the start.
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.steps as u64
     }
 
     /// The mechanism.

@@ -248,7 +248,7 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
             gains: self.baumgarte.gains(),
             step: h,
             start_time: state.t,
-            steps: 0,
+            steps: 0.0,
             watch: Watch::new(length),
         })
     }

@@ -38,7 +38,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let Arrays { t, q, v } = &mut next;
         self.on_slices(&mut |run, room| run.step(*t, [q.as_mut(), v.as_mut()], &mut watch, room))?;
         (self.state, self.watch) = (next.state(), watch);
-        self.steps += 1;
+        self.steps += 1.0;
         Ok(())
     }
 
