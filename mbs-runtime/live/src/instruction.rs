@@ -35,6 +35,10 @@ pub enum Instruction {
 
 /// Runs instructions. A slot holds `C` numbers: one operation is done on each of them.
 ///
+/// Instructions of a kind that follow each other, which is how they are
+/// [`grouped`](crate::grouped::grouped), are done in a loop of their own: its branch is foreseen, where a jump
+/// by the kind of each instruction is not.
+///
 /// Slots and splines exist: that was checked when the instructions were made.
 #[inline(always)]
 pub fn execute<T: Real, const C: usize>(
@@ -42,27 +46,42 @@ pub fn execute<T: Real, const C: usize>(
     splines: &[Spline],
     values: &mut [[T; C]],
 ) {
-    for instruction in instructions {
+    let mut rest = instructions;
+    macro_rules! all_of {
+        ($Kind:ident, $run:ident, $f:expr) => {
+            while let [Instruction::$Kind(slots), behind @ ..] = rest {
+                $run(values, *slots, $f);
+                rest = behind;
+            }
+        };
+    }
+    // each turn does at least its first instruction
+    while let [instruction, behind @ ..] = rest {
         match *instruction {
-            Instruction::Add(slots) => binary(values, slots, |a, b| a + b),
-            Instruction::Sub(slots) => binary(values, slots, |a, b| a - b),
-            Instruction::Mul(slots) => binary(values, slots, |a, b| a * b),
-            Instruction::Div(slots) => binary(values, slots, |a, b| a / b),
-            Instruction::MulAdd(slots) => ternary(values, slots, |a, b, c| c + a * b),
-            Instruction::SubMul(slots) => ternary(values, slots, |a, b, c| c - a * b),
-            Instruction::MulSub(slots) => ternary(values, slots, |a, b, c| a * b - c),
-            Instruction::Neg(slots) => unary(values, slots, |a| -a),
+            Instruction::Add(_) => all_of!(Add, binary, |a, b| a + b),
+            Instruction::Sub(_) => all_of!(Sub, binary, |a, b| a - b),
+            Instruction::Mul(_) => all_of!(Mul, binary, |a, b| a * b),
+            Instruction::Div(_) => all_of!(Div, binary, |a, b| a / b),
+            Instruction::MulAdd(_) => all_of!(MulAdd, ternary, |a, b, c| c + a * b),
+            Instruction::SubMul(_) => all_of!(SubMul, ternary, |a, b, c| c - a * b),
+            Instruction::MulSub(_) => all_of!(MulSub, ternary, |a, b, c| a * b - c),
+            Instruction::Neg(_) => all_of!(Neg, unary, |a| -a),
             Instruction::SinCos([sine, cosine, angle]) => {
                 for column in 0..C {
                     let (s, c) = values[angle as usize][column].sin_cos();
                     values[sine as usize][column] = s;
                     values[cosine as usize][column] = c;
                 }
+                rest = behind;
             }
-            Instruction::Call(function, slots) => call(function, values, slots),
+            Instruction::Call(function, slots) => {
+                call(function, values, slots);
+                rest = behind;
+            }
             Instruction::Spline { order, spline, slots } => {
                 let spline = &splines[spline as usize];
                 unary(values, slots, |a| spline.derivative(order, a));
+                rest = behind;
             }
         }
     }
@@ -82,8 +101,8 @@ fn ternary<T: Real, const C: usize>(
     f: impl Fn(T, T, T) -> T,
 ) {
     for column in 0..C {
-        let [a, b, c] = [a, b, c].map(|slot| values[slot as usize][column]);
-        values[to as usize][column] = f(a, b, c);
+        let number = |slot: u32| values[slot as usize][column];
+        values[to as usize][column] = f(number(a), number(b), number(c));
     }
 }
 
