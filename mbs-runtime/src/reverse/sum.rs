@@ -1,5 +1,6 @@
 //! A sum over a run with its derivatives, by going back through the run.
 
+use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
@@ -168,12 +169,13 @@ impl Way<'_> {
         let (sum, info, steps) = (self.sum, run.info(), self.sum.steps());
         let (gains, h) = (run.gains(), run.step_size());
         let (mut back, mut terms) = (Backward::new(run), Terms::new(info));
+        let pieces = Pieces::of(sum, info);
         let mut end = [(); 2].map(|()| vec![0.0; info.states.len()]);
         let [q, v] = &mut end;
         run.states(q, v);
         let at = At { t: self.time(steps, h), q, v };
         let mut value = terms.add(run, term, steps, at, &self.inputs, adjoints)?;
-        by_inputs(sum, info, steps.saturating_sub(1), adjoints, gradient);
+        pieces.collect(steps.saturating_sub(1), adjoints, gradient);
         for step in (0..steps).rev() {
             kept.restore(step, |step, [q, v], [q_next, v_next]| {
                 sum.set_inputs(step, &mut self.inputs);
@@ -189,12 +191,12 @@ impl Way<'_> {
             let given =
                 Given { t, q: at.q, v: at.v, inputs: &self.inputs, gains, h, t_next, ..Given::default() };
             back.step(run, &given, adjoints);
-            by_inputs(sum, info, step, adjoints, gradient);
+            pieces.collect(step, adjoints, gradient);
             // a state is looked at with the inputs of the step that led there
             let before = step.saturating_sub(1);
             sum.set_inputs(before, &mut self.inputs);
             value += terms.add(run, term, step, at, &self.inputs, adjoints)?;
-            by_inputs(sum, info, before, adjoints, gradient);
+            pieces.collect(before, adjoints, gradient);
         }
         Ok(value)
     }
@@ -204,17 +206,39 @@ impl Way<'_> {
     }
 }
 
-/// The adjoints of the inputs of a step, to the variables that these are.
-fn by_inputs(sum: &Sum<'_>, info: &Info, step: u64, adjoints: &mut Adjoints<'_, f64>, gradient: &mut [f64]) {
-    for (variable, place) in sum.variables().iter().zip(gradient) {
-        if let Variable::Input { from, until, .. } = variable
-            && (*from..*until).contains(&step)
-            && let Ok(at) = variable.find(info)
-        {
-            *place += adjoints.inputs.get(at).copied().unwrap_or(0.0);
-        }
+/// An input over some steps that is a variable.
+struct Piece {
+    steps: Range<u64>,
+    /// The places of the input and of the variable.
+    input: usize,
+    variable: usize,
+}
+
+/// The inputs that are variables.
+struct Pieces(Vec<Piece>);
+
+impl Pieces {
+    fn of(sum: &Sum<'_>, info: &Info) -> Self {
+        let piece = |(at, variable): (usize, &Variable)| match *variable {
+            Variable::Input { from, until, .. } => {
+                Some(Piece { steps: from..until, input: variable.find(info).ok()?, variable: at })
+            }
+            _ => None,
+        };
+        Self(sum.variables().iter().enumerate().filter_map(piece).collect())
     }
-    adjoints.inputs.fill(0.0);
+
+    /// The adjoints of the inputs of a step, to the variables that these are.
+    fn collect(&self, step: u64, adjoints: &mut Adjoints<'_, f64>, gradient: &mut [f64]) {
+        for piece in self.0.iter().filter(|piece| piece.steps.contains(&step)) {
+            if let (Some(place), Some(adjoint)) =
+                (gradient.get_mut(piece.variable), adjoints.inputs.get(piece.input))
+            {
+                *place += *adjoint;
+            }
+        }
+        adjoints.inputs.fill(0.0);
+    }
 }
 
 /// What states add to the sum, and room for that.
