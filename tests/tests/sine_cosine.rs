@@ -199,7 +199,7 @@ mechanism! {
 #[test]
 fn mechanisms_turn_on_beyond_the_range() {
     let turned = 2.0 * RANGE;
-    let rod = Rod::new(RodParameters { turned, ..Default::default() }).expect("parameters");
+    let rod = Rod::new(RodParameters { turned }).expect("parameters");
     let mut run = Simulation::new(rod, 1e-3).expect("a start");
     run.advance_to(0.1).expect("sines of the library");
     assert!(run.state().q.theta > turned + 0.1);
