@@ -31,8 +31,8 @@ pub trait Pair<T>:
     fn flip(self) -> Self;
     /// Sines and cosines.
     fn sin_cos(self) -> (Self, Self);
-    /// The same without a branch, where processors do better without one: of an angle that it
-    /// does not reach there is no number.
+    /// Sines and cosines without a branch, which would cut a step in two. An angle beyond
+    /// 10⁹ rad may give NaN.
     #[inline(always)]
     fn straight_sin_cos(self) -> (Self, Self) {
         self.sin_cos()

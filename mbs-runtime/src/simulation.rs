@@ -49,7 +49,8 @@ pub struct Simulation<M: Mechanism, X: Method = Held<<M as Mechanism>::Scheme>> 
     gains: Gains<M::Real>,
     step: M::Real,
     start_time: M::Real,
-    /// A whole number; time is a product of it in every step, for which it would be converted.
+    /// How many steps were taken. Every step multiplies this number with its length, so it is a
+    /// float; an integer would have to be converted.
     steps: f64,
     watch: Watch<M::Real>,
 }

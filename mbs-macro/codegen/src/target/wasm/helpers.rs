@@ -116,7 +116,7 @@ fn sin_cos() -> Function {
     for part in [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11] {
         code.local_get(n).f64_const(f64::into(part)).f64_mul().f64_sub();
     }
-    // with its last part r is exact, without it r² is
+    // r² is taken without the last part of π/2, which matters only where r itself is tiny
     let near = half;
     code.local_tee(near).local_get(n).f64_const(2.022_266_248_795_950_6e-21.into()).f64_mul().f64_sub();
     code.local_set(r);
