@@ -3,9 +3,9 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-use mbs_symbolic::layout::{Array, Column, Component, Home, Kept, Layout, Loop, Part, Rule, blocks};
+use mbs_symbolic::layout::{Array, Column, Component, Home, Kept, Layout, Loop, Part, Read, Rule, blocks};
 use mbs_symbolic::{
-    Arena, Expr, Function, Instruction, Operand, Operation, Program, Stage, Symbol, lower_whole,
+    Arena, Expr, Function, Instruction, Number, Operand, Operation, Program, Stage, Symbol, lower_whole,
 };
 use proptest::prelude::*;
 
@@ -131,5 +131,98 @@ proptest! {
         let blocks = blocks(&program, 0, &component);
         let results = in_array.min(program.outputs.len());
         prop_assert!(Layout::new(&program, &blocks, &[results], &component).is_ok());
+    }
+}
+
+/// xᵢ = xᵢ₋₁ + 1/(1 + (xᵢ₋₁ + qᵢ)²) up the first half of the symbols, and the same with xᵢ₋₁ − 1/…
+/// down the second half, in turns as the two ends of a chain are eliminated.
+fn from_both_ends(arena: &mut Arena, symbols: &[Expr]) -> Vec<Expr> {
+    let one = arena.one();
+    let mut ends = [one; 2];
+    for link in 0..LINKS / 2 {
+        let beside = [symbols[link], symbols[LINKS - 1 - link]];
+        for ((end, q), sign) in ends.iter_mut().zip(beside).zip([Number::ONE, Number::MINUS_ONE]) {
+            let sum = arena.add(*end, q);
+            let sum = arena.share(sum);
+            let square = arena.powi(sum, 2);
+            let sum = arena.add(one, square);
+            let inverse = arena.powi(sum, -1);
+            let sum = arena.sum(&[(*end, Number::ONE), (inverse, sign)]);
+            *end = arena.share(sum);
+        }
+    }
+    ends.to_vec()
+}
+
+#[test]
+fn two_ends_of_a_chain_become_the_lanes_of_a_vector() {
+    let program = program(from_both_ends);
+    let layout = layout(&program, &[]);
+    let [repeated] = loops(&layout).collect::<Vec<_>>()[..] else { panic!("one loop") };
+    let woven = repeated.woven(&program).expect("pairs are right").expect("there are pairs");
+    assert_eq!(woven.together.len(), 1, "both results are carried in one vector");
+    let [scalars, pairs, ..] = woven.woven.census();
+    assert_eq!((scalars, pairs), (0, 5), "{:?}", woven.woven);
+
+    // copy after copy, as a target runs it
+    let symbol = |place: usize| 0.9 + 0.01 * place as f64;
+    let outside = |operand: Operand| match operand {
+        Operand::Number(number) => number.to_f64(),
+        Operand::Symbol(at) => symbol(at.index()),
+        Operand::Value(at) => {
+            let values = Program { outputs: vec![Operand::Value(at)], ..program.clone() };
+            values.evaluate(&|at| symbol(at.index()), &[])[0]
+        }
+        Operand::Hoisted(_) => panic!("nothing is hoisted"),
+    };
+    let mut carried: Vec<f64> = repeated.carried.iter().map(|carried| outside(carried.first)).collect();
+    for copy in 0..repeated.repetition.count {
+        let given = |at: Symbol| match woven.given[at.index()] {
+            Read::Carried(at) => carried[at],
+            Read::Each(at) => match &repeated.columns[at] {
+                Column::Elements(Home::Vector('q'), rule) => symbol(rule.at(copy, &repeated.tables)),
+                other => panic!("{other:?}"),
+            },
+            other => panic!("{other:?}"),
+        };
+        let values = woven.woven.evaluate(&program, &given, &|_| f64::NAN);
+        carried = values[..repeated.carried.len()].to_vec();
+    }
+    let last = repeated.repetition.range().end;
+    for (value, variable) in carried.iter().zip(&repeated.carried) {
+        let at = last - repeated.repetition.length + variable.from;
+        assert_eq!(value.to_bits(), outside(Operand::Value(at)).to_bits());
+    }
+}
+
+/// The sines of pairs have a range, which only a whole step can do without; and a product
+/// alone has nothing beside it.
+#[test]
+fn loops_of_sines_or_without_pairs_are_not_woven() {
+    let alone = |arena: &mut Arena, symbols: &[Expr]| {
+        let mut last = arena.one();
+        for &q in symbols {
+            let sum = arena.add(last, q);
+            last = arena.share(sum);
+            let product = arena.mul(last, q);
+            last = arena.share(product);
+        }
+        vec![last]
+    };
+    let turning = |arena: &mut Arena, symbols: &[Expr]| {
+        let ends = from_both_ends(arena, symbols);
+        let sum = arena.add(ends[0], ends[1]);
+        let mut last = arena.share(sum);
+        for &q in symbols {
+            let sum = arena.add(last, q);
+            last = arena.call(Function::Sin, sum);
+        }
+        vec![last]
+    };
+    for (program, woven) in [(program(alone), 0), (program(turning), 1)] {
+        let layout = layout(&program, &[]);
+        assert!(loops(&layout).count() > woven);
+        let found = loops(&layout).filter(|repeated| repeated.woven(&program).expect("right").is_some());
+        assert_eq!(found.count(), woven);
     }
 }

@@ -18,7 +18,8 @@
 //!      variable has its first value before the loop, and takes that of the next copy at the
 //!      end of each. A result is stored as [`Kept`] tells: at once in every copy, or after
 //!      the loop, of the last copy alone. A loop of [`Loop::angles`] has nothing but sines
-//!      and cosines, which a target may take several at once.
+//!      and cosines, which a target may take several at once. [`Loop::woven`] has the same
+//!      steps on [pairs](crate::pairs), for a target with two-lane vectors.
 //! 4. After the parts, the target stores what [`Layout::given`] lists. The outputs are then at
 //!    [`Layout::outputs`].
 //!
@@ -51,6 +52,7 @@
 
 mod blocks;
 mod check;
+mod copy;
 mod loops;
 mod plan;
 mod readers;
@@ -70,6 +72,7 @@ use crate::repetition::{Block, Repetition};
 use crate::sin_cos::SinCos;
 
 pub use blocks::blocks;
+pub use copy::WovenCopy;
 pub use loops::{Angle, Carried, Column, Home, Kept, Loop, Read, Step};
 pub use rule::Rule;
 use slots::Slots;

@@ -62,7 +62,7 @@ pub enum Scalar {
 
 impl Scalar {
     /// The step that it is found in.
-    fn step(&self) -> Option<usize> {
+    pub fn step(&self) -> Option<usize> {
         match *self {
             Self::Given(_) => None,
             Self::Step(at) | Self::Lane(at, _) => Some(at),
@@ -208,13 +208,13 @@ struct Partner {
 
 /// What instructions have in common that can share a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-enum Kind {
+pub(crate) enum Kind {
     Sum,
     Product,
     Quotient,
 }
 
-fn kind(instruction: &Instruction) -> Option<Kind> {
+pub(crate) fn kind(instruction: &Instruction) -> Option<Kind> {
     match instruction.operation {
         Operation::Add | Operation::Sub => Some(Kind::Sum),
         Operation::Mul => Some(Kind::Product),
@@ -223,7 +223,7 @@ fn kind(instruction: &Instruction) -> Option<Kind> {
     }
 }
 
-fn is_sine_or_cosine(instruction: &Instruction) -> bool {
+pub(crate) fn is_sine_or_cosine(instruction: &Instruction) -> bool {
     matches!(instruction.operation, Operation::Call(Function::Sin | Function::Cos))
 }
 

@@ -10,6 +10,7 @@ mod info;
 mod long;
 mod matrices;
 mod names;
+mod on_pairs;
 mod program;
 mod sketch;
 mod solver;

@@ -1,17 +1,15 @@
 //! A whole step as one function on pairs of scalars.
 
-use std::collections::BTreeSet;
-
-use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Woven};
-use mbs_symbolic::{Inconsistency, Operation, Program};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use mbs_symbolic::pairs::{Given, Woven};
+use mbs_symbolic::{Inconsistency, Program};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
 
 use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
-use super::program::{body_of, named, number_tokens, operation_tokens, symbol_tokens};
-use super::weave;
+use super::program::{body_of, named, number_tokens, symbol_tokens};
+use super::{on_pairs, weave};
 use crate::compiled::{Compiled, Kinds};
 
 /// A fused step with what else it gives or is given, for both kinds of feedback.
@@ -162,15 +160,16 @@ struct Body {
 
 impl Body {
     fn new(compiled: &Compiled, names: &Names, fields: &Fields, woven: &Woven) -> Self {
-        let runtime = &names.runtime;
-        let mut writer =
-            Writer { compiled, access: Access::of_step(), names: Vec::new(), taken: BTreeSet::new() };
-        let statements: TokenStream = woven.steps.iter().map(|step| writer.statement(step)).collect();
-        let value = |&output| {
-            let value = writer.scalar(output);
+        let (runtime, access) = (&names.runtime, Access::of_step());
+        let mut read = |given| on_pairs::single(&given_tokens(compiled, &access, given));
+        let mut writer = on_pairs::Writer::new(&access.mechanism);
+        let statements: TokenStream =
+            woven.steps.iter().map(|step| writer.statement(step, &mut read)).collect();
+        let mut value = |&output| {
+            let value = writer.scalar(output, &mut read);
             quote!(#value.get())
         };
-        let outputs: Vec<TokenStream> = woven.outputs.iter().map(value).collect();
+        let outputs: Vec<TokenStream> = woven.outputs.iter().map(&mut value).collect();
         let (n, s, m) = (fields.coordinates.len(), fields.states.len(), fields.rows.len());
         let of_states = |values| named(&names.states.of_t, &fields.states, values);
         let (q, v) = (of_states(&outputs[..s]), of_states(&outputs[s..2 * s]));
@@ -187,9 +186,9 @@ impl Body {
             }
         };
         let sum = outputs.last();
+        let prelude = on_pairs::Writer::prelude(runtime);
         let statements = quote! {
-            use #runtime::{Pair as _, Single as _};
-            type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
+            #prelude
             let half_h = T::from_f64(0.5) * h;
             #statements
         };
@@ -200,105 +199,14 @@ impl Body {
     }
 }
 
-struct Writer<'a> {
-    compiled: &'a Compiled,
-    access: Access,
-    /// Of the steps so far.
-    names: Vec<Ident>,
-    taken: BTreeSet<String>,
-}
-
-impl Writer<'_> {
-    fn statement(&mut self, step: &Step) -> TokenStream {
-        let at = self.names.len();
-        let pair = |at: &usize| &self.names[*at];
-        let value = match step {
-            Step::Scalar(operation, a, b, name) => {
-                let value = self.operation(*operation, *a, *b);
-                let name = self.scalar_name(name.as_deref());
-                self.names.push(name.clone());
-                return quote!(let #name = #value;);
-            }
-            Step::Sines(angles) => {
-                let angles = pair(angles);
-                let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
-                let statement = quote!(let (#sines, #cosines) = #angles.straight_sin_cos(););
-                self.names.extend([sines, cosines]);
-                return statement;
-            }
-            // Named with the sines.
-            Step::Cosines(_) => return TokenStream::new(),
-            Step::Join(a, b) => {
-                let (a, b) = (self.scalar(*a), self.scalar(*b));
-                quote!(T::Pair::join(#a, #b))
-            }
-            Step::Splat(a) => {
-                let a = self.scalar(*a);
-                quote!(T::Pair::splat(#a))
-            }
-            Step::Swap(of) => {
-                let of = pair(of);
-                quote!(#of.swap())
-            }
-            Step::Flip(of) => {
-                let of = pair(of);
-                quote!(#of.flip())
-            }
-            Step::Pair(operation, a, b) => {
-                let (a, b) = (pair(a), pair(b));
-                operation_tokens(*operation, &quote!(#a), &quote!(#b), &self.access.mechanism)
-            }
-        };
-        let name = format_ident!("p{at}");
-        self.names.push(name.clone());
-        quote!(let #name = #value;)
-    }
-
-    /// An operation on scalars; functions are those of the scalar type itself.
-    fn operation(&self, operation: Operation, a: Scalar, b: Scalar) -> TokenStream {
-        let (a, b) = (self.scalar(a), self.scalar(b));
-        match operation {
-            Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => single(operation_tokens(
-                operation,
-                &quote!(#a.get()),
-                &quote!(#b.get()),
-                &self.access.mechanism,
-            )),
-            _ => operation_tokens(operation, &a, &b, &self.access.mechanism),
+/// How a scalar is read that no step computes.
+fn given_tokens(compiled: &Compiled, access: &Access, given: Given) -> TokenStream {
+    match given {
+        Given::Number(number) => number_tokens(number),
+        Given::Symbol(symbol) => symbol_tokens(compiled, access, symbol),
+        Given::Hoisted(at) => {
+            let (this, at) = (&access.this, Literal::usize_unsuffixed(at));
+            quote!(#this.hoisted[#at])
         }
     }
-
-    fn scalar(&self, scalar: Scalar) -> TokenStream {
-        match scalar {
-            Scalar::Given(Given::Number(number)) => single(number_tokens(number)),
-            Scalar::Given(Given::Symbol(symbol)) => {
-                single(symbol_tokens(self.compiled, &self.access, symbol))
-            }
-            Scalar::Given(Given::Hoisted(at)) => {
-                let at = Literal::usize_unsuffixed(at);
-                single(quote!(self.hoisted[#at]))
-            }
-            Scalar::Step(at) => self.names[at].to_token_stream(),
-            Scalar::Lane(at, lane) => {
-                let name = &self.names[at];
-                match lane {
-                    Lane::First => quote!(#name.first()),
-                    Lane::Second => quote!(#name.second()),
-                }
-            }
-        }
-    }
-
-    fn scalar_name(&mut self, suggested: Option<&str>) -> Ident {
-        match suggested {
-            Some(name) if syn::parse_str::<Ident>(name).is_ok() && self.taken.insert(name.to_owned()) => {
-                Ident::new(name, Span::call_site())
-            }
-            _ => format_ident!("v{}", self.names.len()),
-        }
-    }
-}
-
-fn single(scalar: TokenStream) -> TokenStream {
-    quote!(Single::<T>::new(#scalar))
 }

@@ -78,7 +78,7 @@ pub fn element(context: &Context<'_>, column: &Column<Vector>) -> TokenStream {
 }
 
 /// Stores a result of every copy at once; nothing, where only the last one is kept.
-pub fn store(context: &Context<'_>, kept: Kept, value: &Ident) -> TokenStream {
+pub fn store(context: &Context<'_>, kept: Kept, value: &impl ToTokens) -> TokenStream {
     let Kept::Each(array, rule) = kept else { return TokenStream::new() };
     let (runtime, array, place) = (&context.names.runtime, places::array(array), place(rule));
     quote!(#runtime::__private::write(#array, #place, #value);)
@@ -140,7 +140,7 @@ pub fn carried_values(repeated: &Loop<Vector>, writer: &Writer<'_>) -> (TokenStr
     (before, after)
 }
 
-fn carried_name(at: usize) -> Ident {
+pub fn carried_name(at: usize) -> Ident {
     format_ident!("carried_{}", at + 1)
 }
 

@@ -6,6 +6,7 @@
 
 mod arrays;
 mod columns;
+mod paired;
 pub mod places;
 mod repeated;
 
@@ -91,7 +92,7 @@ pub fn body(
         let definition = match part {
             Part::Straight(part) => straight(&context, part, &mut arrays, format_ident!("part_{number}")),
             Part::Loop(part) => {
-                repeated::definition(&context, part, &mut arrays, format_ident!("repeated_{number}"))
+                repeated::definition(&context, part, &mut arrays, format_ident!("repeated_{number}"))?
             }
         };
         functions.add(definition, &results, names, access);

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use mbs_symbolic::layout::{Angle, Carried, Column, Home, Kept, Loop, Read};
-use mbs_symbolic::{Function, Operand, Operation, Repetition};
+use mbs_symbolic::{Function, Inconsistency, Operand, Operation, Repetition};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::arrays::Arrays;
 use super::columns::{Columns, carried_values, element, head, store, vectors};
-use super::{Context, Definition, places};
+use super::{Context, Definition, paired, places};
 use crate::compiled::Vector;
 use crate::target::rust::program::Writer;
 
@@ -19,7 +19,7 @@ pub fn definition(
     repeated: &Loop<Vector>,
     arrays: &mut Arrays,
     name: Ident,
-) -> Definition {
+) -> Result<Definition, Inconsistency> {
     let Context { compiled, names, access, .. } = *context;
     let Repetition { length, count, .. } = repeated.repetition;
     let (doc, statements, mut arguments) = match repeated.angles() {
@@ -28,12 +28,16 @@ pub fn definition(
         }
         None => {
             let arguments = access.arguments(compiled, names, &operands(repeated));
-            (format!(" {length} instructions, {count} times."), copies(context, repeated), arguments)
+            let statements = match repeated.woven(context.program)? {
+                Some(copy) => paired::copies(context, repeated, &copy),
+                None => copies(context, repeated),
+            };
+            (format!(" {length} instructions, {count} times."), statements, arguments)
         }
     };
     let vectors = vectors(repeated).into_iter();
     arguments.extend(vectors.map(|vector| arrays.argument(vector, compiled, access)));
-    Definition { name, doc: Some(doc), statements, arguments }
+    Ok(Definition { name, doc: Some(doc), statements, arguments })
 }
 
 /// The copies, one after the other.
@@ -48,13 +52,14 @@ fn copies(context: &Context<'_>, repeated: &Loop<Vector>) -> TokenStream {
     }
     let mut columns = Columns::new(context, repeated);
     let mut around = Around::default();
+    let mut kept = BTreeSet::new();
     for (at, step) in repeated.steps.iter().enumerate() {
         let operands = step.operands.map(|read| columns.read(read));
         writer.statements.extend(std::mem::take(&mut columns.reads));
         writer.instruction_of(start + at, operands);
         // a sine comes with its cosine
         for at in [Some(at), step.partner].into_iter().flatten() {
-            if let Some(value) = writer.result(start + at).filter(|_| around.kept.insert(at)) {
+            if let Some(value) = writer.result(start + at).filter(|_| kept.insert(at)) {
                 let statement = around.keep(context, repeated.steps[at].kept, value);
                 writer.statements.extend(statement);
             }
@@ -69,19 +74,20 @@ fn copies(context: &Context<'_>, repeated: &Loop<Vector>) -> TokenStream {
 
 /// Statements around a loop.
 #[derive(Default)]
-struct Around {
-    before: TokenStream,
-    after: TokenStream,
-    /// The steps whose results are kept so far.
-    kept: BTreeSet<usize>,
+pub struct Around {
+    pub before: TokenStream,
+    pub after: TokenStream,
+    /// How many results of last copies are kept so far.
+    count: usize,
 }
 
 impl Around {
     /// Keeps the result of a step: that of every copy at once, that of the last one after
     /// the loop.
-    fn keep(&mut self, context: &Context<'_>, kept: Kept, value: &Ident) -> TokenStream {
+    pub fn keep(&mut self, context: &Context<'_>, kept: Kept, value: &impl ToTokens) -> TokenStream {
         let Kept::Last(place) = kept else { return store(context, kept, value) };
-        let last = format_ident!("last_{}", self.kept.len());
+        let last = format_ident!("last_{}", self.count);
+        self.count += 1;
         let place = places::element(place);
         self.before.extend(quote!(let mut #last = T::from_f64(0.0);));
         self.after.extend(quote!(#place = #last;));

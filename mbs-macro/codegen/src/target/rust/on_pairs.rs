@@ -1,0 +1,130 @@
+//! Steps on pairs as statements on `Real::Pair`.
+
+use std::collections::BTreeSet;
+
+use mbs_symbolic::Operation;
+use mbs_symbolic::pairs::{Given, Lane, Scalar, Step};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+
+use super::program::operation_tokens;
+
+/// How a `Single` is read that no step computes.
+pub type Read<'a> = &'a mut dyn FnMut(Given) -> TokenStream;
+
+/// Writes the steps of a program on pairs, one after the other.
+pub struct Writer<'a> {
+    /// The type of the mechanism, which holds splines.
+    mechanism: &'a TokenStream,
+    /// Of the steps so far.
+    names: Vec<Ident>,
+    taken: BTreeSet<String>,
+}
+
+impl<'a> Writer<'a> {
+    pub fn new(mechanism: &'a TokenStream) -> Self {
+        Self { mechanism, names: Vec::new(), taken: BTreeSet::new() }
+    }
+
+    /// What the statements need around them.
+    pub fn prelude(runtime: &TokenStream) -> TokenStream {
+        quote! {
+            use #runtime::{Pair as _, Single as _};
+            type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
+        }
+    }
+
+    /// The statement of the next step.
+    pub fn statement(&mut self, step: &Step, read: Read<'_>) -> TokenStream {
+        let at = self.names.len();
+        let pair = |at: &usize| &self.names[*at];
+        let value = match step {
+            Step::Scalar(operation, a, b, name) => {
+                let value = self.operation(*operation, *a, *b, read);
+                let name = self.scalar_name(name.as_deref());
+                self.names.push(name.clone());
+                return quote!(let #name = #value;);
+            }
+            Step::Sines(angles) => {
+                let angles = pair(angles);
+                let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
+                let statement = quote!(let (#sines, #cosines) = #angles.straight_sin_cos(););
+                self.names.extend([sines, cosines]);
+                return statement;
+            }
+            // Named with the sines.
+            Step::Cosines(_) => return TokenStream::new(),
+            Step::Join(a, b) => {
+                let (a, b) = (self.scalar(*a, read), self.scalar(*b, read));
+                quote!(T::Pair::join(#a, #b))
+            }
+            Step::Splat(a) => {
+                let a = self.scalar(*a, read);
+                quote!(T::Pair::splat(#a))
+            }
+            Step::Swap(of) => {
+                let of = pair(of);
+                quote!(#of.swap())
+            }
+            Step::Flip(of) => {
+                let of = pair(of);
+                quote!(#of.flip())
+            }
+            Step::Pair(operation, a, b) => {
+                let (a, b) = (pair(a), pair(b));
+                operation_tokens(*operation, &quote!(#a), &quote!(#b), self.mechanism)
+            }
+        };
+        let name = format_ident!("p{at}");
+        self.names.push(name.clone());
+        quote!(let #name = #value;)
+    }
+
+    /// The next step is there already, as this pair.
+    pub fn take(&mut self, pair: Ident) {
+        self.names.push(pair);
+    }
+
+    /// An operation on scalars; functions are those of the scalar type itself.
+    fn operation(&self, operation: Operation, a: Scalar, b: Scalar, read: Read<'_>) -> TokenStream {
+        let (a, b) = (self.scalar(a, read), self.scalar(b, read));
+        match operation {
+            Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => {
+                let value = operation_tokens(operation, &quote!(#a.get()), &quote!(#b.get()), self.mechanism);
+                single(&value)
+            }
+            _ => operation_tokens(operation, &a, &b, self.mechanism),
+        }
+    }
+
+    /// A `Single`.
+    pub fn scalar(&self, scalar: Scalar, read: Read<'_>) -> TokenStream {
+        match scalar {
+            Scalar::Given(given) => read(given),
+            Scalar::Step(at) => self.names[at].to_token_stream(),
+            Scalar::Lane(at, lane) => of_lane(&self.names[at], lane),
+        }
+    }
+
+    fn scalar_name(&mut self, suggested: Option<&str>) -> Ident {
+        match suggested {
+            Some(name) if syn::parse_str::<Ident>(name).is_ok() && self.taken.insert(name.to_owned()) => {
+                Ident::new(name, Span::call_site())
+            }
+            _ => format_ident!("v{}", self.names.len()),
+        }
+    }
+}
+
+/// A lane of a pair, as a `Single`.
+pub fn of_lane(pair: &Ident, lane: Lane) -> TokenStream {
+    match lane {
+        Lane::First => quote!(#pair.first()),
+        Lane::Second => quote!(#pair.second()),
+    }
+}
+
+/// A scalar as a `Single`.
+pub fn single(scalar: &TokenStream) -> TokenStream {
+    quote!(Single::<T>::new(#scalar))
+}
