@@ -33,6 +33,9 @@ pub trait OnArrays: Mechanism {
     fn room() -> Room<Self>;
 
     /// [`stabilized`](Mechanism::stabilized): q̈, the feedback, and as its value the growth.
+    ///
+    /// `feedback` is given as zeros, or as this function left it: where it always is 0, as of rows
+    /// that give a coordinate, nothing is written.
     #[allow(clippy::too_many_arguments, reason = "the arrays of one stage")]
     fn stabilized_on_arrays(
         &self,

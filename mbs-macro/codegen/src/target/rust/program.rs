@@ -49,15 +49,16 @@ impl Body {
         }}
     }
 
-    /// Statements that write those of the outputs of a long program into an array that are
-    /// not there yet.
-    pub fn write(&self, array: Array, range: Range<usize>) -> TokenStream {
+    /// Statements that write outputs of a long program into an array, each pair of an output and
+    /// its element, but for those that are there already.
+    pub fn write(&self, array: Array, pairs: impl Iterator<Item = (usize, usize)>) -> TokenStream {
         let runtime = &self.runtime;
-        let outputs = self.places.iter().flat_map(|places| places[range.clone()].iter().enumerate());
         let literal = Literal::usize_unsuffixed;
-        let rows: Vec<_> = outputs
-            .filter(|(_, place)| place.array == Array::Slots)
-            .map(|(to, place)| (literal(place.at), literal(to)))
+        let places = self.places.as_deref().unwrap_or_default();
+        let rows: Vec<_> = pairs
+            .filter_map(|(output, to)| Some((places.get(output)?, to)))
+            .filter(|(place, _)| place.array == Array::Slots)
+            .map(|(place, to)| (literal(place.at), literal(to)))
             .map(|(from, to)| quote!([#from, #to]))
             .collect();
         if rows.is_empty() {

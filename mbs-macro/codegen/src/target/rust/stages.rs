@@ -1,6 +1,6 @@
 //! The stages of a mechanism whose programs became loops, on arrays.
 
-use mbs_symbolic::Program;
+use mbs_symbolic::{Number, Operand, Program};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -40,8 +40,11 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
             #growth
         }
     };
-    let acceleration = |body: &Body| body.write(ACCELERATION, 0..s);
-    let feedback = stabilized.write(FEEDBACK, s..s + m);
+    let acceleration = |body: &Body| body.write(ACCELERATION, (0..s).map(|state| (state, state)));
+    // zeros are there
+    let given = &compiled.program(FunctionId::Stabilized).outputs;
+    let rows = (0..m).filter(|row| given.get(s + row) != Some(&Operand::Number(Number::ZERO)));
+    let feedback = stabilized.write(FEEDBACK, rows.map(|row| (s + row, row)));
     let acceleration_of_stabilized = acceleration(&stabilized);
     let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
     let constrained = stage(&constrained, &acceleration(&constrained));
