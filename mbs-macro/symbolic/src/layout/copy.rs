@@ -6,9 +6,9 @@ use crate::inconsistency::Inconsistency;
 use crate::pairs::{self, Given, Lane, Scalar, Woven, is_sine_or_cosine, kind};
 use crate::program::{Instruction, Operand, Program};
 
-/// A loop is woven if that leaves at most so many of eight operations. With hardly fewer, what
-/// moves lanes takes longer than what is saved: the way back through a chain of 40 rods took 1.4
-/// times as long on pairs, with 32 operations for 34.
+/// A loop is woven if at most so many of eight operations are left. Where pairs save less, moving
+/// lanes takes longer than they save: the way back through a chain of 40 rods took 1.4 times as
+/// long on pairs, with 32 operations in place of 34.
 const OF_EIGHT: usize = 7;
 
 /// What a copy of a loop does, on pairs.
@@ -27,18 +27,20 @@ pub struct WovenCopy {
 }
 
 impl<V> Loop<V> {
-    /// What a copy does, on pairs. Nothing, if that is hardly less; if it takes sines, because those
-    /// of pairs have a bounded range; or if a copy reads from a column what it has stored itself.
+    /// What a copy does, on pairs. Nothing is returned if pairs save less than an eighth of its
+    /// operations, if it takes sines, because those of pairs have a bounded range, or if it reads
+    /// from a column what it has stored itself.
     ///
     /// # Errors
     /// The pairs do not compute what the copy does.
     pub fn woven(&self, program: &Program) -> Result<Option<WovenCopy>, Inconsistency> {
-        let copy = Single::new(self, program);
+        let copy = Body::new(self, program);
         if copy.program.instructions.iter().any(is_sine_or_cosine) || self.reads_what_it_stores(program) {
             return Ok(None);
         }
-        // Which variables become lanes of a vector shows when the pairs are chosen, and what a pair
-        // gains depends on that. So all that could be lanes is hoped for first, then what came of it.
+        // What a pair gains depends on which carried variables are lanes of a vector, and that shows
+        // only when the pairs are chosen. So the first try takes all that could be lanes for such, and
+        // every later one those that became lanes in the try before.
         let mut best = copy.weave(&|a, b| copy.are_alike(a, b));
         loop {
             let next = copy.weave(&|a, b| best.are_together(a, b));
@@ -61,17 +63,18 @@ impl<V> Loop<V> {
         let length = self.repetition.length;
         self.repetition.range().any(|at| {
             let offset = (at - self.repetition.start) % length;
+            let begin_of_copy = at - offset;
             let Instruction { a, b, .. } = program.instructions[at];
             [a, b].iter().zip(self.steps[offset].operands).any(|(operand, read)| {
-                matches!(*operand, Operand::Value(value) if value + offset >= at)
-                    && matches!(read, Read::Each(_))
+                let is_own = matches!(*operand, Operand::Value(value) if value >= begin_of_copy);
+                is_own && matches!(read, Read::Each(_))
             })
         })
     }
 }
 
 /// A copy of a loop as a program of its own.
-struct Single<'a> {
+struct Body<'a> {
     program: Program,
     given: Vec<Read>,
     kept: Vec<usize>,
@@ -90,7 +93,7 @@ impl Tried {
     }
 }
 
-impl<'a> Single<'a> {
+impl<'a> Body<'a> {
     fn new<V>(repeated: &'a Loop<V>, program: &Program) -> Self {
         let mut given: Vec<Read> = Vec::new();
         let mut operand = |read: Read| match read {
@@ -119,7 +122,7 @@ impl<'a> Single<'a> {
         Self { program, given, kept, carried }
     }
 
-    /// Pairs, where these carried variables are hoped to be lanes of a vector.
+    /// The pairs that are best if these carried variables are lanes of a vector.
     fn weave(&self, are_together: &dyn Fn(usize, usize) -> bool) -> Tried {
         let are_neighbours = |a: Symbol, b: Symbol| {
             self.carried(a).zip(self.carried(b)).is_some_and(|(a, b)| are_together(a, b))
@@ -143,8 +146,8 @@ impl<'a> Single<'a> {
         a.is_some() && a == b
     }
 
-    /// The operations of a copy; not those that are done before the loop, or for which carried
-    /// variables lie right.
+    /// How many operations a copy does. Joins of constants are done before the loop, and carried
+    /// variables that are together need none.
     fn operations(&self, tried: &Tried) -> usize {
         let is_constant = |scalar: &Scalar| match *scalar {
             Scalar::Given(Given::Symbol(symbol)) => self.is_constant(symbol),

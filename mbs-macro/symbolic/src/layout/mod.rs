@@ -19,7 +19,8 @@
 //!      end of each. A result is stored as [`Kept`] tells: at once in every copy, or after
 //!      the loop, of the last copy alone. A loop of [`Loop::angles`] has nothing but sines
 //!      and cosines, which a target may take several at once. [`Loop::woven`] has the same
-//!      steps on [pairs](crate::pairs), for a target with two-lane vectors.
+//!      steps on [pairs](crate::pairs), for a target with two-lane vectors; such a copy reads all
+//!      of its columns first.
 //! 4. After the parts, the target stores what [`Layout::given`] lists. The outputs are then at
 //!    [`Layout::outputs`].
 //!

@@ -9,14 +9,14 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::program::operation_tokens;
 
-/// How a `Single` is read that no step computes.
-pub type Read<'a> = &'a mut dyn FnMut(Given) -> TokenStream;
+/// Gives the tokens of a `Single` that no step computes.
+pub type Reader<'a> = &'a mut dyn FnMut(Given) -> TokenStream;
 
 /// Writes the steps of a program on pairs, one after the other.
 pub struct Writer<'a> {
     /// The type of the mechanism, which holds splines.
     mechanism: &'a TokenStream,
-    /// Of the steps so far.
+    /// The variables of the steps so far.
     names: Vec<Ident>,
     taken: BTreeSet<String>,
 }
@@ -35,7 +35,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The statement of the next step.
-    pub fn statement(&mut self, step: &Step, read: Read<'_>) -> TokenStream {
+    pub fn statement(&mut self, step: &Step, read: Reader<'_>) -> TokenStream {
         let at = self.names.len();
         let pair = |at: &usize| &self.names[*at];
         let value = match step {
@@ -80,13 +80,13 @@ impl<'a> Writer<'a> {
         quote!(let #name = #value;)
     }
 
-    /// The next step is there already, as this pair.
+    /// Skips the next step: this variable holds its pair already.
     pub fn take(&mut self, pair: Ident) {
         self.names.push(pair);
     }
 
     /// An operation on scalars; functions are those of the scalar type itself.
-    fn operation(&self, operation: Operation, a: Scalar, b: Scalar, read: Read<'_>) -> TokenStream {
+    fn operation(&self, operation: Operation, a: Scalar, b: Scalar, read: Reader<'_>) -> TokenStream {
         let (a, b) = (self.scalar(a, read), self.scalar(b, read));
         match operation {
             Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => {
@@ -98,7 +98,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A `Single`.
-    pub fn scalar(&self, scalar: Scalar, read: Read<'_>) -> TokenStream {
+    pub fn scalar(&self, scalar: Scalar, read: Reader<'_>) -> TokenStream {
         match scalar {
             Scalar::Given(given) => read(given),
             Scalar::Step(at) => self.names[at].to_token_stream(),

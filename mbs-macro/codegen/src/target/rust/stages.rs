@@ -41,7 +41,7 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
         }
     };
     let acceleration = |body: &Body| body.write(ACCELERATION, (0..s).map(|state| (state, state)));
-    // zeros are there
+    // the array is given as zeros, so what is always 0 is not written
     let given = &compiled.program(FunctionId::Stabilized).outputs;
     let rows = (0..m).filter(|row| given.get(s + row) != Some(&Operand::Number(Number::ZERO)));
     let feedback = stabilized.write(FEEDBACK, rows.map(|row| (s + row, row)));

@@ -15,7 +15,7 @@ use crate::compiled::Vector;
 use crate::target::rust::on_pairs::{self, of_lane, single};
 use crate::target::rust::program::{self, internal, number_tokens};
 
-/// The copies, one after the other.
+/// A loop over the copies, each of which reads its columns, computes on pairs, and stores.
 pub fn copies(context: &Context<'_>, repeated: &Loop<Vector>, copy: &WovenCopy) -> TokenStream {
     let Context { compiled, program, access, pairs, layout, .. } = *context;
     let outside = program::Writer::new(compiled, program, access, pairs, 0..0).with_layout(layout);
@@ -92,8 +92,8 @@ impl<'a> Variables<'a> {
         self.copy.together.iter().position(|pair| *pair == joined).map(pair_name)
     }
 
-    /// Statements before the loop and at the end of a copy: the variables have the first values,
-    /// and then take the next ones.
+    /// Statements before the loop, which give the variables their first values, and statements at the
+    /// end of a copy, which give them the next ones.
     fn statements(
         &self,
         count: usize,
@@ -103,7 +103,7 @@ impl<'a> Variables<'a> {
         let [mut before, mut values, mut after] = [(); 3].map(|()| TokenStream::new());
         let mut add = |name: Ident, first: TokenStream, next: TokenStream| {
             before.extend(quote!(let mut #name = #first;));
-            // all values are there before the first variable changes, as they may be made of others
+            // a next value may be made of other variables, so all are computed before one changes
             let value = format_ident!("next_{name}");
             values.extend(quote!(let #value = #next;));
             after.extend(quote!(#name = #value;));

@@ -77,7 +77,7 @@ fn copies(context: &Context<'_>, repeated: &Loop<Vector>) -> TokenStream {
 pub struct Around {
     pub before: TokenStream,
     pub after: TokenStream,
-    /// How many results of last copies are kept so far.
+    /// How many results of the last copy are kept so far.
     count: usize,
 }
 
