@@ -2,6 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use mbs_schemes::sine::RANGE;
 use wide::f64x2;
 
 use crate::Real;
@@ -193,7 +194,7 @@ impl Pair<f64> for Vector {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        if self.0.abs().simd_le(f64x2::splat(sincos::RANGE)).all() {
+        if self.0.abs().simd_le(f64x2::splat(RANGE)).all() {
             let (sine, cosine) = sincos::sin_cos_of_two(self.0);
             (Self(sine), Self(cosine))
         } else {

@@ -172,7 +172,7 @@ pub trait Real:
 /// Inlined within its range, which few mechanisms leave.
 #[inline(always)]
 fn sin_cos_f64(x: f64) -> (f64, f64) {
-    if x.abs() <= crate::sincos::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
+    if x.abs() <= mbs_schemes::sine::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
 }
 
 /// The library's, for angles of more than 10⁸ turns, infinities and NaN. A

@@ -16,6 +16,10 @@
 //! multiplication where a weight is 1. The time of a stage is t + c h, and that of the end of
 //! the step where c = 1.
 //!
+//! # Sine and cosine
+//! The same holds for [`sine`]: its constants and the order of its operations are those of all who
+//! compute a sine.
+//!
 //! # A new scheme
 //! A new scheme is a constant in `schemes.rs` and its entry in [`SCHEMES`]; stability and
 //! gains follow from it.
@@ -38,6 +42,7 @@ mod explicit;
 mod response;
 mod roots;
 mod schemes;
+pub mod sine;
 mod tableau;
 
 pub use composition::{COMPOSITIONS, Composition, RATTLE, RATTLE4};

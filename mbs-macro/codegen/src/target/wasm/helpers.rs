@@ -1,5 +1,6 @@
 //! Functions that programs call: those of the host, and small ones of the module.
 
+use mbs_schemes::sine::{COSINE, HALF_PI, RANGE, SHIFT, SINE};
 use mbs_symbolic::Function as Elementary;
 use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
 
@@ -106,43 +107,43 @@ fn sin_cos() -> Function {
     let [x, turns, n, r, z, w, ww, s, c, half] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
     let quadrant = 10;
     let mut code = function.instructions();
-    code.local_get(x).f64_abs().f64_const(1.0e9.into()).f64_le().i32_eqz().if_(BlockType::Empty);
+    code.local_get(x).f64_abs().f64_const(RANGE.into()).f64_le().i32_eqz().if_(BlockType::Empty);
     code.local_get(x).call(0).local_get(x).call(1).return_().end();
     // the low bits of the sum are the nearest number of quarter turns
-    let shift = 6_755_399_441_055_744.0;
     code.local_get(x).f64_const(std::f64::consts::FRAC_2_PI.into()).f64_mul();
-    code.f64_const(shift.into()).f64_add().local_tee(turns).f64_const(shift.into()).f64_sub().local_set(n);
+    code.f64_const(SHIFT.into()).f64_add().local_tee(turns).f64_const(SHIFT.into()).f64_sub().local_set(n);
     code.local_get(x);
-    for part in [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11] {
-        code.local_get(n).f64_const(f64::into(part)).f64_mul().f64_sub();
+    let [high, middle, low] = HALF_PI;
+    for part in [high, middle] {
+        code.local_get(n).f64_const(part.into()).f64_mul().f64_sub();
     }
     // r² is taken without the last part of π/2, which matters only where r itself is tiny
     let near = half;
-    code.local_tee(near).local_get(n).f64_const(2.022_266_248_795_950_6e-21.into()).f64_mul().f64_sub();
+    code.local_tee(near).local_get(n).f64_const(low.into()).f64_mul().f64_sub();
     code.local_set(r);
     code.local_get(near).local_get(near).f64_mul().local_tee(z).local_get(z).f64_mul().local_tee(w);
     code.local_get(w).f64_mul().local_set(ww);
     // s = r + r z ((first + w second) + w² third)
     code.local_get(r).local_get(r).local_get(z).f64_mul();
-    let [first, second, third] = SINE;
-    pair_of_terms(&mut code, z, first);
+    let [s0, s1, s2, s3, s4, s5] = SINE;
+    pair_of_terms(&mut code, z, [s0, s1]);
     code.local_get(w);
-    pair_of_terms(&mut code, z, second);
+    pair_of_terms(&mut code, z, [s2, s3]);
     code.f64_mul().f64_add().local_get(ww);
-    pair_of_terms(&mut code, z, third);
+    pair_of_terms(&mut code, z, [s4, s5]);
     code.f64_mul().f64_add().f64_mul().f64_add().local_set(s);
     // c = whole + ((rounding + w first) + w² (second + w third)), with whole = 1 − z/2 and its rounding
     let whole = n;
     code.f64_const(0.5.into()).local_get(z).f64_mul().local_set(half);
     code.f64_const(1.0.into()).local_get(half).f64_sub().local_tee(whole);
     code.f64_const(1.0.into()).local_get(whole).f64_sub().local_get(half).f64_sub();
-    let [first, second, third] = COSINE;
+    let [c0, c1, c2, c3, c4, c5] = COSINE;
     code.local_get(w);
-    pair_of_terms(&mut code, z, first);
+    pair_of_terms(&mut code, z, [c0, c1]);
     code.f64_mul().f64_add().local_get(ww);
-    pair_of_terms(&mut code, z, second);
+    pair_of_terms(&mut code, z, [c2, c3]);
     code.local_get(w);
-    pair_of_terms(&mut code, z, third);
+    pair_of_terms(&mut code, z, [c4, c5]);
     code.f64_mul().f64_add().f64_mul().f64_add().f64_add().local_set(c);
     // odd quarter turns exchange the two; the sine is negative in the second half of a turn, the cosine
     // in the second and the third quarter
@@ -162,18 +163,6 @@ fn sin_cos() -> Function {
     code.end();
     function
 }
-
-const SINE: [[f64; 2]; 3] = [
-    [-1.666_666_666_666_663_2e-1, 8.333_333_333_322_49e-3],
-    [-1.984_126_982_985_795e-4, 2.755_731_370_707_007e-6],
-    [-2.505_076_025_340_686_3e-8, 1.589_690_995_211_55e-10],
-];
-
-const COSINE: [[f64; 2]; 3] = [
-    [4.166_666_666_666_66e-2, -1.388_888_888_887_411e-3],
-    [2.480_158_728_947_673e-5, -2.755_731_435_139_066e-7],
-    [2.087_572_321_298_175e-9, -1.135_964_755_778_819_5e-11],
-];
 
 /// c₀ + c₁z
 fn pair_of_terms(code: &mut InstructionSink<'_>, z: u32, [c0, c1]: [f64; 2]) {
