@@ -173,6 +173,7 @@ pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 #[cfg(feature = "macro")]
 pub use mbs_macro::mechanism;
+pub use mbs_schemes::sine::Octant;
 pub use mbs_schemes::{
     BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, Explicit, HEUN, RATTLE, RATTLE4, RK4, SCHEMES,
     Stabilization, Tableau,
@@ -182,7 +183,7 @@ pub use method::{
     Bs3, Dop853, Dopri5, Held, Heun, Method, MethodVisitor, PerStage, Projected, Rk4, Scheme, with_type,
 };
 pub use pack::Pack;
-pub use pair::{Pair, Single, Two};
+pub use pair::{NoTerm, Pair, Single, Term, Two};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;

@@ -209,7 +209,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// pay. Of the method `X` it uses the feedback alone.
     ///
     /// It has no branch, so it gives no number where an angle is beyond the reach of
-    /// [straight sines](crate::Pair::straight_sin_cos): `sum` tells, and the step is made in
+    /// [sines without one](crate::Pair::shift_back): `sum` tells, and the step is made in
     /// stages.
     #[inline(always)]
     fn fused_step<X: Method>(

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use mbs_schemes::sine::RANGE;
+use mbs_schemes::sine::{Octant, RANGE};
 use wide::f64x2;
 
 use crate::Real;
@@ -15,6 +15,8 @@ pub trait Pair<T>:
 {
     /// A scalar between pairs.
     type Single: Single<T>;
+    /// What its sines and cosines are computed with, operation by operation.
+    type Term: Term;
 
     /// The pair of `first` and `second`.
     fn join(first: Self::Single, second: Self::Single) -> Self;
@@ -32,11 +34,31 @@ pub trait Pair<T>:
     fn flip(self) -> Self;
     /// Sines and cosines.
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines without a branch, which would cut a step in two. An angle beyond
-    /// 10⁹ rad may give NaN.
+    /// The angles as a term: x of [`Octant::new`].
+    fn angles(self) -> Self::Term;
+    /// The shift that is taken back: `shift_back` of [`Octant::new`]. It is NaN for an angle beyond
+    /// 10⁹ rad, so that sines need no branch, which would cut a step in two.
+    fn shift_back(self) -> Self::Term;
+    /// Sines and cosines, from those without quarter turns. An angle beyond 10⁹ rad may give NaN.
+    fn turned(self, octant: Octant<Self::Term>) -> (Self, Self);
+}
+
+/// A term of the sines and cosines of two angles. The operations of sines stand one by one in a
+/// fused step, each where its time comes.
+pub trait Term: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// The same number for both angles.
+    fn constant(x: f64) -> Self;
+}
+
+/// The terms of scalars that compute a sine as a whole: there is nothing to do before
+/// [`turned`](Pair::turned).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoTerm;
+
+impl Term for NoTerm {
     #[inline(always)]
-    fn straight_sin_cos(self) -> (Self, Self) {
-        self.sin_cos()
+    fn constant(_: f64) -> Self {
+        Self
     }
 }
 
@@ -94,6 +116,15 @@ pub struct Two<T>(pub(crate) T, pub(crate) T);
 
 macro_rules! lane_by_lane {
     ($($Operator:ident $operator:ident),*) => {$(
+        impl $Operator for NoTerm {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $operator(self, _: Self) -> Self {
+                self
+            }
+        }
+
         impl<T: Real> $Operator for Two<T> {
             type Output = Self;
 
@@ -127,6 +158,7 @@ lane_by_lane!(Add add, Sub sub, Mul mul, Div div);
 
 impl<T: Real> Pair<T> for Two<T> {
     type Single = T;
+    type Term = NoTerm;
 
     #[inline(always)]
     fn join(first: T, second: T) -> Self {
@@ -156,6 +188,18 @@ impl<T: Real> Pair<T> for Two<T> {
     fn sin_cos(self) -> (Self, Self) {
         T::sin_cos_of_two(self)
     }
+    #[inline(always)]
+    fn angles(self) -> NoTerm {
+        NoTerm
+    }
+    #[inline(always)]
+    fn shift_back(self) -> NoTerm {
+        NoTerm
+    }
+    #[inline(always)]
+    fn turned(self, _: Octant<NoTerm>) -> (Self, Self) {
+        self.sin_cos()
+    }
 }
 
 /// Two doubles in a vector register, where the processor has them: SSE2 on every
@@ -165,6 +209,7 @@ pub struct Vector(f64x2);
 
 impl Pair<f64> for Vector {
     type Single = Low;
+    type Term = Self;
 
     #[inline(always)]
     fn join(first: Low, second: Low) -> Self {
@@ -202,9 +247,25 @@ impl Pair<f64> for Vector {
         }
     }
     #[inline(always)]
-    fn straight_sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = sincos::straight_sin_cos_of_vector(self.0);
+    fn angles(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn shift_back(self) -> Self {
+        Self(sincos::straight_shift_of_vector(self.0))
+    }
+    #[inline(always)]
+    fn turned(self, Octant { shifted, sine, cosine }: Octant<Self>) -> (Self, Self) {
+        let octant = Octant { shifted: shifted.0, sine: sine.0, cosine: cosine.0 };
+        let (sine, cosine) = sincos::turned_vector(octant);
         (Self(sine), Self(cosine))
+    }
+}
+
+impl Term for Vector {
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self(f64x2::splat(x))
     }
 }
 

@@ -68,17 +68,16 @@ pub(crate) fn sin_cos_of_two(x: f64x2) -> (f64x2, f64x2) {
     turned_vector(Octant::new(x, f64x2::splat(SHIFT), f64x2::splat))
 }
 
-/// The same without a branch, NaN beyond [`RANGE`].
+/// [`SHIFT`], and NaN where an angle is beyond [`RANGE`].
 #[inline(always)]
-pub(crate) fn straight_sin_cos_of_vector(x: f64x2) -> (f64x2, f64x2) {
+pub(crate) fn straight_shift_of_vector(x: f64x2) -> f64x2 {
     // All bits of a lane that is beyond are set, which is a NaN.
-    let beyond = x.abs().simd_gt(f64x2::splat(RANGE));
-    turned_vector(Octant::new(x, f64x2::splat(SHIFT) | beyond, f64x2::splat))
+    f64x2::splat(SHIFT) | x.abs().simd_gt(f64x2::splat(RANGE))
 }
 
 /// Sines and cosines of two whole angles.
 #[inline(always)]
-fn turned_vector(octant: Octant<f64x2>) -> (f64x2, f64x2) {
+pub(crate) fn turned_vector(octant: Octant<f64x2>) -> (f64x2, f64x2) {
     let Octant { shifted, sine, cosine } = octant;
     let quadrant: u64x2 = cast(shifted);
     // All bits of a lane are set where its quadrant is odd.
@@ -93,11 +92,16 @@ fn turned_vector(octant: Octant<f64x2>) -> (f64x2, f64x2) {
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use mbs_schemes::sine::RANGE;
+    use mbs_schemes::sine::{Octant, RANGE};
     use wide::f64x2;
 
-    use super::{sin_cos, sin_cos_of_two, straight_sin_cos_of_two, straight_sin_cos_of_vector};
+    use super::{sin_cos, sin_cos_of_two, straight_shift_of_vector, straight_sin_cos_of_two, turned_vector};
     use crate::Two;
+
+    /// As fused steps compute them.
+    fn straight_sin_cos_of_vector(x: f64x2) -> (f64x2, f64x2) {
+        turned_vector(Octant::new(x, straight_shift_of_vector(x), f64x2::splat))
+    }
 
     /// A unit in the last place.
     fn unit(x: f64) -> f64 {

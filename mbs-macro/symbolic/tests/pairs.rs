@@ -5,7 +5,8 @@
 mod common;
 
 use common::{Tree, VARIABLES, points, trees};
-use mbs_symbolic::pairs::{Layout, Scalar, Step, Woven, weave};
+use mbs_schemes::sine::{Octant, SHIFT};
+use mbs_symbolic::pairs::{Lane, Layout, Scalar, Step, Term, Woven, weave};
 use mbs_symbolic::{Arena, Expr, Function, Operation, Program, Stage, Symbol, lower_whole};
 use proptest::prelude::*;
 
@@ -40,11 +41,22 @@ fn assert_refers_back(woven: &Woven) {
             Scalar::Given(_) => true,
             Scalar::Step(of) | Scalar::Lane(of, _) => *of < at,
         };
+        let is_earlier_term = |term: &Term| match term {
+            Term::Constant(_) => true,
+            Term::Step(of) => *of < at,
+        };
         let is_fine = match step {
             Step::Scalar(_, a, b, _) | Step::Join(a, b) => is_earlier(a) && is_earlier(b),
             Step::Splat(a) => is_earlier(a),
-            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) | Step::Cosines(of) => *of < at,
+            Step::Swap(of) | Step::Flip(of) | Step::Angles(of) | Step::ShiftBack(of) => *of < at,
             Step::Pair(_, a, b) => *a < at && *b < at,
+            Step::Term(_, a, b) => is_earlier_term(a) && is_earlier_term(b),
+            Step::Sines(of, Octant { shifted, sine, cosine }) => {
+                *of < at && [shifted, sine, cosine].into_iter().all(is_earlier_term)
+            }
+            Step::Cosines(of) => {
+                matches!(woven.steps[at - 1], Step::Sines(angles, _) if angles == *of)
+            }
         };
         assert!(is_fine, "step {at} of {woven:?}");
     }
@@ -114,9 +126,11 @@ fn a_pair_with_another_operand_is_caught() {
         let mut wrong = right.clone();
         match &mut wrong.steps[at] {
             Step::Pair(Operation::Add | Operation::Mul, ..) | Step::Splat(_) | Step::Scalar(..) => continue,
+            // not looked at: sines are those of the program
+            Step::Angles(_) | Step::ShiftBack(_) | Step::Term(..) => continue,
             Step::Pair(_, a, b) => std::mem::swap(a, b),
             Step::Join(a, b) => std::mem::swap(a, b),
-            Step::Swap(of) | Step::Flip(of) | Step::Sines(of) | Step::Cosines(of) => *of = 0,
+            Step::Swap(of) | Step::Flip(of) | Step::Sines(of, _) | Step::Cosines(of) => *of = 0,
         }
         if wrong != right {
             tried += 1;
@@ -180,8 +194,52 @@ fn the_longest_way_to_an_end_begins_first() {
         steps.iter().rposition(|step| matches!(step, Step::Scalar(Operation::Add, ..))),
     ];
     let [first_sine, last_sine] = [
-        steps.iter().position(|step| matches!(step, Step::Sines(_))),
-        steps.iter().rposition(|step| matches!(step, Step::Sines(_))),
+        steps.iter().position(|step| matches!(step, Step::Sines(..))),
+        steps.iter().rposition(|step| matches!(step, Step::Sines(..))),
     ];
     assert!(first_sine < first_sum && last_sum < last_sine, "{steps:?}");
+}
+
+/// The operations of a sine stand one by one, and give what the formula gives.
+#[test]
+fn terms_of_sines_are_those_of_the_formula() {
+    let (mut arena, [x, y]) = letters();
+    let (sine, cosine) = (arena.call(Function::Sin, x), arena.call(Function::Cos, y));
+    let program = lower_whole(&mut arena, &[sine, cosine], 1024).expect("a program");
+    let mut woven = woven(&program);
+    assert_refers_back(&woven);
+    let octants: Vec<Octant<Term>> = woven
+        .steps
+        .iter()
+        .filter_map(|step| if let Step::Sines(_, of) = step { Some(*of) } else { None })
+        .collect();
+    let [Octant { shifted, sine, cosine }] = octants[..] else { panic!("two angles are a pair") };
+    woven.outputs = [shifted, sine, cosine]
+        .into_iter()
+        .flat_map(|term| match term {
+            Term::Step(at) => [Lane::First, Lane::Second].map(|lane| Scalar::Lane(at, lane)),
+            Term::Constant(_) => panic!("sines depend on their angles"),
+        })
+        .collect();
+    let angles = [0.5, -40.0];
+    let expected = angles.map(|x| Octant::new(x, SHIFT, |constant| constant));
+    let found = woven.evaluate(&program, &|symbol| angles[symbol.index()], &|_| f64::NAN);
+    let [x, y] = expected;
+    assert_eq!(found, [x.shifted, y.shifted, x.sine, y.sine, x.cosine, y.cosine]);
+}
+
+/// A quotient is there before the sine of an angle. But where a run reads its angle from a result of
+/// the run before, the next run waits for the sine, and what ends with the run has time.
+#[test]
+fn what_the_next_run_waits_for_comes_before_what_ends_with_a_run() {
+    let (mut arena, [angle, x, y]) = letters();
+    let sine = arena.call(Function::Sin, angle);
+    let next = arena.mul(sine, x);
+    let end = arena.div(x, y).expect("a quotient");
+    let program = lower_whole(&mut arena, &[next, end], 1024).expect("a program");
+    let places = |woven: &Woven| [0, 1].map(|at| woven.outputs[at].step().expect("a step"));
+    let [next, end] = places(&woven(&program));
+    assert!(end < next);
+    let [next, end] = places(&woven_for_runs(&program, &|symbol| (symbol.index() == 0).then_some(0)));
+    assert!(next < end);
 }

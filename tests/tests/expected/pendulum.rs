@@ -596,78 +596,81 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         h: T,
         t_next: T,
     ) -> ::mbs_runtime::Stepped<PendulumCoordinates<T>> {
-        use ::mbs_runtime::{Pair as _, Single as _};
+        use ::mbs_runtime::{Octant, Pair as _, Single as _, Term as _};
         type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
             T,
         >>::Single;
+        type SineTerm<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p3 = p1 * p0;
-        let p4 = p2 * p2;
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = p2 * p7;
-        let p10 = T::Pair::splat(Single::<T>::new(h));
-        let p11 = p3.swap();
-        let p12 = p5 * p3;
-        let p13 = p6 * p11;
-        let v14 = p4.second() + p4.first();
-        let p15 = p10 * p0;
-        let p16 = T::Pair::splat(Single::<T>::new(half_h));
-        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let p18 = p9 * p9;
-        let p19 = p12 + p13;
-        let v20 = Single::<T>::new(self.hoisted[1]) * v14;
-        let p21 = p2 + p15;
-        let v22 = p18.second() + p18.first();
-        let p23 = p8 * p19;
-        let phi_rod = v20 - Single::<T>::new(self.hoisted[0]);
-        let p25 = p21 * p7;
-        let v26 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
-        let v27 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let v28 = v17 - p23.second();
-        let v29 = Single::<T>::new(T::from_f64(9.81)) * p25.second();
-        let p30 = p25 * p25;
-        let feedback_rod = v26 + v27;
-        let v32 = p30.second() + p30.first();
-        let v33 = v28 + feedback_rod;
-        let v34 = feedback_rod + v29;
-        let v35 = v33 / v22;
-        let p36 = T::Pair::splat(v35);
-        let p37 = p9 * p36;
-        let acc_y = p37.second() - Single::<T>::new(T::from_f64(9.81));
-        let p39 = T::Pair::join(p37.first(), acc_y);
-        let p40 = p10 * p39;
-        let p41 = p0 + p40;
-        let p42 = p1 * p41;
-        let p43 = p0 + p41;
-        let p44 = p41 * p42;
-        let p45 = p16 * p43;
-        let v46 = p44.second() + p44.first();
-        let p47 = p2 + p45;
-        let v48 = Single::<T>::new(self.hoisted[1]) * v46;
-        let v49 = v34 - v48;
-        let v50 = v49 / v32;
-        let p51 = T::Pair::splat(v50);
-        let p52 = p25 * p51;
-        let v53 = p52.second() - Single::<T>::new(T::from_f64(9.81));
-        let v54 = p37.first() + p52.first();
+        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(half_h));
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p6 = p5 * p5;
+        let v7 = p6.second() + p6.first();
+        let p8 = p5 * p1;
+        let v9 = Single::<T>::new(self.hoisted[1]) * v7;
+        let v10 = Single::<T>::new(T::from_f64(9.81)) * p8.second();
+        let phi_rod = v9 - Single::<T>::new(self.hoisted[0]);
+        let p12 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p13 = p0 * p12;
+        let p14 = p8 * p8;
+        let v15 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let p16 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p17 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p18 = p13.swap();
+        let p19 = p16 * p13;
+        let v20 = p14.second() + p14.first();
+        let p21 = p17 * p18;
+        let p22 = p19 + p21;
+        let p23 = p2 * p22;
+        let v24 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
+        let v25 = v10 - p23.second();
+        let feedback_rod = v24 + v15;
+        let v27 = v25 + feedback_rod;
+        let v28 = v27 / v20;
+        let p29 = p3 * p12;
+        let p30 = p5 + p29;
+        let p31 = T::Pair::splat(v28);
+        let p32 = p8 * p31;
+        let p33 = p30 * p1;
+        let acc_y = p32.second() - Single::<T>::new(T::from_f64(9.81));
+        let v35 = Single::<T>::new(T::from_f64(9.81)) * p33.second();
+        let p36 = T::Pair::join(p32.first(), acc_y);
+        let p37 = p33 * p33;
+        let p38 = p3 * p36;
+        let v39 = p37.second() + p37.first();
+        let p40 = p12 + p38;
+        let v41 = feedback_rod + v35;
+        let p42 = p0 * p40;
+        let p43 = p40 * p42;
+        let v44 = p43.second() + p43.first();
+        let v45 = Single::<T>::new(self.hoisted[1]) * v44;
+        let v46 = v41 - v45;
+        let v47 = v46 / v39;
+        let p48 = p12 + p40;
+        let p49 = p4 * p48;
+        let p50 = T::Pair::splat(v47);
+        let p51 = p33 * p50;
+        let p52 = p5 + p49;
+        let v53 = p51.second() - Single::<T>::new(T::from_f64(9.81));
+        let v54 = p32.first() + p51.first();
         let v55 = acc_y + v53;
         let p56 = T::Pair::join(v54, v55);
-        let p57 = p16 * p56;
-        let p58 = p0 + p57;
-        let p59 = p47 + p58;
+        let p57 = p4 * p56;
+        let p58 = p12 + p57;
+        let p59 = p52 + p58;
         let v60 = p59.first() + p59.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p47.first().get(),
-                    y: p47.second().get(),
+                    x: p52.first().get(),
+                    y: p52.second().get(),
                 },
                 v: PendulumCoordinates {
                     x: p58.first().get(),
@@ -688,89 +691,92 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         h: T,
         t_next: T,
     ) -> ::mbs_runtime::Stepped<PendulumCoordinates<T>> {
-        use ::mbs_runtime::{Pair as _, Single as _};
+        use ::mbs_runtime::{Octant, Pair as _, Single as _, Term as _};
         type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
             T,
         >>::Single;
+        type SineTerm<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p3 = p1 * p0;
-        let p4 = p2 * p2;
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = p2 * p7;
-        let p10 = T::Pair::splat(Single::<T>::new(h));
-        let p11 = p3.swap();
-        let p12 = p5 * p3;
-        let p13 = p6 * p11;
-        let v14 = p4.second() + p4.first();
-        let p15 = p10 * p0;
-        let p16 = T::Pair::splat(Single::<T>::new(half_h));
-        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let p18 = p9 * p9;
-        let p19 = p12 + p13;
-        let v20 = Single::<T>::new(self.hoisted[1]) * v14;
-        let p21 = p2 + p15;
-        let v22 = p18.second() + p18.first();
-        let p23 = p8 * p19;
-        let phi_rod = v20 - Single::<T>::new(self.hoisted[0]);
-        let p25 = p21 * p21;
-        let p26 = p21 * p7;
-        let v27 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
-        let v28 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let v29 = v17 - p23.second();
-        let v30 = p25.second() + p25.first();
-        let v31 = Single::<T>::new(T::from_f64(9.81)) * p26.second();
-        let p32 = p26 * p26;
-        let feedback_rod = v27 + v28;
-        let v34 = Single::<T>::new(self.hoisted[1]) * v30;
-        let v35 = p32.second() + p32.first();
-        let v36 = v29 + feedback_rod;
-        let v37 = v34 - Single::<T>::new(self.hoisted[0]);
-        let v38 = v36 / v22;
-        let v39 = Single::<T>::new(gains.minus_beta_squared) * v37;
-        let p40 = T::Pair::splat(v38);
-        let p41 = p9 * p40;
-        let acc_y = p41.second() - Single::<T>::new(T::from_f64(9.81));
-        let p43 = T::Pair::join(p41.first(), acc_y);
-        let p44 = p10 * p43;
-        let p45 = p0 + p44;
-        let p46 = p1 * p45;
-        let p47 = T::Pair::join(p21.first(), p45.second());
-        let p48 = T::Pair::join(p21.second(), p45.first());
-        let p49 = p0 + p45;
-        let p50 = p46.swap();
-        let p51 = p47 * p46;
-        let p52 = p48 * p50;
-        let p53 = p16 * p49;
-        let p54 = p51 + p52;
-        let p55 = p2 + p53;
-        let p56 = p8 * p54;
-        let v57 = Single::<T>::new(gains.minus_two_alpha) * p56.first();
-        let v58 = v31 - p56.second();
-        let v59 = v57 + v39;
-        let v60 = v58 + v59;
-        let v61 = v60 / v35;
-        let p62 = T::Pair::splat(v61);
-        let p63 = p26 * p62;
+        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p3 = T::Pair::splat(Single::<T>::new(h));
+        let p4 = T::Pair::splat(Single::<T>::new(half_h));
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p6 = p5 * p5;
+        let v7 = p6.second() + p6.first();
+        let p8 = p5 * p1;
+        let v9 = Single::<T>::new(self.hoisted[1]) * v7;
+        let v10 = Single::<T>::new(T::from_f64(9.81)) * p8.second();
+        let phi_rod = v9 - Single::<T>::new(self.hoisted[0]);
+        let p12 = p8 * p8;
+        let p13 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let v14 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let p15 = p0 * p13;
+        let v16 = p12.second() + p12.first();
+        let p17 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p18 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p19 = p15.swap();
+        let p20 = p17 * p15;
+        let p21 = p18 * p19;
+        let p22 = p20 + p21;
+        let p23 = p2 * p22;
+        let v24 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
+        let v25 = v10 - p23.second();
+        let feedback_rod = v24 + v14;
+        let v27 = v25 + feedback_rod;
+        let v28 = v27 / v16;
+        let p29 = p3 * p13;
+        let p30 = p5 + p29;
+        let p31 = T::Pair::splat(v28);
+        let p32 = p8 * p31;
+        let p33 = p30 * p30;
+        let acc_y = p32.second() - Single::<T>::new(T::from_f64(9.81));
+        let v35 = p33.second() + p33.first();
+        let p36 = T::Pair::join(p32.first(), acc_y);
+        let p37 = p30 * p1;
+        let v38 = Single::<T>::new(self.hoisted[1]) * v35;
+        let p39 = p3 * p36;
+        let v40 = Single::<T>::new(T::from_f64(9.81)) * p37.second();
+        let v41 = v38 - Single::<T>::new(self.hoisted[0]);
+        let p42 = p13 + p39;
+        let p43 = p37 * p37;
+        let v44 = Single::<T>::new(gains.minus_beta_squared) * v41;
+        let p45 = p0 * p42;
+        let v46 = p43.second() + p43.first();
+        let p47 = T::Pair::join(p30.first(), p42.second());
+        let p48 = T::Pair::join(p30.second(), p42.first());
+        let p49 = p45.swap();
+        let p50 = p47 * p45;
+        let p51 = p48 * p49;
+        let p52 = p50 + p51;
+        let p53 = p2 * p52;
+        let v54 = Single::<T>::new(gains.minus_two_alpha) * p53.first();
+        let v55 = v40 - p53.second();
+        let v56 = v54 + v44;
+        let v57 = v55 + v56;
+        let v58 = v57 / v46;
+        let p59 = p13 + p42;
+        let p60 = p4 * p59;
+        let p61 = T::Pair::splat(v58);
+        let p62 = p5 + p60;
+        let p63 = p37 * p61;
         let v64 = p63.second() - Single::<T>::new(T::from_f64(9.81));
-        let v65 = p41.first() + p63.first();
+        let v65 = p32.first() + p63.first();
         let v66 = acc_y + v64;
         let p67 = T::Pair::join(v65, v66);
-        let p68 = p16 * p67;
-        let p69 = p0 + p68;
-        let p70 = p55 + p69;
+        let p68 = p4 * p67;
+        let p69 = p13 + p68;
+        let p70 = p62 + p69;
         let v71 = p70.first() + p70.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p55.first().get(),
-                    y: p55.second().get(),
+                    x: p62.first().get(),
+                    y: p62.second().get(),
                 },
                 v: PendulumCoordinates {
                     x: p69.first().get(),
@@ -794,79 +800,82 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         ::mbs_runtime::Stepped<PendulumCoordinates<T>>,
         ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>>,
     ) {
-        use ::mbs_runtime::{Pair as _, Single as _};
+        use ::mbs_runtime::{Octant, Pair as _, Single as _, Term as _};
         type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
             T,
         >>::Single;
+        type SineTerm<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p3 = p1 * p0;
-        let p4 = p2 * p2;
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = p2 * p7;
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p11 = p3.swap();
-        let p12 = p5 * p3;
-        let p13 = p6 * p11;
-        let v14 = p4.second() + p4.first();
-        let p15 = T::Pair::splat(Single::<T>::new(h));
-        let p16 = T::Pair::splat(Single::<T>::new(half_h));
-        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let p18 = p9 * p9;
-        let p19 = T::Pair::splat(p9.second());
-        let p20 = T::Pair::splat(p9.first());
-        let p21 = p12 + p13;
-        let v22 = Single::<T>::new(self.hoisted[1]) * v14;
-        let p23 = p15 * p0;
-        let v24 = p18.second() + p18.first();
-        let p25 = p8 * p21;
-        let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
-        let p27 = p2 + p23;
-        let p28 = T::Pair::splat(v24);
-        let v29 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
-        let v30 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let v31 = v17 - p25.second();
-        let p32 = p27 * p7;
-        let feedback_rod = v29 + v30;
-        let v34 = Single::<T>::new(T::from_f64(9.81)) * p32.second();
-        let p35 = p32 * p32;
-        let v36 = v31 + feedback_rod;
-        let v37 = feedback_rod + v34;
-        let v38 = p35.second() + p35.first();
-        let p39 = T::Pair::join(v36, v31);
-        let p40 = p39 / p28;
-        let p41 = p19 * p40;
-        let p42 = p20 * p40;
-        let v43 = Single::<T>::new(self.parameters.mass) * p40.second();
-        let p44 = p41 - p10;
-        let lambda_rod = -v43;
-        let p46 = T::Pair::join(p42.first(), p44.first());
-        let p47 = p15 * p46;
-        let p48 = p0 + p47;
-        let p49 = p1 * p48;
-        let p50 = p0 + p48;
-        let p51 = p48 * p49;
-        let p52 = p16 * p50;
-        let v53 = p51.second() + p51.first();
-        let p54 = p2 + p52;
-        let v55 = Single::<T>::new(self.hoisted[1]) * v53;
-        let v56 = v37 - v55;
-        let v57 = v56 / v38;
-        let p58 = T::Pair::splat(v57);
-        let p59 = p32 * p58;
-        let acc_y = p59.second() - Single::<T>::new(T::from_f64(9.81));
-        let v61 = p42.first() + p59.first();
-        let v62 = p44.first() + acc_y;
-        let p63 = T::Pair::join(v61, v62);
-        let p64 = p16 * p63;
-        let p65 = p0 + p64;
-        let p66 = p42 + p44;
-        let p67 = p54 + p65;
+        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p3 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p4 = T::Pair::splat(Single::<T>::new(h));
+        let p5 = T::Pair::splat(Single::<T>::new(half_h));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p7 = p6 * p6;
+        let v8 = p7.second() + p7.first();
+        let p9 = p6 * p1;
+        let v10 = Single::<T>::new(self.hoisted[1]) * v8;
+        let v11 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let phi_rod = v10 - Single::<T>::new(self.hoisted[0]);
+        let p13 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p14 = p0 * p13;
+        let p15 = p9 * p9;
+        let v16 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let p17 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p18 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p19 = p14.swap();
+        let p20 = p17 * p14;
+        let v21 = p15.second() + p15.first();
+        let p22 = p18 * p19;
+        let p23 = T::Pair::splat(v21);
+        let p24 = p20 + p22;
+        let p25 = p2 * p24;
+        let p26 = T::Pair::splat(p9.second());
+        let v27 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
+        let p28 = T::Pair::splat(p9.first());
+        let v29 = v11 - p25.second();
+        let feedback_rod = v27 + v16;
+        let v31 = v29 + feedback_rod;
+        let p32 = T::Pair::join(v31, v29);
+        let p33 = p32 / p23;
+        let p34 = p4 * p13;
+        let p35 = p6 + p34;
+        let p36 = p26 * p33;
+        let p37 = p35 * p1;
+        let p38 = p28 * p33;
+        let p39 = p36 - p3;
+        let v40 = Single::<T>::new(T::from_f64(9.81)) * p37.second();
+        let p41 = T::Pair::join(p38.first(), p39.first());
+        let p42 = p37 * p37;
+        let p43 = p4 * p41;
+        let v44 = p42.second() + p42.first();
+        let p45 = p13 + p43;
+        let v46 = feedback_rod + v40;
+        let p47 = p0 * p45;
+        let p48 = p45 * p47;
+        let v49 = p48.second() + p48.first();
+        let v50 = Single::<T>::new(self.hoisted[1]) * v49;
+        let v51 = v46 - v50;
+        let v52 = v51 / v44;
+        let p53 = p13 + p45;
+        let p54 = p5 * p53;
+        let p55 = T::Pair::splat(v52);
+        let p56 = p37 * p55;
+        let p57 = p6 + p54;
+        let acc_y = p56.second() - Single::<T>::new(T::from_f64(9.81));
+        let v59 = p38.first() + p56.first();
+        let v60 = p39.first() + acc_y;
+        let p61 = T::Pair::join(v59, v60);
+        let p62 = p5 * p61;
+        let p63 = p13 + p62;
+        let v64 = Single::<T>::new(self.parameters.mass) * p33.second();
+        let lambda_rod = -v64;
+        let p66 = p38 + p39;
+        let p67 = p57 + p63;
         let p68 = p66 + p67;
         let v69 = lambda_rod + p68.first();
         let v70 = v69 + p68.second();
@@ -875,12 +884,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p54.first().get(),
-                        y: p54.second().get(),
+                        x: p57.first().get(),
+                        y: p57.second().get(),
                     },
                     v: PendulumCoordinates {
-                        x: p65.first().get(),
-                        y: p65.second().get(),
+                        x: p63.first().get(),
+                        y: p63.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -888,8 +897,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p42.second().get(),
-                    y: p44.second().get(),
+                    x: p38.second().get(),
+                    y: p39.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),
@@ -911,90 +920,93 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
         ::mbs_runtime::Stepped<PendulumCoordinates<T>>,
         ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>>,
     ) {
-        use ::mbs_runtime::{Pair as _, Single as _};
+        use ::mbs_runtime::{Octant, Pair as _, Single as _, Term as _};
         type Single<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
             T,
         >>::Single;
+        type SineTerm<T> = <<T as ::mbs_runtime::Real>::Pair as ::mbs_runtime::Pair<
+            T,
+        >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p3 = p1 * p0;
-        let p4 = p2 * p2;
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p7 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p8 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p9 = p2 * p7;
-        let p10 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p11 = p3.swap();
-        let p12 = p5 * p3;
-        let p13 = p6 * p11;
-        let v14 = p4.second() + p4.first();
-        let p15 = T::Pair::splat(Single::<T>::new(h));
-        let p16 = T::Pair::splat(Single::<T>::new(half_h));
-        let v17 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let p18 = p9 * p9;
-        let p19 = T::Pair::splat(p9.second());
-        let p20 = T::Pair::splat(p9.first());
-        let p21 = p12 + p13;
-        let v22 = Single::<T>::new(self.hoisted[1]) * v14;
-        let p23 = p15 * p0;
-        let v24 = p18.second() + p18.first();
-        let p25 = p8 * p21;
-        let phi_rod = v22 - Single::<T>::new(self.hoisted[0]);
-        let p27 = p2 + p23;
-        let p28 = T::Pair::splat(v24);
-        let v29 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
-        let v30 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let v31 = v17 - p25.second();
-        let p32 = p27 * p27;
-        let p33 = p27 * p7;
-        let feedback_rod = v29 + v30;
-        let v35 = p32.second() + p32.first();
-        let v36 = Single::<T>::new(T::from_f64(9.81)) * p33.second();
-        let p37 = p33 * p33;
-        let v38 = v31 + feedback_rod;
-        let v39 = Single::<T>::new(self.hoisted[1]) * v35;
+        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p3 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p4 = T::Pair::splat(Single::<T>::new(h));
+        let p5 = T::Pair::splat(Single::<T>::new(half_h));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p7 = p6 * p6;
+        let v8 = p7.second() + p7.first();
+        let p9 = p6 * p1;
+        let v10 = Single::<T>::new(self.hoisted[1]) * v8;
+        let v11 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
+        let phi_rod = v10 - Single::<T>::new(self.hoisted[0]);
+        let p13 = p9 * p9;
+        let p14 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let v15 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let p16 = p0 * p14;
+        let v17 = p13.second() + p13.first();
+        let p18 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p19 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p20 = p16.swap();
+        let p21 = p18 * p16;
+        let p22 = p19 * p20;
+        let p23 = T::Pair::splat(v17);
+        let p24 = p21 + p22;
+        let p25 = T::Pair::splat(p9.second());
+        let p26 = p2 * p24;
+        let p27 = T::Pair::splat(p9.first());
+        let v28 = Single::<T>::new(gains.minus_two_alpha) * p26.first();
+        let v29 = v11 - p26.second();
+        let feedback_rod = v28 + v15;
+        let v31 = v29 + feedback_rod;
+        let p32 = T::Pair::join(v31, v29);
+        let p33 = p32 / p23;
+        let p34 = p4 * p14;
+        let p35 = p6 + p34;
+        let p36 = p25 * p33;
+        let p37 = p35 * p35;
+        let p38 = p27 * p33;
+        let p39 = p36 - p3;
         let v40 = p37.second() + p37.first();
-        let p41 = T::Pair::join(v38, v31);
-        let p42 = p41 / p28;
-        let v43 = v39 - Single::<T>::new(self.hoisted[0]);
-        let v44 = Single::<T>::new(gains.minus_beta_squared) * v43;
-        let p45 = p19 * p42;
-        let p46 = p20 * p42;
-        let v47 = Single::<T>::new(self.parameters.mass) * p42.second();
-        let p48 = p45 - p10;
-        let lambda_rod = -v47;
-        let p50 = T::Pair::join(p46.first(), p48.first());
-        let p51 = p15 * p50;
-        let p52 = p0 + p51;
-        let p53 = p1 * p52;
-        let p54 = T::Pair::join(p27.first(), p52.second());
-        let p55 = T::Pair::join(p27.second(), p52.first());
-        let p56 = p0 + p52;
-        let p57 = p53.swap();
-        let p58 = p54 * p53;
-        let p59 = p55 * p57;
-        let p60 = p16 * p56;
-        let p61 = p58 + p59;
-        let p62 = p2 + p60;
-        let p63 = p8 * p61;
-        let v64 = Single::<T>::new(gains.minus_two_alpha) * p63.first();
-        let v65 = v36 - p63.second();
-        let v66 = v64 + v44;
-        let v67 = v65 + v66;
-        let v68 = v67 / v40;
-        let p69 = T::Pair::splat(v68);
-        let p70 = p33 * p69;
-        let acc_y = p70.second() - Single::<T>::new(T::from_f64(9.81));
-        let v72 = p46.first() + p70.first();
-        let v73 = p48.first() + acc_y;
-        let p74 = T::Pair::join(v72, v73);
-        let p75 = p16 * p74;
-        let p76 = p0 + p75;
-        let p77 = p46 + p48;
-        let p78 = p62 + p76;
+        let p41 = T::Pair::join(p38.first(), p39.first());
+        let p42 = p35 * p1;
+        let v43 = Single::<T>::new(self.hoisted[1]) * v40;
+        let p44 = p4 * p41;
+        let v45 = Single::<T>::new(T::from_f64(9.81)) * p42.second();
+        let v46 = v43 - Single::<T>::new(self.hoisted[0]);
+        let p47 = p14 + p44;
+        let p48 = p42 * p42;
+        let v49 = Single::<T>::new(gains.minus_beta_squared) * v46;
+        let p50 = p0 * p47;
+        let v51 = p48.second() + p48.first();
+        let p52 = T::Pair::join(p35.first(), p47.second());
+        let p53 = T::Pair::join(p35.second(), p47.first());
+        let p54 = p50.swap();
+        let p55 = p52 * p50;
+        let p56 = p53 * p54;
+        let p57 = p55 + p56;
+        let p58 = p2 * p57;
+        let v59 = Single::<T>::new(gains.minus_two_alpha) * p58.first();
+        let v60 = v45 - p58.second();
+        let v61 = v59 + v49;
+        let v62 = v60 + v61;
+        let v63 = v62 / v51;
+        let p64 = p14 + p47;
+        let p65 = p5 * p64;
+        let p66 = T::Pair::splat(v63);
+        let p67 = p6 + p65;
+        let p68 = p42 * p66;
+        let acc_y = p68.second() - Single::<T>::new(T::from_f64(9.81));
+        let v70 = p38.first() + p68.first();
+        let v71 = p39.first() + acc_y;
+        let p72 = T::Pair::join(v70, v71);
+        let p73 = p5 * p72;
+        let p74 = p14 + p73;
+        let v75 = Single::<T>::new(self.parameters.mass) * p33.second();
+        let lambda_rod = -v75;
+        let p77 = p38 + p39;
+        let p78 = p67 + p74;
         let p79 = p77 + p78;
         let v80 = lambda_rod + p79.first();
         let v81 = v80 + p79.second();
@@ -1003,12 +1015,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p62.first().get(),
-                        y: p62.second().get(),
+                        x: p67.first().get(),
+                        y: p67.second().get(),
                     },
                     v: PendulumCoordinates {
-                        x: p76.first().get(),
-                        y: p76.second().get(),
+                        x: p74.first().get(),
+                        y: p74.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -1016,8 +1028,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p46.second().get(),
-                    y: p48.second().get(),
+                    x: p38.second().get(),
+                    y: p39.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),

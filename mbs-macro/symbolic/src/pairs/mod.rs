@@ -5,8 +5,9 @@
 //! and the y of a place, two angles, two stages of a step.
 //!
 //! 1. `choose` decides which instructions share a vector;
-//! 2. `weave` writes them down, with what brings operands into their lanes;
-//! 3. `order` puts them where a processor finds several to do at a time.
+//! 2. `weave` writes them down, with what brings operands into their lanes, and `sines` the
+//!    operations of sines and cosines;
+//! 3. `order` puts each where its time comes.
 //!
 //! Results are those of the program, bit for bit but for the sign of a zero: lanes
 //! do the same operations on the same operands. Where one lane adds and the other
@@ -17,118 +18,21 @@ mod choose;
 mod interval;
 mod nodes;
 mod order;
+mod sines;
+mod steps;
 mod trial;
 mod weave;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use mbs_schemes::sine::SHIFT;
+
+pub use self::steps::{Given, Lane, Scalar, Step, Term};
 use crate::arena::Symbol;
 use crate::inconsistency::Inconsistency;
-use crate::number::Number;
 use crate::operators::Function;
 use crate::probe;
 use crate::program::{Instruction, Operand, Operation, Program};
-
-/// One of the two lanes of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Lane {
-    /// The first.
-    First,
-    /// The second.
-    Second,
-}
-
-/// What is there before the first step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Given {
-    /// A constant.
-    Number(Number),
-    /// An input.
-    Symbol(Symbol),
-    /// A value that depends on parameters alone.
-    Hoisted(usize),
-}
-
-/// Where a step finds a scalar.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scalar {
-    /// A number, a symbol or a hoisted value.
-    Given(Given),
-    /// The result of an earlier scalar step.
-    Step(usize),
-    /// A lane of an earlier pair.
-    Lane(usize, Lane),
-}
-
-impl Scalar {
-    /// The step that it is found in.
-    pub fn step(&self) -> Option<usize> {
-        match *self {
-            Self::Given(_) => None,
-            Self::Step(at) | Self::Lane(at, _) => Some(at),
-        }
-    }
-
-    /// The same where steps have other positions.
-    fn renamed(&self, position: impl Fn(usize) -> usize) -> Self {
-        match *self {
-            Self::Given(given) => Self::Given(given),
-            Self::Step(at) => Self::Step(position(at)),
-            Self::Lane(at, lane) => Self::Lane(position(at), lane),
-        }
-    }
-}
-
-/// What a step computes; pairs are named by the position of their steps.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Step {
-    /// A scalar, by an operation on scalars (the second is the first again where
-    /// the operation has one operand); its name, if one was suggested.
-    Scalar(Operation, Scalar, Scalar, Option<String>),
-    /// A pair of two scalars.
-    Join(Scalar, Scalar),
-    /// A scalar in both lanes.
-    Splat(Scalar),
-    /// A pair with its lanes exchanged.
-    Swap(usize),
-    /// A pair with its second lane negated.
-    Flip(usize),
-    /// A binary operation on two pairs: `Add`, `Sub`, `Mul` or `Div`.
-    Pair(Operation, usize, usize),
-    /// The sines of a pair of angles; the step after it has the cosines.
-    Sines(usize),
-    /// The cosines of the same pair of angles.
-    Cosines(usize),
-}
-
-impl Step {
-    /// The steps whose results it takes.
-    fn operands(&self) -> impl Iterator<Item = usize> {
-        let operands = match self {
-            Self::Scalar(_, a, b, _) | Self::Join(a, b) => [a.step(), b.step()],
-            Self::Splat(a) => [a.step(), None],
-            Self::Swap(of) | Self::Flip(of) | Self::Sines(of) | Self::Cosines(of) => [Some(*of), None],
-            Self::Pair(_, a, b) => [Some(*a), Some(*b)],
-        };
-        operands.into_iter().flatten()
-    }
-
-    /// The same where steps have other positions.
-    fn renamed(&self, position: impl Fn(usize) -> usize) -> Self {
-        match self {
-            Self::Scalar(operation, a, b, name) => {
-                Self::Scalar(*operation, a.renamed(&position), b.renamed(&position), name.clone())
-            }
-            Self::Join(a, b) => Self::Join(a.renamed(&position), b.renamed(&position)),
-            Self::Splat(a) => Self::Splat(a.renamed(&position)),
-            Self::Swap(of) => Self::Swap(position(*of)),
-            Self::Flip(of) => Self::Flip(position(*of)),
-            Self::Pair(operation, a, b) => Self::Pair(*operation, position(*a), position(*b)),
-            Self::Sines(angles) => Self::Sines(position(*angles)),
-            Self::Cosines(angles) => Self::Cosines(position(*angles)),
-        }
-    }
-}
 
 /// A program on pairs and scalars.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -156,7 +60,7 @@ pub struct Layout<'a> {
 pub fn weave(program: &Program, layout: &Layout<'_>) -> Woven {
     let angles = pair_angles(program);
     let partners = choose::choose(program, &angles, layout);
-    order::in_order(&weave::weave(program, &partners, &angles, layout))
+    order::in_order(&weave::weave(program, &partners, &angles, layout), layout)
 }
 
 /// Two operands, as the lanes of a pair.
@@ -287,7 +191,17 @@ impl Woven {
                 Step::Pair(operation, a, b) => {
                     [0, 1].map(|lane| program.apply(*operation, values[*a][lane], values[*b][lane]))
                 }
-                Step::Sines(at) => values[*at].map(f64::sin),
+                Step::Angles(at) => values[*at],
+                Step::ShiftBack(_) => [SHIFT; 2],
+                Step::Term(operation, a, b) => {
+                    let [a, b] = [a, b].map(|term| match *term {
+                        Term::Constant(constant) => [constant; 2],
+                        Term::Step(at) => values[at],
+                    });
+                    [0, 1].map(|lane| program.apply(*operation, a[lane], b[lane]))
+                }
+                // as the program has them, not in the digits of its terms
+                Step::Sines(at, _) => values[*at].map(f64::sin),
                 Step::Cosines(at) => values[*at].map(f64::cos),
             };
             values.push(value);

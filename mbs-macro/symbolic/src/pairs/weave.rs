@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::{Angles, Given, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings};
+use super::{Angles, Given, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings, sines};
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -92,8 +92,7 @@ impl Weaver<'_> {
             Some(&sines) => sines,
             None => {
                 let angles = self.pair(lanes, false);
-                let sines = self.push(Step::Sines(angles));
-                self.push(Step::Cosines(angles));
+                let sines = sines::push(&mut self.steps, angles);
                 self.turns.insert(lanes, sines);
                 sines
             }

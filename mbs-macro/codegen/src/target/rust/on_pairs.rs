@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use mbs_schemes::sine::Octant;
 use mbs_symbolic::Operation;
-use mbs_symbolic::pairs::{Given, Lane, Scalar, Step};
-use proc_macro2::{Ident, Span, TokenStream};
+use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Term};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::program::operation_tokens;
@@ -29,8 +30,9 @@ impl<'a> Writer<'a> {
     /// What the statements need around them.
     pub fn prelude(runtime: &TokenStream) -> TokenStream {
         quote! {
-            use #runtime::{Pair as _, Single as _};
+            use #runtime::{Octant, Pair as _, Single as _, Term as _};
             type Single<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Single;
+            type SineTerm<T> = <<T as #runtime::Real>::Pair as #runtime::Pair<T>>::Term;
         }
     }
 
@@ -45,10 +47,12 @@ impl<'a> Writer<'a> {
                 self.names.push(name.clone());
                 return quote!(let #name = #value;);
             }
-            Step::Sines(angles) => {
+            Step::Sines(angles, Octant { shifted, sine, cosine }) => {
                 let angles = pair(angles);
+                let [shifted, sine, cosine] = [shifted, sine, cosine].map(|term| self.term(term));
                 let (sines, cosines) = (format_ident!("sines{at}"), format_ident!("cosines{at}"));
-                let statement = quote!(let (#sines, #cosines) = #angles.straight_sin_cos(););
+                let octant = quote!(Octant { shifted: #shifted, sine: #sine, cosine: #cosine });
+                let statement = quote!(let (#sines, #cosines) = #angles.turned(#octant););
                 self.names.extend([sines, cosines]);
                 return statement;
             }
@@ -74,6 +78,18 @@ impl<'a> Writer<'a> {
                 let (a, b) = (pair(a), pair(b));
                 operation_tokens(*operation, &quote!(#a), &quote!(#b), self.mechanism)
             }
+            Step::Angles(of) => {
+                let of = pair(of);
+                quote!(#of.angles())
+            }
+            Step::ShiftBack(of) => {
+                let of = pair(of);
+                quote!(#of.shift_back())
+            }
+            Step::Term(operation, a, b) => {
+                let (a, b) = (self.term(a), self.term(b));
+                operation_tokens(*operation, &a, &b, self.mechanism)
+            }
         };
         let name = format_ident!("p{at}");
         self.names.push(name.clone());
@@ -94,6 +110,16 @@ impl<'a> Writer<'a> {
                 single(&value)
             }
             _ => operation_tokens(operation, &a, &b, self.mechanism),
+        }
+    }
+
+    fn term(&self, term: &Term) -> TokenStream {
+        match *term {
+            Term::Constant(constant) => {
+                let constant = Literal::f64_unsuffixed(constant);
+                quote!(SineTerm::<T>::constant(#constant))
+            }
+            Term::Step(at) => self.names[at].to_token_stream(),
         }
     }
 
