@@ -17,6 +17,12 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// is where they come from; the state stays that of the last good step.
     #[inline]
     pub fn step(&mut self) -> Result<(), Error> {
+        self.inlined_step()
+    }
+
+    /// [`step`](Self::step) as a part of the function that takes it.
+    #[inline(always)]
+    fn inlined_step(&mut self) -> Result<(), Error> {
         let t_next = self.next_time();
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         // Written so that a NaN fails the test. The state is stored from registers,
@@ -125,8 +131,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline(always)]
     fn present(&self) -> State<M::States> {
         let t = self.start_time + M::Real::from_f64(self.steps) * self.step;
-        let stays_in_registers = M::INFO.states.len() <= 2;
-        let state = if stays_in_registers { &self.state } else { black_box(&self.state) };
+        let state = if stays_in_registers::<M>() { &self.state } else { black_box(&self.state) };
         State { t, ..*state }
     }
 
@@ -143,7 +148,11 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
         let steps = self.steps_to(end)?;
         for _ in 0..steps {
-            self.step()?;
+            if stays_in_registers::<M>() {
+                self.inlined_step()?;
+            } else {
+                self.step()?;
+            }
         }
         Ok(())
     }
@@ -156,4 +165,11 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     pub fn steps_to(&self, end: f64) -> Result<u64, Error> {
         clock::steps_to::<M::Real>(self.start_time.to_f64(), self.step.to_f64(), self.steps(), end)
     }
+}
+
+/// Whether a state is so small that a loop over steps keeps it in registers, if no function is called
+/// for them.
+#[inline(always)]
+fn stays_in_registers<M: Mechanism>() -> bool {
+    M::INFO.states.len() <= 2
 }
