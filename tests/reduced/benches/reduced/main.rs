@@ -1,6 +1,7 @@
-//! What a Heun step costs with reduced states, against all coordinates in the same run: one
-//! simulation, and members in lanes; and what the step of the driven slider-crank costs that a
-//! person writes. Repetitions take turns, and medians are compared.
+//! What a Heun step costs with reduced states, against all coordinates in the same run: of one
+//! simulation that runs to a time, of one that is told every step by a function call, and of
+//! members in lanes; and what the step of the driven slider-crank costs that a person writes.
+//! Repetitions take turns, and medians are compared.
 #![allow(missing_docs, reason = "a program")]
 
 mod by_hand;
@@ -48,11 +49,13 @@ fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
     };
     let pool = ThreadPoolBuilder::new().num_threads(1).build()?;
     let (of_all, of_reduced) = (start(all, h, input)?, start(reduced, h, input)?);
-    let mut times = [const { Vec::new() }; 4];
-    let [all_alone, reduced_alone, all_together, reduced_together] = &mut times;
+    let mut times = [const { Vec::new() }; 6];
+    let [all_run, reduced_run, all_called, reduced_called, all_together, reduced_together] = &mut times;
     for _ in 0..repetitions {
-        all_alone.push(alone(of_all, STEPS)?);
-        reduced_alone.push(alone(of_reduced, STEPS)?);
+        all_run.push(running(of_all, STEPS)?);
+        reduced_run.push(running(of_reduced, STEPS)?);
+        all_called.push(called(of_all, STEPS)?);
+        reduced_called.push(called(of_reduced, STEPS)?);
     }
     // apart from the others: a thread that waits for work looks for it for a while, and may do so on
     // the other half of the same core
@@ -60,13 +63,18 @@ fn compare<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(
         all_together.push(pool.install(|| together(of_all, STEPS, members)));
         reduced_together.push(pool.install(|| together(of_reduced, STEPS, members)));
     }
-    let [all, reduced, all_in_lanes, reduced_in_lanes] = times.map(median);
-    println!(
-        "{:20} alone {all:8.1} {reduced:8.1} {:5.2}   a member in lanes {all_in_lanes:8.1} {reduced_in_lanes:8.1} {:5.2}",
-        A::INFO.name,
-        reduced / all,
-        reduced_in_lanes / all_in_lanes
-    );
+    print!("{:16}", A::INFO.name);
+    let [all_run, reduced_run, all_called, reduced_called, all_together, reduced_together] =
+        times.map(median);
+    let kinds = [
+        ("a run", all_run, reduced_run),
+        ("by calls", all_called, reduced_called),
+        ("a member in lanes", all_together, reduced_together),
+    ];
+    for (kind, all, reduced) in kinds {
+        print!("   {kind} {all:8.1} {reduced:8.1} {:5.2}", reduced / all);
+    }
+    println!();
     Ok(())
 }
 
@@ -97,11 +105,11 @@ fn compare_with_hand(repetitions: usize) -> Result<(), Box<dyn Error>> {
         let began = Instant::now();
         black_box(by_hand::run(&crank, black_box([angle, rate]), STEPS));
         times[0].push(began.elapsed().as_secs_f64() * 1e9 / STEPS as f64);
-        times[1].push(alone(first, STEPS)?);
+        times[1].push(running(first, STEPS)?);
     }
     let [by_hand, generated] = times.map(median);
     println!(
-        "{:20} alone {by_hand:8.1} {generated:8.1} {:5.2}   by hand, reduced, reduced/by hand",
+        "{:16}   a run {by_hand:8.1} {generated:8.1} {:5.2}   by hand, reduced, reduced/by hand",
         "",
         generated / by_hand
     );
@@ -117,13 +125,32 @@ fn start<M: Mechanism<Real = f64>>(
     Simulation::builder(mechanism, h).inputs(M::Inputs::splat(input)).build()
 }
 
-/// ns per step of a simulation.
-fn alone<M: Mechanism<Real = f64>>(run: Simulation<M>, steps: u64) -> Result<f64, mbs_runtime::Error> {
+/// ns per step of a simulation that runs to a time.
+fn running<M: Mechanism<Real = f64>>(run: Simulation<M>, steps: u64) -> Result<f64, mbs_runtime::Error> {
+    let end = run.time() + steps as f64 * run.step_size();
+    per_step(run, steps, |run| run.advance_to(end))
+}
+
+/// ns per step of a simulation that is told every step by a function call, so that its state goes
+/// through memory.
+fn called<M: Mechanism<Real = f64>>(run: Simulation<M>, steps: u64) -> Result<f64, mbs_runtime::Error> {
+    per_step(run, steps, |run| (0..steps).try_for_each(|_| step(run)))
+}
+
+#[inline(never)]
+fn step<M: Mechanism<Real = f64>>(run: &mut Simulation<M>) -> Result<(), mbs_runtime::Error> {
+    run.step()
+}
+
+/// ns per step of what makes so many steps.
+fn per_step<M: Mechanism<Real = f64>>(
+    run: Simulation<M>,
+    steps: u64,
+    advance: impl FnOnce(&mut Simulation<M>) -> Result<(), mbs_runtime::Error>,
+) -> Result<f64, mbs_runtime::Error> {
     let mut run = black_box(run);
     let start = Instant::now();
-    for _ in 0..steps {
-        run.step()?;
-    }
+    advance(&mut run)?;
     black_box(run.integrated());
     Ok(start.elapsed().as_secs_f64() * 1e9 / steps as f64)
 }
