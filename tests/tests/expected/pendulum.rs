@@ -604,77 +604,77 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(half_h));
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p6 = p5 * p5;
-        let v7 = p6.second() + p6.first();
-        let p8 = p5 * p1;
-        let v9 = Single::<T>::new(self.hoisted[1]) * v7;
-        let v10 = Single::<T>::new(T::from_f64(9.81)) * p8.second();
-        let phi_rod = v9 - Single::<T>::new(self.hoisted[0]);
-        let p12 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p13 = p0 * p12;
-        let p14 = p8 * p8;
-        let v15 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let p16 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p17 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p18 = p13.swap();
-        let p19 = p16 * p13;
-        let v20 = p14.second() + p14.first();
-        let p21 = p17 * p18;
-        let p22 = p19 + p21;
-        let p23 = p2 * p22;
-        let v24 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
-        let v25 = v10 - p23.second();
-        let feedback_rod = v24 + v15;
-        let v27 = v25 + feedback_rod;
-        let v28 = v27 / v20;
-        let p29 = p3 * p12;
-        let p30 = p5 + p29;
-        let p31 = T::Pair::splat(v28);
-        let p32 = p8 * p31;
-        let p33 = p30 * p1;
-        let acc_y = p32.second() - Single::<T>::new(T::from_f64(9.81));
-        let v35 = Single::<T>::new(T::from_f64(9.81)) * p33.second();
-        let p36 = T::Pair::join(p32.first(), acc_y);
-        let p37 = p33 * p33;
-        let p38 = p3 * p36;
-        let v39 = p37.second() + p37.first();
-        let p40 = p12 + p38;
-        let v41 = feedback_rod + v35;
-        let p42 = p0 * p40;
-        let p43 = p40 * p42;
-        let v44 = p43.second() + p43.first();
-        let v45 = Single::<T>::new(self.hoisted[1]) * v44;
-        let v46 = v41 - v45;
-        let v47 = v46 / v39;
-        let p48 = p12 + p40;
-        let p49 = p4 * p48;
-        let p50 = T::Pair::splat(v47);
-        let p51 = p33 * p50;
-        let p52 = p5 + p49;
-        let v53 = p51.second() - Single::<T>::new(T::from_f64(9.81));
-        let v54 = p32.first() + p51.first();
-        let v55 = acc_y + v53;
-        let p56 = T::Pair::join(v54, v55);
-        let p57 = p4 * p56;
-        let p58 = p12 + p57;
-        let p59 = p52 + p58;
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = p3.swap();
+        let p8 = p5 * p3;
+        let p9 = p6 * p7;
+        let v10 = p4.second() + p4.first();
+        let p11 = p8 + p9;
+        let v12 = Single::<T>::new(self.hoisted[1]) * v10;
+        let p13 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p14 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p15 = p2 * p13;
+        let p16 = p14 * p11;
+        let phi_rod = v12 - Single::<T>::new(self.hoisted[0]);
+        let v18 = Single::<T>::new(T::from_f64(9.81)) * p15.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
+        let v20 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v21 = v18 - p16.second();
+        let feedback_rod = v19 + v20;
+        let p23 = p15 * p15;
+        let v24 = v21 + feedback_rod;
+        let v25 = p23.second() + p23.first();
+        let v26 = v24 / v25;
+        let p27 = T::Pair::splat(v26);
+        let p28 = p15 * p27;
+        let acc_y = p28.second() - Single::<T>::new(T::from_f64(9.81));
+        let p30 = T::Pair::splat(Single::<T>::new(h));
+        let p31 = T::Pair::join(p28.first(), acc_y);
+        let p32 = p30 * p31;
+        let p33 = p0 + p32;
+        let p34 = p30 * p0;
+        let p35 = p2 + p34;
+        let p36 = p1 * p33;
+        let p37 = p35 * p13;
+        let p38 = p33 * p36;
+        let v39 = Single::<T>::new(T::from_f64(9.81)) * p37.second();
+        let v40 = p38.second() + p38.first();
+        let v41 = feedback_rod + v39;
+        let v42 = Single::<T>::new(self.hoisted[1]) * v40;
+        let p43 = p37 * p37;
+        let v44 = v41 - v42;
+        let v45 = p43.second() + p43.first();
+        let v46 = v44 / v45;
+        let p47 = T::Pair::splat(v46);
+        let p48 = p37 * p47;
+        let v49 = p48.second() - Single::<T>::new(T::from_f64(9.81));
+        let v50 = p28.first() + p48.first();
+        let v51 = acc_y + v49;
+        let p52 = p0 + p33;
+        let p53 = T::Pair::splat(Single::<T>::new(half_h));
+        let p54 = T::Pair::join(v50, v51);
+        let p55 = p53 * p54;
+        let p56 = p53 * p52;
+        let p57 = p0 + p55;
+        let p58 = p2 + p56;
+        let p59 = p57 + p58;
         let v60 = p59.first() + p59.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p52.first().get(),
-                    y: p52.second().get(),
-                },
-                v: PendulumCoordinates {
                     x: p58.first().get(),
                     y: p58.second().get(),
+                },
+                v: PendulumCoordinates {
+                    x: p57.first().get(),
+                    y: p57.second().get(),
                 },
             },
             growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -699,88 +699,88 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p3 = T::Pair::splat(Single::<T>::new(h));
-        let p4 = T::Pair::splat(Single::<T>::new(half_h));
-        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p6 = p5 * p5;
-        let v7 = p6.second() + p6.first();
-        let p8 = p5 * p1;
-        let v9 = Single::<T>::new(self.hoisted[1]) * v7;
-        let v10 = Single::<T>::new(T::from_f64(9.81)) * p8.second();
-        let phi_rod = v9 - Single::<T>::new(self.hoisted[0]);
-        let p12 = p8 * p8;
-        let p13 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let v14 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let p15 = p0 * p13;
-        let v16 = p12.second() + p12.first();
-        let p17 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p18 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p19 = p15.swap();
-        let p20 = p17 * p15;
-        let p21 = p18 * p19;
-        let p22 = p20 + p21;
-        let p23 = p2 * p22;
-        let v24 = Single::<T>::new(gains.minus_two_alpha) * p23.first();
-        let v25 = v10 - p23.second();
-        let feedback_rod = v24 + v14;
-        let v27 = v25 + feedback_rod;
-        let v28 = v27 / v16;
-        let p29 = p3 * p13;
-        let p30 = p5 + p29;
-        let p31 = T::Pair::splat(v28);
-        let p32 = p8 * p31;
-        let p33 = p30 * p30;
-        let acc_y = p32.second() - Single::<T>::new(T::from_f64(9.81));
-        let v35 = p33.second() + p33.first();
-        let p36 = T::Pair::join(p32.first(), acc_y);
-        let p37 = p30 * p1;
-        let v38 = Single::<T>::new(self.hoisted[1]) * v35;
-        let p39 = p3 * p36;
-        let v40 = Single::<T>::new(T::from_f64(9.81)) * p37.second();
-        let v41 = v38 - Single::<T>::new(self.hoisted[0]);
-        let p42 = p13 + p39;
-        let p43 = p37 * p37;
-        let v44 = Single::<T>::new(gains.minus_beta_squared) * v41;
-        let p45 = p0 * p42;
-        let v46 = p43.second() + p43.first();
-        let p47 = T::Pair::join(p30.first(), p42.second());
-        let p48 = T::Pair::join(p30.second(), p42.first());
-        let p49 = p45.swap();
-        let p50 = p47 * p45;
-        let p51 = p48 * p49;
-        let p52 = p50 + p51;
-        let p53 = p2 * p52;
-        let v54 = Single::<T>::new(gains.minus_two_alpha) * p53.first();
-        let v55 = v40 - p53.second();
-        let v56 = v54 + v44;
-        let v57 = v55 + v56;
-        let v58 = v57 / v46;
-        let p59 = p13 + p42;
-        let p60 = p4 * p59;
-        let p61 = T::Pair::splat(v58);
-        let p62 = p5 + p60;
-        let p63 = p37 * p61;
-        let v64 = p63.second() - Single::<T>::new(T::from_f64(9.81));
-        let v65 = p32.first() + p63.first();
-        let v66 = acc_y + v64;
-        let p67 = T::Pair::join(v65, v66);
-        let p68 = p4 * p67;
-        let p69 = p13 + p68;
-        let p70 = p62 + p69;
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = p3.swap();
+        let p8 = p5 * p3;
+        let p9 = p6 * p7;
+        let v10 = p4.second() + p4.first();
+        let p11 = p8 + p9;
+        let v12 = Single::<T>::new(self.hoisted[1]) * v10;
+        let p13 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p14 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p15 = p2 * p13;
+        let p16 = p14 * p11;
+        let phi_rod = v12 - Single::<T>::new(self.hoisted[0]);
+        let v18 = Single::<T>::new(T::from_f64(9.81)) * p15.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
+        let v20 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v21 = v18 - p16.second();
+        let feedback_rod = v19 + v20;
+        let p23 = p15 * p15;
+        let v24 = v21 + feedback_rod;
+        let v25 = p23.second() + p23.first();
+        let v26 = v24 / v25;
+        let p27 = T::Pair::splat(v26);
+        let p28 = p15 * p27;
+        let acc_y = p28.second() - Single::<T>::new(T::from_f64(9.81));
+        let p30 = T::Pair::splat(Single::<T>::new(h));
+        let p31 = T::Pair::join(p28.first(), acc_y);
+        let p32 = p30 * p31;
+        let p33 = p30 * p0;
+        let p34 = p0 + p32;
+        let p35 = p2 + p33;
+        let p36 = p1 * p34;
+        let p37 = p35 * p35;
+        let p38 = T::Pair::join(p35.first(), p34.second());
+        let p39 = T::Pair::join(p35.second(), p34.first());
+        let p40 = p36.swap();
+        let p41 = p38 * p36;
+        let p42 = p39 * p40;
+        let v43 = p37.second() + p37.first();
+        let p44 = p41 + p42;
+        let v45 = Single::<T>::new(self.hoisted[1]) * v43;
+        let p46 = p35 * p13;
+        let p47 = p14 * p44;
+        let v48 = v45 - Single::<T>::new(self.hoisted[0]);
+        let v49 = Single::<T>::new(T::from_f64(9.81)) * p46.second();
+        let v50 = Single::<T>::new(gains.minus_two_alpha) * p47.first();
+        let v51 = Single::<T>::new(gains.minus_beta_squared) * v48;
+        let v52 = v49 - p47.second();
+        let v53 = v50 + v51;
+        let p54 = p46 * p46;
+        let v55 = v52 + v53;
+        let v56 = p54.second() + p54.first();
+        let v57 = v55 / v56;
+        let p58 = T::Pair::splat(v57);
+        let p59 = p46 * p58;
+        let v60 = p59.second() - Single::<T>::new(T::from_f64(9.81));
+        let v61 = p28.first() + p59.first();
+        let v62 = acc_y + v60;
+        let p63 = p0 + p34;
+        let p64 = T::Pair::splat(Single::<T>::new(half_h));
+        let p65 = T::Pair::join(v61, v62);
+        let p66 = p64 * p65;
+        let p67 = p64 * p63;
+        let p68 = p0 + p66;
+        let p69 = p2 + p67;
+        let p70 = p68 + p69;
         let v71 = p70.first() + p70.second();
         ::mbs_runtime::Stepped {
             next: ::mbs_runtime::State {
                 t: t_next,
                 q: PendulumCoordinates {
-                    x: p62.first().get(),
-                    y: p62.second().get(),
-                },
-                v: PendulumCoordinates {
                     x: p69.first().get(),
                     y: p69.second().get(),
+                },
+                v: PendulumCoordinates {
+                    x: p68.first().get(),
+                    y: p68.second().get(),
                 },
             },
             growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -808,74 +808,74 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p3 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p4 = T::Pair::splat(Single::<T>::new(h));
-        let p5 = T::Pair::splat(Single::<T>::new(half_h));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p7 = p6 * p6;
-        let v8 = p7.second() + p7.first();
-        let p9 = p6 * p1;
-        let v10 = Single::<T>::new(self.hoisted[1]) * v8;
-        let v11 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let phi_rod = v10 - Single::<T>::new(self.hoisted[0]);
-        let p13 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let p14 = p0 * p13;
-        let p15 = p9 * p9;
-        let v16 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let p17 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p18 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p19 = p14.swap();
-        let p20 = p17 * p14;
-        let v21 = p15.second() + p15.first();
-        let p22 = p18 * p19;
-        let p23 = T::Pair::splat(v21);
-        let p24 = p20 + p22;
-        let p25 = p2 * p24;
-        let p26 = T::Pair::splat(p9.second());
-        let v27 = Single::<T>::new(gains.minus_two_alpha) * p25.first();
-        let p28 = T::Pair::splat(p9.first());
-        let v29 = v11 - p25.second();
-        let feedback_rod = v27 + v16;
-        let v31 = v29 + feedback_rod;
-        let p32 = T::Pair::join(v31, v29);
-        let p33 = p32 / p23;
-        let p34 = p4 * p13;
-        let p35 = p6 + p34;
-        let p36 = p26 * p33;
-        let p37 = p35 * p1;
-        let p38 = p28 * p33;
-        let p39 = p36 - p3;
-        let v40 = Single::<T>::new(T::from_f64(9.81)) * p37.second();
-        let p41 = T::Pair::join(p38.first(), p39.first());
-        let p42 = p37 * p37;
-        let p43 = p4 * p41;
-        let v44 = p42.second() + p42.first();
-        let p45 = p13 + p43;
-        let v46 = feedback_rod + v40;
-        let p47 = p0 * p45;
-        let p48 = p45 * p47;
-        let v49 = p48.second() + p48.first();
-        let v50 = Single::<T>::new(self.hoisted[1]) * v49;
-        let v51 = v46 - v50;
-        let v52 = v51 / v44;
-        let p53 = p13 + p45;
-        let p54 = p5 * p53;
-        let p55 = T::Pair::splat(v52);
-        let p56 = p37 * p55;
-        let p57 = p6 + p54;
-        let acc_y = p56.second() - Single::<T>::new(T::from_f64(9.81));
-        let v59 = p38.first() + p56.first();
-        let v60 = p39.first() + acc_y;
-        let p61 = T::Pair::join(v59, v60);
-        let p62 = p5 * p61;
-        let p63 = p13 + p62;
-        let v64 = Single::<T>::new(self.parameters.mass) * p33.second();
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = p3.swap();
+        let p8 = p5 * p3;
+        let p9 = p6 * p7;
+        let v10 = p4.second() + p4.first();
+        let p11 = p8 + p9;
+        let v12 = Single::<T>::new(self.hoisted[1]) * v10;
+        let p13 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p14 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p15 = p2 * p13;
+        let p16 = p14 * p11;
+        let phi_rod = v12 - Single::<T>::new(self.hoisted[0]);
+        let v18 = Single::<T>::new(T::from_f64(9.81)) * p15.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
+        let v20 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v21 = v18 - p16.second();
+        let feedback_rod = v19 + v20;
+        let p23 = p15 * p15;
+        let v24 = v21 + feedback_rod;
+        let v25 = p23.second() + p23.first();
+        let p26 = T::Pair::join(v24, v21);
+        let p27 = T::Pair::splat(v25);
+        let p28 = p26 / p27;
+        let p29 = T::Pair::splat(p15.second());
+        let p30 = p29 * p28;
+        let p31 = T::Pair::splat(p15.first());
+        let p32 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p33 = p31 * p28;
+        let p34 = p30 - p32;
+        let p35 = T::Pair::splat(Single::<T>::new(h));
+        let p36 = T::Pair::join(p33.first(), p34.first());
+        let p37 = p35 * p36;
+        let p38 = p0 + p37;
+        let p39 = p35 * p0;
+        let p40 = p2 + p39;
+        let p41 = p1 * p38;
+        let p42 = p40 * p13;
+        let p43 = p38 * p41;
+        let v44 = Single::<T>::new(T::from_f64(9.81)) * p42.second();
+        let v45 = p43.second() + p43.first();
+        let v46 = feedback_rod + v44;
+        let v47 = Single::<T>::new(self.hoisted[1]) * v45;
+        let p48 = p42 * p42;
+        let v49 = v46 - v47;
+        let v50 = p48.second() + p48.first();
+        let v51 = v49 / v50;
+        let p52 = T::Pair::splat(v51);
+        let p53 = p42 * p52;
+        let acc_y = p53.second() - Single::<T>::new(T::from_f64(9.81));
+        let v55 = p33.first() + p53.first();
+        let v56 = p34.first() + acc_y;
+        let p57 = p0 + p38;
+        let p58 = T::Pair::splat(Single::<T>::new(half_h));
+        let p59 = T::Pair::join(v55, v56);
+        let p60 = p58 * p59;
+        let p61 = p58 * p57;
+        let p62 = p0 + p60;
+        let p63 = p2 + p61;
+        let v64 = Single::<T>::new(self.parameters.mass) * p28.second();
         let lambda_rod = -v64;
-        let p66 = p38 + p39;
-        let p67 = p57 + p63;
+        let p66 = p33 + p34;
+        let p67 = p62 + p63;
         let p68 = p66 + p67;
         let v69 = lambda_rod + p68.first();
         let v70 = v69 + p68.second();
@@ -884,12 +884,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p57.first().get(),
-                        y: p57.second().get(),
-                    },
-                    v: PendulumCoordinates {
                         x: p63.first().get(),
                         y: p63.second().get(),
+                    },
+                    v: PendulumCoordinates {
+                        x: p62.first().get(),
+                        y: p62.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -897,8 +897,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p38.second().get(),
-                    y: p39.second().get(),
+                    x: p33.second().get(),
+                    y: p34.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),
@@ -928,85 +928,85 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             T,
         >>::Term;
         let half_h = T::from_f64(0.5) * h;
-        let p0 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
-        let p1 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
-        let p2 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
-        let p3 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
-        let p4 = T::Pair::splat(Single::<T>::new(h));
-        let p5 = T::Pair::splat(Single::<T>::new(half_h));
-        let p6 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
-        let p7 = p6 * p6;
-        let v8 = p7.second() + p7.first();
-        let p9 = p6 * p1;
-        let v10 = Single::<T>::new(self.hoisted[1]) * v8;
-        let v11 = Single::<T>::new(T::from_f64(9.81)) * p9.second();
-        let phi_rod = v10 - Single::<T>::new(self.hoisted[0]);
-        let p13 = p9 * p9;
-        let p14 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
-        let v15 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
-        let p16 = p0 * p14;
-        let v17 = p13.second() + p13.first();
-        let p18 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
-        let p19 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
-        let p20 = p16.swap();
-        let p21 = p18 * p16;
-        let p22 = p19 * p20;
-        let p23 = T::Pair::splat(v17);
-        let p24 = p21 + p22;
-        let p25 = T::Pair::splat(p9.second());
-        let p26 = p2 * p24;
-        let p27 = T::Pair::splat(p9.first());
-        let v28 = Single::<T>::new(gains.minus_two_alpha) * p26.first();
-        let v29 = v11 - p26.second();
-        let feedback_rod = v28 + v15;
-        let v31 = v29 + feedback_rod;
-        let p32 = T::Pair::join(v31, v29);
-        let p33 = p32 / p23;
-        let p34 = p4 * p14;
-        let p35 = p6 + p34;
-        let p36 = p25 * p33;
-        let p37 = p35 * p35;
-        let p38 = p27 * p33;
-        let p39 = p36 - p3;
-        let v40 = p37.second() + p37.first();
-        let p41 = T::Pair::join(p38.first(), p39.first());
-        let p42 = p35 * p1;
-        let v43 = Single::<T>::new(self.hoisted[1]) * v40;
-        let p44 = p4 * p41;
-        let v45 = Single::<T>::new(T::from_f64(9.81)) * p42.second();
-        let v46 = v43 - Single::<T>::new(self.hoisted[0]);
-        let p47 = p14 + p44;
-        let p48 = p42 * p42;
-        let v49 = Single::<T>::new(gains.minus_beta_squared) * v46;
-        let p50 = p0 * p47;
-        let v51 = p48.second() + p48.first();
-        let p52 = T::Pair::join(p35.first(), p47.second());
-        let p53 = T::Pair::join(p35.second(), p47.first());
-        let p54 = p50.swap();
-        let p55 = p52 * p50;
-        let p56 = p53 * p54;
-        let p57 = p55 + p56;
-        let p58 = p2 * p57;
-        let v59 = Single::<T>::new(gains.minus_two_alpha) * p58.first();
-        let v60 = v45 - p58.second();
-        let v61 = v59 + v49;
-        let v62 = v60 + v61;
-        let v63 = v62 / v51;
-        let p64 = p14 + p47;
-        let p65 = p5 * p64;
-        let p66 = T::Pair::splat(v63);
-        let p67 = p6 + p65;
-        let p68 = p42 * p66;
-        let acc_y = p68.second() - Single::<T>::new(T::from_f64(9.81));
-        let v70 = p38.first() + p68.first();
-        let v71 = p39.first() + acc_y;
-        let p72 = T::Pair::join(v70, v71);
-        let p73 = p5 * p72;
-        let p74 = p14 + p73;
-        let v75 = Single::<T>::new(self.parameters.mass) * p33.second();
+        let p0 = T::Pair::join(Single::<T>::new(at.v.x), Single::<T>::new(at.v.y));
+        let p1 = T::Pair::splat(Single::<T>::new(T::from_f64(2.0)));
+        let p2 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.q.y));
+        let p3 = p1 * p0;
+        let p4 = p2 * p2;
+        let p5 = T::Pair::join(Single::<T>::new(at.q.x), Single::<T>::new(at.v.y));
+        let p6 = T::Pair::join(Single::<T>::new(at.q.y), Single::<T>::new(at.v.x));
+        let p7 = p3.swap();
+        let p8 = p5 * p3;
+        let p9 = p6 * p7;
+        let v10 = p4.second() + p4.first();
+        let p11 = p8 + p9;
+        let v12 = Single::<T>::new(self.hoisted[1]) * v10;
+        let p13 = T::Pair::splat(Single::<T>::new(self.hoisted[2]));
+        let p14 = T::Pair::splat(Single::<T>::new(self.hoisted[1]));
+        let p15 = p2 * p13;
+        let p16 = p14 * p11;
+        let phi_rod = v12 - Single::<T>::new(self.hoisted[0]);
+        let v18 = Single::<T>::new(T::from_f64(9.81)) * p15.second();
+        let v19 = Single::<T>::new(gains.minus_two_alpha) * p16.first();
+        let v20 = Single::<T>::new(gains.minus_beta_squared) * phi_rod;
+        let v21 = v18 - p16.second();
+        let feedback_rod = v19 + v20;
+        let p23 = p15 * p15;
+        let v24 = v21 + feedback_rod;
+        let v25 = p23.second() + p23.first();
+        let p26 = T::Pair::join(v24, v21);
+        let p27 = T::Pair::splat(v25);
+        let p28 = p26 / p27;
+        let p29 = T::Pair::splat(p15.second());
+        let p30 = p29 * p28;
+        let p31 = T::Pair::splat(p15.first());
+        let p32 = T::Pair::splat(Single::<T>::new(T::from_f64(9.81)));
+        let p33 = p31 * p28;
+        let p34 = p30 - p32;
+        let p35 = T::Pair::splat(Single::<T>::new(h));
+        let p36 = T::Pair::join(p33.first(), p34.first());
+        let p37 = p35 * p36;
+        let p38 = p35 * p0;
+        let p39 = p0 + p37;
+        let p40 = p2 + p38;
+        let p41 = p1 * p39;
+        let p42 = p40 * p40;
+        let p43 = T::Pair::join(p40.first(), p39.second());
+        let p44 = T::Pair::join(p40.second(), p39.first());
+        let p45 = p41.swap();
+        let p46 = p43 * p41;
+        let p47 = p44 * p45;
+        let v48 = p42.second() + p42.first();
+        let p49 = p46 + p47;
+        let v50 = Single::<T>::new(self.hoisted[1]) * v48;
+        let p51 = p40 * p13;
+        let p52 = p14 * p49;
+        let v53 = v50 - Single::<T>::new(self.hoisted[0]);
+        let v54 = Single::<T>::new(T::from_f64(9.81)) * p51.second();
+        let v55 = Single::<T>::new(gains.minus_two_alpha) * p52.first();
+        let v56 = Single::<T>::new(gains.minus_beta_squared) * v53;
+        let v57 = v54 - p52.second();
+        let v58 = v55 + v56;
+        let p59 = p51 * p51;
+        let v60 = v57 + v58;
+        let v61 = p59.second() + p59.first();
+        let v62 = v60 / v61;
+        let p63 = T::Pair::splat(v62);
+        let p64 = p51 * p63;
+        let acc_y = p64.second() - Single::<T>::new(T::from_f64(9.81));
+        let v66 = p33.first() + p64.first();
+        let v67 = p34.first() + acc_y;
+        let p68 = p0 + p39;
+        let p69 = T::Pair::splat(Single::<T>::new(half_h));
+        let p70 = T::Pair::join(v66, v67);
+        let p71 = p69 * p70;
+        let p72 = p69 * p68;
+        let p73 = p0 + p71;
+        let p74 = p2 + p72;
+        let v75 = Single::<T>::new(self.parameters.mass) * p28.second();
         let lambda_rod = -v75;
-        let p77 = p38 + p39;
-        let p78 = p67 + p74;
+        let p77 = p33 + p34;
+        let p78 = p73 + p74;
         let p79 = p77 + p78;
         let v80 = lambda_rod + p79.first();
         let v81 = v80 + p79.second();
@@ -1015,12 +1015,12 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
                 next: ::mbs_runtime::State {
                     t: t_next,
                     q: PendulumCoordinates {
-                        x: p67.first().get(),
-                        y: p67.second().get(),
-                    },
-                    v: PendulumCoordinates {
                         x: p74.first().get(),
                         y: p74.second().get(),
+                    },
+                    v: PendulumCoordinates {
+                        x: p73.first().get(),
+                        y: p73.second().get(),
                     },
                 },
                 growth: Single::<T>::new(T::from_f64(0.0)).get(),
@@ -1028,8 +1028,8 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
             },
             ::mbs_runtime::Reactions {
                 acceleration: PendulumCoordinates {
-                    x: p38.second().get(),
-                    y: p39.second().get(),
+                    x: p33.second().get(),
+                    y: p34.second().get(),
                 },
                 multipliers: PendulumConstraints {
                     rod: lambda_rod.get(),
