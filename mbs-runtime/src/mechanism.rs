@@ -4,9 +4,10 @@ use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// In this order, with the time between the others: a compiler that reads or writes neighbours at
+// once would make one load wait for the stores of coordinates and of velocities.
+#[repr(C)]
 pub struct State<C: Components> {
-    // The time stands between the others: a compiler that writes neighbours at once would make
-    // the last coordinate wait for the first velocity, where there is one of each.
     /// Coordinates q: lengths in m, angles in rad.
     pub q: C,
     /// Time in s.
