@@ -2,7 +2,7 @@
 
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
 use crate::adaptive::{Moment, copy};
-use crate::explicit::{Beside, project};
+use crate::explicit::{Beside, subtract};
 use crate::{Dynamics, Error, Info, Real, vectors};
 
 /// A mechanism being integrated by TR-BDF2, with a constant step: for springs, bushings and dampers
@@ -137,9 +137,12 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
 
         *t = t_next;
         copy(a, last);
-        let correct =
-            |at: Beside<'_, D::States>, delta: &mut D::States| dynamics.correction(t_next, &at, delta);
-        Some(growth + project(q, v, last, correct))
+        // One after the other and not by a closure: each is compiled for what it corrects.
+        let of_positions = dynamics.correction(t_next, &Beside { q, v: None }, last);
+        subtract(q, last);
+        let of_velocities = dynamics.correction(t_next, &Beside { q, v: Some(v) }, last);
+        subtract(v, last);
+        Some(growth + (of_positions + of_velocities))
     }
 
     /// At the start the acceleration of an explicit method. Where inputs change, a stage at the moment
