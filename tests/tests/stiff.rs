@@ -18,6 +18,17 @@ const ROD: &str = "Rod {
     start { x = 0.1 [m] + 44.1e-9 [m]; y = 0; der(y) = 2.1 [m/s]; }
 }";
 
+/// Two masses on a spring, of which one is pushed.
+const PUSHED: &str = "Pair {
+    dof = 2;
+    input push [N];
+    body first (x) { mass = 1 [kg]; }
+    body second (y) { mass = 2 [kg]; }
+    force pull on x = 1e9 [N/m]*(y - x) + push;
+    force back on y = 1e9 [N/m]*(x - y);
+    start { x = 0; y = 0; }
+}";
+
 const STEP: f64 = 0.5e-3;
 
 fn numbers(components: impl Components<Real = f64>) -> Vec<f64> {
@@ -186,16 +197,7 @@ fn a_stiff_rod_turns_as_a_rigid_one() {
 /// them within some steps: until then they are apart by h² times the jump of the acceleration.
 #[test]
 fn inputs_act_on_what_is_slow() {
-    let text = "Pair {
-        dof = 2;
-        input push [N];
-        body first (x) { mass = 1 [kg]; }
-        body second (y) { mass = 2 [kg]; }
-        force pull on x = 1e9 [N/m]*(y - x) + push;
-        force back on y = 1e9 [N/m]*(x - y);
-        start { x = 0; y = 0; }
-    }";
-    let live = Text::declaration("pair.mbs", text).compile().expect("a declaration");
+    let live = Text::declaration("pair.mbs", PUSHED).compile().expect("a declaration");
     let mut run = TrBdf2::builder(Prepared::new(&live), STEP).build().expect("a start");
     let (mut x, mut v) = (0.0, 0.0);
     for step in 0..2000 {
@@ -211,6 +213,34 @@ fn inputs_act_on_what_is_slow() {
     assert!((centre(q) - x).abs() < 1e-9 && (centre(rates) - v).abs() < 1e-9, "{q:?} {x}, {rates:?} {v}");
     let jump = 8.0;
     assert!((q[0] - q[1]).abs() < 2.0 * STEP * STEP * jump, "{q:?}");
+}
+
+/// A step that is refused leaves no trace: with the input from before, the run goes on as one that was
+/// given the same input anew. It is refused for an input that is no number, or that leads to none.
+#[test]
+fn a_refused_step_leaves_the_run_as_it_was() {
+    let live = Text::declaration("pair.mbs", PUSHED).compile().expect("a declaration");
+    let run = || {
+        let mut run = TrBdf2::builder(Prepared::new(&live), STEP).build().expect("a start");
+        for _ in 0..50 {
+            run.set_inputs(&[5.0]);
+            run.step().expect("a regular motion");
+        }
+        run
+    };
+    let (mut refused, mut regular) = (run(), run());
+    for push in [f64::INFINITY, f64::MAX, 1e307] {
+        refused.set_inputs(&[push]);
+        assert!(refused.step().is_err(), "{push:e}");
+    }
+    let [refused, regular] = [&mut refused, &mut regular].map(|run| {
+        run.set_inputs(&[5.0]);
+        run.step().expect("a regular motion");
+        let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+        run.state(&mut q, &mut v);
+        [q, v]
+    });
+    assert_eq!(refused, regular);
 }
 
 /// A text computes what its type does, to the bit.

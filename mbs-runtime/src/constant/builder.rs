@@ -1,7 +1,7 @@
 //! The choices before a run with a constant step starts.
 
 use super::{ConstantStep, Kernel};
-use crate::adaptive::{Beginning, Moment};
+use crate::adaptive::{Beginning, Moment, copy};
 use crate::equations::Start;
 use crate::watch::Watch;
 use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
@@ -74,6 +74,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
             watch: Watch::new(length),
         };
         run.solve()?;
+        copy(&mut run.now.a, &run.next.a);
         Ok(run)
     }
 }

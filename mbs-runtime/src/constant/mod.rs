@@ -30,12 +30,14 @@ pub struct ConstantStep<D: Dynamics, K: Kernel<D>> {
     step: D::Real,
     start_time: f64,
     steps: u64,
+    /// The present state, with the acceleration at the end of the step to it.
     now: Moment<D::Real, D::States>,
-    /// The end of the step that is tried.
+    /// The end of the step that is tried; the same as `now` between steps. A step begins where the one
+    /// before has left its numbers: a copy of them would keep the next step waiting.
     next: Moment<D::Real, D::States>,
     /// All coordinates and velocities of the present state.
     all: [D::Coordinates; 2],
-    /// Whether the acceleration of the present state is that of the present inputs.
+    /// Whether that acceleration is the one of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
 }
@@ -47,14 +49,20 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// [`Error::NotConverged`] if there is no such step, and a shorter one mends it; [`Error::OutOfReach`], [`Error::Singular`], [`Error::NonFinite`],
     /// [`Error::Input`]. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
+        let was_solved = self.is_solved;
+        let taken = self.try_step();
+        if taken.is_err() {
+            copy_moment(&mut self.next, &self.now);
+            self.is_solved = was_solved;
+        }
+        taken
+    }
+
+    fn try_step(&mut self) -> Result<(), Error> {
         self.solve()?;
-        let Self { dynamics, inputs, kernel, step, start_time, steps, now, next, .. } = self;
+        let Self { dynamics, inputs, kernel, step, start_time, steps, next, .. } = self;
         let start = D::Real::from_f64(*start_time);
         let t_next = start + D::Real::from_f64((*steps + 1) as f64) * *step;
-        copy(&mut next.q, &now.q);
-        copy(&mut next.v, &now.v);
-        copy(&mut next.a, &now.a);
-        next.t = now.t;
         let growth = kernel.step(&*dynamics, inputs, *step, t_next, next);
         match growth.filter(|growth| is_healthy(*growth, next)) {
             Some(growth) => self.accept(growth),
@@ -71,7 +79,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         } else {
             watch.note(growth);
         }
-        core::mem::swap(now, next);
+        copy_moment(now, next);
         self.steps += 1;
         self.complete();
         Ok(())
@@ -83,15 +91,15 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         dynamics.complete(now.t, &now.q, &now.v, all);
     }
 
-    /// Sees to it that the acceleration of the present state is known.
+    /// Sees to it that the step begins with the acceleration of the present inputs.
     fn solve(&mut self) -> Result<(), Error> {
         if self.is_solved {
             return Ok(());
         }
-        let Self { dynamics, inputs, kernel, step, now, .. } = self;
+        let Self { dynamics, inputs, kernel, step, next, .. } = self;
         dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.equations().info(), inputs))?;
-        let growth = kernel.accelerate(&*dynamics, inputs, *step, now);
-        if !is_healthy(growth, now) {
+        let growth = kernel.accelerate(&*dynamics, inputs, *step, next);
+        if !is_healthy(growth, next) {
             return Err(self.cause());
         }
         self.is_solved = true;
@@ -170,4 +178,11 @@ impl<D: Dynamics, K: Kernel<D>> fmt::Debug for ConstantStep<D, K> {
         shown.field("method", &kernel.word()).field("t", &now.t).field("step", step);
         shown.field("steps", steps).finish_non_exhaustive()
     }
+}
+
+fn copy_moment<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut Moment<T, V>, from: &Moment<T, V>) {
+    copy(&mut to.q, &from.q);
+    copy(&mut to.v, &from.v);
+    copy(&mut to.a, &from.a);
+    to.t = from.t;
 }
