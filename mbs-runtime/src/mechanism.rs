@@ -4,8 +4,8 @@ use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-// In this order, with the time between the others: a compiler that reads or writes neighbours at
-// once would make one load wait for the stores of coordinates and of velocities.
+// This keeps the time between coordinates and velocities. Where they are neighbours, compilers load
+// both at once, and the load waits for two stores of the step before.
 #[repr(C)]
 pub struct State<C: Components> {
     /// Coordinates q: lengths in m, angles in rad.

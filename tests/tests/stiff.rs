@@ -216,7 +216,8 @@ fn inputs_act_on_what_is_slow() {
 }
 
 /// A step that is refused leaves no trace: with the input from before, the run goes on as one that was
-/// given the same input anew. It is refused for an input that is no number, or that leads to none.
+/// given the same input anew. The inputs that are refused are infinite, or so large that the motion is
+/// not finite.
 #[test]
 fn a_refused_step_leaves_the_run_as_it_was() {
     let live = Text::declaration("pair.mbs", PUSHED).compile().expect("a declaration");

@@ -30,14 +30,14 @@ pub struct ConstantStep<D: Dynamics, K: Kernel<D>> {
     step: D::Real,
     start_time: f64,
     steps: u64,
-    /// The present state, with the acceleration at the end of the step to it.
+    /// The present state, with the acceleration that the last step ended with.
     now: Moment<D::Real, D::States>,
-    /// The end of the step that is tried; the same as `now` between steps. A step begins where the one
-    /// before has left its numbers: a copy of them would keep the next step waiting.
+    /// The end of the step that is tried. Between steps it is the same as `now`: a step computes on the
+    /// numbers that the one before has left, since it would have to wait for a copy.
     next: Moment<D::Real, D::States>,
     /// All coordinates and velocities of the present state.
     all: [D::Coordinates; 2],
-    /// Whether that acceleration is the one of the present inputs.
+    /// Whether the acceleration of `next` is that of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
 }

@@ -137,7 +137,8 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
 
         *t = t_next;
         copy(a, last);
-        // One after the other and not by a closure: each is compiled for what it corrects.
+        // Not by `project`: its closure would be one function for both corrections, with its numbers in
+        // memory, which takes 20 ns longer.
         let of_positions = dynamics.correction(t_next, &Beside { q, v: None }, last);
         subtract(q, last);
         let of_velocities = dynamics.correction(t_next, &Beside { q, v: Some(v) }, last);

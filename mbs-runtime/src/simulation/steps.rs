@@ -20,7 +20,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         self.inlined_step()
     }
 
-    /// [`step`](Self::step) as a part of the function that takes it.
+    /// [`step`](Self::step), always inlined into its caller.
     #[inline(always)]
     fn inlined_step(&mut self) -> Result<(), Error> {
         let t_next = self.next_time();
@@ -167,8 +167,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     }
 }
 
-/// Whether a state is so small that a loop over steps keeps it in registers, if no function is called
-/// for them.
+/// Whether a loop over inlined steps keeps the state in registers: that of one or two coordinates.
 #[inline(always)]
 fn stays_in_registers<M: Mechanism>() -> bool {
     M::INFO.states.len() <= 2

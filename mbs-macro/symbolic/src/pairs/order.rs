@@ -9,9 +9,9 @@
 //! Conference, 1959). The end is that of many runs one after the other, as the next step of a
 //! simulation begins before all of this one is done.
 //!
-//! Earliest times, at which operands are there, do not count. Where they had a weight of 15 to 50 %,
-//! slider-cranks and the double pendulum took the same time within 5 %; of those with reduced states
-//! ten rods took 4 to 9 % longer, the four-bar 0 to 10 % longer, forty rods 0 to 4 % less (AMD Zen 4).
+//! Earliest times, at which operands are there, do not count. With a weight of 15 to 50 % for them,
+//! slider-cranks and the double pendulum took the same time within 5 %. With reduced states ten rods
+//! took 4 to 9 % longer, the four-bar 0 to 10 % longer, and forty rods 0 to 4 % less (AMD Zen 4).
 
 use std::cmp::Reverse;
 

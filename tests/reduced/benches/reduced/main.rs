@@ -1,7 +1,7 @@
-//! What a Heun step costs with reduced states, against all coordinates in the same run: of one
-//! simulation that runs to a time, of one that is told every step by a function call, and of
-//! members in lanes; and what the step of the driven slider-crank costs that a person writes.
-//! Repetitions take turns, and medians are compared.
+//! What a Heun step costs with reduced states, against all coordinates in the same run. Timed are
+//! a simulation that runs to a time, one whose steps are function calls, and members in lanes, and
+//! the step of the driven slider-crank that a person writes. Repetitions take turns, and medians are
+//! compared.
 #![allow(missing_docs, reason = "a program")]
 
 mod by_hand;
@@ -131,8 +131,8 @@ fn running<M: Mechanism<Real = f64>>(run: Simulation<M>, steps: u64) -> Result<f
     per_step(run, steps, |run| run.advance_to(end))
 }
 
-/// ns per step of a simulation that is told every step by a function call, so that its state goes
-/// through memory.
+/// ns per step of a simulation whose steps are function calls, so that its state goes through
+/// memory.
 fn called<M: Mechanism<Real = f64>>(run: Simulation<M>, steps: u64) -> Result<f64, mbs_runtime::Error> {
     per_step(run, steps, |run| (0..steps).try_for_each(|_| step(run)))
 }
@@ -142,7 +142,7 @@ fn step<M: Mechanism<Real = f64>>(run: &mut Simulation<M>) -> Result<(), mbs_run
     run.step()
 }
 
-/// ns per step of what makes so many steps.
+/// ns per step of `advance`, which makes `steps` of them.
 fn per_step<M: Mechanism<Real = f64>>(
     run: Simulation<M>,
     steps: u64,
