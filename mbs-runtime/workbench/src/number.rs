@@ -1,5 +1,7 @@
 //! Numbers for people: a given number of digits, powers of ten as superscripts.
 
+use std::fmt::Display;
+
 /// `x` with `digits` significant digits: plain from 1e-4 to 1e6, else as
 /// `1.53 × 10⁻⁶`. Trailing zeros after the point are dropped.
 pub fn significant(x: f64, digits: usize) -> String {
@@ -26,6 +28,13 @@ pub fn superscript(n: i32) -> String {
     n.to_string().chars().map(digit).collect()
 }
 
+/// A count with what it counts: `1 coordinate`, `2 coordinates`.
+pub(crate) fn counted(count: impl Display, one: &str) -> String {
+    let count = count.to_string();
+    let plural = if count == "1" { "" } else { "s" };
+    format!("{count} {one}{plural}")
+}
+
 /// Without trailing zeros after the point.
 pub(crate) fn trimmed(text: &str) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text.into() }
@@ -49,5 +58,10 @@ mod tests {
         assert_eq!(significant(999_999.9, 3), "1 × 10⁶");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(superscript(-12), "⁻¹²");
+    }
+
+    #[test]
+    fn one_thing_and_several() {
+        assert_eq!([0, 1, 2].map(|n| counted(n, "degree")), ["0 degrees", "1 degree", "2 degrees"]);
     }
 }

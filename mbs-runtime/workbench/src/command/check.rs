@@ -8,7 +8,7 @@ use mbs_live::{Live, Location, Problem, Text};
 use serde_json::{Value, json};
 
 use crate::console::complain;
-use crate::number::significant;
+use crate::number::{counted, significant};
 use crate::{Error, declarations, say};
 
 pub(crate) fn command() -> Command {
@@ -52,13 +52,12 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
 /// What a declaration comes to, in a line.
 fn summary(file: &str, live: &Live, seconds: f64) -> String {
     let info = live.declared_info();
-    let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
     format!(
         "{file}: {}, {}, {}, {} of freedom; checked in {} ms",
         info.name,
         counted(info.coordinates.len(), "coordinate"),
         counted(info.constraints.len(), "constraint"),
-        counted(usize::try_from(info.dof).unwrap_or(0), "degree"),
+        counted(info.dof, "degree"),
         significant(1e3 * seconds, 2)
     )
 }

@@ -9,7 +9,7 @@ use mbs_runtime::{Derivation, Info};
 use crate::StartValue;
 use crate::derivation::{GIVEN, energies, escaped, sections, typeset};
 use crate::models::Models;
-use crate::number::significant;
+use crate::number::{counted, significant};
 use crate::{Error, Model, Table, say};
 
 pub(crate) fn command() -> Command {
@@ -54,12 +54,13 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
     for line in info.doc.trim().lines() {
         let _ = writeln!(text, "  {}", line.trim());
     }
-    let (n, m) = (info.coordinates.len(), info.constraints.len());
     let _ = writeln!(
         text,
-        "\n{n} coordinates, {m} constraints, {} degrees of freedom.\n\
+        "\n{}, {}, {} of freedom.\n\
          M q̈ + Φ_qᵀ λ = Q,  Φ_q q̈ = γ − 2αΦ̇ − β²Φ;  SI units, angles in radians.",
-        info.dof
+        counted(info.coordinates.len(), "coordinate"),
+        counted(info.constraints.len(), "constraint"),
+        counted(info.dof, "degree"),
     );
     for (heading, formulas, name) in sections(derivation) {
         let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).0, formula.text)).collect();

@@ -9,6 +9,7 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::options::option;
 use crate::import::{self, FORMATS, Format, Imported, LONGEST};
+use crate::number::counted;
 use crate::{Error, files, say};
 
 /// The units that lengths of a file may have.
@@ -80,7 +81,6 @@ fn read(path: &Path) -> Result<Option<String>, Error> {
 
 fn summary(out: &Path, imported: &Imported) -> Result<(), Error> {
     let Imported { notes, links, dof, .. } = imported;
-    let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
     for note in notes {
         say(format_args!("note:    {note}"))?;
     }
