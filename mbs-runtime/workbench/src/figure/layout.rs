@@ -82,9 +82,14 @@ pub(super) fn range(axis: &Axis, values: impl Iterator<Item = f64>, air: bool) -
         let factor = if air { 1.25 } else { 1.0 };
         return if low < high { (low / factor, high * factor) } else { (low / 2.0, high * 2.0) };
     }
+    let largest = high.abs().max(low.abs());
+    // What is 0 throughout has no scale of its own.
+    if air && largest == 0.0 {
+        return (0.0, 1.0);
+    }
     // A constant needs some height, however small it is.
-    let flat = high - low <= 1e-12 * high.abs().max(low.abs());
-    let span = if flat { high.abs().max(1e-300) } else { high - low };
+    let flat = high - low <= 1e-12 * largest;
+    let span = if flat { largest } else { high - low };
     let margin = if air { 0.05 * span } else { 0.0 };
     let low_margin = if low >= 0.0 && low < margin { low } else { margin };
     let (low, high) = (low - low_margin, high + margin);
@@ -120,5 +125,19 @@ pub(super) fn ranges(panel: &Panel) -> ((f64, f64), (f64, f64)) {
             let Extent { low, high } = picture.extent();
             ((low[0], high[0]), (low[1], high[1]))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reduced states have no violation, which was drawn on an axis up to 5·10⁻³⁰².
+    #[test]
+    fn what_is_0_throughout_is_drawn_from_0_to_1() {
+        let of = |values: &[f64]| range(&Axis::new("violation", "1"), values.iter().copied(), true);
+        assert_eq!(of(&[0.0, 0.0]), (0.0, 1.0));
+        let (low, high) = of(&[2e-300, 2e-300]);
+        assert!(low < 2e-300 && high > 2e-300 && high < 3e-300);
     }
 }
