@@ -103,51 +103,38 @@ fn sign() -> Function {
 /// Sine and cosine as `mbs-runtime` computes them: the quarter turns are taken off by Cody and Waite's
 /// reduction, polynomials of Sun's fdlibm give the rest. Beyond 10⁹ rad the host computes them.
 fn sin_cos() -> Function {
-    let mut function = Function::new([(9, ValType::F64), (1, ValType::I64)]);
-    let [x, turns, n, r, z, w, ww, s, c, half] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-    let quadrant = 10;
+    let mut function = Function::new([(11, ValType::F64), (1, ValType::I64)]);
+    let [x, turns, shifted, n, near, r, z, y, w, ww, s, c] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+    let quadrant = 12;
     let mut code = function.instructions();
     code.local_get(x).f64_abs().f64_const(RANGE.into()).f64_le().i32_eqz().if_(BlockType::Empty);
     code.local_get(x).call(0).local_get(x).call(1).return_().end();
     // the low bits of the sum are the nearest number of quarter turns
-    code.local_get(x).f64_const(std::f64::consts::FRAC_2_PI.into()).f64_mul();
-    code.f64_const(SHIFT.into()).f64_add().local_tee(turns).f64_const(SHIFT.into()).f64_sub().local_set(n);
+    code.local_get(x).f64_const(std::f64::consts::FRAC_2_PI.into()).f64_mul().local_tee(turns);
+    code.f64_const(SHIFT.into()).f64_add().local_tee(shifted).f64_const(SHIFT.into()).f64_sub().local_set(n);
     code.local_get(x);
     let [high, middle, low] = HALF_PI;
     for part in [high, middle] {
         code.local_get(n).f64_const(part.into()).f64_mul().f64_sub();
     }
     // r² is taken without the last part of π/2, which matters only where r itself is tiny
-    let near = half;
-    code.local_tee(near).local_get(n).f64_const(low.into()).f64_mul().f64_sub();
-    code.local_set(r);
-    code.local_get(near).local_get(near).f64_mul().local_tee(z).local_get(z).f64_mul().local_tee(w);
-    code.local_get(w).f64_mul().local_set(ww);
-    // s = r + r z ((first + w second) + w² third)
+    code.local_tee(near).local_get(n).f64_const(low.into()).f64_mul().f64_sub().local_set(r);
+    code.local_get(near).local_get(near).f64_mul().local_set(z);
+    // q², of which the far terms are computed, and its powers
+    code.local_get(turns).local_get(n).f64_sub().local_tee(y).local_get(y).f64_mul().local_tee(y);
+    code.local_get(y).f64_mul().local_tee(w).local_get(w).f64_mul().local_set(ww);
+    // s = r + r z (first + (w second + w² third))
     code.local_get(r).local_get(r).local_get(z).f64_mul();
-    let [s0, s1, s2, s3, s4, s5] = SINE;
-    pair_of_terms(&mut code, z, [s0, s1]);
-    code.local_get(w);
-    pair_of_terms(&mut code, z, [s2, s3]);
-    code.f64_mul().f64_add().local_get(ww);
-    pair_of_terms(&mut code, z, [s4, s5]);
-    code.f64_mul().f64_add().f64_mul().f64_add().local_set(s);
-    // c = whole + ((rounding + w first) + w² (second + w third)), with whole = 1 − z/2 and its rounding
-    let whole = n;
-    code.f64_const(0.5.into()).local_get(z).f64_mul().local_set(half);
-    code.f64_const(1.0.into()).local_get(half).f64_sub().local_tee(whole);
-    code.f64_const(1.0.into()).local_get(whole).f64_sub().local_get(half).f64_sub();
-    let [c0, c1, c2, c3, c4, c5] = COSINE;
-    code.local_get(w);
-    pair_of_terms(&mut code, z, [c0, c1]);
-    code.f64_mul().f64_add().local_get(ww);
-    pair_of_terms(&mut code, z, [c2, c3]);
-    code.local_get(w);
-    pair_of_terms(&mut code, z, [c4, c5]);
-    code.f64_mul().f64_add().f64_mul().f64_add().f64_add().local_set(c);
+    polynomial(&mut code, [z, y, w, ww], SINE);
+    code.f64_mul().f64_add().local_set(s);
+    // c = 1 − (z/2 − z² (first + (w second + w² third)))
+    code.f64_const(1.0.into()).f64_const(0.5.into()).local_get(z).f64_mul();
+    code.local_get(z).local_get(z).f64_mul();
+    polynomial(&mut code, [z, y, w, ww], COSINE);
+    code.f64_mul().f64_sub().f64_sub().local_set(c);
     // odd quarter turns exchange the two; the sine is negative in the second half of a turn, the cosine
     // in the second and the third quarter
-    code.local_get(turns).i64_reinterpret_f64().local_set(quadrant);
+    code.local_get(shifted).i64_reinterpret_f64().local_set(quadrant);
     for (even, odd, turned) in [(s, c, 0), (c, s, 1)] {
         code.local_get(odd)
             .local_get(even)
@@ -162,6 +149,16 @@ fn sin_cos() -> Function {
     }
     code.end();
     function
+}
+
+/// (c₀ + c₁z) + (w (c₂ + c₃y) + w² (c₄ + c₅y))
+fn polynomial(code: &mut InstructionSink<'_>, [z, y, w, ww]: [u32; 4], [c0, c1, c2, c3, c4, c5]: [f64; 6]) {
+    pair_of_terms(code, z, [c0, c1]);
+    code.local_get(w);
+    pair_of_terms(code, y, [c2, c3]);
+    code.f64_mul().local_get(ww);
+    pair_of_terms(code, y, [c4, c5]);
+    code.f64_mul().f64_add().f64_add();
 }
 
 /// c₀ + c₁z
