@@ -32,6 +32,9 @@ pub trait Pair<T>:
     /// The pair with its second lane negated.
     #[must_use]
     fn flip(self) -> Self;
+    /// The magnitudes of both lanes.
+    #[must_use]
+    fn abs(self) -> Self;
     /// Sines and cosines.
     fn sin_cos(self) -> (Self, Self);
     /// The angles as a term: x of [`Octant::new`].
@@ -185,6 +188,10 @@ impl<T: Real> Pair<T> for Two<T> {
         Self(self.0, -self.1)
     }
     #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         T::sin_cos_of_two(self)
     }
@@ -236,6 +243,10 @@ impl Pair<f64> for Vector {
     #[inline(always)]
     fn flip(self) -> Self {
         Self(self.0 ^ f64x2::new([0.0, -0.0]))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {

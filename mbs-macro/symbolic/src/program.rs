@@ -48,7 +48,7 @@ impl Operation {
     pub(crate) fn latency(self) -> u32 {
         match self {
             Self::Add | Self::Sub | Self::Mul => 4,
-            Self::Neg => 1,
+            Self::Neg | Self::Call(Function::Abs) => 1,
             Self::Div => 14,
             Self::Call(_) | Self::Call2(_) | Self::Spline(..) => 50,
         }

@@ -111,6 +111,26 @@ fn a_rotation_is_two_pairs_of_operations() {
     assert_eq!(woven.evaluate(&program, &symbol, &|_| f64::NAN), program.evaluate(&symbol, &[]));
 }
 
+#[test]
+fn magnitudes_are_computed_in_pairs() {
+    // x + |x z|, y − |y w|: a product on pairs, its magnitude, which has no sign to negate, and a
+    // sum, in which one lane subtracts
+    let (mut arena, [x, y, z, w]) = letters();
+    let [first, second] = [(x, z), (y, w)].map(|(a, b)| {
+        let product = arena.mul(a, b);
+        arena.call(Function::Abs, product)
+    });
+    let outputs = [arena.add(x, first), arena.sub(y, second)];
+    let program = lower_whole(&mut arena, &outputs, 1024).expect("a program");
+    let woven = woven(&program);
+    let [scalars, pairs, ..] = woven.census();
+    assert_eq!((scalars, pairs), (0, 3), "{woven:?}");
+    assert_eq!(woven.check(&program), Ok(()));
+    let point = [3.0, -4.0, -0.5, 2.0];
+    let found = woven.evaluate(&program, &|symbol| point[symbol.index()], &|_| f64::NAN);
+    assert_eq!(found, [4.5, -12.0]);
+}
+
 /// The check that the compiler makes finds an operand that was taken for another.
 #[test]
 fn a_pair_with_another_operand_is_caught() {

@@ -134,7 +134,8 @@ impl Work<'_> {
             Unknown::Row(index) | Unknown::Coordinate(index) => index,
         };
         let (row, coordinate) = (row.map(index), coordinate.map(index));
-        let growth = total(self.arena, parts.map(|part| part.into_iter().collect()));
+        let [linear, squared] = parts.map(|part| part.unwrap_or(self.arena.zero()));
+        let growth = with_root(self.arena, linear, squared);
         self.pivots.push(WatchedPivot { row, coordinate, growth, parts, can_cancel });
     }
 }
@@ -142,21 +143,27 @@ impl Work<'_> {
 impl Factorization {
     /// The growth of the pivots that can cancel, together: Σ, with one root over all that
     /// stands under roots.
+    ///
+    /// The first and the second half of the rows have sums of their own. These are the two ends of a
+    /// chain that is eliminated from both, so pairs of lanes compute them.
     pub fn growth(&self, arena: &mut Arena) -> Expr {
-        let parts = |part: usize| {
-            let watched = self.pivots.iter().filter(|pivot| pivot.can_cancel);
-            watched.filter_map(|pivot| pivot.parts[part]).collect()
-        };
-        total(arena, [parts(0), parts(1)])
+        let mut watched: Vec<_> = self.pivots.iter().filter(|pivot| pivot.can_cancel).collect();
+        watched.sort_by_key(|pivot| (pivot.row, pivot.coordinate));
+        let (first, second) = watched.split_at(watched.len() / 2);
+        let [linear, squared] = [0, 1].map(|part| {
+            let [first, second] = [first, second].map(|half| {
+                let terms = half.iter().filter_map(|pivot| pivot.parts[part]);
+                let sum = arena.sum(&terms.map(|term| (term, Number::ONE)).collect::<Vec<_>>());
+                arena.share(sum)
+            });
+            arena.add(first, second)
+        });
+        with_root(arena, linear, squared)
     }
 }
 
-/// Σ linear + √(Σ squared)
-fn total(arena: &mut Arena, [linear, squared]: [Vec<Expr>; 2]) -> Expr {
-    let sum = |arena: &mut Arena, terms: Vec<Expr>| {
-        arena.sum(&terms.into_iter().map(|term| (term, Number::ONE)).collect::<Vec<_>>())
-    };
-    let (linear, squared) = (sum(arena, linear), sum(arena, squared));
+/// linear + √squared
+fn with_root(arena: &mut Arena, linear: Expr, squared: Expr) -> Expr {
     let root = arena.call(Function::Sqrt, squared);
     arena.add(linear, root)
 }

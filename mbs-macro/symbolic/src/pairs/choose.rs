@@ -155,6 +155,7 @@ impl<'a> Chooser<'a> {
             Kind::Sum => '+',
             Kind::Product => '*',
             Kind::Quotient => '/',
+            Kind::Magnitude => '|',
         };
         if depth == 0 {
             return name.to_string();
@@ -207,8 +208,12 @@ impl<'a> Chooser<'a> {
         };
         let all = matchings(left, right).map(|matching| (likely(&matching), matching));
         let best = all.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        for (a, b) in best.into_iter().flat_map(|(_, matching)| matching) {
-            gain += self.of_operands(a, b, trial, depth);
+        if let Some((_, [first, second])) = best {
+            gain += self.of_operands(first.0, first.1, trial, depth);
+            // squares and magnitudes have one operand
+            if second != first {
+                gain += self.of_operands(second.0, second.1, trial, depth);
+            }
         }
         gain
     }

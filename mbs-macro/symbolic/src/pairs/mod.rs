@@ -116,6 +116,7 @@ pub(crate) enum Kind {
     Sum,
     Product,
     Quotient,
+    Magnitude,
 }
 
 pub(crate) fn kind(instruction: &Instruction) -> Option<Kind> {
@@ -123,6 +124,7 @@ pub(crate) fn kind(instruction: &Instruction) -> Option<Kind> {
         Operation::Add | Operation::Sub => Some(Kind::Sum),
         Operation::Mul => Some(Kind::Product),
         Operation::Div => Some(Kind::Quotient),
+        Operation::Call(Function::Abs) => Some(Kind::Magnitude),
         _ => None,
     }
 }

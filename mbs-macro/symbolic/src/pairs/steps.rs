@@ -96,7 +96,8 @@ pub enum Step {
     Swap(usize),
     /// A pair with its second lane negated.
     Flip(usize),
-    /// A binary operation on two pairs: `Add`, `Sub`, `Mul` or `Div`.
+    /// An operation on two pairs: `Add`, `Sub`, `Mul` or `Div`, or the magnitude of one that is given
+    /// twice.
     Pair(Operation, usize, usize),
     /// A pair of angles as a term of their sines.
     Angles(usize),

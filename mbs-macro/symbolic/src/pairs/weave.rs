@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::{Angles, Given, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings, sines};
+use super::{Angles, Given, Kind, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings, kind, sines};
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
@@ -117,7 +117,7 @@ impl Weaver<'_> {
 
     fn new_pair(&mut self, lanes: Lanes, flipped: bool) -> usize {
         let (a, b) = lanes;
-        if let Some((x, y)) = self.instructions(lanes) {
+        if let Some((x, y)) = self.instructions(lanes).filter(|&(x, _)| !flipped || self.has_sign(x)) {
             return self.operation(x, y, flipped);
         }
         if let (Operand::Number(_), Operand::Number(number)) = lanes
@@ -146,6 +146,11 @@ impl Weaver<'_> {
     fn instructions(&self, (a, b): Lanes) -> Option<(usize, usize)> {
         let (Operand::Value(x), Operand::Value(y)) = (a, b) else { return None };
         (self.partners[x] == Some(Partner { other: y, lane: Lane::First })).then_some((x, y))
+    }
+
+    /// Whether the result is negated with its operands.
+    fn has_sign(&self, at: usize) -> bool {
+        kind(&self.program.instructions[at]) != Some(Kind::Magnitude)
     }
 
     fn operation(&mut self, x: usize, y: usize, flipped: bool) -> usize {
@@ -184,7 +189,7 @@ impl Weaver<'_> {
         match (known[usize::from(flipped)], known[usize::from(!flipped)], self.instructions(lanes)) {
             (Some(_), ..) => 0,
             (_, Some(_), _) => 1,
-            (_, _, Some((x, y))) if depth < DEPTH => {
+            (_, _, Some((x, y))) if depth < DEPTH && self.has_sign(x) => {
                 let [x, y] = [x, y].map(|at| &self.program.instructions[at]);
                 let of_form = |form: &Form| -> u32 {
                     let [a, b] = form.operands;
