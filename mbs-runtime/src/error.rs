@@ -316,7 +316,8 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "the motion of `{coordinate}` is no longer finite at t = {t} s; if the mechanism can reach \
-                 that position at all, take a smaller step or smaller gains",
+                     that position at all, take a smaller step or smaller gains, or for stiff forces the \
+                     method `trbdf2`",
                     t = Shown(t)
                 )
             }
