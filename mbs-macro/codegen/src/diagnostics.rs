@@ -9,6 +9,13 @@ use quote::quote_spanned;
 /// What stands between an error and how to mend it.
 pub const HELP: &str = "\n\nhelp: ";
 
+/// A count with what it counts: `1 coordinate`, `2 coordinates`.
+pub fn counted(count: impl fmt::Display, one: &str) -> String {
+    let count = count.to_string();
+    let plural = if count == "1" { "" } else { "s" };
+    format!("{count} {one}{plural}")
+}
+
 /// One error: what is wrong, where, and how to mend it.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {

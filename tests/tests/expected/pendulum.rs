@@ -2,7 +2,7 @@
 
 # Equations
 
-2 coordinates, 1 constraints, 1 degrees of freedom. Φ(q, t) = 0 is
+2 coordinates, 1 constraint, 1 degree of freedom. Φ(q, t) = 0 is
 ```text
 rod: 1/2*(x^2 + y^2)/length - 1/2*length = 0
 ```

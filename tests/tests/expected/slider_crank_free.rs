@@ -2,7 +2,7 @@
 
 # Equations
 
-7 coordinates, 6 constraints, 1 degrees of freedom. Φ(q, t) = 0 is
+7 coordinates, 6 constraints, 1 degree of freedom. Φ(q, t) = 0 is
 ```text
 crank_x: x1 - 1/2*l1*cos(theta1) = 0
 crank_y: y1 - 1/2*l1*sin(theta1) = 0

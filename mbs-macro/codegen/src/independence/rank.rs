@@ -9,7 +9,7 @@ use super::manifold::Manifold;
 use super::redundancy;
 use super::words::{Part, repeats};
 use crate::derive::Equations;
-use crate::diagnostics::{Diagnostic, Diagnostics, listing};
+use crate::diagnostics::{Diagnostic, Diagnostics, counted, listing};
 use crate::model::Model;
 
 /// A row that is a combination of earlier ones, and of which.
@@ -128,8 +128,10 @@ fn check_contract(
     }
     let independent = if rows.redundant.is_empty() { "" } else { "independent " };
     let message = format!(
-        "`{}` declares dof = {declared}, but {n} coordinates − {m} {independent}constraints leave {}",
+        "`{}` declares dof = {declared}, but {} − {} leave {}",
         model.name,
+        counted(n, "coordinate"),
+        counted(m, &format!("{independent}constraint")),
         n - m
     );
     let help = if n - m > declared {
@@ -145,16 +147,13 @@ fn check_contract(
             _ => format!("{help}; no joint leads from {} to the ground", listing(floating)),
         }
     } else {
-        let surplus = declared - (n - m);
-        let s = if surplus == 1 { "" } else { "s" };
+        let surplus = counted(declared - (n - m), "constraint");
         let drives = match model.constraints.iter().any(|constraint| constraint.is_drive) {
             true => "; a drive is a constraint too",
             false => "",
         };
         let left = n - m;
-        format!(
-            "{surplus} constraint{s} too many for that; remove or correct, or declare dof = {left}{drives}"
-        )
+        format!("{surplus} too many for that; remove or correct, or declare dof = {left}{drives}")
     };
     errors.push(Diagnostic::new(span, message).help(help));
 }

@@ -12,7 +12,7 @@ use super::{
     Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
     ReactiveLoad, Requirement, Solver, Start,
 };
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load};
 use crate::quantity::Quantity;
 use crate::syntax::{Declaration, Item, ItemKind};
@@ -187,9 +187,9 @@ impl<'a> Resolver<'a> {
                     format!("`{}` does not say how many degrees of freedom it has", declaration.name),
                 )
                 .help(format!(
-                    "add `dof = …;` as a contract that is checked ({} coordinates − {} constraints = {left})",
-                    self.coordinates.len(),
-                    self.row_count
+                    "add `dof = …;` as a contract that is checked ({} − {} = {left})",
+                    counted(self.coordinates.len(), "coordinate"),
+                    counted(self.row_count, "constraint")
                 )),
             );
         }

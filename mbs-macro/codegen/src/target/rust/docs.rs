@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::compiled::{Compiled, Count, Derivation, Elimination, Formula, FunctionId};
+use crate::diagnostics::counted;
 
 /// Longer listings are cut.
 const LONGEST_LISTING: usize = 48;
@@ -10,15 +11,16 @@ const LONGEST_LISTING: usize = 48;
 /// The documentation of the mechanism itself.
 pub fn mechanism(compiled: &Compiled) -> String {
     let mut text = compiled.doc.clone();
-    let (n, m) = (compiled.coordinates.len(), compiled.constraints.len());
+    let coordinates = counted(compiled.coordinates.len(), "coordinate");
+    let constraints = counted(compiled.constraints.len(), "constraint");
     let redundant = match compiled.redundant.len() {
         0 => String::new(),
         count => format!(" ({count} of them redundant)"),
     };
     let _ = write!(
         text,
-        "\n\n# Equations\n\n{n} coordinates, {m} constraints{redundant}, {} degrees of freedom.{} Φ(q, t) = 0 is\n",
-        compiled.degrees_of_freedom,
+        "\n\n# Equations\n\n{coordinates}, {constraints}{redundant}, {} of freedom.{} Φ(q, t) = 0 is\n",
+        counted(compiled.degrees_of_freedom, "degree"),
         states(compiled)
     );
     let lines = compiled.constraints.iter().map(|row| format!("{}: {} = 0", row.name, row.formula));
