@@ -14,7 +14,7 @@ use crate::spline::Spline;
 /// functions are the standard library's, without it those of `libm`; the two
 /// may differ in the last place. The sine and cosine of an `f64` angle up to
 /// 10⁹ rad are this crate's own, inlined: within 2 units in the last place up to
-/// 10³ rad. Up to 10⁵ rad, 3·10⁻⁴ of a unit in the last place of the angle come to that.
+/// 10³ rad. Up to 10⁵ rad, 3·10⁻⁴ of a unit in the last place of the angle are added.
 /// Beyond, they are those of an angle that differs from the given one by no more than half
 /// a unit in its last place.
 pub trait Real:

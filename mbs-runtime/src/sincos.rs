@@ -12,7 +12,7 @@ use wide::{f64x2, u64x2};
 use crate::Two;
 
 /// (sin x, cos x) for |x| ≤ [`RANGE`], within 2 units in the last place up to 10³
-/// rad. Up to 10⁵ rad, 3·10⁻⁴ of a unit in the last place of x come to that. Beyond, they are those
+/// rad. Up to 10⁵ rad, 3·10⁻⁴ of a unit in the last place of x are added. Beyond, they are those
 /// of an angle within half a unit in the last place of x, as near to x as any computed angle is to
 /// its true value.
 #[inline(always)]

@@ -56,8 +56,8 @@ impl<T> Octant<T> {
     /// short as the digits allow. Terms of the polynomials from r⁷ and r⁸ on are computed from
     /// q = 2x/π − n while r is still waited for. As 2/π and its product with x are rounded, π/2 q
     /// is off by no more than 1.6 units in the last place of x. The slope of these terms is
-    /// 1.9·10⁻⁴ at most, so the sine is off by 3·10⁻⁴ of such a unit: nothing up to 10³ rad, 20
-    /// units in the last place of the sine at 10⁵ rad.
+    /// 1.9·10⁻⁴ at most, so the sine is off by 3·10⁻⁴ of such a unit: a third of a unit in the last
+    /// place of the sine at 10³ rad, 20 of them at 10⁵ rad.
     ///
     /// # Example
     /// ```

@@ -59,7 +59,7 @@ impl Vector {
         if FUSED { Self(unsafe { _mm512_fnmadd_pd(x.0, y.0, self.0) }) } else { self - x * y }
     }
 
-    /// As the library's, for any angle below 10⁵ rad.
+    /// By the reduction and the polynomials of Sun's fdlibm, for any angle below 10⁵ rad.
     #[inline(always)]
     pub fn sin_cos<const FUSED: bool>(self) -> (Self, Self) {
         const SHIFT: f64 = 6_755_399_441_055_744.0;
