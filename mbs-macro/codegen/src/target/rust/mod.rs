@@ -17,6 +17,7 @@ mod solver;
 mod splines;
 mod stages;
 mod step;
+mod tokens;
 mod transposes;
 mod types;
 mod weave;

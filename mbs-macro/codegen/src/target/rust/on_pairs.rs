@@ -8,7 +8,7 @@ use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Term};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::program::operation_tokens;
+use super::tokens;
 
 /// Gives the tokens of a `Single` that no step computes.
 pub type Reader<'a> = &'a mut dyn FnMut(Given) -> TokenStream;
@@ -76,7 +76,7 @@ impl<'a> Writer<'a> {
             }
             Step::Pair(operation, a, b) => {
                 let (a, b) = (pair(a), pair(b));
-                operation_tokens(*operation, &quote!(#a), &quote!(#b), self.mechanism)
+                tokens::operation(*operation, &quote!(#a), &quote!(#b), self.mechanism)
             }
             Step::Angles(of) => {
                 let of = pair(of);
@@ -88,7 +88,7 @@ impl<'a> Writer<'a> {
             }
             Step::Term(operation, a, b) => {
                 let (a, b) = (self.term(a), self.term(b));
-                operation_tokens(*operation, &a, &b, self.mechanism)
+                tokens::operation(*operation, &a, &b, self.mechanism)
             }
         };
         let name = format_ident!("p{at}");
@@ -106,10 +106,11 @@ impl<'a> Writer<'a> {
         let (a, b) = (self.scalar(a, read), self.scalar(b, read));
         match operation {
             Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => {
-                let value = operation_tokens(operation, &quote!(#a.get()), &quote!(#b.get()), self.mechanism);
+                let value =
+                    tokens::operation(operation, &quote!(#a.get()), &quote!(#b.get()), self.mechanism);
                 single(&value)
             }
-            _ => operation_tokens(operation, &a, &b, self.mechanism),
+            _ => tokens::operation(operation, &a, &b, self.mechanism),
         }
     }
 

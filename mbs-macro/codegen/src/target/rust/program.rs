@@ -3,17 +3,16 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;
 
-use mbs_symbolic::layout::{Array, Component, Layout, Place};
-use mbs_symbolic::{Block, Function, Number, Operand, Operation, Program, SinCos, Symbol};
+use mbs_symbolic::layout::{Array, Layout, Place};
+use mbs_symbolic::{Block, Function, Operand, Operation, Program, SinCos};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
 use super::long::{self, places};
-use super::names::{Names, field};
-use super::splines::spline_name;
-use crate::compiled::{Compiled, FunctionId, Input, Vector};
-use crate::diagnostics::Diagnostic;
+use super::names::Names;
+use super::tokens;
+use crate::compiled::{Compiled, FunctionId, Vector};
 
 /// Statements that run a program, and its outputs.
 pub struct Body {
@@ -30,7 +29,7 @@ pub struct Body {
 impl Body {
     /// What stands for a program that cannot be written; nobody gets to see it.
     fn none(program: &Program, names: &Names) -> Self {
-        let outputs = vec![internal("a program has no layout"); program.outputs.len()];
+        let outputs = vec![tokens::internal("a program has no layout"); program.outputs.len()];
         let runtime = names.runtime.clone();
         Self { statements: TokenStream::new(), outputs, places: None, slots: 0, runtime }
     }
@@ -221,7 +220,7 @@ impl<'a> Writer<'a> {
             (operation, _) => {
                 let b = b.unwrap_or_else(|| self.operand(instruction.b));
                 let name = self.name(at);
-                let value = operation_tokens(operation, &a, &b, &self.access.mechanism);
+                let value = tokens::operation(operation, &a, &b, &self.access.mechanism);
                 quote!(let #name = #value;)
             }
         };
@@ -230,8 +229,8 @@ impl<'a> Writer<'a> {
 
     pub fn operand(&self, operand: Operand) -> TokenStream {
         match operand {
-            Operand::Number(number) => number_tokens(number),
-            Operand::Symbol(symbol) => symbol_tokens(self.compiled, self.access, symbol),
+            Operand::Number(number) => tokens::number(number),
+            Operand::Symbol(symbol) => tokens::symbol(self.compiled, self.access, symbol),
             Operand::Hoisted(at) => {
                 let (this, at) = (&self.access.this, Literal::usize_unsuffixed(at));
                 quote!(#this.hoisted[#at])
@@ -242,7 +241,7 @@ impl<'a> Writer<'a> {
                 None => self
                     .layout
                     .and_then(|layout| layout.place(at))
-                    .map_or_else(|| internal("a result is read that is not kept"), places::element),
+                    .map_or_else(|| tokens::internal("a result is read that is not kept"), places::element),
             },
         }
     }
@@ -277,124 +276,4 @@ impl<'a> Writer<'a> {
         self.results.insert(at, name.clone());
         name
     }
-}
-
-/// What stands where there is nothing right to write: the compiler refuses it with these words.
-pub fn internal(what: &str) -> TokenStream {
-    let text = Diagnostic::internal(Span::call_site(), what).text();
-    quote!(::core::compile_error!(#text))
-}
-
-/// How generated code reads a symbol.
-pub fn symbol_tokens(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStream {
-    let Access { parameters, time, positions, velocities, .. } = access;
-    let meaning = compiled.input(symbol);
-    if let Some(Component { vector, place }) = meaning.component()
-        && access.has_array(vector)
-    {
-        let (array, at) = (vector.ident(), Literal::usize_unsuffixed(place));
-        return quote!(#array[#at]);
-    }
-    let coordinate = |at: usize| field(&compiled.coordinates[at].name);
-    let row = |at: usize| field(&compiled.constraints[at].name);
-    match meaning {
-        Input::Time => time.clone(),
-        Input::Parameter(at) => {
-            let name = field(&compiled.parameters[at].quantity.name);
-            quote!(#parameters.#name)
-        }
-        Input::Input(at) => {
-            let name = field(&compiled.inputs[at].name);
-            quote!(inputs.#name)
-        }
-        Input::Position(at) => {
-            let name = coordinate(at);
-            quote!(#positions.#name)
-        }
-        Input::Velocity(at) => {
-            let name = coordinate(at);
-            quote!(#velocities.#name)
-        }
-        Input::StatePosition(at) => {
-            let name = coordinate(compiled.states[at]);
-            quote!(#positions.#name)
-        }
-        Input::StateVelocity(at) => {
-            let name = coordinate(compiled.states[at]);
-            quote!(#velocities.#name)
-        }
-        Input::Acceleration(at) => {
-            let name = coordinate(at);
-            quote!(reactions.acceleration.#name)
-        }
-        Input::Multiplier(at) => {
-            let name = row(at);
-            quote!(reactions.multipliers.#name)
-        }
-        Input::Feedback(at) => {
-            let name = row(at);
-            quote!(feedback.#name)
-        }
-        Input::Predicted(at) => {
-            let name = coordinate(compiled.states[at]);
-            quote!(predicted.#name)
-        }
-        Input::Shift => quote!(shift),
-        Input::MinusTwoAlpha => quote!(gains.minus_two_alpha),
-        Input::MinusBetaSquared => quote!(gains.minus_beta_squared),
-        Input::Step => quote!(h),
-        Input::HalfStep => quote!(half_h),
-        Input::NextTime => quote!(t_next),
-        Input::Clock(at) => {
-            let functions = compiled.clock().map_or(0, |clock| clock.outputs.len());
-            let (end, at) = if at < functions { (quote!(now), at) } else { (quote!(next), at - functions) };
-            let at = Literal::usize_unsuffixed(at);
-            quote!(#end[#at])
-        }
-        Input::Weight(_) => internal("a weight is read that is not given"),
-    }
-}
-
-pub fn operation_tokens(
-    operation: Operation,
-    a: &TokenStream,
-    b: &TokenStream,
-    mechanism: &TokenStream,
-) -> TokenStream {
-    match operation {
-        Operation::Add => quote!(#a + #b),
-        Operation::Sub => quote!(#a - #b),
-        Operation::Mul => quote!(#a * #b),
-        Operation::Div => quote!(#a / #b),
-        Operation::Neg => quote!(-#a),
-        Operation::Call(function) => {
-            let method = method(function);
-            quote!(#a.#method())
-        }
-        Operation::Call2(function) => {
-            let method = method(function);
-            quote!(#a.#method(#b))
-        }
-        Operation::Spline(spline, order) => {
-            let (table, order) = (spline_name(spline.index()), Literal::u8_unsuffixed(order));
-            quote!(#mechanism::#table.derivative(#order, #a))
-        }
-    }
-}
-
-/// The method of `Real` that computes a function.
-fn method(function: Function) -> Ident {
-    Ident::new(function.row().name, Span::call_site())
-}
-
-pub fn number_tokens(number: Number) -> TokenStream {
-    float_tokens(number.to_f64())
-}
-
-pub fn float_tokens(value: f64) -> TokenStream {
-    if !value.is_finite() {
-        return quote!(T::from_f64(::core::primitive::f64::NAN));
-    }
-    let literal = Literal::f64_unsuffixed(value);
-    quote!(T::from_f64(#literal))
 }

@@ -8,7 +8,8 @@ use quote::{format_ident, quote};
 use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
-use super::program::{body_of, named, number_tokens, symbol_tokens};
+use super::program::{body_of, named};
+use super::tokens;
 use super::{on_pairs, weave};
 use crate::compiled::{Compiled, Kinds};
 
@@ -202,8 +203,8 @@ impl Body {
 /// How a scalar is read that no step computes.
 fn given_tokens(compiled: &Compiled, access: &Access, given: Given) -> TokenStream {
     match given {
-        Given::Number(number) => number_tokens(number),
-        Given::Symbol(symbol) => symbol_tokens(compiled, access, symbol),
+        Given::Number(number) => tokens::number(number),
+        Given::Symbol(symbol) => tokens::symbol(compiled, access, symbol),
         Given::Hoisted(at) => {
             let (this, at) = (&access.this, Literal::usize_unsuffixed(at));
             quote!(#this.hoisted[#at])

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::docs;
 use super::names::{Names, field};
-use super::program::float_tokens;
+use super::tokens;
 use crate::compiled::{Compiled, Quantity, Results};
 use crate::target::words;
 
@@ -148,7 +148,7 @@ fn components(
     let texts: Vec<_> = fields.iter().map(|field| field.text.as_str()).collect();
     let docs = fields.iter().map(|field| field.doc.trim());
     let positions = (0..fields.len()).map(Literal::usize_unsuffixed);
-    let defaults = fields.iter().map(|field| float_tokens(field.value));
+    let defaults = fields.iter().map(|field| tokens::float(field.value));
     // A mechanism without parameters still has the struct; it needs its `T`.
     let (marker, marker_value) = if fields.is_empty() {
         (

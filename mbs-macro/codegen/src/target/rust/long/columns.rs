@@ -8,7 +8,8 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::{Context, places};
 use crate::compiled::Vector;
-use crate::target::rust::program::{Writer, internal};
+use crate::target::rust::program::Writer;
+use crate::target::rust::tokens;
 
 /// What differs from copy to copy, and what is named of it so far.
 pub struct Columns<'a> {
@@ -133,7 +134,7 @@ pub fn carried_values(repeated: &Loop<Vector>, writer: &Writer<'_>) -> (TokenStr
         let (name, first) = (carried_name(at), writer.operand(first));
         let next = writer
             .result(repeated.repetition.start + from)
-            .map_or_else(|| internal("a loop has no result to carry"), ToTokens::to_token_stream);
+            .map_or_else(|| tokens::internal("a loop has no result to carry"), ToTokens::to_token_stream);
         before.extend(quote!(let mut #name = #first;));
         after.extend(quote!(#name = #next;));
     }

@@ -13,7 +13,7 @@ use super::columns::{Columns, carried_name, head};
 use super::repeated::Around;
 use crate::compiled::Vector;
 use crate::target::rust::on_pairs::{self, of_lane, single};
-use crate::target::rust::program::{self, internal, number_tokens};
+use crate::target::rust::{program, tokens};
 
 /// A loop over the copies, each of which reads its columns, computes on pairs, and stores.
 pub fn copies(context: &Context<'_>, repeated: &Loop<Vector>, copy: &WovenCopy) -> TokenStream {
@@ -22,14 +22,14 @@ pub fn copies(context: &Context<'_>, repeated: &Loop<Vector>, copy: &WovenCopy) 
     let carried = Variables::new(copy);
     let mut columns = Columns::new(context, repeated);
     let mut read = |given: Given| match given {
-        Given::Number(number) => single(&number_tokens(number)),
+        Given::Number(number) => single(&tokens::number(number)),
         Given::Hoisted(at) => single(&outside.operand(Operand::Hoisted(at))),
         Given::Symbol(symbol) => match copy.given[symbol.index()] {
             Read::Carried(at) => carried.value(at),
             Read::Same(operand) => single(&outside.operand(operand)),
-            read @ (Read::Each(_) | Read::Own(_)) => {
-                single(&columns.read(read).unwrap_or_else(|| internal("a copy is given its own result")))
-            }
+            read @ (Read::Each(_) | Read::Own(_)) => single(
+                &columns.read(read).unwrap_or_else(|| tokens::internal("a copy is given its own result")),
+            ),
         },
     };
     let mut writer = on_pairs::Writer::new(&access.mechanism);
