@@ -53,7 +53,7 @@ pub trait Lane: Real + sealed::Sealed {
     fn is_below(self, other: Self) -> bool;
     /// Sines and cosines of two angles, in turns.
     #[doc(hidden)]
-    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>);
+    fn straight_sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]);
 }
 
 mod sealed {
@@ -78,7 +78,7 @@ impl Lane for f64 {
         crate::sincos::straight_sin_cos(self)
     }
     #[inline(always)]
-    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
+    fn straight_sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
         crate::sincos::straight_sin_cos_of_two(angles)
     }
 }
@@ -100,9 +100,9 @@ impl Lane for f32 {
         (sine as Self, cosine as Self)
     }
     #[inline(always)]
-    fn straight_sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
-        let (s, c) = f64::straight_sin_cos_of_two(Two(f64::from(angles.0), f64::from(angles.1)));
-        (Two(s.0 as Self, s.1 as Self), Two(c.0 as Self, c.1 as Self))
+    fn straight_sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
+        let (sines, cosines) = f64::straight_sin_cos_of_two(angles.map(f64::from));
+        (sines.map(|sine| sine as Self), cosines.map(|cosine| cosine as Self))
     }
 }
 

@@ -193,7 +193,8 @@ impl<T: Real> Pair<T> for Two<T> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        T::sin_cos_of_two(self)
+        let ([s, sine], [c, cosine]) = T::sin_cos_of_two([self.0, self.1]);
+        (Self(s, sine), Self(c, cosine))
     }
     #[inline(always)]
     fn angles(self) -> NoTerm {

@@ -3,7 +3,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::pair::{Pair, Two, Vector};
+use crate::pair::{Pair, Single, Two, Vector};
 use crate::partials;
 use crate::spline::Spline;
 
@@ -59,9 +59,9 @@ pub trait Real:
     /// Sines and cosines of two angles.
     #[doc(hidden)]
     #[inline(always)]
-    fn sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
-        let ((s, c), (sine, cosine)) = (angles.0.sin_cos(), angles.1.sin_cos());
-        (Two(s, sine), Two(c, cosine))
+    fn sin_cos_of_two([first, second]: [Self; 2]) -> ([Self; 2], [Self; 2]) {
+        let ((s, c), (sine, cosine)) = (first.sin_cos(), second.sin_cos());
+        ([s, sine], [c, cosine])
     }
     /// Sine of an angle in rad.
     #[inline(always)]
@@ -211,9 +211,16 @@ macro_rules! elementary {
     )*};
 }
 
-/// Partial derivatives in vector registers.
+/// What is computed for two scalars in a vector register: sines, partial derivatives.
 macro_rules! in_pairs {
     () => {
+        #[inline(always)]
+        fn sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
+            let [first, second] = angles.map(Single::new);
+            let (sines, cosines) = Self::Pair::join(first, second).sin_cos();
+            let scalars = |pair: Self::Pair| [pair.first().get(), pair.second().get()];
+            (scalars(sines), scalars(cosines))
+        }
         #[inline(always)]
         fn combined<const N: usize>(a: Self, x: &[Self; N], b: Self, y: &[Self; N]) -> [Self; N] {
             partials::combined(a, x, b, y)

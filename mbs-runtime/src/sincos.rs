@@ -30,13 +30,13 @@ pub(crate) fn straight_sin_cos(x: f64) -> (f64, f64) {
 /// The same of two angles in turns, so that a processor, which looks only some
 /// operations ahead, finds two that do not wait for each other.
 #[inline(always)]
-pub(crate) fn straight_sin_cos_of_two(x: Two<f64>) -> (Two<f64>, Two<f64>) {
-    let Two(first, second) = x;
+pub(crate) fn straight_sin_cos_of_two([first, second]: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let shift_back = Two(straight_shift(first), straight_shift(second));
-    let Octant { shifted, sine, cosine } = Octant::new(x, shift_back, |constant| Two(constant, constant));
+    let Octant { shifted, sine, cosine } =
+        Octant::new(Two(first, second), shift_back, |constant| Two(constant, constant));
     let (s, c) = turned(Octant { shifted: shifted.0, sine: sine.0, cosine: cosine.0 });
     let (s_second, c_second) = turned(Octant { shifted: shifted.1, sine: sine.1, cosine: cosine.1 });
-    (Two(s, s_second), Two(c, c_second))
+    ([s, s_second], [c, c_second])
 }
 
 #[inline(always)]
@@ -97,7 +97,6 @@ mod tests {
     use wide::f64x2;
 
     use super::{sin_cos, sin_cos_of_two, straight_shift_of_vector, straight_sin_cos_of_two, turned_vector};
-    use crate::Two;
 
     /// As fused steps compute them.
     fn straight_sin_cos_of_vector(x: f64x2) -> (f64x2, f64x2) {
@@ -159,7 +158,7 @@ mod tests {
             let x = [angle(), angle()];
             let (s, c) = sin_cos_of_two(f64x2::new(x));
             assert_eq!(straight_sin_cos_of_vector(f64x2::new(x)), (s, c), "{x:?} without a branch");
-            let (Two(s_first, s_second), Two(c_first, c_second)) = straight_sin_cos_of_two(Two(x[0], x[1]));
+            let ([s_first, s_second], [c_first, c_second]) = straight_sin_cos_of_two(x);
             let in_turns = [(s_first, c_first), (s_second, c_second)];
             for (lane, x) in x.into_iter().enumerate() {
                 let (sine, cosine) = sin_cos(x);
@@ -169,10 +168,25 @@ mod tests {
             }
         }
         assert!(sin_cos_of_two(f64x2::splat(f64::NAN)).0.to_array()[1].is_nan());
-        let (Two(near, far), Two(_, c_far)) = straight_sin_cos_of_two(Two(1.0, 1.1 * RANGE));
+        let ([near, far], [_, c_far]) = straight_sin_cos_of_two([1.0, 1.1 * RANGE]);
         assert!(near == sin_cos(1.0).0 && far.is_nan() && c_far.is_nan());
         let (sines, cosines) = straight_sin_cos_of_vector(f64x2::new([1.1 * RANGE, 1.0]));
         let ([far, near], [c_far, _]) = (sines.to_array(), cosines.to_array());
         assert!(near == sin_cos(1.0).0 && far.is_nan() && c_far.is_nan());
+    }
+
+    #[test]
+    fn two_at_once_may_be_beyond_the_range() {
+        use crate::Real;
+
+        let (far, none) = (2.0 * RANGE, f64::NAN);
+        for x in [[1.0, far], [-far, 1.0], [far, 3.0 * far], [f64::INFINITY, 1.0], [none, 1.0]] {
+            let (sines, cosines) = Real::sin_cos_of_two(x);
+            for (lane, x) in x.into_iter().enumerate() {
+                let (sine, cosine) = Real::sin_cos(x);
+                let is_same = [sines[lane], cosines[lane]] == [sine, cosine];
+                assert!(is_same || (sine.is_nan() && sines[lane].is_nan()), "{x}");
+            }
+        }
     }
 }

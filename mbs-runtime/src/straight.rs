@@ -81,9 +81,9 @@ impl<T: Lane> Real for Straight<T> {
         (Self(sine), Self(cosine))
     }
     #[inline(always)]
-    fn sin_cos_of_two(angles: Two<Self>) -> (Two<Self>, Two<Self>) {
-        let (sines, cosines) = T::straight_sin_cos_of_two(Two(angles.0.0, angles.1.0));
-        (Two(Self(sines.0), Self(sines.1)), Two(Self(cosines.0), Self(cosines.1)))
+    fn sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
+        let (sines, cosines) = T::straight_sin_cos_of_two(angles.map(|angle| angle.0));
+        (sines.map(Self), cosines.map(Self))
     }
     of_the_scalar!(
         tan asin acos atan sqrt exp ln tanh abs sign;

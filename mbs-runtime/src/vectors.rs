@@ -114,3 +114,20 @@ pub(crate) fn zip_map<T: Real>(x: &mut [T], y: &[T], f: impl Fn(T, T) -> T) {
         *x = f(*x, y);
     }
 }
+
+/// Components of `M` vectors become f(components of `N` others), one after the other. No panic where
+/// lengths differ: the shortest one ends it.
+#[inline(always)]
+pub(crate) fn zip_into<T: Real, const M: usize, const N: usize>(
+    mut results: [&mut [T]; M],
+    given: [&[T]; N],
+    f: impl Fn([T; N]) -> [T; M],
+) {
+    let lengths = given.iter().map(|x| x.len()).chain(results.iter().map(|x| x.len()));
+    for at in 0..lengths.min().unwrap_or(0) {
+        let components = given.map(|x| x.get(at).copied().unwrap_or_default());
+        for (x, value) in results.iter_mut().zip(f(components)) {
+            set(x, at, value);
+        }
+    }
+}

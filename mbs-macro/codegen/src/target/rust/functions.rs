@@ -302,7 +302,7 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
         let body = body(compiled, names, FunctionId::Implicit, &Access::of_step());
         let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), of_states(&body));
         quote! {
-            #[inline]
+            #inline
             fn implicit(&self, at: &#stepped, inputs: &#inputs, shift: T, predicted: &#states) -> #runtime::Accelerations<#states> {
                 #statements
                 #runtime::Accelerations { acceleration: #acceleration, growth: #growth }

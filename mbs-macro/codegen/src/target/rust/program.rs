@@ -193,9 +193,39 @@ impl<'a> Writer<'a> {
         self.apart.insert(at);
     }
 
-    /// The statement of an instruction, unless a partner has brought it.
+    /// The statement of an instruction, unless a partner has brought it. Sines and cosines of two
+    /// angles that are known here are one statement.
     pub fn instruction(&mut self, at: usize) {
-        self.instruction_of(at, [None, None]);
+        let Some((other, pairs)) = self.two_angles(at) else {
+            return self.instruction_of(at, [None, None]);
+        };
+        let [a, b] = [at, other].map(|it| self.operand(self.program.instructions[it].a));
+        let [[s, c], [sine, cosine]] = pairs.map(|pair| pair.map(|it| self.name(it)));
+        self.statements.extend(quote!(let ([#s, #sine], [#c, #cosine]) = T::sin_cos_of_two([#a, #b]);));
+    }
+
+    /// A later sine or cosine whose angle is known where that of this one is, with the sines and cosines
+    /// of both angles.
+    fn two_angles(&self, at: usize) -> Option<(usize, [[usize; 2]; 2])> {
+        let pair = self.joined(at)?;
+        let is_known = |operand: Operand| match operand {
+            Operand::Value(value) => self.results.contains_key(&value),
+            Operand::Number(_) | Operand::Symbol(_) | Operand::Hoisted(_) => true,
+        };
+        let mut later = at + 1..self.range.end;
+        later.find_map(|other| {
+            let of_other = self.joined(other).filter(|_| !pair.contains(&other))?;
+            is_known(self.program.instructions[other].a).then_some((other, [pair, of_other]))
+        })
+    }
+
+    /// The sine and the cosine of an angle, where an instruction is one of them, and both are still to
+    /// be written here.
+    fn joined(&self, at: usize) -> Option<[usize; 2]> {
+        let partner = self.pairs.partner(at)?;
+        let is_here = self.range.contains(&partner) && !self.results.contains_key(&at);
+        let is_sine = self.program.instructions[at].operation == Operation::Call(Function::Sin);
+        is_here.then_some(if is_sine { [at, partner] } else { [partner, at] })
     }
 
     /// The same with other operands, where there are any.
