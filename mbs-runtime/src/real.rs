@@ -3,7 +3,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::pair::{Pair, Single, Two, Vector};
+use crate::pair::{Pair, Two, Vector};
 use crate::partials;
 use crate::spline::Spline;
 
@@ -216,10 +216,17 @@ macro_rules! in_pairs {
     () => {
         #[inline(always)]
         fn sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
-            let [first, second] = angles.map(Single::new);
-            let (sines, cosines) = Self::Pair::join(first, second).sin_cos();
-            let scalars = |pair: Self::Pair| [pair.first().get(), pair.second().get()];
-            (scalars(sines), scalars(cosines))
+            // Bits are in the order of magnitudes, and those of NaN beyond. A test of the vector would
+            // let the compiler read an angle with what stands beside it in memory, and a load across
+            // two stores waits for both.
+            let [first, second] = angles.map(|angle| angle.abs().to_bits());
+            if first.max(second) <= mbs_schemes::sine::RANGE.to_bits() {
+                let (sines, cosines) = crate::sincos::sin_cos_of_two(angles.into());
+                (sines.to_array(), cosines.to_array())
+            } else {
+                let [(s, c), (sine, cosine)] = angles.map(sin_cos_f64);
+                ([s, sine], [c, cosine])
+            }
         }
         #[inline(always)]
         fn combined<const N: usize>(a: Self, x: &[Self; N], b: Self, y: &[Self; N]) -> [Self; N] {
