@@ -204,8 +204,8 @@ impl<'a> Writer<'a> {
         self.statements.extend(quote!(let ([#s, #sine], [#c, #cosine]) = T::sin_cos_of_two([#a, #b]);));
     }
 
-    /// A later sine or cosine whose angle is known where that of this one is, with the sines and cosines
-    /// of both angles.
+    /// If an instruction is a sine or cosine: a later one whose angle is known here too, and the sine and
+    /// cosine of each of both angles.
     fn two_angles(&self, at: usize) -> Option<(usize, [[usize; 2]; 2])> {
         let pair = self.joined(at)?;
         let is_known = |operand: Operand| match operand {
@@ -228,7 +228,8 @@ impl<'a> Writer<'a> {
         is_here.then_some(if is_sine { [at, partner] } else { [partner, at] })
     }
 
-    /// The same with other operands, where there are any.
+    /// The statement of an instruction with other operands, where there are any, unless a partner has
+    /// brought it.
     pub fn instruction_of(&mut self, at: usize, operands: [Option<TokenStream>; 2]) {
         if self.results.contains_key(&at) {
             return;
