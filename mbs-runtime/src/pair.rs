@@ -6,6 +6,7 @@ use mbs_schemes::sine::{Octant, RANGE};
 use wide::f64x2;
 
 use crate::Real;
+use crate::real::far_sin_cos_of_two;
 use crate::sincos;
 
 /// Two scalars side by side: what a fused step computes with. Every operation is
@@ -255,7 +256,8 @@ impl Pair<f64> for Vector {
             let (sine, cosine) = sincos::sin_cos_of_two(self.0);
             (Self(sine), Self(cosine))
         } else {
-            far_sin_cos(self)
+            let (sines, cosines) = far_sin_cos_of_two(self.0.to_array());
+            (Self(sines.into()), Self(cosines.into()))
         }
     }
     #[inline(always)]
@@ -279,12 +281,4 @@ impl Term for Vector {
     fn constant(x: f64) -> Self {
         Self(f64x2::splat(x))
     }
-}
-
-/// One after the other, each as the scalar does it.
-#[cold]
-fn far_sin_cos(angles: Vector) -> (Vector, Vector) {
-    let [first, second] = angles.0.to_array();
-    let ((s, c), (sine, cosine)) = (Real::sin_cos(first), Real::sin_cos(second));
-    (Vector(f64x2::new([s, sine])), Vector(f64x2::new([c, cosine])))
 }

@@ -188,6 +188,15 @@ fn far_sin_cos(x: f64) -> (f64, f64) {
     return libm::sincos(x);
 }
 
+/// Sines and cosines of two angles of which at least one is beyond the range, each as the scalar
+/// does it.
+#[cold]
+#[inline(never)]
+pub(crate) fn far_sin_cos_of_two(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    let [(s, c), (sine, cosine)] = angles.map(sin_cos_f64);
+    ([s, sine], [c, cosine])
+}
+
 #[inline(always)]
 fn sin_cos_f32(x: f32) -> (f32, f32) {
     #[cfg(feature = "std")]
@@ -224,8 +233,7 @@ macro_rules! in_pairs {
                 let (sines, cosines) = crate::sincos::sin_cos_of_two(angles.into());
                 (sines.to_array(), cosines.to_array())
             } else {
-                let [(s, c), (sine, cosine)] = angles.map(sin_cos_f64);
-                ([s, sine], [c, cosine])
+                far_sin_cos_of_two(angles)
             }
         }
         #[inline(always)]

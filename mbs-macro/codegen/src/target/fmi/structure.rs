@@ -50,9 +50,7 @@ impl<'a> Dependencies<'a> {
     /// What symbols stand for.
     fn of(&self, read: &BTreeSet<Symbol>) -> BTreeSet<usize> {
         let at = |group, place: usize| BTreeSet::from([self.references.of(group) + place]);
-        let state = |group, place: usize| {
-            self.compiled.states.get(place).map(|coordinate| at(group, *coordinate)).unwrap_or_default()
-        };
+        let state = |group, place: usize| at(group, self.compiled.states[place]);
         let placed = |group, which: usize, place: usize| match self.places[which].get(place) {
             Some(known) => known.clone(),
             // while the places are found themselves
