@@ -225,9 +225,9 @@ macro_rules! in_pairs {
     () => {
         #[inline(always)]
         fn sin_cos_of_two(angles: [Self; 2]) -> ([Self; 2], [Self; 2]) {
-            // Bits are in the order of magnitudes, and those of NaN beyond. A test of the vector would
-            // let the compiler read an angle with what stands beside it in memory, and a load across
-            // two stores waits for both.
+            // Magnitudes are compared as integers, whose order is the same, with NaN above all. If
+            // vectors were compared, LLVM would load an angle together with the number beside it in
+            // memory, and a load across two stores waits for both.
             let [first, second] = angles.map(|angle| angle.abs().to_bits());
             if first.max(second) <= mbs_schemes::sine::RANGE.to_bits() {
                 let (sines, cosines) = crate::sincos::sin_cos_of_two(angles.into());

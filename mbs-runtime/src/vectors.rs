@@ -115,8 +115,8 @@ pub(crate) fn zip_map<T: Real>(x: &mut [T], y: &[T], f: impl Fn(T, T) -> T) {
     }
 }
 
-/// Components of `M` vectors become f(components of `N` others), one after the other. No panic where
-/// lengths differ: the shortest one ends it.
+/// The components of `M` vectors become what f gives for those of `N` others, place by place. No panic
+/// where lengths differ: the shortest vector ends it.
 #[inline(always)]
 pub(crate) fn zip_into<T: Real, const M: usize, const N: usize>(
     mut results: [&mut [T]; M],

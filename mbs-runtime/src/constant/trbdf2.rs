@@ -76,7 +76,7 @@ const BEFORE: f64 = 0.5 * core::f64::consts::FRAC_1_SQRT_2;
 pub struct TrBdf2Step<V> {
     /// Positions and velocities of the last stage without its own share.
     base: [V; 2],
-    /// Those that a predicted acceleration leads to.
+    /// Positions and velocities to which a predicted acceleration leads.
     there: [V; 2],
     /// a₂ and a₃.
     slopes: [V; 2],
@@ -116,8 +116,8 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
         let [own, before] = [OWN, BEFORE].map(|share| D::Real::from_f64(share) * h);
         let Moment { t, q, v, a } = moment;
 
-        // Component by component: sums that pass through memory as vectors take 40 ns of a step longer,
-        // because they are written in other pieces than they are read.
+        // The sums are computed component by component, in registers. As vectors they would pass through
+        // memory, written in other pieces than they are read, for which a processor waits.
 
         // the trapezoidal rule to t + γh
         let results = [&mut *q_there, v_there].map(|x| x.as_mut());

@@ -204,8 +204,8 @@ impl<'a> Writer<'a> {
         self.statements.extend(quote!(let ([#s, #sine], [#c, #cosine]) = T::sin_cos_of_two([#a, #b]);));
     }
 
-    /// If an instruction is a sine or cosine: a later one whose angle is known here too, and the sine and
-    /// cosine of each of both angles.
+    /// Where an instruction is a sine or cosine: a later one whose angle is known already, and the sine and
+    /// cosine of each of the two angles.
     fn two_angles(&self, at: usize) -> Option<(usize, [[usize; 2]; 2])> {
         let pair = self.joined(at)?;
         let is_known = |operand: Operand| match operand {

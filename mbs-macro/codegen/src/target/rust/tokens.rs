@@ -125,7 +125,7 @@ pub fn number(number: Number) -> TokenStream {
     float(number.to_f64())
 }
 
-/// The same of a double. NaN stands for what is not finite.
+/// A double as a scalar; NaN stands for what is not finite.
 pub fn float(value: f64) -> TokenStream {
     if !value.is_finite() {
         return quote!(T::from_f64(::core::primitive::f64::NAN));
