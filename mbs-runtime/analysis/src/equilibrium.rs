@@ -1,15 +1,24 @@
 //! Positions at which nothing moves.
 
-use mbs_runtime::equations::Described;
-use nalgebra::{DMatrix, DVector};
+mod correction;
+mod newton;
+mod relaxation;
+mod stiffness;
 
+use mbs_runtime::equations::Described;
+use nalgebra::DVector;
+
+use self::newton::newton;
+use self::relaxation::relax;
+use self::stiffness::Stiffness;
 use crate::Error;
-use crate::tangent::{Rest, Tangent};
+use crate::tangent::Rest;
 
 /// How an equilibrium is looked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// By Newton's method, and by relaxation from the same position if that leads nowhere.
+    /// By Newton's method, and by relaxation from the same position if that leads nowhere, or to where the
+    /// mechanism falls away although it does not at the start.
     #[default]
     Automatic,
     /// By Newton's method alone: the nearest equilibrium, stable or not.
@@ -46,6 +55,9 @@ pub struct Equilibrium {
     /// κ of K_r x = κ M_r x, ascending, in 1/s²: the squares of the natural frequencies of an
     /// undamped mechanism, negative for directions in which it falls away.
     pub stiffness: Vec<f64>,
+    /// A stiffness is zero that is less than this share of the largest one, because derivatives are known to
+    /// about a hundredth of that: 10⁻¹² by the chain rule, 10⁻⁹ by differences.
+    pub resolution: f64,
     /// The iterations that it took.
     pub iterations: u32,
 }
@@ -64,25 +76,18 @@ pub enum Stability {
     },
 }
 
-/// A stiffness is zero that is this small a share of the largest one: a hundred times the error of
-/// its difference.
-const ZERO: f64 = 1e-9;
+/// A search ends after so many iterations.
 const ITERATIONS: u32 = 200;
-/// A correction moves no coordinate by more than this share of its scale.
+/// A step of a search moves no coordinate by more than this share of its scale.
 const LONGEST: f64 = 0.25;
-/// The search has ended when a correction is below this share.
-const SMALL: f64 = 1e-11;
-/// At rest accelerates what accelerates with less than this share of the acceleration at the start,
-/// or of that which its stiffness gives it for a displacement by its scale,
-const REST: f64 = 1e-9;
-/// or with less than this many scales per s².
-const STILL: f64 = 1e-11;
-/// Relaxation leaves an unstable equilibrium by this many scales.
-const PUSH: f64 = 1e-2;
-/// A step of Newton's method is halved at most so often.
-const HALVINGS: u32 = 6;
-/// The search ends where a coordinate is this many scales away.
+/// A search ends that leads further than so many sizes of the mechanism at the start.
 const FAR: f64 = 1e4;
+
+/// What a search finds.
+struct Found {
+    q: DVector<f64>,
+    iterations: u32,
+}
 
 impl Equilibrium {
     /// What the stiffness says of small disturbances. Friction, dampers and gyroscopic terms are
@@ -90,9 +95,9 @@ impl Equilibrium {
     /// its stiffness is positive.
     pub fn stability(&self) -> Stability {
         let largest = self.stiffness.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let directions = self.stiffness.iter().filter(|x| **x < -ZERO * largest).count();
+        let directions = self.stiffness.iter().filter(|x| **x < -self.resolution * largest).count();
         match directions {
-            0 if self.stiffness.iter().all(|x| *x > ZERO * largest) => Stability::Stable,
+            0 if self.stiffness.iter().all(|x| *x > self.resolution * largest) => Stability::Stable,
             0 => Stability::Indifferent,
             directions => Stability::Unstable { directions },
         }
@@ -112,11 +117,17 @@ impl Equilibrium {
 /// ```
 ///
 /// The unknowns are minimal coordinates z along the constraints, Φ_q N = 0, and what vanishes is
-/// the acceleration from rest, z̈ = N⁺q̈: zero where the forces along the constraints are. Newton's
-/// method takes steps of a bounded length, so that the branch of the start is kept, and a pseudo
-/// inverse, so that a direction without forces does not matter. Relaxation follows ż = z̈ in
-/// implicit steps that grow as the acceleration falls (pseudo-transient continuation): towards a
-/// stable equilibrium, past unstable ones, from which it is pushed if it begins there.
+/// the acceleration from rest, z̈ = N⁺q̈: zero where the forces along the constraints are.
+///
+/// *Newton's method* takes steps of a bounded length, so that the branch of the start is kept, and solves for
+/// the least step, so that a direction without forces does not matter. A step is halved where the correction
+/// after it is longer than the last few (a non-monotone line search): lengths are compared and not
+/// accelerations, because any step bends a stiff spring.
+///
+/// *Relaxation* follows ż = z̈ in implicit Euler steps that become longer as the mechanism comes to rest
+/// (pseudo-transient continuation), and ends with Newton's method: towards a stable equilibrium, past
+/// unstable ones, from which it is pushed if it begins there. The equation of each step is solved, which
+/// leads along the curved valley of a stiff spring.
 ///
 /// Drives are held where they are at `t`. Derivatives are exact for a mechanism that is
 /// [`differentiable`](Described::differentiable): a text, or a type in
@@ -125,10 +136,13 @@ impl Equilibrium {
 /// stiffnesses are good to ten digits then.
 ///
 /// # Errors
-/// [`Error::NoFreedom`], [`Error::NoEquilibrium`], [`Error::Length`]; of the mechanism
+/// [`Error::NoFreedom`], [`Error::NoEquilibrium`], [`Error::Length`]; [`Error::Undefined`] and
+/// [`Error::Slope`] where a force has no value or an infinite slope; of the mechanism
 /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
 ///
 /// # Source
+/// L. Grippo, F. Lampariello, S. Lucidi, A nonmonotone line search technique for Newton's method, SIAM J.
+/// Numer. Anal. 23 (1986) 707-716;
 /// C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM J.
 /// Numer. Anal. 35 (1998) 508-523.
 pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Equilibrium, Error> {
@@ -145,166 +159,56 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let mut start = DVector::from_vec(from);
     let rest = Rest::new(mechanism, search.t, &inputs, start.as_slice());
     rest.assemble(&mut start)?;
-    let (q, iterations) = match search.strategy {
-        Strategy::Newton => find(&rest, start, false)?,
-        Strategy::Relaxation => find(&rest, start, true)?,
-        Strategy::Automatic => find(&rest, start.clone(), false).or_else(|_| find(&rest, start, true))?,
+    let Found { q, iterations } = match search.strategy {
+        Strategy::Newton => newton(&rest, start, ITERATIONS)?,
+        Strategy::Relaxation => relax(&rest, start)?,
+        Strategy::Automatic => automatic(&rest, start)?,
     };
-    let tangent = rest.tangent(&q);
     let (_, multipliers) = rest.acceleration(&q);
-    let stiffness = stiffness(&rest, &q, &tangent);
-    let (q, multipliers) = (q.as_slice().to_vec(), multipliers.as_slice().to_vec());
-    Ok(Equilibrium { t: search.t, q, multipliers, inputs, stiffness, iterations })
+    let Some(stiffness) = Stiffness::at(&rest, &q) else { return Err(lost(&rest, &q, iterations)) };
+    Ok(Equilibrium {
+        t: search.t,
+        q: q.as_slice().to_vec(),
+        multipliers: multipliers.as_slice().to_vec(),
+        stiffness: stiffness.values,
+        resolution: rest.resolution(),
+        iterations,
+        inputs,
+    })
 }
 
 fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() == expected { Ok(()) } else { Err(Error::Length { what, found: values.len(), expected }) }
 }
 
-/// The eigenvalues of the symmetric part of K_r = −M_r A_r with respect to M_r, ascending.
-fn stiffness(rest: &Rest<'_>, q: &DVector<f64>, tangent: &Tangent) -> Vec<f64> {
-    let mass = rest.reduced_mass(q, tangent);
-    let stiffness = -(&mass * rest.stiffness_rate(q, tangent));
-    let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
-    // L⁻¹ K L⁻ᵀ with M = L Lᵀ; without a mass the stiffness alone has the signs
-    let reduced = match mass.cholesky().map(|factors| factors.l()) {
-        Some(lower) => {
-            let half = lower.solve_lower_triangular(&symmetric).unwrap_or_else(|| symmetric.clone());
-            lower.solve_lower_triangular(&half.transpose()).unwrap_or(half)
-        }
-        None => symmetric,
-    };
-    let mut values: Vec<f64> = reduced.symmetric_eigenvalues().iter().copied().collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
-/// The acceleration that is left at a position.
-struct Residual {
-    /// z̈
-    minimal: DVector<f64>,
-    /// Its norm, measured by the scales of the coordinates, in 1/s².
-    size: f64,
-}
-
-fn residual(rest: &Rest<'_>, q: &DVector<f64>, tangent: &Tangent) -> Residual {
-    let (a, _) = rest.acceleration(q);
-    Residual { size: a.component_div(&rest.scales()).amax(), minimal: tangent.minimal(&a) }
-}
-
-/// Newton's method, or relaxation in implicit steps.
-fn find(rest: &Rest<'_>, start: DVector<f64>, is_relaxed: bool) -> Result<(DVector<f64>, u32), Error> {
-    let mut q = start;
-    let mut tangent = rest.tangent(&q);
-    let mut now = residual(rest, &q, &tangent);
-    // steps of the relaxation, in times that are characteristic of where it is
-    let mut pace = 1.0;
-    let (mut best, strongest) = ((now.size, q.clone()), now.size);
-    for iteration in 1..=ITERATIONS {
-        let rate = rest.stiffness_rate(&q, &tangent);
-        if is_relaxed
-            && now.size <= STILL
-            && let Some(falling) = falling(&rate)
-        {
-            // nothing moves it from where it balances, so that it is pushed
-            let step = &tangent.directions * falling;
-            let length = step.component_div(&rest.scales()).amax();
-            (q, _) = moved(rest, &q, &step, PUSH / length)?;
-            tangent = rest.tangent(&q);
-            now = residual(rest, &q, &tangent);
-            continue;
-        }
-        let shift = if is_relaxed { shift(&rate, now.size, pace) } else { 0.0 };
-        let system = DMatrix::identity(rate.nrows(), rate.nrows()) * shift - &rate;
-        let Some(z) = solved(&system, &now.minimal) else { break };
-        let step = &tangent.directions * z;
-        let length = step.component_div(&rest.scales()).amax();
-        if !length.is_finite() {
-            break;
-        }
-        let mut share = (LONGEST / length).min(1.0);
-        let (mut next, mut then) = moved(rest, &q, &step, share)?;
-        // A step of Newton's method that enlarges the acceleration is halved, unless the increase is
-        // rounding. Relaxation takes its steps whole, because the acceleration grows on its way.
-        for _ in 0..if is_relaxed || length < SMALL { 0 } else { HALVINGS } {
-            if then.size <= now.size {
-                break;
-            }
-            share *= 0.5;
-            (next, then) = moved(rest, &q, &step, share)?;
-        }
-        pace = if then.size < now.size { 4.0 * pace } else { 1.0 };
-        let size = share * length;
-        tangent = rest.tangent(&next);
-        (q, now) = (next, then);
-        // the directions have changed
-        now = Residual { size: now.size, ..residual(rest, &q, &tangent) };
-        if now.size < best.0 {
-            best = (now.size, q.clone());
-        }
-        if q.component_div(&rest.scales()).amax() > FAR || !now.size.is_finite() {
-            break;
-        }
-        // in a direction without stiffness nothing may act either
-        let is_at_rest = now.size <= REST * strongest.max(rate.amax()) + STILL;
-        if size < SMALL && share >= 1.0 && shift <= rate.amax() && is_at_rest {
-            return Ok((q, iteration));
-        }
+/// By Newton's method; by relaxation if that leads nowhere, or to where the mechanism falls away although it
+/// does not at the start.
+fn automatic(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
+    let falls = |q| Stiffness::at(rest, q).is_some_and(|found| found.falling(rest.resolution()) > 0.0);
+    match newton(rest, start.clone(), ITERATIONS) {
+        Ok(found) if falls(&start) || !falls(&found.q) => Ok(found),
+        found => relax(rest, start).or(found),
     }
-    Err(lost(rest, &best.1))
 }
 
-/// 1/τ of an implicit step of relaxation, from the stiffness, or from the acceleration where there is hardly
-/// any, such as at a pendulum that begins level. Where the mechanism falls away, it is twice the fastest
-/// rate at which it does: a longer step would lead back to where it falls from.
-fn shift(rate: &DMatrix<f64>, acceleration: f64, pace: f64) -> f64 {
-    let symmetric = (rate + rate.transpose()) * 0.5;
-    let fastest = symmetric.symmetric_eigenvalues().iter().copied().fold(0.0, f64::max);
-    let size = rate.amax();
-    if fastest > ZERO * size { 2.0 * fastest } else { size.max(acceleration) / pace }
+/// The mechanism with the size that it has at a position, unless that is far away. Steps are measured by
+/// the size, and those from a start near the origin would stay as small as the mechanism seems there.
+fn near<'a>(rest: &Rest<'a>, q: &DVector<f64>) -> Option<Rest<'a>> {
+    let grown = rest.grown(q.as_slice());
+    (grown.length <= FAR * rest.length).then_some(grown)
 }
 
-/// The direction in which a mechanism falls away fastest, if it does, by the power method.
-fn falling(rate: &DMatrix<f64>) -> Option<DVector<f64>> {
-    const STEPS: usize = 30;
-    let (size, f) = (rate.amax(), rate.nrows());
-    let symmetric = (rate + rate.transpose()) * 0.5;
-    let shifted = &symmetric + DMatrix::from_diagonal_element(f, f, size * f as f64);
-    // not across any direction, as a vector of ones may be
-    let mut direction = DVector::from_fn(f, |at, _| 1.0 + 0.1 * at as f64);
-    for _ in 0..STEPS {
-        direction = &shifted * direction;
-        direction /= direction.norm();
-    }
-    let grows = direction.dot(&(&symmetric * &direction));
-    (grows > ZERO * size && grows.is_finite()).then_some(direction)
-}
-
-/// Where a share of a step along the tangent leads on the constraints, and what accelerates there.
-fn moved(
-    rest: &Rest<'_>,
-    q: &DVector<f64>,
-    step: &DVector<f64>,
-    share: f64,
-) -> Result<(DVector<f64>, Residual), Error> {
-    let mut next = q + step * share;
-    rest.assemble(&mut next)?;
-    let tangent = rest.tangent(&next);
-    let found = residual(rest, &next, &tangent);
-    Ok((next, found))
-}
-
-/// The least z of system · z = right, without directions in which nothing acts.
-fn solved(system: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
-    let decomposition = system.clone().svd(true, true);
-    let largest = decomposition.singular_values.amax();
-    decomposition.solve(right, ZERO * largest).ok().filter(|z| z.iter().all(|z| z.is_finite()))
-}
-
-fn lost(rest: &Rest<'_>, q: &DVector<f64>) -> Error {
+/// Nothing was found; `q` is where least accelerated.
+fn lost(rest: &Rest<'_>, q: &DVector<f64>, iterations: u32) -> Error {
+    let coordinates = rest.mechanism.info().coordinates;
+    let name = |at: usize| coordinates.get(at).map_or("", |q| q.name);
     let (a, _) = rest.acceleration(q);
-    let measured = a.component_div(&rest.scales());
-    let at = measured.iamax();
-    let coordinate = rest.mechanism.info().coordinates.get(at).map_or("", |q| q.name);
-    Error::NoEquilibrium { coordinate, acceleration: a[at], iterations: ITERATIONS }
+    if let Some(at) = a.iter().position(|a| !a.is_finite()) {
+        return Error::Undefined { coordinate: name(at) };
+    }
+    if let Some(at) = rest.without_derivative(q) {
+        return Error::Slope { of: format!("the acceleration of `{}`", name(at)) };
+    }
+    let at = a.component_div(&rest.scales()).iamax();
+    Error::NoEquilibrium { coordinate: name(at), acceleration: a[at], iterations }
 }

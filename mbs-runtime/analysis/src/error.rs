@@ -97,12 +97,21 @@ pub enum Error {
     },
     /// Accelerations that are no numbers.
     #[error(
-        "the acceleration of `{coordinate}` is no number at the operating point: the position is singular, or \
-         a force is not defined there; choose another one"
+        "the acceleration of `{coordinate}` is no number at this position: the position is singular, or a \
+         force is not defined there; choose another one"
     )]
     Undefined {
         /// The coordinate.
         coordinate: &'static str,
+    },
+    /// A derivative that is no number.
+    #[error(
+        "{of} has no derivative at this position: a force or a constraint has an infinite slope there, as \
+         sqrt(x) has at x = 0; choose another one"
+    )]
+    Slope {
+        /// What has none: "the acceleration of `x`", "the output `y`".
+        of: String,
     },
     /// A number that has to be positive.
     #[error("{what} = {value} {unit}: it has to be finite and above 0")]

@@ -7,6 +7,7 @@ use crate::difference::five_point;
 use crate::{Error, rest};
 
 /// A mechanism at rest, with its inputs and its time held.
+#[derive(Clone, Copy)]
 pub struct Rest<'a> {
     pub mechanism: &'a dyn Described<f64>,
     pub t: f64,
@@ -38,10 +39,16 @@ impl<'a> Rest<'a> {
         /// Of a mechanism that stands at the origin, within a nanometre.
         const USUAL: f64 = 0.1;
         const NOTHING: f64 = 1e-9;
-        let coordinates = mechanism.info().coordinates.iter().zip(q);
+        let declared: Vec<f64> = mechanism.info().coordinates.iter().map(|q| q.default).collect();
+        let rest = Self { mechanism, t, inputs, length: NOTHING }.grown(q).grown(&declared);
+        Self { length: if rest.length > NOTHING { rest.length } else { USUAL }, ..rest }
+    }
+
+    /// The mechanism with a size of at least the largest length among the coordinates.
+    pub fn grown(self, q: &[f64]) -> Self {
+        let coordinates = self.mechanism.info().coordinates.iter().zip(q);
         let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0);
-        let largest = lengths.map(|(declared, q)| q.abs().max(declared.default.abs())).fold(0.0, f64::max);
-        Self { mechanism, t, inputs, length: if largest > NOTHING { largest } else { USUAL } }
+        Self { length: lengths.map(|(_, q)| q.abs()).fold(self.length, f64::max), ..self }
     }
 
     /// 1 rad for an angle, the size of the mechanism for a length.
@@ -49,6 +56,29 @@ impl<'a> Rest<'a> {
         let coordinates = self.mechanism.info().coordinates;
         let scale = |at: usize| if coordinates[at].dimension.length != 0 { self.length } else { 1.0 };
         DVector::from_fn(coordinates.len(), |at, _| scale(at))
+    }
+
+    /// How far a displacement leads, or what an acceleration is, measured by the scales of the coordinates: the
+    /// largest share, or no number if one is none.
+    pub fn measure(&self, w: &DVector<f64>) -> f64 {
+        let shares = w.component_div(&self.scales());
+        if shares.iter().any(|share| share.is_nan()) { f64::NAN } else { shares.amax() }
+    }
+
+    /// Stiffnesses are zero that are less than this share of the largest one: a hundred times the error of a
+    /// derivative, by the chain rule or by differences.
+    pub fn resolution(&self) -> f64 {
+        if self.mechanism.differentiable().is_some() { 1e-12 } else { 1e-9 }
+    }
+
+    /// Where a displacement leads on the constraints.
+    ///
+    /// # Errors
+    /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
+    pub fn moved(&self, q: &DVector<f64>, step: &DVector<f64>) -> Result<DVector<f64>, Error> {
+        let mut next = q + step;
+        self.assemble(&mut next)?;
+        Ok(next)
     }
 
     /// Moves positions onto the constraints, as little as possible in the norm of the mass matrix.
@@ -77,8 +107,8 @@ impl<'a> Rest<'a> {
         }
         let worst = phi.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
         let (row, violation) = worst.map_or((0, 0.0), |(row, phi)| (row, phi.abs()));
-        // at rounding Newton's method may circle
-        if violation <= 1e-13 * (1.0 + q.amax()) {
+        // at rounding Newton's method may circle; at a singular position a correction is no number
+        if delta.iter().all(|delta| delta.is_finite()) && violation <= 1e-13 * (1.0 + q.amax()) {
             return Ok(());
         }
         let constraint = info.constraints.get(row).map_or("", |constraint| constraint.name);
@@ -117,7 +147,7 @@ impl<'a> Rest<'a> {
         self.violation_rate(q, w) - self.violation_rate(q, &DVector::zeros(q.len()))
     }
 
-    /// vᵀMw/2 summed: the kinetic energy of a velocity.
+    /// vᵀMv/2
     fn kinetic_energy(&self, q: &DVector<f64>, v: &DVector<f64>) -> f64 {
         self.mechanism.kinetic_energy(At { t: self.t, q: q.as_slice(), v: v.as_slice() })
     }
@@ -166,24 +196,36 @@ impl<'a> Rest<'a> {
         })
     }
 
-    /// A_r of z̈ = A_r z: how q̈ from rest changes along the free directions: by the chain rule
-    /// where the equations can be had over duals, else by the five-point formula.
+    /// A_r of z̈ = A_r z: how z̈ from rest changes along the free directions.
     pub fn stiffness_rate(&self, q: &DVector<f64>, tangent: &Tangent) -> DMatrix<f64> {
-        if let Some(rates) = rest::rates(self, q, &tangent.directions) {
-            let columns: Vec<_> =
-                rates.column_iter().map(|rate| tangent.minimal(&rate.into_owned())).collect();
-            return DMatrix::from_fn(columns.len(), columns.len(), |row, column| columns[column][row]);
+        let rates = self.rates(q, &tangent.directions);
+        let mut reduced = DMatrix::zeros(rates.ncols(), rates.ncols());
+        for (at, rate) in rates.column_iter().enumerate() {
+            reduced.set_column(at, &tangent.minimal(&rate.into_owned()));
+        }
+        reduced
+    }
+
+    /// How q̈ from rest changes along directions, a column each: by the chain rule where the equations can be
+    /// had over duals, else by the five-point formula.
+    fn rates(&self, q: &DVector<f64>, directions: &DMatrix<f64>) -> DMatrix<f64> {
+        if let Some(rates) = rest::rates(self, q, directions) {
+            return rates;
         }
         let scales = self.scales();
-        let directions = &tangent.directions;
-        let mut reduced = DMatrix::zeros(directions.ncols(), directions.ncols());
+        let mut rates = DMatrix::zeros(q.len(), directions.ncols());
         for (at, direction) in directions.column_iter().enumerate() {
             let largest = direction.component_div(&scales).amax();
             let there = |share: f64| self.acceleration(&(q + direction * share)).0;
-            let change = five_point(there, if largest > 0.0 { 1.0 / largest } else { 1.0 });
-            reduced.set_column(at, &tangent.minimal(&change));
+            rates.set_column(at, &five_point(there, if largest > 0.0 { 1.0 / largest } else { 1.0 }));
         }
-        reduced
+        rates
+    }
+
+    /// The first coordinate whose acceleration from rest has no derivative at a position.
+    pub fn without_derivative(&self, q: &DVector<f64>) -> Option<usize> {
+        let rates = self.rates(q, &self.tangent(q).directions);
+        rates.row_iter().position(|row| row.iter().any(|rate| !rate.is_finite()))
     }
 }
 
