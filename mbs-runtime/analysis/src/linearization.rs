@@ -87,7 +87,8 @@ pub struct Linearization {
 /// # Errors
 /// [`Error::NoFreedom`]; [`Error::Length`] and [`Error::OffConstraints`] of the point;
 /// [`Error::Unknown`], [`Error::Dependent`] and [`Error::NoFamily`] of the ports;
-/// [`Error::Undefined`] where the accelerations at the point are no numbers.
+/// [`Error::Undefined`] where the accelerations at the point are no numbers, and [`Error::Slope`] where a
+/// derivative is none.
 ///
 /// # Example
 /// ```
@@ -156,7 +157,7 @@ pub fn linearize(
     let independent = chart.independent.iter();
     let states = independent.clone().map(|&at| Variable::Coordinate(at));
     let states = states.chain(independent.map(|&at| Variable::Velocity(at)));
-    Ok(Linearization {
+    let linear = Linearization {
         states: states.filter_map(|variable| Signal::of(info, variable)).collect(),
         values: DVector::from_iterator(outputs.len(), outputs.iter().map(|y| value(point, &here, y))),
         a,
@@ -171,7 +172,8 @@ pub fn linearize(
         point: point.clone(),
         inputs,
         outputs,
-    })
+    };
+    check_derivatives(&linear).map(|()| linear)
 }
 
 impl Linearization {
@@ -194,6 +196,23 @@ fn check_finite(info: &mbs_runtime::Info, here: &Values) -> Result<(), Error> {
     let at = here.acceleration.iter().position(|a| !a.is_finite());
     match at.and_then(|at| info.coordinates.get(at)) {
         Some(coordinate) => Err(Error::Undefined { coordinate: coordinate.name }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses A, B, C or D with an entry that is no number.
+fn check_derivatives(linear: &Linearization) -> Result<(), Error> {
+    let has_none = |rows: [&DMatrix<f64>; 2], at: usize| {
+        rows.iter().any(|matrix| matrix.row(at).iter().any(|x| !x.is_finite()))
+    };
+    let f = linear.dof();
+    let acceleration = (0..f).find(|at| has_none([&linear.a, &linear.b], f + at));
+    if let Some(state) = acceleration.and_then(|at| linear.states.get(at)) {
+        return Err(Error::Slope { of: format!("the acceleration of `{}`", state.name) });
+    }
+    let output = (0..linear.outputs.len()).find(|at| has_none([&linear.c, &linear.d], *at));
+    match output.and_then(|at| linear.outputs.get(at)) {
+        Some(output) => Err(Error::Slope { of: format!("the output `{}`", output.name) }),
         None => Ok(()),
     }
 }

@@ -52,6 +52,17 @@ mechanism! {
 }
 
 mechanism! {
+    /// A force with an infinite slope at x = 0, and an output with one at x = 1 m.
+    pub Bead {
+        dof = 1;
+        input push [N];
+        body bead (x) { mass = 1 [kg]; }
+        force drag on x = push - 3 [N]*sqrt(x/1 [m]);
+        output left = sqrt(1 - x/1 [m]);
+    }
+}
+
+mechanism! {
     /// A bumper that is touched, and not yet pressed.
     pub Bumper {
         dof = 1;
@@ -220,6 +231,21 @@ fn what_cannot_be_linearized_says_why() {
     let skew = OperatingPoint::in_motion(0.0, &[0.0, 0.0, -0.25, 0.0], &[1.0, 0.0, 0.0, 0.0], &[0.0]);
     let error = linearize(&CartRod::declared(), &skew, &Ports::default()).expect_err("it parts").to_string();
     assert!(error.contains("the rate of `pin_x`"), "{error}");
+}
+
+/// An infinite slope was a panic of the modes.
+#[test]
+fn what_has_no_derivative_is_named() {
+    let bead = Differentiated(Bead::declared());
+    let at = |x: f64| OperatingPoint::at_rest(0.0, &[x], &[0.0]);
+    let refused = |point, ports| linearize(&bead, &point, &ports).expect_err("it is refused").to_string();
+    let error = refused(at(0.0), Ports::default());
+    assert!(error.starts_with("the acceleration of `x` has no derivative at this position"), "{error}");
+    let error = refused(at(1.0), Ports { outputs: Some(vec!["left".into()]), ..Ports::default() });
+    assert!(error.starts_with("the output `left` has no derivative at this position"), "{error}");
+    let error = refused(at(-1.0), Ports::default());
+    assert!(error.starts_with("the acceleration of `x` is no number at this position"), "{error}");
+    assert!(linearize(&bead, &at(0.5), &Ports::default()).is_ok());
 }
 
 /// Where a mechanism rests at the origin but for rounding, that is not its size.
