@@ -75,8 +75,8 @@ pub enum Error {
         /// The step in s that would have been tried next.
         step: f64,
     },
-    /// The positions at the end of a step could not be brought onto the constraints by a method
-    /// that needs a shorter step for it.
+    /// The equations of a step, of an implicit method or those that keep positions on the constraints, have no
+    /// solution that is found.
     NotConverged {
         /// When, in s.
         t: f64,
@@ -248,7 +248,7 @@ impl fmt::Display for Error {
             }
             Self::Tolerance { name, value, least } => write!(
                 f,
-                "the tolerance {name} is {value:e}, but it has to be finite and at least {least:.1e}; \
+                "the tolerance {name} is {value:?}, but it has to be finite and at least {least:.1e}; \
                  the defaults are 1e-6 (rtol) and 1e-9 (atol)"
             ),
             Self::NoEstimate { scheme } => write!(
@@ -264,8 +264,8 @@ impl fmt::Display for Error {
             ),
             Self::NotConverged { t, step } => write!(
                 f,
-                "the positions at the end of the step from t = {t} s do not converge to the constraints; \
-                 take a step shorter than {step} s",
+                "the equations of the step from t = {t} s could not be solved; take a step shorter than {step} s; \
+                 if none is short enough, a force has an infinite slope there",
                 t = Shown(t)
             ),
             Self::VelocityForce { coordinate } => write!(

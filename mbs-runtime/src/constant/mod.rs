@@ -46,8 +46,8 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// Advances by one step.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if there is no such step, and a shorter one mends it; [`Error::OutOfReach`], [`Error::Singular`], [`Error::NonFinite`],
-    /// [`Error::Input`]. The state stays that of the last good step.
+    /// [`Error::NotConverged`] if there is no such step, and a shorter one mends it; [`Error::OutOfReach`],
+    /// [`Error::Singular`], [`Error::NonFinite`], [`Error::Input`]. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
         let was_solved = self.is_solved;
         let taken = self.try_step();
