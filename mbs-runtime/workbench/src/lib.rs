@@ -121,4 +121,4 @@ pub use settings::{ConstantMethod, Settings, Start, StartKind};
 pub use signals::Signals;
 pub use table::Table;
 pub use unit::Unit;
-pub use until::{Occurrence, Unmet, Until};
+pub use until::{Ending, Occurrence, Unmet, Until};

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::recording::{Column, MOST_OCCURRENCES, Recording, Summary, columns};
 use crate::settings::{Settings, Start, StartKind};
 use crate::signals::Player;
-use crate::until::Unmet;
+use crate::until::{Ending, Unmet};
 use crate::{Error, Motion, Occurrence, Unit, Until, picture};
 
 /// More rows than this are refused, before they fill the memory.
@@ -246,10 +246,11 @@ impl Recorder {
     fn step(&mut self, run: &mut dyn System) -> Result<bool, mbs_runtime::Error> {
         while let Some(event) = run.step_to_event()? {
             let declared = self.info.events.get(event.index).map(|event| event.name.to_owned());
-            let is_end = declared.is_none();
+            let ending = self.until.as_ref().map(|until| until.ending);
+            let is_end = declared.is_none() || ending == Some(Ending::Event(event.index));
             let condition = || self.until.as_ref().map(|until| until.text.clone());
             let name = declared.or_else(condition).unwrap_or_default();
-            if self.occurrences.len() < MOST_OCCURRENCES {
+            if is_end || self.occurrences.len() < MOST_OCCURRENCES {
                 self.occurrences.push(Occurrence { name, t: event.t, is_rising: event.is_rising });
             }
             if is_end {

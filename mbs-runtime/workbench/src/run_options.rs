@@ -122,7 +122,10 @@ impl RunOptions {
             && defaults.stabilization.is_none()
             && constant.is_none();
         let for_events = (until.is_some() || has_events).then(Tolerances::default);
-        let tolerances = self.tolerances()?.or(defaults.tolerances).or(for_events);
+        // what is declared or of use for events is none for a method that takes constant steps
+        let takes_tolerances = matches!(constant, None | Some(ConstantMethod::Bdf));
+        let usual = defaults.tolerances.or(for_events).filter(|_| takes_tolerances);
+        let tolerances = self.tolerances()?.or(usual);
         // feedback that is declared is of use where constraints are not kept otherwise
         let is_fed_back = tolerances.is_none() && constant.is_none();
         let declared = defaults.stabilization.filter(|_| is_fed_back);

@@ -172,7 +172,7 @@ impl Start {
                 max_step: tolerances.max_step.min(settings.end.max(step)),
                 ..tolerances
             }),
-            threshold: settings.until.as_ref().map(|until| until.threshold),
+            threshold: settings.until.as_ref().and_then(Until::threshold),
             kind: settings.start,
             allow_unstable: settings.allow_unstable,
         })

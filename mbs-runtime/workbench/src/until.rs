@@ -1,43 +1,60 @@
-//! `--until 'x3 > 200mm'`: a value at which a run ends.
+//! `--until 'x3 > 200mm'`, `--until impact`: a value or an event at which a run ends.
 
 use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
 
 use crate::run::Instant;
 use crate::{Error, Unit, quantity};
 
-/// A condition that ends a run where it becomes true.
+/// What ends a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Until {
     /// As it was written.
     pub text: String,
-    /// What is compared with what.
-    pub threshold: Threshold,
+    /// What it means.
+    pub ending: Ending,
+}
+
+/// Where a run ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    /// Where a comparison becomes true.
+    Threshold(Threshold),
+    /// At the declared event in this place.
+    Event(usize),
 }
 
 impl Until {
-    /// A condition of the form `x3 > 200mm`: a coordinate, the rate `der(…)` of one, or an output,
-    /// and a value with an optional unit.
+    /// The name of a declared event, or a condition of the form `x3 > 200mm`: a coordinate, the rate
+    /// `der(…)` of one, or an output, and a value with an optional unit.
     ///
     /// # Errors
     /// Another form, a name that the mechanism does not have, a value of another dimension.
     pub fn parse(info: &Info, text: &str) -> Result<Self, Error> {
-        let at = text.find(['<', '>']).ok_or_else(|| Error::Name {
-            name: text.to_owned(),
-            reason: "a condition is expected, for instance 'x3 > 200mm' or 'der(theta) < 0'".into(),
-        })?;
+        let text = text.trim();
+        if let Some(at) = info.events.iter().position(|event| event.name == text) {
+            return Ok(Self { text: text.to_owned(), ending: Ending::Event(at) });
+        }
+        let Some(at) = text.find(['<', '>']) else { return Err(no_condition(info, text)) };
         let (name, rest) = text.split_at(at);
         let direction = if rest.starts_with('>') { Direction::Rising } else { Direction::Falling };
         let value = rest.trim_start_matches(['<', '>', '=']).trim();
         let (measured, dimension, unit) = measured(info, name.trim())?;
         let value = quantity::parse_in(name.trim(), value, dimension, &unit)?;
-        Ok(Self { text: text.trim().to_owned(), threshold: Threshold { measured, value, direction } })
+        let threshold = Threshold { measured, value, direction };
+        Ok(Self { text: text.to_owned(), ending: Ending::Threshold(threshold) })
     }
-}
 
-impl Until {
-    /// Whether it is true of a state.
+    /// The comparison that ends a run, if it is one.
+    pub(crate) fn threshold(&self) -> Option<Threshold> {
+        match self.ending {
+            Ending::Threshold(threshold) => Some(threshold),
+            Ending::Event(_) => None,
+        }
+    }
+
+    /// Whether it is true of a state; an event is not.
     pub(crate) fn holds(&self, now: &Instant) -> bool {
-        let Threshold { measured, value, direction } = self.threshold;
+        let Some(Threshold { measured, value, direction }) = self.threshold() else { return false };
         let found = match measured {
             Measured::Position(at) => now.q.get(at),
             Measured::Velocity(at) => now.v.get(at),
@@ -47,6 +64,18 @@ impl Until {
             Direction::Falling => *found < value,
             Direction::Rising | Direction::Either => *found > value,
         })
+    }
+}
+
+fn no_condition(info: &Info, text: &str) -> Error {
+    let events: Vec<String> = info.events.iter().map(|event| format!("`{}`", event.name)).collect();
+    let declared = match &events[..] {
+        [] => String::new(),
+        events => format!(", or a declared event ({})", events.join(", ")),
+    };
+    Error::Name {
+        name: text.to_owned(),
+        reason: format!("a condition is expected, for instance 'x3 > 200mm' or 'der(theta) < 0'{declared}"),
     }
 }
 
@@ -101,19 +130,20 @@ mod tests {
             body leaf (angle = theta) { inertia = 2 [kg*m^2]; }
             body latch (x) { mass = 1 [kg]; }
             coupler rod: x = 0.1 [m]*theta;
+            event open: theta = 90 [deg] rising;
             start { der(theta) = 1 [rad/s]; }
             output opening [mm] = x;
         }
     }
 
-    fn read(text: &str) -> Result<Threshold, Error> {
-        Until::parse(<Door as mbs_runtime::Mechanism>::INFO, text).map(|until| until.threshold)
+    fn read(text: &str) -> Result<Ending, Error> {
+        Until::parse(<Door as mbs_runtime::Mechanism>::INFO, text).map(|until| until.ending)
     }
 
     #[test]
     fn conditions_have_names_directions_and_units() {
         let is = |text: &str, measured, value: f64, direction| {
-            let found = read(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let Ok(Ending::Threshold(found)) = read(text) else { panic!("{text} is a comparison") };
             assert_eq!((found.measured, found.direction), (measured, direction), "{text}");
             assert!((found.value - value).abs() < 1e-15, "{text}: {}", found.value);
         };
@@ -127,8 +157,14 @@ mod tests {
     }
 
     #[test]
+    fn a_declared_event_goes_by_its_name() {
+        assert_eq!(read(" open ").ok(), Some(Ending::Event(0)));
+    }
+
+    #[test]
     fn other_conditions_are_refused() {
         for (text, part) in [
+            ("opens", "or a declared event (`open`)"),
             ("x = 3", "x3 > 200mm"),
             ("y > 3", "theta"),
             ("x > 20 deg", "20 deg"),

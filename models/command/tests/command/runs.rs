@@ -283,12 +283,31 @@ fn events_and_conditions_that_end_a_run() {
     let last: f64 = csv.lines().next_back().unwrap().split(',').next().unwrap().parse().unwrap();
     assert!((last - height(0.2)).abs() < 1e-9, "{last}");
 
+    // a declared event ends a run by its name
+    let run = json("--until shelf --out ball.csv");
+    let names: Vec<&str> =
+        run["events"].as_array().unwrap().iter().map(|event| event["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["top", "shelf"]);
+    assert!(is_near(&run["end_s"], height(0.5)) && run["unmet"].is_null());
+
     let run = json("--until y>2 --end 0.5s");
     assert_eq!((run["unmet"].as_str(), run["end_s"].as_f64()), (Some("y>2"), Some(0.5)));
     // constant steps find no events
     assert_eq!(json("--feedback held --end 0.5s")["events"].as_array().unwrap().len(), 0);
     let table = mbs(folder.path(), "simulate ball.mbs --until y>0 --end 0.5s");
     assert!(String::from_utf8_lossy(&table.stdout).contains("holds from the start"));
+    // an event that does not come, a name that is none, and a method that finds no events
+    assert_eq!(json("--until shelf --end 0.5s")["unmet"].as_str(), Some("shelf"));
+    for (options, part) in [
+        ("--until self", "or a declared event (`top`, `shelf`)"),
+        ("--until shelf --method trbdf2", "`until` cannot be used"),
+        ("--rtol 1e-6 --method trbdf2", "`tolerance` cannot be used"),
+        ("--rtol 0", "rtol is 0.0"),
+    ] {
+        let output = mbs(folder.path(), &format!("simulate ball.mbs --end 0.5s {options}"));
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && words.contains(part), "{options}: {words}");
+    }
 }
 
 /// Two rods of 0.5 m and 1 kg on each other: they hang, and stand where they begin near to it.
