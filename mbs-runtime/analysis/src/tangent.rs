@@ -162,24 +162,21 @@ impl<'a> Rest<'a> {
         let lightest = if lightest.is_finite() { lightest } else { 1.0 };
         let weights =
             DVector::from_fn(n, |at, _| 1.0 / if masses[at] > 0.0 { masses[at] } else { lightest }.sqrt());
-        // square, so that the decomposition has all right singular vectors
-        let mut jacobian = DMatrix::zeros(n.max(m), n);
+        // Φ_qᵀ = QR with the rows of Φ_q in the order of what is left of them: behind as many columns as
+        // rows are independent, Q spans the directions that Φ_q does not see; square, to have all of Q
+        let mut transposed = DMatrix::zeros(n, n.max(m));
         for at in 0..n {
             let column = self.along(q, &(unit(at) * weights[at]));
-            jacobian.view_mut((0, at), (m, 1)).copy_from(&column);
+            transposed.view_mut((at, 0), (1, m)).copy_from(&column.transpose());
         }
-        for row in 0..m {
-            let size = jacobian.row(row).amax();
+        for mut row in transposed.column_iter_mut() {
+            let size = row.amax();
             if size > 0.0 {
-                jacobian.row_mut(row).scale_mut(1.0 / size);
+                row /= size;
             }
         }
         let free = usize::try_from(info.dof).unwrap_or(0).min(n);
-        let decomposition = jacobian.svd(false, true);
-        let mut order: Vec<usize> = (0..decomposition.singular_values.len()).collect();
-        order.sort_by(|&a, &b| decomposition.singular_values[a].total_cmp(&decomposition.singular_values[b]));
-        let right = decomposition.v_t.unwrap_or_else(|| DMatrix::identity(n, n));
-        let orthonormal = DMatrix::from_fn(n, free, |row, column| right[(order[column], row)]);
+        let orthonormal = transposed.col_piv_qr().q().columns(n - free, free).into_owned();
         let directions = DMatrix::from_fn(n, free, |row, column| weights[row] * orthonormal[(row, column)]);
         Tangent { weights, orthonormal, directions }
     }

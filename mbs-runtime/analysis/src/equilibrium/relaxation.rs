@@ -69,7 +69,7 @@ pub fn relax(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
 fn push(rest: &Rest<'_>, stiffness: &Stiffness, q: &DVector<f64>) -> Option<DVector<f64>> {
     let falling = stiffness.falling(rest.resolution());
     let unit = PUSH / rest.measure(&stiffness.weakest);
-    let away = stiffness.along_weakest(&rest.tangent(q).minimal(&rest.acceleration(q).0)) / falling;
+    let away = stiffness.along_weakest(&rest.acceleration(q).0) / falling;
     let is_balanced = falling > 0.0 && away.abs() < unit;
     is_balanced.then(|| &stiffness.weakest * unit.copysign(away))
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::tangent::Rest;
+use crate::tangent::{Rest, Tangent};
 
 /// κ and x of K_r x = κ M_r x, with the symmetric part of K_r = −M_r A_r.
 pub struct Stiffness {
@@ -12,6 +12,7 @@ pub struct Stiffness {
     pub weakest: DVector<f64>,
     /// M_r x for the first κ.
     momentum: DVector<f64>,
+    tangent: Tangent,
 }
 
 impl Stiffness {
@@ -35,7 +36,7 @@ impl Stiffness {
         let x = lower.tr_solve_lower_triangular(&decomposition.eigenvectors.column(first))?;
         let mut values: Vec<f64> = decomposition.eigenvalues.iter().copied().collect();
         values.sort_by(f64::total_cmp);
-        Some(Self { values, weakest: tangent.directions * &x, momentum: mass * x })
+        Some(Self { values, weakest: &tangent.directions * &x, momentum: mass * x, tangent })
     }
 
     /// −κ of the direction in which the mechanism falls away fastest, or 0 if there is none. A stiffness is
@@ -46,8 +47,8 @@ impl Stiffness {
         if weakest < -resolution * largest { -weakest } else { 0.0 }
     }
 
-    /// The share of the first x in an acceleration z̈: xᵀ M_r z̈.
-    pub fn along_weakest(&self, minimal: &DVector<f64>) -> f64 {
-        self.momentum.dot(minimal)
+    /// The share of the first x in an acceleration: xᵀ M_r z̈.
+    pub fn along_weakest(&self, acceleration: &DVector<f64>) -> f64 {
+        self.momentum.dot(&self.tangent.minimal(acceleration))
     }
 }
