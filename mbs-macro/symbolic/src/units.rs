@@ -67,33 +67,28 @@ impl Dimension {
         Self::of(mass.into(), length.into(), time.into())
     }
 
-    /// The SI unit as text: `N*m`, `kg*m^2/s`; empty for a bare number, and for exponents that are no
-    /// small integers.
+    /// The SI unit as text: `N*m`, `kg^2/s`; empty for a bare number.
     pub fn si_unit(self) -> String {
-        let exponents = self.exponents().unwrap_or_default();
-        let named = match exponents {
-            [1, 1, -2] => "N",
-            [1, 2, -2] => "N*m",
-            [1, 2, -3] => "W",
-            [1, -1, -2] => "Pa",
-            [1, 0, -2] => "N/m",
-            _ => "",
-        };
-        if !named.is_empty() {
-            return named.into();
+        if let Some((_, _, unit)) = self.named() {
+            return (*unit).to_owned();
         }
-        let powers = [("kg", exponents[0]), ("m", exponents[1]), ("s", exponents[2])];
-        let product = |sign: i16| {
-            let factors = powers.iter().filter(|(_, power)| i16::from(*power) * sign > 0);
-            let text = factors.map(|(unit, power)| match power.unsigned_abs() {
-                1 => (*unit).to_owned(),
-                power => format!("{unit}^{power}"),
-            });
-            text.collect::<Vec<_>>()
+        let factors = |sign: i16| {
+            let powers = ["kg", "m", "s"].into_iter().zip(self.sixths.map(|sixths| sign * sixths));
+            let raised = |(unit, sixths): (&str, i16)| match Number::ratio(sixths.into(), SIXTHS.into()) {
+                Number::Rational(1, 1) => unit.to_owned(),
+                Number::Rational(power, 1) => format!("{unit}^{power}"),
+                fraction => format!("{unit}^({fraction})"),
+            };
+            powers.filter(|(_, sixths)| *sixths > 0).map(raised).collect::<Vec<_>>()
         };
-        let (over, under) = (product(1).join("*"), product(-1));
-        let over = if over.is_empty() && !under.is_empty() { "1".into() } else { over };
+        let (over, under) = (factors(1).join("*"), factors(-1));
+        let over = if over.is_empty() { "1".to_owned() } else { over };
         under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
+    }
+
+    /// What engineers call it.
+    fn named(self) -> Option<&'static (Self, &'static str, &'static str)> {
+        QUANTITIES.iter().find(|(dimension, ..)| *dimension == self)
     }
 
     fn zip(self, other: Self, f: impl Fn(i16, i16) -> i16) -> Self {
@@ -103,46 +98,35 @@ impl Dimension {
     }
 }
 
-/// The name an engineer would use, with the SI unit where it has one.
-const QUANTITIES: &[(Dimension, &str)] = &[
-    (Dimension::NONE, "dimensionless"),
-    (Dimension::LENGTH, "length [m]"),
-    (Dimension::MASS, "mass [kg]"),
-    (Dimension::TIME, "time [s]"),
-    (Dimension::of(0, 2, 0), "area [m^2]"),
-    (Dimension::of(0, 0, -1), "rate [1/s]"),
-    (Dimension::of(0, 1, -1), "velocity [m/s]"),
-    (Dimension::of(0, 1, -2), "acceleration [m/s^2]"),
-    (Dimension::of(0, 0, -2), "angular acceleration [1/s^2]"),
-    (Dimension::of(1, 1, -2), "force [N]"),
-    (Dimension::of(1, 2, -2), "torque or energy [N*m]"),
-    (Dimension::of(1, 2, -3), "power [W]"),
-    (Dimension::of(1, 2, 0), "moment of inertia [kg*m^2]"),
-    (Dimension::of(1, 0, -2), "stiffness [N/m]"),
-    (Dimension::of(1, 0, -1), "damping [N*s/m]"),
-    (Dimension::of(1, 2, -1), "rotational damping [N*m*s]"),
-    (Dimension::of(1, 1, -1), "momentum [kg*m/s]"),
+/// Dimensions that engineers have a name for, the name, and the SI unit.
+const QUANTITIES: &[(Dimension, &str, &str)] = &[
+    (Dimension::NONE, "dimensionless", ""),
+    (Dimension::LENGTH, "length", "m"),
+    (Dimension::MASS, "mass", "kg"),
+    (Dimension::TIME, "time", "s"),
+    (Dimension::of(0, 2, 0), "area", "m^2"),
+    (Dimension::of(0, 0, -1), "rate", "1/s"),
+    (Dimension::of(0, 1, -1), "velocity", "m/s"),
+    (Dimension::of(0, 1, -2), "acceleration", "m/s^2"),
+    (Dimension::of(0, 0, -2), "angular acceleration", "1/s^2"),
+    (Dimension::of(1, 1, -2), "force", "N"),
+    (Dimension::of(1, 2, -2), "torque or energy", "N*m"),
+    (Dimension::of(1, 2, -3), "power", "W"),
+    (Dimension::of(1, -1, -2), "pressure", "Pa"),
+    (Dimension::of(1, 2, 0), "moment of inertia", "kg*m^2"),
+    (Dimension::of(1, 0, -2), "stiffness", "N/m"),
+    (Dimension::of(1, 0, -1), "damping", "N*s/m"),
+    (Dimension::of(1, 2, -1), "rotational damping", "N*m*s"),
+    (Dimension::of(1, 1, -1), "momentum", "kg*m/s"),
 ];
 
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((_, name)) = QUANTITIES.iter().find(|(dimension, _)| dimension == self) {
-            return f.write_str(name);
+        match self.named() {
+            Some((_, name, "")) => f.write_str(name),
+            Some((_, name, unit)) => write!(f, "{name} [{unit}]"),
+            None => write!(f, "[{}]", self.si_unit()),
         }
-        let mut separator = "[";
-        for (unit, &sixths) in ["kg", "m", "s"].iter().zip(&self.sixths) {
-            if sixths == 0 {
-                continue;
-            }
-            write!(f, "{separator}{unit}")?;
-            match Number::ratio(sixths.into(), SIXTHS.into()) {
-                Number::Rational(1, 1) => {}
-                Number::Rational(n, 1) => write!(f, "^{n}")?,
-                fraction => write!(f, "^({fraction})")?,
-            }
-            separator = "*";
-        }
-        f.write_str("]")
     }
 }
 
@@ -333,6 +317,6 @@ mod tests {
     #[test]
     fn dimensions_read_as_quantities() {
         assert_eq!(Dimension::of(1, 2, -2).to_string(), "torque or energy [N*m]");
-        assert_eq!(Dimension::of(3, 0, -1).to_string(), "[kg^3*s^-1]");
+        assert_eq!(Dimension::of(3, 0, -1).to_string(), "[kg^3/s]");
     }
 }

@@ -117,7 +117,7 @@ pub fn split_setting(text: &str) -> Result<(&str, &str), Error> {
     }
 }
 
-/// The SI unit of a dimension as text: `N*m`, `kg*m^2/s`; empty for a bare number.
+/// The SI unit of a dimension as text: `N*m`, `kg^2/s`; empty for a bare number.
 pub fn si_unit(dimension: Dimension) -> String {
     units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]).si_unit()
 }
@@ -181,7 +181,8 @@ mod tests {
         assert_eq!(si_unit(dimension(0, 1, -1)), "m/s");
         assert_eq!(si_unit(dimension(1, 2, 0)), "kg*m^2");
         assert_eq!(si_unit(dimension(0, 0, -2)), "1/s^2");
-        assert_eq!(si_unit(dimension(1, 2, -1)), "kg*m^2/s");
+        assert_eq!(si_unit(dimension(1, 2, -1)), "N*m*s");
+        assert_eq!(si_unit(dimension(1, 0, -1)), "N*s/m");
         assert_eq!(si_unit(dimension(1, 2, -2)), "N*m");
     }
 }

@@ -8,7 +8,6 @@ use super::Event;
 use super::declare::quantity;
 use super::names::{Place, duplicate};
 use super::resolver::Resolver;
-use super::statements::si_unit;
 use crate::diagnostics::Diagnostic;
 use crate::quantity::Crossing;
 use crate::syntax::Formula;
@@ -48,7 +47,7 @@ impl Resolver<'_> {
             return;
         }
         let unit = Unit { scale: Number::ONE, dimension };
-        let quantity = quantity(name, doc, &si_unit(dimension), unit);
+        let quantity = quantity(name, doc, &dimension.si_unit(), unit);
         self.events.push(Event { quantity, value, crossing });
     }
 }

@@ -335,7 +335,7 @@ impl<'a> Resolver<'a> {
         }
         let (text, unit) = match unit {
             Some(unit) => (unit.text.clone(), unit.unit),
-            None => (si_unit(dimension), Unit { scale: Number::ONE, dimension }),
+            None => (dimension.si_unit(), Unit { scale: Number::ONE, dimension }),
         };
         let quantity = quantity(name, doc, &text, unit);
         self.outputs.push(Output { quantity, value: typed.expr });
@@ -357,13 +357,6 @@ fn prescribes_position(name: &Ident, role: Role, left: &Formula, right: &Formula
     let message = format!("`{name}` prescribes a rate, where a drive prescribes a position");
     let help = format!("write the position over time, `{moved} = {rate}*t` for a constant rate");
     Err(Diagnostic::new(function.span(), message).help(help))
-}
-
-/// The SI unit in the description of a dimension, `[m/s]`, without brackets.
-pub(super) fn si_unit(dimension: Dimension) -> String {
-    let text = dimension.to_string();
-    let unit = text.split_once('[').and_then(|(_, rest)| rest.strip_suffix(']'));
-    unit.unwrap_or_default().to_owned()
 }
 
 /// How to mend an equation between different dimensions.

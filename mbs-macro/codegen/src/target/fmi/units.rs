@@ -35,7 +35,9 @@ impl Unit {
 
     /// The SI unit of a dimension with a power of rad.
     pub fn si(dimension: Dimension, angles: i8) -> Self {
-        let name = match (dimension.si_unit(), angles) {
+        // FMI has no unit with a fractional power
+        let unit = dimension.exponents().map(|_| dimension.si_unit()).unwrap_or_default();
+        let name = match (unit, angles) {
             (name, 0) => name,
             (name, 1) if name.is_empty() => "rad".to_owned(),
             (name, 1) if name.starts_with("1/") => name.replacen('1', "rad", 1),
