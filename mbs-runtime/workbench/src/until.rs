@@ -67,6 +67,7 @@ impl Until {
     }
 }
 
+/// Why a text without a comparison ends no run.
 fn no_condition(info: &Info, text: &str) -> Error {
     let events: Vec<String> = info.events.iter().map(|event| format!("`{}`", event.name)).collect();
     let declared = match &events[..] {

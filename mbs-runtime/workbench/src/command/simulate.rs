@@ -29,7 +29,8 @@ pub(crate) fn command() -> Command {
         .arg(option(
             "until",
             "CONDITION",
-            "End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a tolerance",
+            "End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a \
+             tolerance",
         ))
         .arg(
             option("every", "N", "Record every N-th step")
