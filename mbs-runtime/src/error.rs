@@ -364,8 +364,9 @@ impl fmt::Display for Error {
             ),
             Self::NotDriven { dof } => write!(
                 f,
-                "the constraints leave {dof} degree(s) of freedom, so they do not determine the motion; \
-                 add drives or integrate the equations of motion"
+                "the constraints leave {dof} degree{} of freedom, so they do not determine the motion; \
+                 add drives or integrate the equations of motion",
+                if dof == 1 { "" } else { "s" }
             ),
         }
     }

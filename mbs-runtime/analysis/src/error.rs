@@ -66,10 +66,9 @@ pub enum Error {
     },
     /// Coordinates that do not determine the position.
     #[error(
-        "{} cannot be the states: the mechanism has {dof} degree(s) of freedom, and as many coordinates \
-         that move independently of each other at this position are needed; leave the choice out to have it \
-         made",
-        listed(.coordinates)
+        "{} cannot be the states: the mechanism has {}, and as many coordinates that move independently of \
+         each other at this position are needed; leave the choice out to have it made",
+        listed(.coordinates), degrees(*.dof)
     )]
     Dependent {
         /// The coordinates that were asked for.
@@ -245,9 +244,8 @@ pub enum Error {
     },
     /// A motion of another number of coordinates than the mechanism has degrees of freedom.
     #[error(
-        "the motion of {} is prescribed, but the mechanism has {dof} degree(s) of freedom: prescribe as many \
-         coordinates as that, each once; the others follow",
-        listed(.coordinates)
+        "{}, but the mechanism has {}: prescribe as many coordinates as that, each once; the others follow",
+        prescribed(.coordinates), degrees(*.dof)
     )]
     Prescribed {
         /// The coordinates that are prescribed.
@@ -307,9 +305,11 @@ pub enum Error {
     },
     /// Coordinates that rest nowhere near while others are led.
     #[error(
-        "sample {sample} of the travel: {} find no equilibrium near the one before, at {place}; the mechanism \
-         snaps through there, or nothing holds them",
-        listed(.coordinates)
+        "sample {sample} of the travel: {} no equilibrium near the one before, at {place}; the mechanism snaps \
+         through there, or nothing holds {}",
+        if .coordinates.len() == 1 { format!("{} finds", listed(.coordinates)) }
+        else { format!("{} find", listed(.coordinates)) },
+        if .coordinates.len() == 1 { "it" } else { "them" }
     )]
     Snap {
         /// Which sample, counted from 1.
@@ -342,6 +342,18 @@ fn listed(names: &[String]) -> String {
         return "none".into();
     }
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// `1 degree of freedom`, `2 degrees of freedom`.
+fn degrees(dof: i32) -> String {
+    format!("{dof} degree{} of freedom", if dof == 1 { "" } else { "s" })
+}
+
+fn prescribed(names: &[String]) -> String {
+    if names.is_empty() {
+        return "no motion is prescribed".into();
+    }
+    format!("the motion of {} is prescribed", listed(names))
 }
 
 fn undetermined(along: &[(String, f64)]) -> String {

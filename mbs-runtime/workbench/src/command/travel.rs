@@ -15,7 +15,7 @@ use super::options::{self, option};
 use crate::figure::Figure;
 use crate::figure::axis;
 use crate::models::Models;
-use crate::number::significant;
+use crate::number::{counted, significant};
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
 use crate::{Column, Error, Unit, say, write_csv};
@@ -167,7 +167,8 @@ impl Lead {
         };
         if free > 0 && !places.is_empty() {
             let reason = format!(
-                "its {free} further degree(s) of freedom give way, so that geometry alone gives no mechanical advantage"
+                "the mechanism gives way in {} of freedom besides, so that geometry alone gives no mechanical advantage",
+                counted(free, "degree")
             );
             return Err(Error::Name { name: "--advantage".into(), reason });
         }

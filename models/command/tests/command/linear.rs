@@ -148,7 +148,10 @@ fn what_cannot_be_asked() {
     );
     refuses(&format!("linearize {OSCILLATOR} --input @in.csv"), &["--input @FILE", "constants"]);
     refuses(&format!("linearize {OSCILLATOR} --after -1s"), &["after", "0 or later"]);
-    refuses("linearize double-pendulum --states angle1", &["`angle1` cannot be the states", "2 degree(s)"]);
+    refuses(
+        "linearize double-pendulum --states angle1",
+        &["`angle1` cannot be the states", "2 degrees of freedom"],
+    );
     refuses(&format!("modes {OSCILLATOR} --sensitivity k"), &["no parameter `k`"]);
     refuses(&format!("modes {OSCILLATOR} --here --sensitivity mass"), &["--sensitivity", "--here"]);
     refuses("modes slider-crank", &["no degree of freedom"]);

@@ -132,7 +132,10 @@ fn what_cannot_be_done() {
     refuses("inverse four-bar-free --move theta9=0deg..1deg", &["coordinate", "`theta9`", "theta2"]);
     refuses("inverse four-bar-free --move theta2=90deg", &["FROM..TO"]);
     refuses("inverse four-bar-free --move theta2=0m..1m", &["a length [m] was given"]);
-    refuses("inverse four-bar-free", &["1 degree(s) of freedom", "prescribe as many"]);
+    refuses(
+        "inverse four-bar-free",
+        &["no motion is prescribed", "1 degree of freedom", "prescribe as many"],
+    );
     refuses("inverse four-bar-free --move theta2=0..1 --inputs torque", &["input `torque`", "crank_torque"]);
     refuses("inverse four-bar-free --move theta2=0..1 --over 0s", &["above 0"]);
     refuses("inverse four-bar-free --move theta2=0..1 --input @x.csv", &["give a value"]);
@@ -148,8 +151,8 @@ fn what_cannot_be_done() {
     refuses("travel slider-crank-free --from theta1=30deg --along x3=200mm..250mm", &["0.24", "dead centre"]);
     refuses("inverse slider-crank-free --move x3=200mm..250mm", &["cannot begin", "dead centre"]);
     refuses("travel slider-crank-free --along speed=0..1", &["coordinate or drive", "theta1"]);
-    refuses("travel slider-crank --along theta1=0..1", &["0 degree(s) of freedom"]);
+    refuses("travel slider-crank --along theta1=0..1", &["0 degrees of freedom"]);
     refuses("travel toggle-press --along actuator=1mm..2mm", &["time"]);
-    refuses("travel cart-pendulum --along x=0..1 --advantage theta", &["further degree(s) of freedom"]);
+    refuses("travel cart-pendulum --along x=0..1 --advantage theta", &["1 degree of freedom besides"]);
     refuses("travel cart-pendulum --along x=0..1", &["`theta`", "no equilibrium"]);
 }
