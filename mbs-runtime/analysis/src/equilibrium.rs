@@ -184,7 +184,7 @@ fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Erro
 /// By Newton's method; by relaxation if that leads nowhere, or to where the mechanism falls away although it
 /// does not at the start.
 fn automatic(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
-    let falls = |q| Stiffness::at(rest, q).is_some_and(|found| found.falling(rest.resolution()) > 0.0);
+    let falls = |q| Stiffness::at(rest, q).is_some_and(|found| found.falling > 0.0);
     match newton(rest, start.clone(), ITERATIONS) {
         Ok(found) if falls(&start) || !falls(&found.q) => Ok(found),
         found => relax(rest, start).or(found),

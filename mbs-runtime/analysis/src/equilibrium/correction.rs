@@ -16,8 +16,8 @@ pub struct Correction {
     pub step: DVector<f64>,
     /// Its length, measured by the scales.
     pub length: f64,
-    /// How much of the length may be rounding: the rounding of accelerations in the stiffest direction,
-    /// through the softest one.
+    /// How much of the length may be rounding. Accelerations are rounded in proportion to the stiffest
+    /// direction, and the softest direction turns that into a displacement.
     pub rounding: f64,
     /// What of z̈ acts in directions without stiffness, in scales per s².
     left: f64,

@@ -18,10 +18,10 @@ const REMEMBERED: usize = 4;
 
 /// Newton's method from a position on the constraints, in steps of a bounded length.
 ///
-/// A step is halved where the correction after it is longer than the last few. Corrections are lengths,
-/// and do not grow as accelerations do with any step along the curved valley of a stiff spring. In such a
-/// valley every other correction leads back to its floor, and is short: hence the last few (a
-/// non-monotone line search).
+/// A step is halved where the correction after it is longer than each of the last few (a non-monotone line
+/// search). Accelerations would be no measure: a step along the curved valley of a stiff spring enlarges
+/// them, however near it leads. One correction before is not enough: in such a valley a short correction,
+/// which leads back to the floor, follows each long one.
 pub fn newton(rest: &Rest<'_>, start: DVector<f64>, iterations: u32) -> Result<Found, Error> {
     let mut q = start;
     let acceleration = rest.acceleration(&q).0;

@@ -45,13 +45,12 @@ pub fn relax(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
             q = rest.moved(&q, &push)?;
             continue;
         }
-        let falling = stiffness.falling(rest.resolution());
-        if falling == 0.0
+        if stiffness.falling == 0.0
             && let Some(q) = settled(rest, &q)
         {
             return Ok(Found { q, iterations: iteration });
         }
-        s = s.max(2.0 * falling);
+        s = s.max(2.0 * stiffness.falling);
         let Some((y, length)) = implicit_step(rest, &q, s) else {
             s *= CHANGE;
             continue;
@@ -67,17 +66,16 @@ pub fn relax(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
 /// A displacement by which the mechanism falls further away, if it stands nearer than that to where it
 /// balances.
 fn push(rest: &Rest<'_>, stiffness: &Stiffness, q: &DVector<f64>) -> Option<DVector<f64>> {
-    let falling = stiffness.falling(rest.resolution());
     let unit = PUSH / rest.measure(&stiffness.weakest);
-    let away = stiffness.along_weakest(&rest.acceleration(q).0) / falling;
-    let is_balanced = falling > 0.0 && away.abs() < unit;
+    let away = stiffness.along_weakest(&rest.acceleration(q).0) / stiffness.falling;
+    let is_balanced = stiffness.falling > 0.0 && away.abs() < unit;
     is_balanced.then(|| &stiffness.weakest * unit.copysign(away))
 }
 
 /// Where Newton's method leads from a position, if that is near and the mechanism does not fall from there.
 fn settled(rest: &Rest<'_>, q: &DVector<f64>) -> Option<DVector<f64>> {
     let found = newton(rest, q.clone(), LAST).ok()?.q;
-    let is_held = Stiffness::at(rest, &found)?.falling(rest.resolution()) == 0.0;
+    let is_held = Stiffness::at(rest, &found)?.falling == 0.0;
     (is_held && rest.measure(&(&found - q)) <= LONGEST).then_some(found)
 }
 

@@ -8,6 +8,8 @@ use crate::tangent::{Rest, Tangent};
 pub struct Stiffness {
     /// κ in 1/s², ascending.
     pub values: Vec<f64>,
+    /// −κ of the direction in which the mechanism falls away fastest, or 0 if there is none.
+    pub falling: f64,
     /// N x for the first κ, with xᵀ M_r x = 1.
     pub weakest: DVector<f64>,
     /// M_r x for the first κ.
@@ -36,15 +38,10 @@ impl Stiffness {
         let x = lower.tr_solve_lower_triangular(&decomposition.eigenvectors.column(first))?;
         let mut values: Vec<f64> = decomposition.eigenvalues.iter().copied().collect();
         values.sort_by(f64::total_cmp);
-        Some(Self { values, weakest: &tangent.directions * &x, momentum: mass * x, tangent })
-    }
-
-    /// −κ of the direction in which the mechanism falls away fastest, or 0 if there is none. A stiffness is
-    /// zero that is less than the share `resolution` of the largest one.
-    pub fn falling(&self, resolution: f64) -> f64 {
-        let largest = self.values.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let weakest = self.values.first().copied().unwrap_or(0.0);
-        if weakest < -resolution * largest { -weakest } else { 0.0 }
+        let largest = values.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let lowest = values.first().copied()?;
+        let falling = if lowest < -rest.resolution() * largest { -lowest } else { 0.0 };
+        Some(Self { values, falling, weakest: &tangent.directions * &x, momentum: mass * x, tangent })
     }
 
     /// The share of the first x in an acceleration: xᵀ M_r z̈.
