@@ -9,6 +9,9 @@ use quote::quote_spanned;
 /// What stands between an error and how to mend it.
 pub const HELP: &str = "\n\nhelp: ";
 
+/// End of the message about a name that is a word of Rust. Each such name is reported once, where it stands first.
+pub const WORD_OF_RUST: &str = "is a word of Rust and cannot be a name here";
+
 /// A count with what it counts: `1 coordinate`, `2 coordinates`.
 pub fn counted(count: impl fmt::Display, one: &str) -> String {
     let count = count.to_string();
@@ -109,7 +112,11 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// Adds an error.
     pub fn push(&mut self, diagnostic: impl Into<Diagnostic>) {
-        self.list.push(diagnostic.into());
+        let diagnostic = diagnostic.into();
+        let is_said = |other: &Diagnostic| other.message == diagnostic.message;
+        if !diagnostic.message.ends_with(WORD_OF_RUST) || !self.list.iter().any(is_said) {
+            self.list.push(diagnostic);
+        }
     }
 
     /// The value, or `None` with its error added.

@@ -11,6 +11,11 @@
 //! depends linearly on which coordinates, and what in another way, is counted in numbers; so a
 //! coordinate is given only where the choices before have left it linear. Each choice uses up
 //! a row, which bounds their number.
+//!
+//! A coordinate that is given has the errors of those that it is made of. Of a differential gear,
+//! h = 1.5 b − 0.5 a, the carrier's angle h may be the small difference of two large ones, and a
+//! spring on the carrier then acts on the rounding of a and b. So coordinates on which no force
+//! depends are given first, and coefficients that would multiply errors are avoided.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -18,12 +23,17 @@ use mbs_symbolic::{Arena, Expr, Node, Number, Symbol};
 
 use crate::derive::Equations;
 use crate::independence::Rows;
+use crate::independence::samples::units;
 use crate::inputs::Inputs;
-use crate::model::{Direction, Model};
+use crate::model::{Direction, Meaning, Model};
 
 /// Sums of more terms are computed once, so that those of a chain do not become longer from
 /// link to link.
 const LONGEST_OPEN_SUM: usize = 8;
+
+/// A coordinate is not given by a coefficient below this share of the largest one in its row, in
+/// typical lengths and radians: its errors would be those of the others, multiplied by so much.
+const SMALLEST_SHARE: f64 = 0.1;
 
 /// Coordinates that constraints give.
 pub struct Reduction {
@@ -181,15 +191,13 @@ impl Dependence {
 fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
     let mut given = Given::default();
     let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
+    let preference = Preference::new(model, equations);
     for &row in &rows.basis {
         let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
         for (&coordinate, known) in &dependences {
             dependence.replace(coordinate, known);
         }
-        // a length rather than an angle, of the body that was declared last
-        let is_length = |at: usize| model.coordinates[at].direction != Direction::Angle;
-        let best = dependence.candidates().max_by_key(|&(at, _)| (is_length(at), at));
-        let Some((coordinate, coefficient)) = best else { continue };
+        let Some((coordinate, coefficient)) = preference.best(model, &dependence) else { continue };
         let dependence = dependence.solved(coordinate, coefficient);
 
         let symbols = symbols_of(model, coordinate);
@@ -211,6 +219,41 @@ fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
         given.rows.insert(coordinate, row);
     }
     given
+}
+
+/// Which coordinates are given rather than others.
+struct Preference {
+    /// Coordinates on which forces depend, by their positions or velocities.
+    felt: BTreeSet<usize>,
+    /// Unit of each coordinate: 1 rad for an angle, a typical length of the mechanism in m for a length.
+    units: Vec<f64>,
+}
+
+impl Preference {
+    fn new(model: &Model, equations: &Equations) -> Self {
+        let nodes = model.arena.reachable(&equations.total_forces);
+        let coordinate = |expr: &Expr| match *model.arena.node(*expr) {
+            Node::Symbol(symbol) => match model.meanings.get(symbol.index()) {
+                Some(&Meaning::Coordinate(at) | &Meaning::Velocity(at)) => Some(at),
+                _ => None,
+            },
+            _ => None,
+        };
+        Self { felt: nodes.iter().filter_map(coordinate).collect(), units: units(model) }
+    }
+
+    /// The coordinate that is given by 0 = `dependence`, and its coefficient: one that no force
+    /// depends on, with a coefficient that is not small, a length rather than an angle, of the
+    /// body that was declared last.
+    fn best(&self, model: &Model, dependence: &Dependence) -> Option<(usize, Number)> {
+        let size = |at: usize, coefficient: Number| coefficient.to_f64().abs() * self.units[at];
+        let largest = dependence.linear.iter().map(|(&at, &c)| size(at, c)).fold(0.0, f64::max);
+        dependence.candidates().max_by_key(|&(at, coefficient)| {
+            let is_length = model.coordinates[at].direction != Direction::Angle;
+            let is_small = size(at, coefficient) < SMALLEST_SHARE * largest;
+            (!is_small, !self.felt.contains(&at), is_length, at)
+        })
+    }
 }
 
 /// The symbols of a position and its velocity.

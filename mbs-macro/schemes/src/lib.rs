@@ -39,14 +39,18 @@
 
 mod composition;
 mod explicit;
+mod interpolant;
 mod response;
 mod roots;
 mod schemes;
 pub mod sine;
 mod tableau;
+#[cfg(test)]
+mod trees;
 
 pub use composition::{COMPOSITIONS, Composition, RATTLE, RATTLE4};
 pub use explicit::{Explicit, Stabilization};
+pub use interpolant::Interpolant;
 pub use response::Response;
 pub use schemes::{BS3, DOP853, DOPRI5, HEUN, MOST_STAGES, RK4, SCHEMES};
 pub use tableau::{Estimate, Row, Tableau};

@@ -1,5 +1,6 @@
 //! The schemes, from the one of lowest order to that of highest.
 
+use crate::interpolant::OF_DOP853;
 use crate::response::Response;
 use crate::{Estimate, Row, Tableau};
 
@@ -9,7 +10,7 @@ pub const MOST_STAGES: usize = 12;
 /// All schemes.
 pub const SCHEMES: [&Tableau; 5] = [&HEUN, &BS3, &RK4, &DOPRI5, &DOP853];
 
-const fn row(share: f64, weights: &'static [f64]) -> Row {
+pub(crate) const fn row(share: f64, weights: &'static [f64]) -> Row {
     Row { share, weights }
 }
 
@@ -22,6 +23,7 @@ pub const HEUN: Tableau = Tableau {
     stages: &[row(1.0, &[1.0])],
     update: row(0.5, &[1.0, 1.0]),
     estimate: None,
+    interpolant: None,
     source: "K. Heun, Z. Math. Phys. 45 (1900) 23-38",
     response: Response::UNKNOWN,
 }
@@ -36,6 +38,7 @@ pub const BS3: Tableau = Tableau {
     stages: &[row(0.5, &[1.0]), row(0.75, &[0.0, 1.0])],
     update: row(1.0 / 9.0, &[2.0, 3.0, 4.0]),
     estimate: Some(Estimate { differences: &[row(1.0 / 72.0, &[-5.0, 6.0, 8.0, -9.0])], power: 3 }),
+    interpolant: None,
     source: "P. Bogacki, L. F. Shampine, Appl. Math. Lett. 2 (1989) 321-325",
     response: Response::UNKNOWN,
 }
@@ -50,6 +53,7 @@ pub const RK4: Tableau = Tableau {
     stages: &[row(0.5, &[1.0]), row(0.5, &[0.0, 1.0]), row(1.0, &[0.0, 0.0, 1.0])],
     update: row(1.0 / 6.0, &[1.0, 2.0, 2.0, 1.0]),
     estimate: None,
+    interpolant: None,
     source: "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
     response: Response::UNKNOWN,
 }
@@ -84,6 +88,7 @@ pub const DOPRI5: Tableau = Tableau {
         )],
         power: 5,
     }),
+    interpolant: None,
     source: "J. R. Dormand, P. J. Prince, J. Comp. Appl. Math. 6 (1980) 19-26",
     response: Response::UNKNOWN,
 }
@@ -229,6 +234,7 @@ pub const DOP853: Tableau = Tableau {
         ],
         power: 8,
     }),
+    interpolant: Some(OF_DOP853),
     source: "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.10",
     response: Response::UNKNOWN,
 }
@@ -238,86 +244,10 @@ pub const DOP853: Tableau = Tableau {
 mod tests {
     extern crate std;
 
-    use std::vec;
     use std::vec::Vec;
 
     use super::*;
-
-    /// A rooted tree: the places of the subtrees at its root in the list of all trees.
-    struct Tree {
-        order: u32,
-        subtrees: Vec<usize>,
-        density: f64,
-    }
-
-    /// All rooted trees with at most so many nodes, the smaller ones first.
-    fn trees(most: u32) -> Vec<Tree> {
-        let mut all = vec![Tree { order: 1, subtrees: vec![], density: 1.0 }];
-        for order in 2..=most {
-            let mut forests = vec![];
-            grow(&all, order - 1, 0, &mut vec![], &mut forests);
-            let tree = |subtrees: Vec<usize>| {
-                let product: f64 = subtrees.iter().map(|&at| all[at].density).product();
-                Tree { order, subtrees, density: f64::from(order) * product }
-            };
-            let new: Vec<Tree> = forests.into_iter().map(tree).collect();
-            all.extend(new);
-        }
-        all
-    }
-
-    /// All ways to spend so many nodes on trees, from the tree `first` on.
-    fn grow(all: &[Tree], nodes: u32, first: usize, forest: &mut Vec<usize>, found: &mut Vec<Vec<usize>>) {
-        if nodes == 0 {
-            found.push(forest.clone());
-        }
-        for at in (first..all.len()).filter(|&at| all[at].order <= nodes) {
-            forest.push(at);
-            grow(all, nodes - all[at].order, at, forest, found);
-            forest.pop();
-        }
-    }
-
-    fn weight(row: &Row, at: usize) -> f64 {
-        row.weights.get(at).map_or(0.0, |weight| row.share * weight)
-    }
-
-    /// The elementary weights of all trees in every stage and in the end of the step, with
-    /// coefficients as they are or their magnitudes.
-    fn elementary(scheme: &Tableau, trees: &[Tree], coefficient: fn(f64) -> f64) -> Vec<Vec<f64>> {
-        let count = scheme.stage_count();
-        let a = |i: usize, j: usize| match i {
-            0 => 0.0,
-            i if i == count => coefficient(weight(&scheme.update, j)),
-            i => coefficient(weight(&scheme.stages[i - 1], j)),
-        };
-        let mut weights: Vec<Vec<f64>> = vec![];
-        for tree in trees {
-            let through = |i: usize, subtree: usize| {
-                let below: &Vec<f64> = &weights[subtree];
-                (0..count).map(|j| a(i, j) * below[j]).sum::<f64>()
-            };
-            let of = |i: usize| tree.subtrees.iter().map(|&subtree| through(i, subtree)).product();
-            weights.push((0..=count).map(of).collect());
-        }
-        weights
-    }
-
-    /// Up to which order Σ wᵢ Φᵢ(τ) is `expected` for every tree τ, of a row w: to the rounding
-    /// of its terms.
-    fn order(scheme: &Tableau, row: &Row, expected: impl Fn(&Tree) -> f64) -> u32 {
-        let trees = trees(9);
-        let [signed, sizes] = [|x| x, f64::abs].map(|of: fn(f64) -> f64| elementary(scheme, &trees, of));
-        let sum = |values: &[f64], of: fn(f64) -> f64| -> f64 {
-            values.iter().enumerate().map(|(i, value)| of(weight(row, i)) * value).sum()
-        };
-        let is_met = |(at, tree): (usize, &Tree)| {
-            let rounding = 16.0 * f64::EPSILON * sum(&sizes[at], f64::abs);
-            (sum(&signed[at], |x| x) - expected(tree)).abs() <= rounding
-        };
-        let broken = trees.iter().enumerate().find(|&condition| !is_met(condition));
-        broken.map_or(9, |(_, tree)| tree.order - 1)
-    }
+    use crate::trees::{order, rows, trees};
 
     #[test]
     fn there_are_as_many_trees_as_cayley_counted() {
@@ -330,7 +260,7 @@ mod tests {
     #[test]
     fn every_scheme_has_its_order_and_no_higher_one() {
         for scheme in SCHEMES {
-            let found = order(scheme, &scheme.update, |tree| 1.0 / tree.density);
+            let found = order(&rows(scheme), &scheme.update, 16.0, |tree| 1.0 / tree.density);
             assert_eq!(found, scheme.order, "{}", scheme.word);
         }
     }
@@ -341,13 +271,24 @@ mod tests {
     fn estimates_fall_with_the_power_that_they_say() {
         for scheme in SCHEMES {
             let Some(Estimate { differences, power }) = scheme.estimate else { continue };
-            let orders: Vec<u32> = differences.iter().map(|row| order(scheme, row, |_| 0.0)).collect();
+            let orders: Vec<u32> =
+                differences.iter().map(|row| order(&rows(scheme), row, 16.0, |_| 0.0)).collect();
             let expected = match orders[..] {
                 [p] => p + 1,
                 [p, lower] => 2 * (p + 1) - (lower + 1),
                 _ => unreachable!(),
             };
             assert_eq!(power, expected, "{}: {orders:?}", scheme.word);
+        }
+    }
+
+    /// The weights of the last row of `dopri5` add up to 0.9999999999999998: steps of C ended there.
+    #[test]
+    fn steps_end_where_they_end() {
+        for scheme in SCHEMES {
+            assert_eq!(scheme.update.node(), 1.0, "{}", scheme.word);
+            let nodes = scheme.stages.iter().map(Row::node);
+            assert!(nodes.into_iter().all(|node| node == 1.0 || node < 0.999), "{}", scheme.word);
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a scheme is.
 
 use crate::SCHEMES;
+use crate::interpolant::Interpolant;
 use crate::response::Response;
 
 /// A combination of slopes: (share · h) Σ weights · slopes.
@@ -43,14 +44,21 @@ pub struct Tableau {
     pub update: Row,
     /// What tells the error of a step, of a scheme that can.
     pub estimate: Option<Estimate>,
+    /// The interpolant of a step. `None` if the polynomial of fifth degree through positions, velocities and
+    /// accelerations of both ends is as accurate as the step.
+    pub interpolant: Option<Interpolant>,
     /// Where it was published.
     pub source: &'static str,
     /// What follows from the coefficients.
     pub response: Response,
 }
 
+/// Bound of the rounding error of a sum of weights that is 1.
+const ROUNDING: f64 = 1e-13;
+
 impl Row {
-    /// The time that it leads to, in steps: c = share · Σ weights.
+    /// The time that it leads to, in steps: c = share · Σ weights; 1 for the end of a step, which rounding of
+    /// the sum would miss.
     #[inline(always)]
     pub const fn node(&self) -> f64 {
         let (mut sum, mut weights) = (0.0, self.weights);
@@ -58,7 +66,9 @@ impl Row {
             sum += *weight;
             weights = rest;
         }
-        self.share * sum
+        let node = self.share * sum;
+        let is_end = 1.0 - ROUNDING < node && node < 1.0 + ROUNDING;
+        if is_end { 1.0 } else { node }
     }
 
     /// The stages whose slopes it uses, and their weights.
@@ -73,6 +83,15 @@ impl Tableau {
     #[inline(always)]
     pub const fn stage_count(&self) -> usize {
         self.stages.len() + 1
+    }
+
+    /// Number of additional slopes and of terms of the interpolant; 0 without one.
+    #[inline(always)]
+    pub const fn interpolated(&self) -> usize {
+        match &self.interpolant {
+            Some(interpolant) => interpolant.stages.len() + interpolant.terms.len(),
+            None => 0,
+        }
     }
 
     /// Whether both are the same scheme, which its word tells.

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use indexmap::IndexSet;
 use rustc_hash::{FxBuildHasher, FxHashMap as HashMap};
 
+use crate::exact::Point;
 use crate::number::Number;
 use crate::operators::Function;
 use crate::spline::{Spline, SplineId};
@@ -84,6 +85,8 @@ pub struct Arena {
     /// looked at once: bounds, and whether they are never negative.
     pub(crate) bounds: HashMap<Expr, Option<Expr>>,
     pub(crate) never_negative: HashMap<Expr, bool>,
+    /// Their exact values at a random point.
+    point: Point,
     pub(crate) splines: Vec<Rc<Spline>>,
 }
 
@@ -103,6 +106,7 @@ impl Arena {
             labels: HashMap::default(),
             bounds: HashMap::default(),
             never_negative: HashMap::default(),
+            point: Point::default(),
             splines: Vec::new(),
         };
         // `zero` and `one` rely on these two being the first.
@@ -174,6 +178,34 @@ impl Arena {
     /// Whether it is the constant 0.
     pub fn is_zero(&self, expr: Expr) -> bool {
         self.as_number(expr).is_some_and(Number::is_zero)
+    }
+
+    /// Reports whether an expression is 0 wherever it has a value, in whatever form it is written.
+    pub fn vanishes(&mut self, expr: Expr) -> bool {
+        let mut point = std::mem::take(&mut self.point);
+        let vanishes = point.is_zero(self, expr);
+        self.point = point;
+        vanishes
+    }
+
+    /// Reports whether an expression, written out, has more than `most` nodes. A value that is computed once counts as
+    /// one node.
+    pub fn is_larger_than(&self, expr: Expr, most: usize) -> bool {
+        let (mut count, mut open) = (0, vec![expr]);
+        while let Some(expr) = open.pop() {
+            count += 1;
+            if count > most {
+                return true;
+            }
+            match self.node(expr) {
+                Node::Number(_) | Node::Symbol(_) | Node::Shared(_) => {}
+                Node::Sum(_, terms) => open.extend(terms.iter().map(|(term, _)| *term)),
+                Node::Product(factors) => open.extend(factors.iter().map(|(factor, _)| *factor)),
+                Node::Call(_, x) | Node::Spline(_, _, x) => open.push(*x),
+                Node::Call2(_, x, y) => open.extend([*x, *y]),
+            }
+        }
+        false
     }
 
     /// The expression marked as one value to be computed once: sums and

@@ -5,6 +5,7 @@
 
 use crate::arena::{Arena, Expr, Node};
 use crate::collected::Collected;
+use crate::exact::{Real, Residue};
 use crate::number::Number;
 use crate::operators::{Function, Parity};
 use crate::spline::SplineId;
@@ -247,7 +248,9 @@ impl Arena {
             let value = (function.row().value)(a.to_f64(), b.to_f64());
             let exact = [a, b].into_iter().find(|n| n.to_f64() == value);
             if value.is_finite() {
-                return self.number(exact.unwrap_or(value.into()));
+                let name = function.row().name;
+                let result = || Real::of_function(value, name, &[a.real(), b.real()]).number();
+                return self.number(exact.unwrap_or_else(result));
             }
         }
         self.intern(Node::Call2(function, x, y))
@@ -280,7 +283,22 @@ fn fold(function: Function, value: Number) -> Option<Number> {
         _ => {}
     }
     let result = (function.row().value)(value.to_f64(), 0.0);
-    result.is_finite().then(|| result.into())
+    result.is_finite().then(|| exact_result(function, value.real(), result))
+}
+
+/// The `result` of a function with its exact value, where a rule gives one.
+fn exact_result(function: Function, x: Real, result: f64) -> Number {
+    let of_turn = |turn: Residue| match function {
+        Function::Sin => turn.sine(),
+        Function::Cos => turn.cosine(),
+        Function::Tan => Some(turn.sine()? * turn.cosine()?.inverse()?),
+        _ => None,
+    };
+    match x.turn().and_then(of_turn) {
+        Some(exact) if exact == Residue::ZERO => Number::ZERO,
+        Some(exact) => Real::known(result, &[x], exact).number(),
+        None => Real::of_function(result, function.row().name, &[x]).number(),
+    }
 }
 
 /// A constant to an integer power, as a float where it is large.

@@ -74,7 +74,8 @@ impl Arena {
                 };
                 self.mul(slope, known[&x])
             }
-            Node::Shared(x) => known[&x],
+            // computed once as the value is, or sums of a long one would open again
+            Node::Shared(x) => self.share(known[&x]),
         }
     }
 

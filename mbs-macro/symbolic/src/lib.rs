@@ -46,6 +46,7 @@ mod differentiate;
 mod display;
 mod eliminate;
 mod evaluate;
+mod exact;
 mod growing;
 mod inconsistency;
 mod latex;
@@ -70,6 +71,7 @@ pub use eliminate::{
     factor_within,
 };
 pub use evaluate::{Tape, Values};
+pub use exact::{Exact, Point, Real, Residue};
 pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};

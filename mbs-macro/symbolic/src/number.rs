@@ -1,17 +1,20 @@
-//! Constants: exact rationals as long as they fit, floating point beyond.
+//! Constants: exact rationals as long as they fit, reals beyond.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
+use crate::exact::{Real, Residue};
+
 /// A constant. Arithmetic on rationals is exact; a result whose numerator or
-/// denominator leaves `i64`, or an operand that is a float, gives a float.
+/// denominator leaves `i64`, or an operand that is a real, gives a real. A difference
+/// that is 0 in exact arithmetic is 0 here.
 #[derive(Clone, Copy, Debug)]
 pub enum Number {
     /// Numerator and denominator in lowest terms, the denominator positive.
     Rational(i64, i64),
-    /// A value that has no short exact form, such as π.
-    Float(f64),
+    /// A number that is no short fraction, such as π.
+    Real(Real),
 }
 
 impl Number {
@@ -21,15 +24,27 @@ impl Number {
     pub const ONE: Self = Self::Rational(1, 1);
     /// −1
     pub const MINUS_ONE: Self = Self::Rational(-1, 1);
-    /// π
-    pub const PI: Self = Self::Float(std::f64::consts::PI);
-
     /// An integer.
     pub const fn integer(value: i64) -> Self {
         Self::Rational(value, 1)
     }
 
-    /// `numerator / denominator` in lowest terms; a float if that overflows or
+    /// A float as it is.
+    pub fn float(value: f64) -> Self {
+        Self::Real(Real::float(value))
+    }
+
+    /// (numerator/denominator) π
+    pub fn pi(numerator: i64, denominator: i64) -> Self {
+        Self::Real(Real::pi(numerator, denominator))
+    }
+
+    /// The same with its exact value.
+    pub fn real(self) -> Real {
+        Real::of(self)
+    }
+
+    /// `numerator / denominator` in lowest terms; a real if that overflows or
     /// the denominator is 0.
     pub fn ratio(numerator: i64, denominator: i64) -> Self {
         Self::reduced(numerator.into(), denominator.into())
@@ -44,7 +59,20 @@ impl Number {
         let (n, d) = (sign * numerator / divisor, sign * denominator / divisor);
         match (i64::try_from(n), i64::try_from(d)) {
             (Ok(n), Ok(d)) if d > 0 => Self::Rational(n, d),
-            _ => Self::Float(numerator as f64 / denominator as f64),
+            _ => {
+                let value = numerator as f64 / denominator as f64;
+                let exact = Residue::ratio(numerator, denominator);
+                exact.map_or_else(|| Self::float(value), |exact| Self::Real(Real::known(value, &[], exact)))
+            }
+        }
+    }
+
+    /// A bound, to first order, of what rounding did to its float: 0 for integers that a float holds.
+    pub fn error(self) -> f64 {
+        match self {
+            Self::Rational(n, 1) if n.unsigned_abs() < 1 << 53 => 0.0,
+            Self::Rational(..) => f64::EPSILON * self.to_f64().abs(),
+            Self::Real(x) => x.error(),
         }
     }
 
@@ -53,7 +81,7 @@ impl Number {
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.replace('_', "");
         let float = text.parse::<f64>().ok().filter(|value| value.is_finite())?;
-        Some(Self::parse_exact(&text).unwrap_or(Self::Float(float)))
+        Some(Self::parse_exact(&text).unwrap_or(Self::float(float)))
     }
 
     fn parse_exact(text: &str) -> Option<Self> {
@@ -70,7 +98,7 @@ impl Number {
         } else {
             Self::integer(digits) * Self::integer(power)
         } {
-            Self::Float(_) => None,
+            Self::Real(_) => None,
             exact => Some(exact),
         }
     }
@@ -79,7 +107,7 @@ impl Number {
     pub fn to_f64(self) -> f64 {
         match self {
             Self::Rational(n, d) => n as f64 / d as f64,
-            Self::Float(x) => x,
+            Self::Real(x) => x.value(),
         }
     }
 
@@ -87,7 +115,7 @@ impl Number {
     pub fn is_zero(self) -> bool {
         match self {
             Self::Rational(n, _) => n == 0,
-            Self::Float(x) => x == 0.0,
+            Self::Real(x) => x.value() == 0.0,
         }
     }
 
@@ -100,7 +128,7 @@ impl Number {
     pub fn is_negative(self) -> bool {
         match self {
             Self::Rational(n, _) => n < 0,
-            Self::Float(x) => x < 0.0,
+            Self::Real(x) => x.value() < 0.0,
         }
     }
 
@@ -123,7 +151,7 @@ impl Number {
     pub fn recip(self) -> Self {
         match self {
             Self::Rational(n, d) => Self::reduced(d.into(), n.into()),
-            Self::Float(x) => Self::Float(1.0 / x),
+            Self::Real(x) => Self::Real(x.recip()),
         }
     }
 
@@ -134,18 +162,18 @@ impl Number {
         (0..exponent.unsigned_abs()).fold(Self::ONE, |power, _| power * base)
     }
 
-    /// √x where that is exact, else its float; `None` below 0.
+    /// √x; `None` below 0.
     pub fn sqrt(self) -> Option<Self> {
         if self.is_negative() {
             return None;
         }
-        if let Self::Rational(n, d) = self {
-            let (rn, rd) = (n.isqrt(), d.isqrt());
-            if rn * rn == n && rd * rd == d {
-                return Some(Self::ratio(rn, rd));
+        Some(match self {
+            Self::Rational(n, d) => {
+                let (rn, rd) = (n.isqrt(), d.isqrt());
+                if rn * rn == n && rd * rd == d { Self::ratio(rn, rd) } else { Real::root_of_ratio(n, d) }
             }
-        }
-        Some(Self::Float(self.to_f64().sqrt()))
+            Self::Real(x) => x.sqrt(),
+        })
     }
 }
 
@@ -161,7 +189,7 @@ impl std::ops::Add for Number {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
                 Self::reduced(a * d + c * b, b * d)
             }
-            _ => (self.to_f64() + other.to_f64()).into(),
+            _ => self.real().add(other.real()),
         }
     }
 }
@@ -173,7 +201,7 @@ impl std::ops::Mul for Number {
             (Self::Rational(a, b), Self::Rational(c, d)) => {
                 Self::reduced(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
             }
-            _ => (self.to_f64() * other.to_f64()).into(),
+            _ => self.real().mul(other.real()),
         }
     }
 }
@@ -192,9 +220,9 @@ impl From<i64> for Number {
 }
 
 impl From<f64> for Number {
-    /// An integer if it is one exactly, else a float.
+    /// An integer if it is one exactly, else the float as it is.
     fn from(x: f64) -> Self {
-        if x.fract() == 0.0 && x.abs() < 9e15 { Self::integer(x as i64) } else { Self::Float(x) }
+        if x.fract() == 0.0 && x.abs() < 9e15 { Self::integer(x as i64) } else { Self::float(x) }
     }
 }
 
@@ -210,7 +238,7 @@ impl Hash for Number {
     fn hash<H: Hasher>(&self, state: &mut H) {
         match *self {
             Self::Rational(n, d) => (n, d).hash(state),
-            Self::Float(x) => x.to_bits().hash(state),
+            Self::Real(x) => (x.value().to_bits(), x.residue()).hash(state),
         }
     }
 }
@@ -229,9 +257,13 @@ impl Ord for Number {
             (Self::Rational(a, b), Self::Rational(c, d)) => {
                 (i128::from(a) * i128::from(d)).cmp(&(i128::from(c) * i128::from(b)))
             }
-            (Self::Float(x), Self::Float(y)) => x.total_cmp(&y),
-            (Self::Rational(..), Self::Float(y)) => self.to_f64().total_cmp(&y).then(Ordering::Less),
-            (Self::Float(x), Self::Rational(..)) => x.total_cmp(&other.to_f64()).then(Ordering::Greater),
+            (Self::Real(x), Self::Real(y)) => {
+                x.value().total_cmp(&y.value()).then_with(|| x.residue().cmp(&y.residue()))
+            }
+            (Self::Rational(..), Self::Real(y)) => self.to_f64().total_cmp(&y.value()).then(Ordering::Less),
+            (Self::Real(x), Self::Rational(..)) => {
+                x.value().total_cmp(&other.to_f64()).then(Ordering::Greater)
+            }
         }
     }
 }
@@ -250,8 +282,11 @@ impl fmt::Display for Number {
                 write!(f, "{}", n as f64 / d as f64)
             }
             Self::Rational(n, d) => write!(f, "{n}/{d}"),
-            Self::Float(x) if x == std::f64::consts::PI => write!(f, "pi"),
-            Self::Float(x) => write!(f, "{x}"),
+            Self::Real(x) if x.value() == std::f64::consts::PI => write!(f, "pi"),
+            Self::Real(x) if x.value() == 0.0 || (1e-5..1e16).contains(&x.value().abs()) => {
+                write!(f, "{}", x.value())
+            }
+            Self::Real(x) => write!(f, "{:e}", x.value()),
         }
     }
 }
@@ -265,7 +300,7 @@ mod tests {
         assert_eq!(Number::parse("0.06"), Some(Number::ratio(3, 50)));
         assert_eq!(Number::parse("1e-3"), Some(Number::ratio(1, 1000)));
         assert_eq!(Number::parse("1_000"), Some(Number::integer(1000)));
-        assert_eq!(Number::parse("1e300"), Some(Number::Float(1e300)));
+        assert_eq!(Number::parse("1e300"), Some(Number::float(1e300)));
         assert_eq!(Number::parse("1e999"), None);
         assert_eq!(Number::parse("x"), None);
     }

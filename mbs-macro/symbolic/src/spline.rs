@@ -80,6 +80,22 @@ impl Spline {
         is_finite.then(|| Self { name: name.to_owned(), origin: first.0, period, segments })
     }
 
+    /// Overshoots between neighbouring points of equal values: the index of the first point, and the largest distance
+    /// of the cubic from that value. The cubic leaves the value where it has a slope at both ends.
+    pub fn overshoots(&self) -> impl Iterator<Item = (usize, f64)> {
+        let next = self.segments.iter().skip(1).chain(self.segments.first());
+        self.segments.iter().zip(next).enumerate().filter_map(|(at, (segment, next))| {
+            let Segment { from, coefficients: [c0, c1, c2, c3] } = *segment;
+            let end = if at + 1 == self.segments.len() { self.period } else { next.from };
+            // u (c₁ + u (c₂ + u c₃)) vanishes at both ends; where it is flat, its slope does
+            let root = (c2 * c2 - 3.0 * c1 * c3).sqrt();
+            let flat = [-c2 - root, -c2 + root].map(|q| [q / (3.0 * c3), c1 / q]);
+            let inside = flat.into_iter().flatten().filter(|u| *u > 0.0 && *u < end - from);
+            let away = inside.map(|u| (u * (c1 + u * (c2 + u * c3))).abs()).fold(0.0, f64::max);
+            (next.coefficients[0] == c0).then_some((at, away))
+        })
+    }
+
     /// The derivative of this order at x, the function itself for 0; as the
     /// runtime computes it.
     pub fn derivative(&self, order: u8, x: f64) -> f64 {

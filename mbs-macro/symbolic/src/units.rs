@@ -166,6 +166,11 @@ enum Scale {
 }
 
 /// Every unit the language knows: name, scale, exponents of (kg, m, s).
+///
+/// Those of the English system are as NIST SP 811 (2008), appendix B, has them. They follow from 1 in = 25.4 mm,
+/// 1 lb = 0.45359237 kg and the standard acceleration 9.80665 m/s², so they are exact: 1 ft = 12 in, 1 yd = 3 ft,
+/// 1 mi = 5280 ft, 1 gal (of the US) = 231 in³, 1 oz = lb/16, 1 lbf = 4.4482216152605 N, 1 ozf = lbf/16,
+/// 1 kip = 1000 lbf, 1 slug = 1 lbf·s²/ft, 1 psi = 1 lbf/in², 1 hp = 550 ft·lbf/s.
 const UNITS: &[(&str, Scale, [i16; 3])] = &[
     ("m", Scale::Exact(1, 1), [0, 1, 0]),
     ("mm", Scale::Exact(1, 1000), [0, 1, 0]),
@@ -173,11 +178,18 @@ const UNITS: &[(&str, Scale, [i16; 3])] = &[
     ("um", Scale::Exact(1, 1_000_000), [0, 1, 0]),
     ("km", Scale::Exact(1000, 1), [0, 1, 0]),
     ("inch", Scale::Exact(254, 10_000), [0, 1, 0]),
+    ("in", Scale::Exact(254, 10_000), [0, 1, 0]),
     ("ft", Scale::Exact(3048, 10_000), [0, 1, 0]),
+    ("yd", Scale::Exact(9144, 10_000), [0, 1, 0]),
+    ("mi", Scale::Exact(1_609_344, 1000), [0, 1, 0]),
+    ("gal", Scale::Exact(473_176_473, 125_000_000_000), [0, 3, 0]),
     ("kg", Scale::Exact(1, 1), [1, 0, 0]),
     ("g", Scale::Exact(1, 1000), [1, 0, 0]),
     ("tonne", Scale::Exact(1000, 1), [1, 0, 0]),
     ("lb", Scale::Exact(45_359_237, 100_000_000), [1, 0, 0]),
+    ("lbm", Scale::Exact(45_359_237, 100_000_000), [1, 0, 0]),
+    ("oz", Scale::Exact(45_359_237, 1_600_000_000), [1, 0, 0]),
+    ("slug", Scale::Exact(8_896_443_230_521, 609_600_000_000), [1, 0, 0]),
     ("s", Scale::Exact(1, 1), [0, 0, 1]),
     ("ms", Scale::Exact(1, 1000), [0, 0, 1]),
     ("us", Scale::Exact(1, 1_000_000), [0, 0, 1]),
@@ -189,25 +201,56 @@ const UNITS: &[(&str, Scale, [i16; 3])] = &[
     ("deg", Scale::Pi(1, 180), [0, 0, 0]),
     ("rev", Scale::Pi(2, 1), [0, 0, 0]),
     ("rpm", Scale::Pi(1, 30), [0, 0, -1]),
+    ("mph", Scale::Exact(1397, 3125), [0, 1, -1]),
     ("N", Scale::Exact(1, 1), [1, 1, -2]),
     ("mN", Scale::Exact(1, 1000), [1, 1, -2]),
     ("kN", Scale::Exact(1000, 1), [1, 1, -2]),
+    ("MN", Scale::Exact(1_000_000, 1), [1, 1, -2]),
+    ("kgf", Scale::Exact(980_665, 100_000), [1, 1, -2]),
+    ("lbf", Scale::Exact(8_896_443_230_521, 2_000_000_000_000), [1, 1, -2]),
+    ("ozf", Scale::Exact(8_896_443_230_521, 32_000_000_000_000), [1, 1, -2]),
+    ("kip", Scale::Exact(8_896_443_230_521, 2_000_000_000), [1, 1, -2]),
     ("J", Scale::Exact(1, 1), [1, 2, -2]),
     ("kJ", Scale::Exact(1000, 1), [1, 2, -2]),
     ("W", Scale::Exact(1, 1), [1, 2, -3]),
     ("kW", Scale::Exact(1000, 1), [1, 2, -3]),
+    ("hp", Scale::Exact(37_284_993_579_113_511, 50_000_000_000_000), [1, 2, -3]),
     ("Pa", Scale::Exact(1, 1), [1, -1, -2]),
     ("kPa", Scale::Exact(1000, 1), [1, -1, -2]),
     ("MPa", Scale::Exact(1_000_000, 1), [1, -1, -2]),
+    ("GPa", Scale::Exact(1_000_000_000, 1), [1, -1, -2]),
     ("bar", Scale::Exact(100_000, 1), [1, -1, -2]),
+    ("psi", Scale::Exact(8_896_443_230_521, 1_290_320_000), [1, -1, -2]),
+    ("ksi", Scale::Exact(8_896_443_230_521, 1_290_320), [1, -1, -2]),
 ];
 
-/// The unit called `name`.
+/// Usual names of units that the language writes otherwise, each with the unit meant. Ambiguous names are not listed.
+const OTHER_NAMES: &[(&str, &str)] = &[
+    ("lbs", "lb"),
+    ("inches", "in"),
+    ("feet", "ft"),
+    ("foot", "ft"),
+    ("sec", "s"),
+    ("hr", "h"),
+    ("kph", "km/h"),
+    ("kmh", "km/h"),
+    ("fps", "ft/s"),
+    ("gpm", "gal/min"),
+    ("kp", "kgf"),
+    ("ftlb", "ft*lbf"),
+    ("lbft", "lbf*ft"),
+    ("inlb", "in*lbf"),
+    ("lbin", "lbf*in"),
+    ("ozin", "ozf*in"),
+];
+
+/// The unit called `name`; on a command line and in tables `°` is one, too.
 pub fn lookup(name: &str) -> Option<Unit> {
+    let name = if name == "°" { "deg" } else { name };
     let (_, scale, [mass, length, time]) = UNITS.iter().find(|(known, ..)| *known == name)?;
     let scale = match *scale {
         Scale::Exact(n, d) => Number::ratio(n, d),
-        Scale::Pi(n, d) => Number::Float(std::f64::consts::PI * n as f64 / d as f64),
+        Scale::Pi(n, d) => Number::pi(n, d),
     };
     Some(Unit { scale, dimension: Dimension::of(*mass, *length, *time) })
 }
@@ -217,18 +260,49 @@ pub fn known() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|(name, ..)| *name)
 }
 
+/// The unit that is likely meant by a name that is no unit: `lb` for `lbs`, and `N*m` for `Nm`. `None` without a guess.
+pub fn meant(name: &str) -> Option<String> {
+    if let Some((_, meant)) = OTHER_NAMES.iter().find(|(other, _)| *other == name) {
+        return Some((*meant).to_owned());
+    }
+    let mut products = (1..name.len()).filter_map(|at| name.split_at_checked(at));
+    // nobody means a product of two masses by `kgg`
+    let dimension = |name| lookup(name).map(|unit| unit.dimension);
+    let product =
+        products.find(|(a, b)| dimension(a).zip(dimension(b)).is_some_and(|(first, second)| first != second));
+    product.map(|(a, b)| format!("{a}*{b}"))
+}
+
 /// A unit that could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
     /// What is wrong with it.
     pub message: String,
+    /// The name that is no unit, if that is it.
+    unknown: Option<String>,
 }
 
 impl UnitError {
     /// The error for a name that is no unit.
     pub fn unknown(name: &str) -> Self {
         let list: Vec<_> = known().collect();
-        Self { message: format!("unknown unit `{name}`; the units are {}", list.join(", ")) }
+        let message = format!("unknown unit `{name}`; the units are {}", list.join(", "));
+        Self { message, unknown: Some(name.to_owned()) }
+    }
+
+    /// The same where a unit of a dimension is expected: no other units are proposed.
+    #[must_use]
+    pub fn in_place_of(self, expected: Dimension) -> Self {
+        let Some(name) = &self.unknown else { return self };
+        let fits = |unit: &str| parse(unit).is_ok_and(|unit| unit.dimension == expected);
+        let mut fitting: Vec<_> = known().filter(|unit| fits(unit)).map(str::to_owned).collect();
+        if fitting.is_empty() {
+            fitting.push(expected.si_unit());
+        }
+        let meant = meant(name).filter(|unit| fits(unit));
+        let meant = meant.map(|unit| format!("did you mean `{unit}`? ")).unwrap_or_default();
+        let message = format!("unknown unit `{name}`; {meant}a {expected} may be in {}", fitting.join(", "));
+        Self { message, ..self }
     }
 }
 
@@ -286,6 +360,7 @@ fn parse_factor(factor: &str, sign: i32) -> Result<Unit, UnitError> {
         None => Err(UnitError::unknown(name)),
         Some(unit) => power(unit).ok_or_else(|| UnitError {
             message: format!("`{factor}` needs a small whole number as its exponent"),
+            unknown: None,
         }),
     }
 }
@@ -312,6 +387,66 @@ mod tests {
         assert!(parse("m*").is_err());
         assert!(parse("m^x").is_err());
         assert!(parse("m^99").is_err());
+    }
+
+    /// The factors of NIST SP 811, appendix B.8, to the digits that it prints.
+    #[test]
+    fn units_of_the_english_system_are_those_of_nist() {
+        for (unit, factor, digits) in [
+            ("in", 2.54e-2, 16),
+            ("ft", 3.048e-1, 16),
+            ("yd", 9.144e-1, 16),
+            ("mi", 1.609344e3, 16),
+            ("gal", 3.785412e-3, 7),
+            ("lb", 4.5359237e-1, 16),
+            ("oz", 2.834952e-2, 7),
+            ("slug", 1.459390e1, 7),
+            ("kgf", 9.80665, 16),
+            ("lbf", 4.4482216152605, 14),
+            ("ozf", 2.780139e-1, 7),
+            ("kip", 4.448222e3, 7),
+            ("psi", 6.894757e3, 7),
+            ("ksi", 6.894757e6, 7),
+            ("hp", 7.456999e2, 7),
+            ("mph", 4.4704e-1, 16),
+            ("lbf*ft", 1.355818, 7),
+            ("lbf*in", 1.129848e-1, 7),
+            ("ft/s^2", 3.048e-1, 16),
+            ("lb*ft^2", 4.214011e-2, 7),
+        ] {
+            let scale = parse(unit).unwrap().scale.to_f64();
+            let error = (scale / factor - 1.0).abs();
+            assert!(error <= 5.0 * 0.1_f64.powi(digits), "1 {unit} = {scale}, not {factor}");
+        }
+        assert_eq!(parse("lbf*s^2/ft"), parse("slug"));
+        assert_eq!(parse("lbf/in^2"), parse("psi"));
+        assert_eq!(parse("°/s"), parse("deg/s"));
+    }
+
+    /// Regression: `m` was proposed for `lbm`.
+    #[test]
+    fn what_is_proposed_fits() {
+        let said = |text: &str, expected| parse(text).unwrap_err().in_place_of(expected).message;
+        let mass = said("lbs", Dimension::MASS);
+        assert!(
+            mass.starts_with("unknown unit `lbs`; did you mean `lb`? a mass [kg] may be in kg, g,"),
+            "{mass}"
+        );
+        let length = said("lbs", Dimension::LENGTH);
+        assert!(length.starts_with("unknown unit `lbs`; a length [m] may be in m, mm,"), "{length}");
+        assert_eq!(
+            said("Nms", Dimension::of(1, 0, -1)),
+            "unknown unit `Nms`; a damping [N*s/m] may be in N*s/m"
+        );
+        assert_eq!(said("m^x", Dimension::MASS), "`m^x` needs a small whole number as its exponent");
+    }
+
+    /// Everything that is proposed is a unit, and what it is proposed for is none.
+    #[test]
+    fn other_names_are_of_units() {
+        for (other, unit) in super::OTHER_NAMES {
+            assert!(super::lookup(other).is_none() && parse(unit).is_ok(), "{other}");
+        }
     }
 
     #[test]

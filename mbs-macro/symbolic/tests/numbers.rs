@@ -16,8 +16,8 @@ fn numbers() -> impl Strategy<Value = Number> {
     prop_oneof![
         (any::<i64>(), 1_i64..).prop_map(|(n, d)| Number::ratio(n, d)),
         (-9_i64..10, 1_i64..10).prop_map(|(n, d)| Number::ratio(n, d)),
-        any::<f64>().prop_map(Number::Float),
-        (-9_i64..10).prop_map(|n| Number::Float(n as f64)),
+        any::<f64>().prop_map(Number::float),
+        (-9_i64..10).prop_map(|n| Number::float(n as f64)),
     ]
 }
 

@@ -42,6 +42,7 @@ impl Compiled {
             sketch: sketch(&model.sketch),
             choices: choices(&model.solver),
             written: written(&model),
+            warnings: model.warnings,
             symbols,
             programs,
             fused_step: plan.fused_step,
@@ -198,6 +199,7 @@ fn choices(solver: &model::Solver) -> Choices {
         stack: solver.stack.map(|(limit, _)| limit),
         step: solver.step.map(|(step, _)| step),
         scheme: solver.scheme(),
+        declares_scheme: solver.scheme.is_some(),
         feedback: solver.feedback.as_ref().map(|feedback| Feedback {
             is_held: feedback.is_held,
             alpha: feedback.alpha,

@@ -55,6 +55,8 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
+use crate::diagnostics::Diagnostic;
+
 pub use crate::inputs::Input;
 pub use crate::plan::{Clocked, FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
@@ -121,6 +123,9 @@ pub struct Compiled {
     pub sketch: Sketch,
     /// What the declaration says of its integration.
     pub choices: Choices,
+    /// Warnings about parts that compile and are likely mistakes: parameters, inputs, definitions and profiles that
+    /// nothing uses, and profiles that leave their dwells.
+    pub warnings: Vec<Diagnostic>,
     /// What the Rust target takes over as it was written.
     pub written: Written,
     symbols: Vec<(String, Input)>,
@@ -221,6 +226,8 @@ pub struct Choices {
     pub step: Option<f64>,
     /// The scheme of its steps, which is that of [`Compiled::fused_step`].
     pub scheme: &'static Tableau,
+    /// `true` if the declaration names the scheme, `false` if it is the default.
+    pub declares_scheme: bool,
     /// The feedback of the constraint violation; it comes with a step.
     pub feedback: Option<Feedback>,
     /// Whether runs are to be differentiated in reverse, which takes [`Compiled::transposes`].

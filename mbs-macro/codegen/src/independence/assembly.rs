@@ -53,6 +53,8 @@ pub struct Closing {
     pub at: Position,
     /// Φ there, all rows.
     pub phi: Vec<f64>,
+    /// The largest violation of the rows that were asked for, as a distance.
+    pub violation: f64,
     /// Whether the rows that were asked for are met.
     pub is_closed: bool,
 }
@@ -105,6 +107,11 @@ impl<'a> Assembly<'a> {
             (row, divisor)
         };
         self.pattern.iter().map(scaled).unzip()
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.pattern.len()
     }
 
     /// Whether a constraint changes with time.
@@ -174,29 +181,31 @@ impl<'a> Assembly<'a> {
         (0..sizes.len()).filter(is_flat).collect()
     }
 
-    /// Whether a row is met where others were assembled.
-    pub fn is_met(&self, row: usize, closing: &Closing) -> bool {
-        let scale = self.jacobian(&closing.at).1[row];
-        (closing.phi[row] / scale).abs() <= CLOSED * (1.0 + self.size(&closing.at))
+    /// By how much a row is violated, as a distance, where others were assembled; `None` where it is met, or the
+    /// others are not.
+    pub fn violation(&self, row: usize, closing: &Closing) -> Option<f64> {
+        let violation = (closing.phi[row] / self.jacobian(&closing.at).1[row]).abs();
+        let is_met = violation <= CLOSED * (1.0 + self.size(&closing.at));
+        (closing.is_closed && !is_met).then_some(violation)
     }
 
     /// A position near `guess` at its time where `rows` are met.
     pub fn close(&self, rows: &[usize], guess: &Position) -> Closing {
-        self.close_with(rows, guess, None)
+        self.close_with(rows, guess, &[])
     }
 
-    /// The same with one coordinate kept as it is, by the method of Levenberg and
+    /// The same with some coordinates kept as they are, by the method of Levenberg and
     /// Marquardt: the damping, of the order of the violation, keeps the convergence
     /// quadratic where the rows depend on each other (Yamashita and Fukushima 2001).
-    pub fn close_with(&self, rows: &[usize], guess: &Position, kept: Option<usize>) -> Closing {
+    pub fn close_with(&self, rows: &[usize], guess: &Position, kept: &[usize]) -> Closing {
         let mut at = guess.clone();
         let mut phi = self.phi(&at);
         let mut damping = 1e-2;
         let mut violation = f64::INFINITY;
         for _ in 0..ITERATIONS {
             let (mut jacobian, scales) = self.jacobian(&at);
-            if let Some(kept) = kept {
-                jacobian.iter_mut().for_each(|row| row.retain(|(column, _)| *column != kept));
+            if !kept.is_empty() {
+                jacobian.iter_mut().for_each(|row| row.retain(|(column, _)| !kept.contains(column)));
             }
             let scaled = |phi: &[f64]| rows.iter().map(|&row| phi[row] / scales[row]).collect::<Vec<_>>();
             let residual = scaled(&phi);
@@ -223,7 +232,7 @@ impl<'a> Assembly<'a> {
             }
         }
         let is_closed = violation <= CLOSED * (1.0 + self.size(&at));
-        Closing { at, phi, is_closed }
+        Closing { at, phi, violation, is_closed }
     }
 }
 

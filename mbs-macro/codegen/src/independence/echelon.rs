@@ -8,13 +8,17 @@ use super::sparse::{Pivots, SparseRow, subtract};
 /// below what a position of a regular mechanism gives.
 pub const RANK_TOLERANCE: f64 = 1e-9;
 
-/// What elimination in the order of declaration found.
+/// A row with less than this of its own waits until those were looked at that have more. Otherwise two bars
+/// nearly in line would hold a node across their line, where a third one holds it well.
+const LEVELS: [f64; 3] = [0.1, 0.01, 1e-4];
+
+/// What elimination found.
 #[derive(Clone)]
 pub struct Echelon {
     rank: usize,
-    /// Rows that are combinations of earlier ones, and of which.
+    /// Rows that are combinations of others, and of which.
     pub dependent: Vec<(usize, Vec<usize>)>,
-    /// Per row, the relative size of what earlier rows do not explain.
+    /// Per row, the relative size of what the rows looked at before do not explain.
     pub independence: Vec<f64>,
 }
 
@@ -25,45 +29,99 @@ impl Echelon {
 }
 
 /// Gaussian elimination, row by row with the largest entry of each as pivot,
-/// so that a dependent row is the one declared last.
+/// so that a dependent row is the one declared last, or else one of those that
+/// say little of their own.
 pub fn row_echelon(rows: Vec<SparseRow<f64>>) -> Echelon {
-    /// A reduced row, its pivot, and how it came from the given rows.
-    struct Reduced {
-        entries: SparseRow<f64>,
-        pivot: f64,
-        history: SparseRow<f64>,
+    row_echelon_within(rows, RANK_TOLERANCE)
+}
+
+/// The same with another share below which the rest of a row counts as 0.
+pub fn row_echelon_within(rows: Vec<SparseRow<f64>>, tolerance: f64) -> Echelon {
+    let mut basis = Basis::default();
+    let mut independence = vec![0.0; rows.len()];
+    let mut waiting: Vec<usize> = (0..rows.len()).collect();
+    let mut dependent = Vec::new();
+    for level in LEVELS.into_iter().filter(|level| *level > tolerance).chain([tolerance]) {
+        dependent.clear();
+        for at in std::mem::take(&mut waiting) {
+            let rest = basis.rest(at, &rows[at]);
+            independence[at] = rest.share();
+            if rest.share() > level {
+                basis.insert(rest);
+            } else {
+                waiting.push(at);
+                dependent.push(rest);
+            }
+        }
     }
-    let mut basis: Vec<Reduced> = Vec::new();
-    let mut pivots = Pivots::default();
-    let mut echelon = Echelon { rank: 0, dependent: Vec::new(), independence: Vec::new() };
-    for (at, mut entries) in rows.into_iter().enumerate() {
-        let mut history = vec![(at, 1.0)];
+    let explained = |rest: Reduced| (rest.at, rest.explained_by(tolerance));
+    Echelon {
+        rank: basis.rows.len(),
+        dependent: dependent.into_iter().map(explained).collect(),
+        independence,
+    }
+}
+
+/// A reduced row and how it came from the given rows.
+struct Reduced {
+    /// The given row that it is what is left of.
+    at: usize,
+    entries: SparseRow<f64>,
+    history: SparseRow<f64>,
+}
+
+/// Reduced rows that are independent of each other.
+#[derive(Default)]
+struct Basis {
+    rows: Vec<Reduced>,
+    pivots: Pivots,
+}
+
+impl Basis {
+    /// What is left of a row.
+    fn rest(&self, at: usize, row: &SparseRow<f64>) -> Reduced {
+        let mut rest = Reduced { at, entries: row.clone(), history: vec![(at, 1.0)] };
         let mut next = 0;
-        while let Some((earlier, column, entry)) = pivots.first(&entries, next) {
-            let Reduced { entries: others, pivot, history: past } = &basis[earlier];
-            let factor = entry / pivot;
-            entries = subtract(&entries, factor, others);
+        while let Some((earlier, column, entry)) = self.pivots.first(&rest.entries, next) {
+            let other = &self.rows[earlier];
+            let factor = entry / other.pivot().1;
+            rest.entries = subtract(&rest.entries, factor, &other.entries);
             // exactly, whatever rounding left
-            entries.retain(|(other, _)| *other != column);
-            history = subtract(&history, factor, past);
+            rest.entries.retain(|(other, _)| *other != column);
+            rest.history = subtract(&rest.history, factor, &other.history);
             next = earlier + 1;
         }
-        let scale = largest(&history).1.abs();
-        let (column, pivot) = largest(&entries);
-        echelon.independence.push(pivot.abs() / scale);
-        if pivot.abs() > RANK_TOLERANCE * scale {
-            pivots.insert(column, basis.len());
-            basis.push(Reduced { entries, pivot, history });
-        } else {
-            let is_used =
-                |(other, factor): &(usize, f64)| *other != at && factor.abs() > RANK_TOLERANCE * scale;
-            echelon
-                .dependent
-                .push((at, history.into_iter().filter(is_used).map(|(other, _)| other).collect()));
-        }
+        rest
     }
-    echelon.rank = basis.len();
-    echelon
+
+    fn insert(&mut self, rest: Reduced) {
+        self.pivots.insert(rest.pivot().0, self.rows.len());
+        self.rows.push(rest);
+    }
+}
+
+impl Reduced {
+    /// The column of the largest entry, and that entry.
+    fn pivot(&self) -> (usize, f64) {
+        largest(&self.entries)
+    }
+
+    /// The largest factor of a given row.
+    fn scale(&self) -> f64 {
+        largest(&self.history).1.abs()
+    }
+
+    /// The size of the row, relative to the largest factor that went into it.
+    fn share(&self) -> f64 {
+        self.pivot().1.abs() / self.scale()
+    }
+
+    /// The given rows that this one is a combination of.
+    fn explained_by(self, tolerance: f64) -> Vec<usize> {
+        let (at, least) = (self.at, tolerance * self.scale());
+        let is_used = |(other, factor): &(usize, f64)| *other != at && factor.abs() > least;
+        self.history.into_iter().filter(is_used).map(|(other, _)| other).collect()
+    }
 }
 
 fn largest(row: &SparseRow<f64>) -> (usize, f64) {

@@ -1,23 +1,16 @@
-//! The rank of Φ_q whatever the dimensions and the position, in exact
-//! arithmetic modulo a prime.
+//! The rank of Φ_q whatever the dimensions and the position, in exact arithmetic.
 //!
-//! Symbols are random numbers, and angles are random points of the circle, so
-//! that sin² + cos² = 1 and sums and fractions of angles are what they are. A
-//! float constant and a function such as √ or exp is a random number of its own
-//! wherever it occurs anew. What depends on others with such stand-ins free
-//! depends on them with their true values: a verdict "redundant" is always
-//! right, but for a chance below 1e-12. A verdict "independent" may miss a
-//! relation between stand-ins; where there are any, floating-point samples are
-//! asked as well.
+//! Symbols are random numbers of a finite field, and angles are random turns, so that
+//! sin² + cos² = 1 and sums and fractions of angles are what they are. A float constant and a
+//! function such as √ or exp stands for itself. What depends on others with such stand-ins free
+//! depends on them with their true values: a verdict "redundant" is always right, but for a
+//! chance below 1e-12. A verdict "independent" may miss a relation between stand-ins; where
+//! there are any, floating-point samples are asked as well.
 
-use std::collections::{BTreeMap, HashMap};
-use std::f64::consts::FRAC_PI_2;
+use mbs_symbolic::{Arena, Point, Residue};
 
-use mbs_symbolic::{Arena, Expr, Function, Node, Number, Symbol, Tape, Values};
-
-use super::prime_field::{Residue, Turn, dependent_rows};
+use super::exact::dependent_rows;
 use super::rank::Dependent;
-use super::samples::Generator;
 use super::sparse::SparseRow;
 use crate::derive::Equations;
 
@@ -28,213 +21,21 @@ pub struct Verdict {
     pub is_exact: bool,
 }
 
-/// The rows of Φ_q that depend on earlier ones; `None` should a random number
-/// have hit the zero of a denominator.
+/// The rows of Φ_q that depend on earlier ones; `None` where an entry has no value.
 pub fn judge(arena: &Arena, equations: &Equations) -> Option<Verdict> {
-    let entries: Vec<Expr> = equations.phi_q.iter().flat_map(|row| row.values().copied()).collect();
-    let tape = Tape::new(arena, &entries);
-    let mut point = Point::new(arena, &entries);
-    let values = tape.run(arena, |node, values| point.value(node, values));
-    let is_exact = values.iter().all(|value| value.is_exact);
-    let mut residues = values.iter().map(|value| value.residue);
-    let rows: Vec<SparseRow<Residue>> =
-        equations.phi_q.iter().map(|row| row.keys().copied().zip(residues.by_ref()).collect()).collect();
-    (!point.is_broken).then(|| Verdict { dependent: dependent_rows(rows), is_exact })
-}
-
-/// A residue, and whether no stand-in went into it.
-#[derive(Clone, Copy, Default)]
-struct Value {
-    residue: Residue,
-    is_exact: bool,
-}
-
-/// Random values of everything, drawn when they are first asked for.
-struct Point<'a> {
-    arena: &'a Arena,
-    generator: Generator,
-    symbols: HashMap<Symbol, Residue>,
-    /// Stand-ins for |x|, by the bits of x.
-    floats: HashMap<u64, Residue>,
-    /// Of every angle, the part that all its occurrences are integer multiples
-    /// of: its divisor and that part.
-    angles: HashMap<Expr, (i64, Turn)>,
-    divisors: BTreeMap<Expr, i64>,
-    /// Whether no stand-in went into the node at hand.
-    is_exact: bool,
-    is_broken: bool,
-}
-
-impl<'a> Point<'a> {
-    fn new(arena: &'a Arena, roots: &[Expr]) -> Self {
-        let mut divisors = BTreeMap::new();
-        for expr in arena.reachable(roots) {
-            if let Node::Call(Function::Sin | Function::Cos | Function::Tan, angle) = *arena.node(expr) {
-                for (term, coefficient) in terms(arena, angle).1 {
-                    if let Number::Rational(_, divisor) = coefficient {
-                        let common = divisors.entry(term).or_insert(1_i64);
-                        *common = lcm(*common, divisor);
-                    }
-                }
-            }
+    let mut point = Point::default();
+    let mut is_exact = true;
+    let mut rows = Vec::with_capacity(equations.phi_q.len());
+    for row in &equations.phi_q {
+        let mut entries: SparseRow<Residue> = Vec::with_capacity(row.len());
+        for (&column, &entry) in row {
+            let value = point.value(arena, entry);
+            is_exact &= value.is_whole;
+            entries.push((column, value.residue?));
         }
-        Self {
-            arena,
-            generator: Generator::new(),
-            symbols: HashMap::new(),
-            floats: HashMap::new(),
-            angles: HashMap::new(),
-            divisors,
-            is_exact: true,
-            is_broken: false,
-        }
+        rows.push(entries);
     }
-
-    fn random(&mut self) -> Residue {
-        Residue::from_bits(self.generator.bits())
-    }
-
-    fn stand_in(&mut self) -> Residue {
-        self.is_exact = false;
-        self.random()
-    }
-
-    fn value(&mut self, node: &Node, values: &Values<Value>) -> Value {
-        self.is_exact = true;
-        let residue = self.residue(node, values);
-        Value { residue, is_exact: self.is_exact }
-    }
-
-    fn residue(&mut self, node: &Node, values: &Values<Value>) -> Residue {
-        match node {
-            Node::Number(number) => self.number(*number),
-            Node::Symbol(symbol) => {
-                let random = self.random();
-                *self.symbols.entry(*symbol).or_insert(random)
-            }
-            Node::Sum(constant, terms) => {
-                let mut sum = self.number(*constant);
-                for (term, coefficient) in terms {
-                    sum = sum + self.number(*coefficient) * self.operand(values.of(*term));
-                }
-                sum
-            }
-            Node::Product(factors) => factors.iter().fold(Residue::ONE, |product, (factor, exponent)| {
-                let power = self.operand(values.of(*factor)).power(exponent.unsigned_abs().into());
-                product * if *exponent < 0 { self.inverse(power) } else { power }
-            }),
-            Node::Call(Function::Sin, angle) => self.turn(*angle).sin,
-            Node::Call(Function::Cos, angle) => self.turn(*angle).cos,
-            Node::Call(Function::Tan, angle) => {
-                let turn = self.turn(*angle);
-                turn.sin * self.inverse(turn.cos)
-            }
-            Node::Call(..) | Node::Call2(..) | Node::Spline(..) => self.stand_in(),
-            Node::Shared(x) => self.operand(values.of(*x)),
-        }
-    }
-
-    fn operand(&mut self, value: Value) -> Residue {
-        self.is_exact &= value.is_exact;
-        value.residue
-    }
-
-    fn inverse(&mut self, x: Residue) -> Residue {
-        x.inverse().unwrap_or_else(|| {
-            self.is_broken = true;
-            Residue::ZERO
-        })
-    }
-
-    fn number(&mut self, number: Number) -> Residue {
-        match number {
-            Number::Rational(numerator, denominator) => {
-                Residue::integer(numerator) * self.inverse(Residue::integer(denominator))
-            }
-            Number::Float(x) => {
-                let random = self.stand_in();
-                let magnitude = *self.floats.entry(x.abs().to_bits()).or_insert(random);
-                if x < 0.0 { -magnitude } else { magnitude }
-            }
-        }
-    }
-
-    /// The angle: its terms, each a multiple of a random turn, and quarter turns.
-    fn turn(&mut self, angle: Expr) -> Turn {
-        let (constant, terms) = terms(self.arena, angle);
-        let mut turn = self.constant_turn(constant);
-        for (term, coefficient) in terms {
-            turn = turn.then(self.multiple(term, coefficient));
-        }
-        turn
-    }
-
-    fn multiple(&mut self, term: Expr, coefficient: Number) -> Turn {
-        let Number::Rational(numerator, denominator) = coefficient else { return self.random_turn() };
-        // Only powers and products of symbols are certain to be unrelated.
-        let is_simple = |arena: &Arena, expr| matches!(arena.node(expr), Node::Symbol(_));
-        self.is_exact &= match self.arena.node(term) {
-            Node::Product(factors) => factors.iter().all(|(factor, _)| is_simple(self.arena, *factor)),
-            _ => is_simple(self.arena, term),
-        };
-        let divisor = self.divisors.get(&term).copied().unwrap_or(1);
-        let (divisor, part) = match self.angles.get(&term) {
-            Some(known) => *known,
-            None => {
-                let known = (divisor, self.circle_point());
-                self.angles.insert(term, known);
-                known
-            }
-        };
-        match numerator.checked_mul(divisor / denominator) {
-            Some(count) if divisor % denominator == 0 => part.times(count),
-            _ => self.random_turn(),
-        }
-    }
-
-    /// Multiples of a right angle are exact, and so is 0.
-    fn constant_turn(&mut self, constant: Number) -> Turn {
-        let quarters = constant.to_f64() / FRAC_PI_2;
-        // π is known to a rounding, and so are sums of a few of its multiples.
-        if quarters.abs() < 1e6 && (quarters - quarters.round()).abs() <= 8.0 * f64::EPSILON * quarters.abs()
-        {
-            Turn::RIGHT.times(quarters.round() as i64)
-        } else {
-            self.random_turn()
-        }
-    }
-
-    fn random_turn(&mut self) -> Turn {
-        self.is_exact = false;
-        self.circle_point()
-    }
-
-    fn circle_point(&mut self) -> Turn {
-        let tangent = self.random();
-        Turn::of_half_tangent(tangent).unwrap_or_else(|| {
-            self.is_broken = true;
-            Turn::NONE
-        })
-    }
-}
-
-/// An angle as a constant and multiples of terms.
-fn terms(arena: &Arena, angle: Expr) -> (Number, Vec<(Expr, Number)>) {
-    match arena.node(angle) {
-        Node::Sum(constant, terms) => (*constant, terms.clone()),
-        Node::Number(value) => (*value, Vec::new()),
-        Node::Shared(x) => terms(arena, *x),
-        _ => (Number::ZERO, vec![(angle, Number::ONE)]),
-    }
-}
-
-/// The least common multiple; the first number where that would overflow.
-fn lcm(a: i64, b: i64) -> i64 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    (a / x.max(1)).checked_mul(b).unwrap_or(a)
+    Some(Verdict { dependent: dependent_rows(rows), is_exact })
 }
 
 #[cfg(test)]
@@ -280,8 +81,12 @@ mod tests {
         assert_eq!(dependent(sum), (vec![(1, vec![0])], true));
         let quarter = "constraint r: l*cos(p) = x1; constraint s: l*sin(p + 90 [deg]) = x1;";
         assert_eq!(dependent(quarter), (vec![(1, vec![0])], true));
+        let tenth = "constraint r: l*cos(p - 20.1 [deg]) = x1; constraint s: l*sin(p + 69.9 [deg]) = x1;";
+        assert_eq!(dependent(tenth), (vec![(1, vec![0])], true));
         let other = "constraint r: l*cos(p) = x1; constraint s: l*sin(p + 80 [deg]) = x1;";
-        assert_eq!(dependent(other), (vec![], false));
+        assert_eq!(dependent(other), (vec![], true));
+        let radian = "constraint r: l*cos(p) = x1; constraint s: l*sin(p + 1) = x1;";
+        assert_eq!(dependent(radian), (vec![], false));
     }
 
     #[test]
@@ -313,19 +118,33 @@ mod tests {
         }
     }
 
+    /// Whether exact arithmetic finds one relation between these rows, in which all of them take part.
+    fn is_circuit(rows: &[String]) -> bool {
+        let without = |at: usize| -> String {
+            rows.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row.as_str()).collect()
+        };
+        dependent(&rows.concat()).0.len() == 1
+            && (0..rows.len()).all(|at| dependent(&without(at)).0.is_empty())
+    }
+
     proptest! {
-        /// The same rows are dependent in exact arithmetic and in floating point,
-        /// for rows that often imply each other.
+        /// As many rows are dependent in exact arithmetic as in floating point, for rows that often imply each
+        /// other. Which of them are said to be depends on what each says of its own, but those that are named with
+        /// one do imply it.
         #[test]
         fn exact_and_sampled_ranks_agree(rows in prop::collection::vec((0_u8..6, 1_i8..3), 1..7)) {
-            let text: String = rows.iter().enumerate().map(|(at, &(kind, c))| row(kind, at, c)).collect();
-            let (model, inputs, equations) = mechanism(&text);
+            let rows: Vec<String> = rows.iter().enumerate().map(|(at, &(kind, c))| row(kind, at, c)).collect();
+            let (model, inputs, equations) = mechanism(&rows.concat());
             let verdict = judge(&model.arena, &equations).expect("no zero was hit");
             prop_assert!(verdict.is_exact);
             let samples = Samples::new(&model, &inputs);
             let sampled = samples.positions().map(|at| samples.echelon(&model, &equations, at));
             let sampled = sampled.max_by_key(|echelon| echelon.rank()).expect("some position");
-            prop_assert_eq!(verdict.dependent, sampled.dependent, "{}", text);
+            prop_assert_eq!(verdict.dependent.len(), sampled.dependent.len(), "{}", rows.concat());
+            for (at, others) in verdict.dependent.iter().chain(&sampled.dependent) {
+                let circuit: Vec<String> = [at].into_iter().chain(others).map(|at| rows[*at].clone()).collect();
+                prop_assert!(is_circuit(&circuit), "{}", circuit.concat());
+            }
         }
     }
 }

@@ -3,7 +3,8 @@
 
 use super::Samples;
 use super::assembly::{Assembly, Closing, Position};
-use super::echelon::{Echelon, row_echelon};
+use super::echelon::{Echelon, RANK_TOLERANCE, row_echelon_within};
+use super::rank::Dependent;
 use super::samples::Generator;
 use crate::model::Model;
 
@@ -18,10 +19,39 @@ const STRIDE: f64 = 0.3;
 /// Positions closer than this are the same one.
 const SAME: f64 = 1e-3;
 
+/// Where constraints touch, as a circle touches its tangent, a violation δ² leaves a distance of
+/// the order of δ, and so much of a row that others do not explain. Some ten times that.
+const DOUBLE_ROOT: f64 = 30.0;
+
+/// How far a position is moved to tell constraints that repeat each other from constraints that
+/// touch, in radians or typical lengths: these are violated by its square, those not at all.
+const NUDGE: f64 = 1e-3;
+
+/// A quarter of a nudge violates a constraint that touches by a sixteenth. One that is violated by
+/// the same, or no longer, was left for another branch of the others.
+const QUARTERS: i32 = 6;
+
+/// The ratio of two such violations, with the terms of third order.
+const SQUARE: std::ops::Range<f64> = 1.0 / 64.0..1.0 / 4.0;
+
+/// An assembled position and Φ_q there.
+struct Place {
+    at: Position,
+    echelon: Echelon,
+}
+
+impl Place {
+    fn new(assembly: &Assembly<'_>, closing: Closing) -> Self {
+        let tolerance = RANK_TOLERANCE.max(DOUBLE_ROOT * closing.violation.max(f64::EPSILON).sqrt());
+        let echelon = row_echelon_within(assembly.jacobian(&closing.at).0, tolerance);
+        Self { at: closing.at, echelon }
+    }
+}
+
 /// Assembled positions and Φ_q there.
 pub struct Manifold {
-    pub start: Position,
-    echelons: Vec<Echelon>,
+    /// The start and others; never empty.
+    places: Vec<Place>,
     /// Whether the mechanism has only this one position although Φ_q would let
     /// it move: then it is singular there, and no constraint is redundant.
     is_isolated: bool,
@@ -36,39 +66,89 @@ impl Manifold {
         model: &Model,
         rows: &[usize],
     ) -> Option<Self> {
-        let Closing { at: start, is_closed: true, .. } = assembly.close(rows, &samples.start_position(model))
-        else {
+        let closing = assembly.close(rows, &samples.start_position(model));
+        if !closing.is_closed {
             return None;
-        };
-        let mut positions = vec![start.clone()];
-        let mut generator = Generator::new();
-        for t in instants(assembly, &start) {
-            let from = positions[positions.len() - 1].clone();
-            positions.extend(stride(assembly, rows, &from, t, &mut generator));
         }
-        let echelons: Vec<Echelon> =
-            positions.iter().map(|position| row_echelon(assembly.jacobian(position).0)).collect();
-        let can_move = echelons[0].rank() < model.coordinates.len();
+        let start = Place::new(assembly, closing);
+        let mut places = Vec::new();
+        let mut from = start.at.clone();
+        let mut generator = Generator::new();
+        for t in instants(assembly, &start.at) {
+            if let Some(closing) = stride(assembly, rows, &from, t, &mut generator) {
+                from = closing.at.clone();
+                places.push(Place::new(assembly, closing));
+            }
+        }
+        let can_move = start.echelon.rank() < model.coordinates.len();
         let is_isolated =
-            can_move && positions.iter().all(|position| assembly.distance(position, &start) < SAME);
-        Some(Self { start, echelons, is_isolated })
+            can_move && places.iter().all(|place| assembly.distance(&place.at, &start.at) < SAME);
+        places.insert(0, start);
+        Some(Self { places, is_isolated })
+    }
+
+    /// The start, assembled.
+    pub fn start(&self) -> &Position {
+        &self.places[0].at
     }
 
     /// The times at which the mechanism is looked at beside its start.
     pub fn instants(&self, assembly: &Assembly<'_>) -> Vec<f64> {
-        instants(assembly, &self.start)
+        instants(assembly, self.start())
     }
 
-    /// What holds at every position that was looked at: the echelon of the one
-    /// with the largest rank.
-    pub fn generic(&self) -> &Echelon {
-        let first = &self.echelons[0];
-        self.echelons.iter().fold(first, |best, next| if next.rank() > best.rank() { next } else { best })
+    /// The position with the largest rank, where what holds there holds at every position that was
+    /// looked at.
+    fn generic(&self) -> &Place {
+        let mut generic = &self.places[0];
+        for place in &self.places {
+            if place.echelon.rank() > generic.echelon.rank() {
+                generic = place;
+            }
+        }
+        generic
     }
 
     /// The constraints that repeat others at every position, if there are any.
-    pub fn redundant(&self) -> &[(usize, Vec<usize>)] {
-        if self.is_isolated { &[] } else { &self.generic().dependent }
+    pub fn redundant(&self) -> &[Dependent] {
+        if self.is_isolated { &[] } else { &self.generic().echelon.dependent }
+    }
+
+    /// Those of the redundant constraints that touch others instead of repeating them: nearby, where
+    /// the others are met, they are violated by the square of the distance. A longer way may lead to
+    /// another branch of the others, on which they are violated by what both are apart.
+    pub fn touching(&self, assembly: &Assembly<'_>) -> Vec<Dependent> {
+        let redundant = self.redundant();
+        if redundant.is_empty() {
+            return Vec::new();
+        }
+        let is_redundant = |row: &usize| redundant.iter().any(|(dependent, _)| dependent == row);
+        let basis: Vec<usize> = (0..assembly.rows()).filter(|row| !is_redundant(row)).collect();
+        let mut generator = Generator::new();
+        let at = &self.generic().at;
+        let nearby: Vec<Vec<Closing>> = (0..POSITIONS)
+            .map(|_| {
+                let direction: Vec<f64> =
+                    assembly.units.iter().map(|unit| NUDGE * unit * generator.symmetric()).collect();
+                let nudged = |quarters: i32| {
+                    let length = 0.25_f64.powi(quarters);
+                    let q = at.q.iter().zip(&direction).map(|(q, d)| q + length * d).collect();
+                    assembly.close(&basis, &Position { q, t: at.t })
+                };
+                (0..QUARTERS).map(nudged).collect()
+            })
+            .collect();
+        // the larger one is not 0 where both are violations
+        let is_square = |row: usize, pair: &[Closing]| match pair {
+            [far, near] => {
+                let violation = |closing| assembly.violation(row, closing);
+                violation(far).zip(violation(near)).is_some_and(|(far, near)| SQUARE.contains(&(near / far)))
+            }
+            _ => false,
+        };
+        let is_violated =
+            |row: usize| nearby.iter().any(|closings| closings.windows(2).any(|pair| is_square(row, pair)));
+        redundant.iter().filter(|(row, _)| is_violated(*row)).cloned().collect()
     }
 }
 
@@ -92,7 +172,7 @@ fn stride(
     from: &Position,
     t: f64,
     generator: &mut Generator,
-) -> Option<Position> {
+) -> Option<Closing> {
     let mut length = STRIDE;
     for _ in 0..3 {
         let moved =
@@ -101,7 +181,7 @@ fn stride(
         // Another branch may have another rank; drives move as far as they do.
         let is_near = t != from.t || assembly.distance(&closing.at, from) <= 4.0 * STRIDE;
         if closing.is_closed && is_near {
-            return Some(closing.at);
+            return Some(closing);
         }
         length *= 0.3;
     }

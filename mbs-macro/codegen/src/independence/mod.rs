@@ -4,11 +4,11 @@
 pub mod assembly;
 mod correction;
 pub mod echelon;
+mod exact;
 mod floating;
 mod gaps;
 mod generic;
 mod manifold;
-mod prime_field;
 mod rank;
 pub mod redundancy;
 pub mod samples;

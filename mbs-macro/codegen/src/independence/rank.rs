@@ -7,7 +7,7 @@ use super::assembly::Assembly;
 use super::generic;
 use super::manifold::Manifold;
 use super::redundancy;
-use super::words::{Part, repeats};
+use super::words::{Part, repeats, touches};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, counted, listing};
 use crate::model::Model;
@@ -43,6 +43,16 @@ pub fn check_independence(
     let assembly = Assembly::new(model, equations);
     let all = Rows::without(count, Vec::new());
     let manifold = Manifold::explore(&assembly, samples, model, &all.basis);
+    let touching = manifold.as_ref().map_or_else(Vec::new, |manifold| manifold.touching(&assembly));
+    if !touching.is_empty() {
+        // what is missing is said first: a joint that was forgotten leaves others in odd positions
+        let is_missing = model.coordinates.len() as i64 - count as i64 > model.dof.0;
+        match is_missing {
+            true => check_contract(model, equations, samples, &all, errors),
+            false => report_touching(model, &touching, errors),
+        }
+        return all;
+    }
     if let Some(statement) = model.minimum_norm {
         let chosen = redundancy::choose(model, &assembly, samples, manifold.as_ref(), statement);
         let Some(rows) = errors.take(chosen) else { return all };
@@ -109,6 +119,27 @@ fn report(model: &Model, dependent: &[Dependent], whenever: &str, errors: &mut D
             "; if it is there on purpose, as a spare link is, add `redundant = minimum_norm;`"
         };
         errors.push(error.help(format!("{remove}, or {correct}{on_purpose}")));
+    }
+}
+
+/// One error for each joint or equation that touches others.
+fn report_touching(model: &Model, dependent: &[Dependent], errors: &mut Diagnostics) {
+    for part in Part::of(model, dependent.iter().map(|(row, _)| *row)) {
+        let Some(constraint) = part.row() else { continue };
+        let of_part = |row: usize| model.constraints[row].source == *part.source;
+        let combinations = dependent.iter().filter(|(row, _)| of_part(*row));
+        let rows = combinations.flat_map(|(_, rows)| rows.iter().copied()).filter(|&row| !of_part(row));
+        let others = Part::of(model, rows);
+        let mut error = Diagnostic::new(constraint.span, touches(&part, &others));
+        for other in &others {
+            if let Some(row) = other.row() {
+                error = error.note(row.span, format!("`{}` is one of them", other.source.name));
+            }
+        }
+        errors.push(error.help(
+            "wherever the mechanism can go, they repeat each other to first order; in place of this one state what \
+             it adds: a `pin_slot` or `point_on_line` where a pin holds too much, or an equation such as `y1 = y2`",
+        ));
     }
 }
 

@@ -50,7 +50,7 @@ pub fn choose(
     let rows = Rows::without(count, spare);
     let closing = assembly.close(&rows.basis, &samples.start_position(model));
     match largest_violation(assembly, &rows.redundant, &closing) {
-        Some((row, violation)) if closing.is_closed => Err(does_not_fit(model, row, violation, 0.0)),
+        Some((row, violation)) => Err(does_not_fit(model, row, violation, 0.0)),
         // What does not close even so is found with the programs themselves;
         // what closes is told by the contract.
         _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
@@ -66,12 +66,12 @@ fn fits_in_time(
     rows: &Rows,
     manifold: &Manifold,
 ) -> Result<(), Diagnostic> {
-    let mut from = manifold.start.clone();
+    let mut from = manifold.start().clone();
     for t in manifold.instants(assembly) {
         from.t = t;
         let closing = assembly.close(&rows.basis, &from);
         match largest_violation(assembly, &rows.redundant, &closing) {
-            Some((row, violation)) if closing.is_closed => {
+            Some((row, violation)) => {
                 return Err(does_not_fit(model, row, violation, t));
             }
             _ => from = closing.at,
@@ -80,7 +80,7 @@ fn fits_in_time(
     Ok(())
 }
 
-/// The redundant row that is violated most, if one does not close.
+/// The redundant row that is violated most, if the others are met and it is not.
 fn largest_violation(
     assembly: &Assembly<'_>,
     redundant: &[usize],
@@ -88,7 +88,7 @@ fn largest_violation(
 ) -> Option<(usize, f64)> {
     let sizes = redundant.iter().map(|&row| (row, closing.phi[row].abs()));
     let (row, violation) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (!assembly.is_met(row, closing)).then_some((row, violation))
+    assembly.violation(row, closing).map(|_| (row, violation))
 }
 
 /// The error for a redundant constraint that stays violated where the others

@@ -94,8 +94,8 @@ impl Samples {
     /// The coordinates without mass that these rows of Φ_q do not determine, at any
     /// of the positions: their columns depend on those of others without mass.
     pub fn undetermined(&self, model: &Model, equations: &Equations, rows: &[usize]) -> Vec<usize> {
-        let is_massless = |at: &usize| model.arena.is_zero(equations.mass[*at]);
-        let massless: Vec<usize> = (0..equations.mass.len()).filter(is_massless).collect();
+        let masses = model.arena.evaluate(&equations.mass, &model.values(|_| f64::NAN));
+        let massless: Vec<usize> = (0..masses.len()).filter(|&at| masses[at] == 0.0).collect();
         let dependent = |sample: &Vec<f64>| {
             let jacobian = self.jacobian_at(model, equations, rows, &BTreeSet::new(), sample);
             let column = |&at: &usize| {

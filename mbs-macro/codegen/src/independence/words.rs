@@ -72,6 +72,16 @@ pub fn repeats(part: &Part<'_>, others: &[Part<'_>]) -> String {
     format!("{part} {} what {} already {say}", part.verb("repeats", "repeat"), by_kind(others))
 }
 
+/// That it meets others in a double root.
+pub fn touches(part: &Part<'_>, others: &[Part<'_>]) -> String {
+    let touches = part.verb("touches", "touch");
+    let others = by_kind(others);
+    format!(
+        "{part} {touches} {others} as a circle touches its tangent: together they forbid a motion that no force \
+         of theirs holds"
+    )
+}
+
 /// ``joints `a` and `b` and drive `c` ``
 fn by_kind(parts: &[Part<'_>]) -> String {
     let mut kinds: Vec<(&str, Vec<&str>)> = Vec::new();

@@ -91,7 +91,7 @@ impl Resolver<'_> {
 
     /// |ρ(180°) − ρ(−180°)| is small against ρ(180°), for the parameters of a run.
     fn require_closed(&mut self, joint: &Joint, formula: &Formula) -> Option<()> {
-        let ends = [Number::PI, -Number::PI].map(|angle| self.scope.arena.number(angle));
+        let ends = [Number::pi(1, 1), Number::pi(-1, 1)].map(|angle| self.scope.arena.number(angle));
         let to = self.profile_at(joint, formula, ends[0])?;
         let from = self.profile_at(joint, formula, ends[1])?;
         let algebra = Algebra::new(&mut self.scope.arena);

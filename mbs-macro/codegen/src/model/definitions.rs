@@ -8,6 +8,11 @@ use crate::diagnostics::{Diagnostic, Diagnostics};
 /// Names may build on each other this deep before those below are resolved first.
 const DEEPEST: usize = 128;
 
+/// A definition of more nodes than this is a value that is computed once. Those of a person are
+/// smaller, and stay open to algebra; definitions that build on each other a hundred times would
+/// otherwise become sums of hundreds of terms, each with a sum in it.
+const LARGEST_OPEN: usize = 100;
+
 impl Scope<'_> {
     /// Resolves a `let` or `const` that is met for the first time. Those that it
     /// builds on are met on the way; where there are many, they come first, so
@@ -76,7 +81,12 @@ impl Scope<'_> {
             (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
         // a definition means the same wherever it is used
         let local = self.local.take();
-        let typed = self.formula(formula, place, errors);
+        let mut typed = self.formula(formula, place, errors);
+        if let Some(typed) = &mut typed
+            && self.arena.is_larger_than(typed.expr, LARGEST_OPEN)
+        {
+            typed.expr = self.arena.share(typed.expr);
+        }
         self.local = local;
         if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
             definition.state = typed.map_or(State::Failed, State::Done);

@@ -60,35 +60,58 @@ impl Scope<'_> {
         place: Place,
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
+        if rest.iter().all(|operation| matches!(operation.op, Operator::Plus | Operator::Minus)) {
+            return self.sum(first, rest, place, errors);
+        }
         let mut value = self.formula(first, place, errors);
-        // Only what is written, no result of an operation, may lack its unit.
-        let mut left = Some(first);
-        for operation in rest {
-            let operand = self.formula(&operation.operand, place, errors);
-            value = match (value, operand) {
-                (Some(l), Some(r)) => self.operate(operation, (left, l), r, errors),
+        for Operation { op, op_span, operand } in rest {
+            let found = self.formula(operand, place, errors);
+            value = match (value, found) {
+                (Some(l), Some(r)) => {
+                    let result = match op {
+                        Operator::Over => self.divide(operand, l, r),
+                        _ => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
+                    };
+                    errors
+                        .take(result)
+                        .and_then(|typed| self.finite(typed, &[l.expr, r.expr], *op_span, errors))
+                }
                 _ => None,
             };
-            left = None;
         }
         value
     }
 
-    fn operate(
+    /// All terms at once: one after the other they would be as many sums, each with all terms before.
+    fn sum(
         &mut self,
-        Operation { op, op_span, operand }: &Operation,
-        (left, l): (Option<&Formula>, Typed),
-        r: Typed,
+        first: &Formula,
+        rest: &[Operation],
+        place: Place,
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
-        let result = match op {
-            Operator::Plus => self.add(Number::ONE, *op_span, (left, l), (operand, r)),
-            Operator::Minus => self.add(Number::MINUS_ONE, *op_span, (left, l), (operand, r)),
-            Operator::Times => Ok(Typed { expr: self.arena.mul(l.expr, r.expr), dimension: product(l, r) }),
-            Operator::Over => self.divide(operand, l, r),
-        };
-        let typed = errors.take(result)?;
-        self.finite(typed, &[l.expr, r.expr], *op_span, errors)
+        let value = self.formula(first, place, errors);
+        let mut dimension = value.map(|value| value.dimension);
+        let mut terms: Vec<(Expr, Number)> =
+            value.map(|value| (value.expr, Number::ONE)).into_iter().collect();
+        // Only what is written, no result of an operation, may lack its unit.
+        let mut left = Some(first);
+        for Operation { op, op_span, operand } in rest {
+            let found = self.formula(operand, place, errors);
+            dimension = match (dimension, found) {
+                (Some(l), Some(r)) => {
+                    let sign = if matches!(op, Operator::Minus) { Number::MINUS_ONE } else { Number::ONE };
+                    terms.push((r.expr, sign));
+                    errors.take(common_dimension(sign, *op_span, (left, l), (operand, r.dimension)))
+                }
+                _ => None,
+            };
+            left = None;
+        }
+        let typed = Typed { expr: self.arena.sum(&terms), dimension: dimension? };
+        let operands: Vec<Expr> = terms.iter().map(|(term, _)| *term).collect();
+        let span = rest.last().map_or(first.span, |operation| operation.op_span);
+        self.finite(typed, &operands, span, errors)
     }
 
     /// As [`formula`](Self::formula), of the given dimension.
@@ -167,11 +190,17 @@ impl Scope<'_> {
             return Some(local.typed);
         }
         if text == "pi" {
-            return Some(Typed { expr: self.arena.number(Number::PI), dimension: Some(Dimension::NONE) });
+            return Some(Typed {
+                expr: self.arena.number(Number::pi(1, 1)),
+                dimension: Some(Dimension::NONE),
+            });
         }
         if text == "t" {
             let typed = Typed { expr: self.arena.variable(self.time), dimension: Some(Dimension::TIME) };
             return self.allowed(typed, name, place, errors);
+        }
+        if self.values.contains_key(&text) && !self.used.contains(&text) {
+            self.used.insert(text.clone());
         }
         let typed = match self.values.get_mut(&text) {
             Some(Value::Symbol { symbol, dimension, .. }) => {
@@ -267,35 +296,6 @@ impl Scope<'_> {
         }
     }
 
-    fn add(
-        &mut self,
-        sign: Number,
-        op_span: Span,
-        (left, l): (Option<&Formula>, Typed),
-        (right, r): (&Formula, Typed),
-    ) -> Result<Typed, Diagnostic> {
-        let expr = self.arena.sum(&[(l.expr, Number::ONE), (r.expr, sign)]);
-        match (l.dimension, r.dimension) {
-            (Some(a), Some(b)) if a != b => {
-                let message = match sign.is_negative() {
-                    true => format!("{} cannot be subtracted from {}", described(b), described(a)),
-                    false => format!("{} and {} cannot be added", described(a), described(b)),
-                };
-                // The number without a unit is the likely culprit.
-                let mut written = left.into_iter().chain([right]);
-                let bare = written.find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
-                Err(match bare {
-                    Some(number) => Diagnostic::new(number.span, message)
-                        .help("a number without a unit is dimensionless; give it one, as in `5 [mm]`"),
-                    None => {
-                        Diagnostic::new(op_span, message).help("check the units and factors of both sides")
-                    }
-                })
-            }
-            (a, b) => Ok(Typed { expr, dimension: a.or(b) }),
-        }
-    }
-
     fn divide(&mut self, divisor: &Formula, l: Typed, r: Typed) -> Result<Typed, Diagnostic> {
         let Some(expr) = self.arena.div(l.expr, r.expr) else {
             return Err(
@@ -364,6 +364,31 @@ impl Scope<'_> {
         }
         Some(typed)
     }
+}
+
+/// The dimension of l + r or l − r: any, if both are numbers that may have any.
+fn common_dimension(
+    sign: Number,
+    op_span: Span,
+    (left, l): (Option<&Formula>, Option<Dimension>),
+    (right, r): (&Formula, Option<Dimension>),
+) -> Result<Option<Dimension>, Diagnostic> {
+    let (a, b) = match (l, r) {
+        (Some(a), Some(b)) if a != b => (a, b),
+        _ => return Ok(l.or(r)),
+    };
+    let message = match sign.is_negative() {
+        true => format!("{} cannot be subtracted from {}", described(b), described(a)),
+        false => format!("{} and {} cannot be added", described(a), described(b)),
+    };
+    // The number without a unit is the likely culprit.
+    let mut written = left.into_iter().chain([right]);
+    let bare = written.find(|f| matches!(f.kind, FormulaKind::Number { unit: None, .. }));
+    Err(match bare {
+        Some(number) => Diagnostic::new(number.span, message)
+            .help("a number without a unit is dimensionless; give it one, as in `5 [mm]`"),
+        None => Diagnostic::new(op_span, message).help("check the units and factors of both sides"),
+    })
 }
 
 fn product(l: Typed, r: Typed) -> Option<Dimension> {

@@ -25,6 +25,7 @@ mod sketch;
 mod solver;
 mod starts;
 mod statements;
+mod warnings;
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
@@ -34,6 +35,7 @@ pub use resolver::resolve;
 pub use sketch::{Link, Sketch};
 pub use solver::Solver;
 
+use crate::diagnostics::Diagnostic;
 use crate::mechanics::{Inertia, Load, Motion, Work};
 use crate::quantity::{Comparison, Crossing, Quantity};
 
@@ -78,6 +80,8 @@ pub struct Model {
     pub outputs: Vec<Output>,
     pub events: Vec<Event>,
     pub sketch: Sketch,
+    /// Warnings about parts that compile and are likely mistakes.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// What a symbol stands for.

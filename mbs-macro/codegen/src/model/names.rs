@@ -1,6 +1,6 @@
 //! Names, what they stand for, and where they may stand.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
@@ -110,6 +110,8 @@ pub struct Scope<'a> {
     pub meanings: Vec<Meaning>,
     pub motion: Motion,
     pub values: BTreeMap<String, Value<'a>>,
+    /// The names of values and profiles that formulas use.
+    pub used: BTreeSet<String>,
     /// Bodies, and the ground.
     pub bodies: BTreeMap<String, Frame>,
     /// Constraints and drives: position, whether it is a drive, dimension once known.
@@ -149,6 +151,7 @@ impl<'a> Scope<'a> {
             meanings: vec![Meaning::Time],
             motion: Motion::new(time),
             values: BTreeMap::new(),
+            used: BTreeSet::new(),
             bodies: BTreeMap::from([(GROUND.to_owned(), ground)]),
             rows: BTreeMap::new(),
             joints: BTreeMap::new(),

@@ -69,6 +69,16 @@ impl Resolver<'_> {
         Some(State::Done { spline: self.scope.arena.add_spline(spline), argument, value })
     }
 
+    /// The spline of a profile that was resolved.
+    pub(super) fn spline_named(&self, name: &Ident) -> Option<&Spline> {
+        match self.scope.profiles.get(&name.to_string())?.state {
+            State::Done { spline, .. } => {
+                self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
+            }
+            State::Untouched | State::Failed => None,
+        }
+    }
+
     /// Constants of one dimension.
     fn numbers(&mut self, what: &str, formulas: Vec<&Formula>) -> Option<(Vec<f64>, Dimension)> {
         let errors = &mut self.errors;
@@ -134,6 +144,7 @@ impl Scope<'_> {
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
         let profile = self.profiles.get(&name.to_string())?;
+        self.used.insert(name.to_string());
         let (spline, argument, value) = match profile.state {
             State::Done { spline, argument, value } => (spline, argument, value),
             State::Failed => return None,

@@ -194,6 +194,7 @@ impl<'a> Resolver<'a> {
             );
         }
         let sketch = self.sketch(declaration);
+        let warnings = self.warnings(declaration);
         let zero = self.scope.arena.zero();
         let model = Model {
             time: self.scope.time,
@@ -226,6 +227,7 @@ impl<'a> Resolver<'a> {
             outputs: self.outputs,
             events: self.events,
             sketch,
+            warnings,
         };
         self.errors.finish(model)
     }

@@ -207,6 +207,15 @@ impl<'a> Resolver<'a> {
 
     /// Adds a condition, of a parameter or else of its left side.
     fn require(&mut self, condition: &syntax::Condition, parameter: Option<&Ident>) {
+        let is_used = parameter.is_none_or(|name| self.scope.used.contains(&name.to_string()));
+        self.require_of(condition, parameter);
+        // a condition on a parameter is no use of it
+        if let (Some(name), false) = (parameter, is_used) {
+            self.scope.used.remove(&name.to_string());
+        }
+    }
+
+    fn require_of(&mut self, condition: &syntax::Condition, parameter: Option<&Ident>) {
         let left = self.scope.formula(&condition.left, Place::Property, &mut self.errors);
         let right = self.scope.formula(&condition.right, Place::Property, &mut self.errors);
         let (Some(left), Some(right)) = (left, right) else { return };

@@ -214,7 +214,7 @@ fn step(
 }
 
 fn number(value: f64) -> Operand {
-    Operand::Number(Number::Float(value))
+    Operand::Number(Number::float(value))
 }
 
 /// Instructions one after the other, none of them twice.

@@ -8,7 +8,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
 
-use super::words::helped;
+use super::words::{helped, usable};
 use super::{Formula, FormulaKind, Operation, Operator, UnitText, Vector};
 
 /// Parentheses, powers and signs may nest this deep.
@@ -177,13 +177,7 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
                 let help = "a value that depends on a sign is written with `max(0, x)`, `min(a, b)`, `abs(x)` or `(1 + sign(x))/2`";
                 return Err(helped(span, "`if` chooses statements and cannot stand in a formula", help));
             }
-            if syn::parse_str::<Ident>(&name.to_string()).is_err() {
-                return Err(Error::new(
-                    span,
-                    format!("`{name}` is a word of Rust and cannot be a name here"),
-                ));
-            }
-            return Ok(Formula { span, kind: path(input, name)? });
+            return Ok(Formula { span, kind: path(input, usable(name)?)? });
         }
         let content;
         parenthesized!(content in input);
@@ -310,12 +304,8 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a unit is expected here"))?;
     let unit = units::lookup(&name.to_string()).ok_or_else(|| {
         let text = name.to_string();
-        let mut product = (1..text.len()).filter_map(|at| text.split_at_checked(at));
-        let product = product.find(|(a, b)| units::lookup(a).is_some() && units::lookup(b).is_some());
-        let meant = match product {
-            Some((a, b)) => Some(format!("{a}*{b}")),
-            None => crate::diagnostics::nearest(&text, units::known()).map(str::to_owned),
-        };
+        let near = || crate::diagnostics::nearest(&text, units::known()).map(str::to_owned);
+        let meant = units::meant(&text).or_else(near);
         let unknown = units::UnitError::unknown(&text);
         match meant {
             Some(meant) => helped(name.span(), unknown, format!("did you mean `{meant}`?")),

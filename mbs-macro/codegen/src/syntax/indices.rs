@@ -12,7 +12,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Error, Result, Token, parenthesized, token};
 
-use super::words::helped;
+use super::words::{helped, usable};
 
 /// Whole numbers that are known while statements are read.
 #[derive(Clone, Default)]
@@ -175,9 +175,10 @@ impl Indices {
                 Err(content.error("an operator is expected here"))
             };
         }
-        let name: Ident = input.parse().map_err(|error| {
+        let name = Ident::parse_any(input).map_err(|error| {
             Error::new(error.span(), "a whole number, a loop variable or a whole constant is expected here")
         })?;
+        let name = usable(name)?;
         let text = name.to_string();
         self.variables.get(&text).or_else(|| self.constants.get(&text)).copied().ok_or_else(|| {
             let message = format!("`{text}` is not a whole number that is known here");

@@ -11,7 +11,7 @@ use super::formula::{end, is_vector};
 use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
-use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon};
+use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable};
 use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
@@ -37,9 +37,16 @@ pub fn parse(tokens: TokenStream) -> std::result::Result<Declaration, Diagnostic
 fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Declaration> {
     let doc = doc(input)?;
     let visibility = input.parse::<syn::Visibility>()?.into_token_stream();
-    let name: Ident = input.parse().map_err(|error| {
-        Error::new(error.span(), "the name of the mechanism is expected here, as in `pub SliderCrank { … }`")
-    })?;
+    let expected =
+        |span| Error::new(span, "the name of the mechanism is expected here, as in `pub SliderCrank { … }`");
+    let name = Ident::parse_any(input).map_err(|error| expected(error.span()))?;
+    if let Err(error) = usable(name.clone()) {
+        // of `pub struct Crank { … }` the first word is not meant to be the name
+        if !input.peek(token::Brace) {
+            return Err(expected(name.span()));
+        }
+        errors.push(error);
+    }
     block(input, "SliderCrank { dof = 0; … }")?;
     let content;
     braced!(content in input);

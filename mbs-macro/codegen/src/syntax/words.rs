@@ -9,7 +9,7 @@ use syn::{Attribute, Error, Result, Token, token};
 
 use super::Formula;
 use super::formula::bracket_after_name;
-use crate::diagnostics::HELP;
+use crate::diagnostics::{HELP, WORD_OF_RUST};
 
 /// The text of doc comments; other attributes are refused.
 pub(super) fn doc(input: ParseStream<'_>) -> Result<String> {
@@ -45,12 +45,21 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
 pub(super) fn name_before_unit(input: ParseStream<'_>) -> Result<Ident> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a name is expected here"))?;
+    usable(name)
+}
+
+/// A name, if it can be one in Rust, too.
+pub(super) fn usable(name: Ident) -> Result<Ident> {
     // `gen` is one since the edition of 2024, which syn does not ask for
     let text = name.to_string();
-    if text == "gen" || text.starts_with("r#") || syn::parse_str::<Ident>(&text).is_err() {
-        return Err(Error::new(name.span(), format!("`{name}` is a word of Rust and cannot be a name here")));
+    if text != "gen" && !text.starts_with("r#") && syn::parse_str::<Ident>(&text).is_ok() {
+        return Ok(name);
     }
-    Ok(name)
+    let help = match text.trim_start_matches("r#") {
+        "_" => "choose another name".to_owned(),
+        word => format!("choose another name, such as `{word}_1`"),
+    };
+    Err(helped(name.span(), format!("`{name}` {WORD_OF_RUST}"), help))
 }
 
 /// `crank`, or `leg.crank.tip`.

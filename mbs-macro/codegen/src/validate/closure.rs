@@ -39,7 +39,34 @@ pub fn check_closure(model: &Model, equations: &Equations, plan: &Plan) -> Resul
         return Err(start::singular(model, pivot, away(model, &programs, &declared)).into());
     }
     check_span(model, &programs.assembly, &plan.rows.basis, &at)?;
-    start::check_kept(model, &programs, &declared, &at)
+    let beyond = || beyond_dead_centre(model, plan, &programs, &declared);
+    start::check_kept(model, &programs, &declared, &at, beyond)
+}
+
+/// Guesses from which the mechanism is assembled with the values that are declared, where it was not:
+/// the declared guesses are at a dead centre, where the coordinates that have to move do not move the
+/// constraints.
+fn beyond_dead_centre(
+    model: &Model,
+    plan: &Plan,
+    programs: &Programs<'_>,
+    declared: &Declared,
+) -> Option<String> {
+    let kept: Vec<usize> = model
+        .start
+        .iter()
+        .filter(|start| !start.is_rate && !start.is_guess)
+        .map(|start| start.coordinate)
+        .collect();
+    let closings = starts(model, programs, declared)
+        .map(|start| programs.assembly.close_with(&plan.rows.basis, &start, &kept))
+        .filter(|closing| closing.is_closed);
+    // the nearest one
+    let found = closings.min_by(|a, b| {
+        let [a, b] = [a, b].map(|closing| programs.assembly.distance(&closing.at, &declared.at));
+        a.total_cmp(&b)
+    })?;
+    guesses(model, programs, declared, &found.at)
 }
 
 /// The error where the declared start leads to no assembly; with another start that
@@ -79,16 +106,15 @@ fn does_not_close(model: &Model, row: usize, violation: f64, elsewhere: Option<S
         ),
     };
     let unit = unit(constraint.dimension);
-    // where terms vanish only at infinity, the violation is small and all there is
-    let share = if violation < CLOSED { ", which is all that its terms amount to" } else { "" };
-    Diagnostic::new(
-        constraint.span,
-        format!(
-            "the mechanism does not close at its declared dimensions{from}: {} stays violated by {violation:.1e}{unit}{share}",
-            joined(Part::of(model, [row])),
-        ),
-    )
-    .help(help)
+    let what = joined(Part::of(model, [row]));
+    // where terms vanish only at infinity, what is left is small and all there is
+    let left = if violation < CLOSED {
+        "is not met by any values: what is left of it is as large as its terms".to_owned()
+    } else {
+        format!("stays violated by {violation:.1e}{unit}")
+    };
+    let message = format!("the mechanism does not close at its declared dimensions{from}: {what} {left}");
+    Diagnostic::new(constraint.span, message).help(help)
 }
 
 /// Starts around the declared one, nearer ones first.
@@ -118,6 +144,11 @@ fn away(model: &Model, programs: &Programs<'_>, declared: &Declared) -> Option<S
         Closing::Closed(at, _) if programs.lost_pivot(&at).is_none() => Some(at),
         _ => None,
     })?;
+    guesses(model, programs, declared, &found)
+}
+
+/// Entries of `start` that lead from the declared one to a position.
+fn guesses(model: &Model, programs: &Programs<'_>, declared: &Declared, found: &Position) -> Option<String> {
     let apart = |at: usize| ((found.q[at] - declared.at.q[at]) / programs.units[at]).abs();
     // the coordinates that moved most say where it is
     let mut moved: Vec<usize> = (0..found.q.len()).filter(|&at| apart(at) > 1e-2).collect();

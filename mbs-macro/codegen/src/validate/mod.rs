@@ -17,7 +17,7 @@ pub use validation::check_programs;
 pub(crate) use validation::tests as planned;
 
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
-use crate::model::Model;
+use crate::model::{Coordinate, Direction, Model};
 use crate::plan::{Plan, Unsolvable};
 use crate::reactive::Circular;
 
@@ -78,7 +78,16 @@ fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
         return Diagnostic::internal(model.name.span(), error).into();
     };
     let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
-    Diagnostic::new(first.span, format!("nothing determines the acceleration of {}", listing(names)))
-        .help("give its body a mass or inertia, or constrain it")
-        .into()
+    // a mass that is 0 by a parameter is none that the declaration says
+    let is_none = |c: &&Coordinate| {
+        let body = &model.bodies[c.body];
+        model.arena.is_zero(if c.direction == Direction::Angle { body.inertia } else { body.mass })
+    };
+    let where_zero = if coordinates.iter().all(is_none) {
+        ""
+    } else {
+        ", whose mass or inertia is 0 at the declared values of its parameters"
+    };
+    let message = format!("nothing determines the acceleration of {}{where_zero}", listing(names));
+    Diagnostic::new(first.span, message).help("give its body a mass or inertia, or constrain it").into()
 }

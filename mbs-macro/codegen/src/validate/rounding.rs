@@ -20,12 +20,9 @@ impl Rounded {
         Self { value, error: 0.0 }
     }
 
-    /// A constant: integers are exact, others were rounded when they were read,
-    /// and may have been rounded again when constants were folded.
+    /// A constant, which was rounded when it was read and when constants were folded.
     pub fn constant(number: Number) -> Self {
-        let value = number.to_f64();
-        let is_exact = matches!(number, Number::Rational(_, 1)) && value.abs() < 1e15;
-        Self { value, error: if is_exact { 0.0 } else { 4.0 * f64::EPSILON * value.abs() } }
+        Self { value: number.to_f64(), error: number.error() }
     }
 
     /// A result that was rounded once more.

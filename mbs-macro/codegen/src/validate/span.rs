@@ -13,6 +13,9 @@ const STEPS: f64 = 180.0;
 /// told to that share of a step.
 const HALVINGS: u32 = 30;
 
+/// Steps that are tried before the span counts as too long: more than a thousand turns.
+const MOST_STEPS: usize = 30_000;
+
 /// How far a step may move the mechanism, in radians or typical lengths; what moves
 /// farther has jumped to another branch.
 const LARGEST_MOVE: f64 = 0.3;
@@ -52,14 +55,17 @@ struct Path<'a> {
 }
 
 impl Path<'_> {
-    /// From an assembled position to the end `to`. Ends: every round halves the step,
-    /// no more than `HALVINGS` times in a row, or advances by it, and a step that was
-    /// accepted is doubled only as far as the stride.
+    /// From an assembled position to the end `to`: every round halves the step, no more than
+    /// `HALVINGS` times in a row, or advances by it, and a step that was accepted is doubled only
+    /// as far as the stride.
     fn follow(&self, start: &Position, begin: f64, to: f64) -> Result<(), Diagnostic> {
         let direction = (to - begin).signum();
         let (mut at, mut here, mut before) = (start.clone(), begin, None);
         let mut halvings = 0_u32;
-        while (to - here) * direction > 0.0 {
+        for _ in 0..MOST_STEPS {
+            if (to - here) * direction <= 0.0 {
+                return Ok(());
+            }
             let step = self.stride / f64::from(1_u32 << halvings);
             let next = if (to - here).abs() <= step { to } else { here + direction * step };
             match self.close(&at, before.as_ref(), here, next) {
@@ -72,7 +78,7 @@ impl Path<'_> {
                 Err(open) => return Err(self.ends(here, &open)),
             }
         }
-        Ok(())
+        Err(self.too_long(here))
     }
 
     /// The position at `next`, near the one that the last two lead to.
@@ -93,18 +99,31 @@ impl Path<'_> {
             Some(coordinate) => guess.q[coordinate] = next,
             None => guess.t = next,
         }
-        let closing = self.assembly.close_with(self.rows, &guess, self.closes.coordinate);
+        let closing = self.assembly.close_with(self.rows, &guess, self.closes.coordinate.as_slice());
         let is_near = self.assembly.distance(&closing.at, at) <= LARGEST_MOVE;
         if closing.is_closed && is_near { Ok(closing.at) } else { Err(closing) }
     }
 
-    fn ends(&self, here: f64, open: &Closing) -> Diagnostic {
-        let place = match self.closes.coordinate {
+    /// A value of what is followed.
+    fn place(&self, here: f64) -> String {
+        match self.closes.coordinate {
             Some(at) => {
                 format!("{} = {}", self.model.coordinates[at].quantity.name, value(self.model, at, here))
             }
             None => format!("t = {here:.6} s"),
-        };
+        }
+    }
+
+    fn too_long(&self, here: f64) -> Diagnostic {
+        let place = self.place(here);
+        let message =
+            format!("this span is too long to be followed: {MOST_STEPS} steps lead as far as {place}");
+        Diagnostic::new(self.closes.span, message)
+            .help("name a span after which the motion repeats itself, such as one turn, `0 .. 360 [deg]`")
+    }
+
+    fn ends(&self, here: f64, open: &Closing) -> Diagnostic {
+        let place = self.place(here);
         let message = format!("the mechanism does not close over this span: it ends at {place}");
         let error = Diagnostic::new(self.closes.span, message)
             .help("change the lengths such that the links reach each other everywhere, or the span");

@@ -21,46 +21,76 @@ pub fn check_kept(
     programs: &Programs<'_>,
     declared: &Declared,
     at: &Position,
+    beyond_dead_centre: impl FnOnce() -> Option<String>,
 ) -> Result<(), Diagnostics> {
     let mut errors = Diagnostics::default();
     let positions = programs.units.iter().map(|unit| SHARE * unit).collect::<Vec<_>>();
-    report(model, false, &declared.at.q, &at.q, &positions, &mut errors);
+    let lost = not_kept_of(model, false, &declared.at.q, &at.q, &positions);
+    match lost.first().and_then(|lost| Some((lost, beyond_dead_centre()?))) {
+        Some((lost, guess)) => errors.push(dead_centre(model, lost, &guess)),
+        None => lost.iter().for_each(|lost| errors.push(not_kept(model, lost))),
+    }
     if let Some(velocities) = programs.velocities(at, &declared.velocities) {
         let fastest = programs.size(&declared.velocities).max(programs.size(&velocities));
         let rates = programs.units.iter().map(|unit| SHARE * unit * fastest).collect::<Vec<_>>();
-        report(model, true, &declared.velocities, &velocities, &rates, &mut errors);
+        let lost = not_kept_of(model, true, &declared.velocities, &velocities, &rates);
+        lost.iter().for_each(|lost| errors.push(not_kept(model, lost)));
     }
     errors.finish(())
 }
 
-fn report(
-    model: &Model,
+/// A declared value, or rate, that the constraints change.
+struct Lost<'a> {
+    start: &'a Start,
+    /// Whether it is the first of its kind that is declared.
+    is_first: bool,
+    declared: f64,
+    becomes: f64,
+}
+
+fn not_kept_of<'a>(
+    model: &'a Model,
     is_rate: bool,
     declared: &[f64],
     kept: &[f64],
     limits: &[f64],
-    errors: &mut Diagnostics,
-) {
+) -> Vec<Lost<'a>> {
     let values = model.start.iter().filter(|start| start.is_rate == is_rate && !start.is_guess);
-    for (place, start) in values.enumerate() {
+    let lost = values.enumerate().filter_map(|(place, start)| {
         let at = start.coordinate;
-        if (kept[at] - declared[at]).abs() > limits[at] {
-            // what is left of rounding is 0
-            let kept = if kept[at].abs() < 1e-6 * limits[at] { 0.0 } else { kept[at] };
-            errors.push(not_kept(model, start, place == 0, declared[at], kept));
-        }
-    }
+        let is_kept = (kept[at] - declared[at]).abs() <= limits[at];
+        // what is left of rounding is 0
+        let becomes = if kept[at].abs() < 1e-6 * limits[at] { 0.0 } else { kept[at] };
+        (!is_kept).then_some(Lost { start, is_first: place == 0, declared: declared[at], becomes })
+    });
+    lost.collect()
 }
 
-fn not_kept(model: &Model, start: &Start, is_first: bool, declared: f64, kept: f64) -> Diagnostic {
+/// A declared value that is left from guesses at a dead centre.
+fn dead_centre(model: &Model, lost: &Lost<'_>, guess: &str) -> Diagnostic {
+    let name = &model.coordinates[lost.start.coordinate].quantity.name;
+    let [declared, becomes] =
+        [lost.declared, lost.becomes].map(|found| value(model, lost.start.coordinate, found));
+    Diagnostic::new(
+        lost.start.span,
+        format!(
+            "`{name}` cannot start at {declared} from these guesses, which are a dead centre: what would have to \
+             move does not move the constraints there, and they make it {becomes}"
+        ),
+    )
+    .help(format!("guess a position on the side that is meant, for example with `{guess}`"))
+}
+
+fn not_kept(model: &Model, lost: &Lost<'_>) -> Diagnostic {
+    let start = lost.start;
     let name = &model.coordinates[start.coordinate].quantity.name;
     let (what, of) = if start.is_rate {
         (format!("der({name})"), rate as fn(&Model, usize, f64) -> String)
     } else {
         (name.clone(), value as fn(&Model, usize, f64) -> String)
     };
-    let [declared, kept] = [declared, kept].map(|value| of(model, start.coordinate, value));
-    let (with, or_others) = match is_first {
+    let [declared, kept] = [lost.declared, lost.becomes].map(|value| of(model, start.coordinate, value));
+    let (with, or_others) = match lost.is_first {
         true => ("", ""),
         false => (" and the values before it", ", or make guesses of the others"),
     };

@@ -34,7 +34,7 @@ impl Work<'_> {
                         None => product,
                     };
                     let sum = self.settle(sum);
-                    self.matrix.set(self.arena, i, j, sum);
+                    self.set(i, j, sum);
                 }
             }
             for &(unknown, entry) in &entries {

@@ -160,7 +160,7 @@ impl<'a> Work<'a> {
                 }
                 let entry = self.arena.sum(&terms);
                 let entry = self.settle(entry);
-                self.matrix.set(self.arena, i, j, entry);
+                self.set(i, j, entry);
             }
         }
         self.watch_pair(row, coordinate, pivot, inverse);
@@ -209,7 +209,7 @@ impl<'a> Work<'a> {
                     }
                 }
                 let updated = self.close(i, j, updated);
-                self.matrix.set(self.arena, i, j, updated);
+                self.set(i, j, updated);
             }
         }
         self.watch_diagonal(unknown, pivot, inverse);
@@ -245,6 +245,12 @@ impl<'a> Work<'a> {
         let inverse = self.inverse(determinant);
         let inverse = self.arena.mul(pivot, inverse);
         self.arena.share(inverse)
+    }
+
+    /// Sets the entries (i, j) and (j, i); what is 0 in exact arithmetic is no entry.
+    pub(super) fn set(&mut self, i: Unknown, j: Unknown, entry: Expr) {
+        let entry = if self.arena.vanishes(entry) { self.arena.zero() } else { entry };
+        self.matrix.set(self.arena, i, j, entry);
     }
 
     /// Leaves a short entry open to algebra, closes a long one.

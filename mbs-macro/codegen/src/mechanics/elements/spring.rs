@@ -4,10 +4,11 @@
 //! free angle) the tension is F = k s + c ṡ. It does the virtual work −F δs, so
 //! the generalized forces are −F ∂s/∂q, and the spring holds the energy ½ k s².
 //!
-//! The distance |r| has no derivative where the places coincide. There the
-//! spring has no direction, unless its free length is 0: then it pulls with k r,
-//! which is as regular as r, and is written so. The damper of such a spring
-//! has the direction of r, kept from its kink at 0.
+//! The distance |r| has no derivative where the places coincide, so a spring with a
+//! free length has no direction there. Without one it pulls with k r, which is as
+//! regular as r, and its damper with c times the component of ṙ along r. Along a
+//! single coordinate that is c ṙ. In the plane it is c ṙ where the places coincide,
+//! too: a motion through r = 0 goes along ṙ, before and behind it.
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Scalar, Vector};
@@ -15,6 +16,10 @@ use mbs_symbolic::{Scalar, Vector};
 use super::properties::{FORCE, Given, Property, TORQUE, Unsaid};
 use super::{Effects, Element, ElementKind, Places};
 use crate::mechanics::norm;
+
+/// Places nearer to each other than an atom is wide coincide: (1e-10 m)². Roundings of positions
+/// up to a kilometre are below that.
+const COINCIDENT: f64 = 1e-20;
 
 pub const SPRING: ElementKind = ElementKind {
     word: "spring",
@@ -91,17 +96,54 @@ fn pull<'a>(spring: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) -> S
     tension
 }
 
-/// A spring without length: the elastic force is −k r, component by component.
+/// A spring without length: it pulls with k r + c ṙ along a single coordinate, else with k r and
+/// c times the rate along r.
 fn pull_together(spring: &Element<'_>, effects: &mut Effects<'_>) {
     let (k, c) = (spring.get_or_zero("stiffness"), spring.get_or_zero("damping"));
     let r = between(spring);
+    let rate = r.map(|component| effects.rate(component));
     for component in r.components() {
-        effects.apply(-(k * component), component);
         effects.store(k, component);
     }
-    let distance = norm(r);
-    let viscous = (c * effects.rate(distance)).shared();
-    effects.apply(-viscous, distance);
+    let opening = if let Some((s, rate)) = only(r, rate) {
+        effects.apply(-(k * s + c * rate), s);
+        // from s = 0 on the places move apart
+        let is_apart = s.sign().squared();
+        s.sign() * rate + (1 - is_apart) * rate.abs()
+    } else {
+        let (squares, [along, across]) = (r.dot(r), shares_along(r, rate));
+        for (component, rate) in r.components().into_iter().zip(rate.components()) {
+            effects.apply(-((k + c * along) * component + c * across * rate), component);
+        }
+        // 0 at rest, where the norm is kept from its kink
+        let speed = rate.dot(rate) / norm(rate);
+        squares * (squares + r.x.algebra().number(COINCIDENT)).sqrt().powi(-1) * along + across * speed
+    };
     let length = spring.first.distance_to(spring.second);
-    effects.exert(k * length + viscous, FORCE);
+    effects.exert(k * length + c * opening, FORCE);
+}
+
+/// The component that a vector has, with its rate, if the other one is always 0.
+fn only<'a>(r: Vector<Scalar<'a>>, rate: Vector<Scalar<'a>>) -> Option<(Scalar<'a>, Scalar<'a>)> {
+    match (r.x.is_zero(), r.y.is_zero()) {
+        (_, true) => Some((r.x, rate.x)),
+        (true, false) => Some((r.y, rate.y)),
+        (false, false) => None,
+    }
+}
+
+/// The shares a and b of the rate along r, which is a r + b ṙ: (r·ṙ) r/|r|², and ṙ where |r| ≪ ε,
+///
+/// ```text
+/// (r (r·ṙ) + ε² ṙ)/(|r|² + ε²)
+/// ```
+///
+/// A rate along r is kept as it is, however long r is. Of one across it ε²/(|r|² + ε²) is left, a
+/// rounding from 10 mm on.
+fn shares_along<'a>(r: Vector<Scalar<'a>>, rate: Vector<Scalar<'a>>) -> [Scalar<'a>; 2] {
+    let algebra = r.x.algebra();
+    let coincident = algebra.number(COINCIDENT);
+    let squares = r.components().map(|component| component.squared());
+    let inverse = algebra.sum(squares.into_iter().chain([coincident])).powi(-1).shared();
+    [(inverse * r.dot(rate)).shared(), (inverse * coincident).shared()]
 }

@@ -31,7 +31,8 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(&include_str!("text/results.c").replace("STEP", step)),
     ];
     let code = code.concat();
-    format!("{}{}{}{}{code}", head(target), tables(target), scheme(target), helpers(target, &code))
+    let tables = tables(target) + &splines(target, &code);
+    format!("{}{tables}{}{}{code}", head(target), scheme(target), helpers(target, &code))
 }
 
 /// The way from all coordinates to those that are integrated, and back.
@@ -81,7 +82,7 @@ fn scheme(target: &Target<'_>) -> String {
         .fill(&format!("/* The table of SCHEME, and its gains for a step of 1 s. */\n{}\n", tables.concat()))
 }
 
-/// Names, places, dimensions, what codes mean, and splines.
+/// Names, places, dimensions, and what codes mean.
 fn tables(target: &Target<'_>) -> String {
     let compiled = target.compiled;
     let mut text = String::new();
@@ -123,7 +124,7 @@ fn tables(target: &Target<'_>) -> String {
     add("static const char *const NAME_condition_words[]", conditions, "0");
     let errors = words::errors().map(|(_, words)| quoted(words)).collect();
     add("static const char *const NAME_error_words[]", errors, "0");
-    text + &splines(target)
+    text
 }
 
 fn judged(condition: &Condition) -> String {
@@ -155,9 +156,10 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
-fn splines(target: &Target<'_>) -> String {
+fn splines(target: &Target<'_>, code: &str) -> String {
     let splines = &target.compiled.splines;
-    if splines.is_empty() {
+    // a profile that nothing uses would be an unused constant
+    if !code.contains(&format!("{}_splines[", target.names.prefix)) {
         return String::new();
     }
     let mut text = target.fill(include_str!("text/spline.c"));

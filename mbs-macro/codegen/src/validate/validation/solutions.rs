@@ -3,13 +3,14 @@
 //! An elimination whose pivots have grown by less than [`LARGEST_GROWTH`] leaves
 //! a residual of at most (unknowns · growth · ε), 1e-10 of the terms for
 //! hundreds of unknowns; a wrong instruction leaves one of their own order.
-//! [`RESIDUAL`] lies between the two.
+//! [`RESIDUAL`] lies between the two. A solution that is 0 is what rounding leaves of
+//! the terms that it is made of, so the bounds of its rounding errors are allowed beside.
 
 use std::cell::Cell;
 
 use mbs_symbolic::{Program, Symbol};
 
-use super::super::rounding::Rounded;
+use super::super::rounding::{Rounded, run};
 use super::{Check, DIRECTIONS, Jet, Point};
 use crate::inputs::Input;
 use crate::model::Meaning;
@@ -57,13 +58,14 @@ impl Point<'_> {
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
         let given: Vec<f64> = self.plan.inputs.feedback.iter().map(|&symbol| (self.symbol)(symbol)).collect();
         self.rows_are_met(&motion)?;
-        let own: Vec<f64> = self.feedback(&motion).iter().map(|feedback| feedback.value).collect();
+        let fed_back = self.feedback_in_steps(&motion);
+        let own: Vec<f64> = fed_back.iter().map(|feedback| feedback.value).collect();
         // rows that give a coordinate have no feedback in a step
         let in_steps = |feedback: &[f64]| -> Vec<f64> {
             let is_given = |row: usize| plan.reduction.rows.contains(&row);
             feedback.iter().enumerate().map(|(row, &x)| if is_given(row) { 0.0 } else { x }).collect()
         };
-        let states = |all: &[f64]| -> Vec<f64> {
+        let states = |all: &[Rounded]| -> Vec<Rounded> {
             plan.inputs.states.iter().map(|state| all[state.coordinate]).collect()
         };
         let s = plan.inputs.states.len();
@@ -89,7 +91,7 @@ impl Point<'_> {
         let stabilized = self.solved(&plan.stabilized, &given).zip(self.solved(&plan.reactions, &own));
         if let Some((values, reactions)) = stabilized {
             same("stabilized", &values[..s], &states(&reactions))?;
-            same("feedback", &values[s..s + own.len()], &own)?;
+            same("feedback", &values[s..s + own.len()], &fed_back)?;
         }
         for (name, program) in [
             ("position_correction", &plan.position_correction),
@@ -97,7 +99,7 @@ impl Point<'_> {
             ("projection", &plan.projection),
         ] {
             if let Some(values) = self.solved(program, &given) {
-                let along = self.phi(&|at| values[at], &|_| 0.0, 0.0);
+                let along = self.phi(&|at| values[at].value, &|_| 0.0, 0.0);
                 let rows = along.iter().map(|row| row.first).collect::<Vec<_>>();
                 self.rows_are(name, &rows, &given, &values[..n])?;
             }
@@ -107,9 +109,12 @@ impl Point<'_> {
 
     /// Coordinates and velocities meet the rows that give them.
     fn rows_are_met(&self, motion: &[Jet]) -> Check {
+        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.complete));
+        let (places, rates) = all.split_at(self.model.coordinates.len());
         for &row in &self.plan.reduction.rows {
-            for rest in [motion[row].value, motion[row].first] {
-                if exceeds(rest.value, rest.error / f64::EPSILON) {
+            for (rest, given) in [(motion[row].value, places), (motion[row].first, rates)] {
+                let error = coefficients[row] * largest(given, |x| x.error);
+                if exceeds(rest.value, rest.error / f64::EPSILON, error) {
                     return Err(format!("`complete` does not meet row {row}: {:e} is left", rest.value));
                 }
             }
@@ -117,37 +122,53 @@ impl Point<'_> {
         Ok(())
     }
 
+    /// −2αΦ̇ − β²Φ where the coordinates are completed, with what the rounding of those does to it.
+    fn feedback_in_steps(&self, motion: &[Jet]) -> Vec<Rounded> {
+        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.complete));
+        let (places, rates) = all.split_at(self.model.coordinates.len());
+        let inputs = &self.plan.inputs;
+        let errors = [(inputs.minus_two_alpha, rates), (inputs.minus_beta_squared, places)];
+        let error: f64 =
+            errors.iter().map(|(gain, of)| (self.symbol)(*gain).abs() * largest(of, |x| x.error)).sum();
+        let rows = self.feedback(motion).into_iter().zip(coefficients);
+        rows.map(|(row, coefficient)| Rounded { error: row.error + coefficient * error, ..row }).collect()
+    }
+
+    /// The largest entry of each row of Φ_q.
+    fn coefficients(&self) -> Vec<f64> {
+        let mut coefficients = vec![0.0_f64; self.model.constraints.len()];
+        for ((row, _), entry) in self.plan.phi_q_places.iter().zip(self.run(&self.plan.phi_q)) {
+            coefficients[*row] = coefficients[*row].max(entry.value.abs());
+        }
+        coefficients
+    }
+
     /// The results of a solving program with this feedback, where its pivots have
     /// not grown too much to tell anything.
-    fn solved(&self, program: &Program, feedback: &[f64]) -> Option<Vec<f64>> {
-        let hoisted: Vec<f64> = self.hoisted.iter().map(|hoisted| hoisted.value).collect();
+    fn solved(&self, program: &Program, feedback: &[f64]) -> Option<Vec<Rounded>> {
         let symbol = |symbol: Symbol| match self.plan.inputs.of(symbol) {
             Some(Input::Feedback(row)) => feedback[row],
             _ => (self.symbol)(symbol),
         };
-        let values = program.evaluate(&symbol, &hoisted);
-        let growth = values.last().copied().unwrap_or(0.0);
-        (growth.abs() <= LARGEST_GROWTH && values.iter().all(|x| x.is_finite())).then_some(values)
+        let values = run(program, &symbol, self.hoisted);
+        let growth = values.last().map_or(0.0, |growth| growth.value);
+        (growth.abs() <= LARGEST_GROWTH && values.iter().all(|x| x.value.is_finite())).then_some(values)
     }
 
     /// Φ̈ along the motion with these accelerations is the feedback.
-    fn accelerated(&self, name: &str, accelerations: &[f64], feedback: &[f64]) -> Check {
-        let along = self.phi(&|at| self.velocity(at), &|at| accelerations[at], 1.0);
+    fn accelerated(&self, name: &str, accelerations: &[Rounded], feedback: &[f64]) -> Check {
+        let along = self.phi(&|at| self.velocity(at), &|at| accelerations[at].value, 1.0);
         let rows = along.iter().map(|row| row.second).collect::<Vec<_>>();
         self.rows_are(name, &rows, feedback, accelerations)
     }
 
     /// The rows that are solved for have come out as they should.
-    fn rows_are(&self, name: &str, rows: &[Rounded], expected: &[f64], solution: &[f64]) -> Check {
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |a, x| a.max(x.abs()));
-        let size = largest(&mut solution.iter().copied());
-        let mut coefficients = vec![0.0_f64; rows.len()];
-        for ((row, _), entry) in self.plan.phi_q_places.iter().zip(self.run(&self.plan.phi_q)) {
-            coefficients[*row] = coefficients[*row].max(entry.value.abs());
-        }
+    fn rows_are(&self, name: &str, rows: &[Rounded], expected: &[f64], solution: &[Rounded]) -> Check {
+        let (size, error) = (largest(solution, |x| x.value), largest(solution, |x| x.error));
+        let coefficients = self.coefficients();
         for &row in &self.plan.rows.basis {
             let terms = rows[row].error / f64::EPSILON + expected[row].abs() + coefficients[row] * size;
-            if exceeds(rows[row].value - expected[row], terms) {
+            if exceeds(rows[row].value - expected[row], terms, coefficients[row] * error) {
                 return Err(format!(
                     "`{name}` does not solve row {row}: {:e} instead of {:e}",
                     rows[row].value, expected[row]
@@ -158,10 +179,10 @@ impl Point<'_> {
     }
 
     /// Q, with loads that depend on reactions taken at the reactions found.
-    fn forces(&self, multipliers: &[f64]) -> Vec<Rounded> {
+    fn forces(&self, multipliers: &[Rounded]) -> Vec<Rounded> {
         let mut forces = self.known_forces();
         let symbol = |symbol: Symbol| match self.model.meanings.get(symbol.index()) {
-            Some(Meaning::Multiplier(row)) => multipliers[*row],
+            Some(Meaning::Multiplier(row)) => multipliers[*row].value,
             _ => (self.symbol)(symbol),
         };
         let at_reactions = Point { symbol: &symbol, ..*self };
@@ -175,33 +196,28 @@ impl Point<'_> {
     }
 
     /// wᵀ (M q̈ + Φ_qᵀ λ − Q) = 0 along random w.
-    fn balance(&self, accelerations: &[f64], multipliers: &[f64]) -> Check {
+    fn balance(&self, accelerations: &[Rounded], multipliers: &[Rounded]) -> Check {
         let forces = self.forces(multipliers);
         for direction in 0..DIRECTIONS {
             let along = self.phi(&|at| self.weight(at, direction), &|_| 0.0, 0.0);
-            let terms = Cell::new(0.0);
-            let count = |x: Rounded| {
+            let (terms, errors) = (Cell::new(0.0), Cell::new(0.0));
+            // a factor without its own error, which counts beside
+            let count = |factor: Rounded, solved: Rounded| {
+                let x = factor * Rounded::exact(solved.value);
                 terms.set(terms.get() + x.value.abs() + x.error / f64::EPSILON);
+                errors.set(errors.get() + factor.value.abs() * solved.error);
                 x.value
             };
-            let inertia: f64 = accelerations
-                .iter()
-                .enumerate()
-                .map(|(at, &acceleration)| {
-                    let weight = Rounded::exact(self.weight(at, direction));
-                    let inertia = count(weight * self.mass(at) * Rounded::exact(acceleration));
-                    inertia - count(weight * forces[at])
-                })
-                .sum();
-            let constraints: f64 =
-                along.iter().zip(multipliers).map(|(row, &m)| count(row.first * Rounded::exact(m))).sum();
+            let inertia = accelerations.iter().enumerate().map(|(at, &acceleration)| {
+                let weight = Rounded::exact(self.weight(at, direction));
+                count(weight * self.mass(at), acceleration) - count(weight * forces[at], Rounded::exact(1.0))
+            });
+            let constraints =
+                along.iter().zip(multipliers).map(|(row, &multiplier)| count(row.first, multiplier));
+            let rest: f64 = inertia.chain(constraints).sum();
             let terms = terms.get() + self.augmented(accelerations);
-            if exceeds(inertia + constraints, terms) {
-                return Err(format!(
-                    "`reactions` do not balance the forces: {:e} is left of {:e}",
-                    inertia + constraints,
-                    terms
-                ));
+            if exceeds(rest, terms, errors.get()) {
+                return Err(format!("`reactions` do not balance the forces: {rest:e} is left of {terms:e}"));
             }
         }
         Ok(())
@@ -211,24 +227,38 @@ impl Point<'_> {
 impl Point<'_> {
     /// What rows add to the mass block where some coordinate has no mass: terms of the
     /// size of the other masses, which cancel, also where all forces are 0.
-    fn augmented(&self, accelerations: &[f64]) -> f64 {
+    fn augmented(&self, accelerations: &[Rounded]) -> f64 {
         let masses = || (0..accelerations.len()).map(|at| self.mass(at).value);
-        let fastest = accelerations.iter().fold(0.0_f64, |fastest, a| fastest.max(a.abs()));
+        let fastest = largest(accelerations, |x| x.value);
         if masses().any(|mass| mass == 0.0) { masses().sum::<f64>() * fastest } else { 0.0 }
     }
 }
 
+fn largest(values: &[Rounded], size: impl Fn(&Rounded) -> f64) -> f64 {
+    values.iter().fold(0.0_f64, |largest, x| largest.max(size(x).abs()))
+}
+
 /// Two ways to the same vector, compared by its largest component.
-fn same(name: &str, found: &[f64], expected: &[f64]) -> Check {
-    let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    let differs = |(found, expected): (&f64, &f64)| (found - expected).abs() > DIFFERENCE * size;
+fn same(name: &str, found: &[Rounded], expected: &[Rounded]) -> Check {
+    let size = largest(expected, |x| x.value);
+    let differs = |(found, expected): (&Rounded, &Rounded)| {
+        let allowed = DIFFERENCE * size + BOUNDS * (found.error + expected.error);
+        (found.value - expected.value).abs() > allowed
+    };
     match found.iter().zip(expected).position(differs) {
         None => Ok(()),
-        Some(at) => Err(format!("result {at} of `{name}` is {:e} instead of {:e}", found[at], expected[at])),
+        Some(at) => {
+            let (found, expected) = (found[at].value, expected[at].value);
+            Err(format!("result {at} of `{name}` is {found:e} instead of {expected:e}"))
+        }
     }
 }
 
-/// Whether a residual is more than rounding; one that is no number tells nothing.
-fn exceeds(residual: f64, terms: f64) -> bool {
-    terms.is_finite() && residual.abs() > RESIDUAL * terms + f64::MIN_POSITIVE
+/// Bounds of rounding errors are of first order; a factor covers the rest.
+const BOUNDS: f64 = 4.0;
+
+/// Whether a residual is more than rounding: of the terms that it is made of, and of a solution
+/// whose rounding errors, as they enter, are at most `error`. One that is no number tells nothing.
+fn exceeds(residual: f64, terms: f64, error: f64) -> bool {
+    terms.is_finite() && residual.abs() > RESIDUAL * terms + BOUNDS * error + f64::MIN_POSITIVE
 }

@@ -1,0 +1,73 @@
+//! Warnings about parts of a declaration that compile and are likely mistakes.
+
+use std::collections::BTreeMap;
+
+use super::resolver::Resolver;
+use crate::diagnostics::Diagnostic;
+use crate::syntax::{Declaration, ItemKind, Profile};
+
+/// A spline that leaves a dwell by less than this share of its range is not spoken of: one of three points of equal
+/// values or more, and one of two, which may be a peak between points on both of its sides.
+const OVERSHOOT: [f64; 2] = [1e-3, 2e-2];
+
+impl Resolver<'_> {
+    /// The warnings of a declaration: names that no formula uses, and used profiles that leave their dwells.
+    pub(super) fn warnings(&self, declaration: &Declaration) -> Vec<Diagnostic> {
+        let profiles = declaration.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Profile(profile) if self.scope.used.contains(&profile.name.to_string()) => {
+                self.overshoot(profile)
+            }
+            _ => None,
+        });
+        self.unused(declaration).into_iter().chain(profiles).collect()
+    }
+
+    /// The largest way that a profile goes between two points of equal values.
+    fn overshoot(&self, profile: &Profile) -> Option<Diagnostic> {
+        let spline = self.spline_named(&profile.name)?;
+        let values = || spline.segments.iter().map(|segment| segment.coefficients[0]);
+        let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+        let dwells: Vec<(usize, f64)> = spline.overshoots().collect();
+        let count = spline.segments.len();
+        let is_flat = |at: usize| dwells.iter().any(|(other, _)| *other == at % count);
+        let is_told = |at: usize, share: f64| {
+            let [long, short] = OVERSHOOT;
+            share > if is_flat(at + 1) || is_flat(at + count - 1) { long } else { short }
+        };
+        let told =
+            dwells.iter().map(|(at, away)| (*at, away / range)).filter(|(at, share)| is_told(*at, *share));
+        let (at, share) = told.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let (name, percent) = (&profile.name, 100.0 * share);
+        let message = format!(
+            "behind this point `{name}` goes away from its value by {percent:.1} % of its range, and comes back"
+        );
+        Some(Diagnostic::new(profile.points[at].x.span, message).help(
+            "a cubic spline overshoots where it is to dwell; give more points there, or compose the motion of laws that \
+             rest at both ends, such as `cycloidal`",
+        ))
+    }
+
+    /// Parameters, inputs, definitions and profiles that no formula uses. The copies that a loop or an assembly
+    /// makes of a statement are unused if all of them are.
+    fn unused(&self, declaration: &Declaration) -> Vec<Diagnostic> {
+        let mut statements: BTreeMap<usize, Option<Diagnostic>> = BTreeMap::new();
+        for item in &declaration.items {
+            let (what, name) = match &item.kind {
+                ItemKind::Parameter { name, .. } | ItemKind::Binding { name, .. } => ("parameter", name),
+                ItemKind::Input { name, .. } => ("input", name),
+                ItemKind::Let { name, .. } => ("definition", name),
+                ItemKind::Profile(profile) => ("profile", &profile.name),
+                _ => continue,
+            };
+            let warning = || {
+                Diagnostic::new(name.span(), format!("this {what} is never used"))
+                    .help("use it in a formula, or remove it")
+            };
+            let statement = statements.entry(item.position).or_insert_with(|| Some(warning()));
+            if self.scope.used.contains(&name.to_string()) {
+                *statement = None;
+            }
+        }
+        statements.into_values().flatten().collect()
+    }
+}
