@@ -77,11 +77,16 @@ impl<T: Real> Solution<'_, T> {
         // that jams.
         let share = T::from_f64(1.0 / 64.0) * limit;
         let culprit = worst.filter(|(_, growth)| is_over(*growth, share));
-        let pivot = culprit.and_then(|(at, _)| self.pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
         let growth = if is_over(self.growth, limit) { self.growth } else { worst_growth };
-        Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth: growth.to_f64() }
+        singular(self.info, self.t, culprit.and_then(|(at, _)| self.pivots.get(at)), growth)
     }
+}
+
+/// A singular position at the time `t`, where this pivot has grown.
+pub(crate) fn singular<T: Real>(info: &Info, t: T, pivot: Option<&Pivot>, growth: T) -> Error {
+    let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
+    let (t, growth, has_redundant) = (t.to_f64(), growth.to_f64(), !info.redundant.is_empty());
+    Error::Singular { t, constraint, coordinate, growth, has_redundant }
 }
 
 /// `Ok` if positions and velocities are finite.

@@ -4,7 +4,7 @@ mod shown;
 
 use core::fmt;
 
-use shown::Shown;
+use shown::{Plain, Shown, Violated};
 
 /// Why a mechanism could not be built, started or advanced.
 ///
@@ -75,6 +75,23 @@ pub enum Error {
         /// The step in s that would have been tried next.
         step: f64,
     },
+    /// A run to a tolerance took all the steps that it may take.
+    TooManySteps {
+        /// When, in s.
+        t: f64,
+        /// Number of steps that the run took.
+        steps: u64,
+    },
+    /// A program turns a value around at its event, and the value is back there before it has left zero by
+    /// more than rounding: impacts that follow each other faster and faster, or a state that nothing holds.
+    EndlessEvents {
+        /// When, in s.
+        t: f64,
+        /// The event that is declared; empty for a value of the program.
+        name: &'static str,
+        /// Its place among the events or values.
+        index: usize,
+    },
     /// The equations of a step, of an implicit method or those that keep positions on the constraints, have no
     /// solution that is found.
     NotConverged {
@@ -128,6 +145,9 @@ pub enum Error {
         coordinate: &'static str,
         /// The pivot growth.
         growth: f64,
+        /// `true` if the mechanism has redundant constraints. They take no part in the elimination, and might hold
+        /// where the chosen ones depend on each other.
+        has_redundant: bool,
     },
     /// A constraint that held cannot be met any more: a drive leads beyond what the
     /// dimensions allow, or a step is much too long for the motion.
@@ -223,13 +243,13 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Parameter { name, value, requirement } => {
-                write!(f, "`{name}` is {value}, but {requirement}")
+                write!(f, "`{name}` is {}, but {requirement}", Plain(value))
             }
             Self::Input { name, value } => {
-                write!(f, "input `{name}` is {value}, but it has to be finite")
+                write!(f, "input `{name}` is {}, but it has to be finite", Plain(value))
             }
             Self::Step { step } => {
-                write!(f, "the step is {step} s, but it has to be positive and finite")
+                write!(f, "the step is {} s, but it has to be positive and finite", Plain(step))
             }
             Self::EndTime { end, now } => write!(
                 f,
@@ -241,10 +261,11 @@ impl fmt::Display for Error {
                 f,
                 "the time is {t} s, but it has to be finite and small enough for a step of {step} s to be more \
                  than its rounding",
-                t = Shown(t)
+                t = Shown(t),
+                step = Plain(step)
             ),
             Self::Gain { name, value } => {
-                write!(f, "the gain {name} is {value} 1/s, but it has to be finite and not negative")
+                write!(f, "the gain {name} is {} 1/s, but it has to be finite and not negative", Plain(value))
             }
             Self::Tolerance { name, value, least } => write!(
                 f,
@@ -256,17 +277,36 @@ impl fmt::Display for Error {
                 "the scheme `{scheme}` cannot tell the error of its steps, which a run to a tolerance needs; \
                  take `bs3`, `dopri5` or `dop853`"
             ),
+            Self::TooManySteps { t, steps } => write!(
+                f,
+                "the run came to t = {t} s in {steps} steps, and may take no more; end it earlier, take a larger \
+                 tolerance or, if stiff forces make its steps short, softer ones",
+                t = Shown(t)
+            ),
             Self::StepTooShort { t, step } => write!(
                 f,
                 "the tolerance cannot be met at t = {t} s: the next step would be {step:.1e} s long; the motion \
                  has a jump there, or the tolerance is below the rounding of the forces",
                 t = Shown(t)
             ),
+            Self::EndlessEvents { t, name, index } => {
+                match name {
+                    "" => write!(f, "the event of the value {index}")?,
+                    name => write!(f, "the event `{name}`")?,
+                }
+                write!(
+                    f,
+                    " follows itself without end at t = {t} s: it was turned around there, and is back before \
+                     rounding can tell; end the run at an impact that is slow enough, or hold there what comes to rest",
+                    t = Shown(t)
+                )
+            }
             Self::NotConverged { t, step } => write!(
                 f,
                 "the equations of the step from t = {t} s could not be solved; take a step shorter than {step} s; \
                  if none is short enough, a force has an infinite slope there",
-                t = Shown(t)
+                t = Shown(t),
+                step = Plain(step)
             ),
             Self::VelocityForce { coordinate } => write!(
                 f,
@@ -280,8 +320,9 @@ impl fmt::Display for Error {
             ),
             Self::NoUseOfGain { name, value } => write!(
                 f,
-                "the gain {name} is {value} 1/s, but projection needs no gains; they belong to held or \
-                 per-stage feedback"
+                "the gain {name} is {} 1/s, but projection needs no gains; they belong to held or \
+                 per-stage feedback",
+                Plain(value)
             ),
             Self::Scheme { name } => {
                 write!(f, "the scheme `{name}` has no type here; run the declaration as a text")
@@ -290,9 +331,12 @@ impl fmt::Display for Error {
                 f,
                 "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {feedback} feedback \
                  and a step of {step} s: the constraint violation would grow; reduce them or the step, \
-                 or take `deadbeat({step})`"
+                 or take `deadbeat({step})`",
+                alpha = Plain(alpha),
+                beta = Plain(beta),
+                step = Plain(step)
             ),
-            Self::Singular { t, constraint, coordinate, growth } => {
+            Self::Singular { t, constraint, coordinate, growth, has_redundant } => {
                 write!(f, "singular position at t = {t} s: ", t = Shown(t))?;
                 match (constraint, coordinate) {
                     ("", "") => write!(
@@ -303,13 +347,21 @@ impl fmt::Display for Error {
                     ("", q) => write!(f, "nothing determines the acceleration of `{q}` there")?,
                     (c, q) => write!(f, "constraint `{c}` does not determine `{q}` there")?,
                 }
-                write!(f, " (pivot growth {growth:.1e})")
+                write!(f, " (pivot growth {growth:.1e})")?;
+                if has_redundant && !constraint.is_empty() {
+                    write!(
+                        f,
+                        "; of the constraints that repeat each other these are solved for, and they depend on \
+                         each other there: declare others of them first, which are then taken in their place"
+                    )?;
+                }
+                Ok(())
             }
             Self::OutOfReach { t, constraint, violation } => write!(
                 f,
-                "out of reach at t = {t} s: constraint `{constraint}` cannot be met there any more, it stays \
-                 violated by {violation:.1e}; check the dimensions and how far the drives go, or take a \
-                 smaller step if the mechanism can get there",
+                "out of reach at t = {t} s: constraint `{constraint}` cannot be met there any more{}; check the \
+                 dimensions and how far the drives go, or take a smaller step if the mechanism can get there",
+                Violated(violation),
                 t = Shown(t)
             ),
             Self::NonFinite { t, coordinate } => {
@@ -322,7 +374,8 @@ impl fmt::Display for Error {
                 )
             }
             Self::Undefined { t, what, name, value } => {
-                write!(f, "{what} `{name}` is {value} at t = {t} s, but it has to be finite", t = Shown(t))
+                let (value, t) = (Plain(value), Shown(t));
+                write!(f, "{what} `{name}` is {value} at t = {t} s, but it has to be finite")
             }
             Self::Inconsistent { t, constraint, is_rate, violation, allowed } => {
                 let (what, per_second) =
@@ -358,8 +411,9 @@ impl fmt::Display for Error {
             }
             Self::NotAssembled { t, constraint, violation } => write!(
                 f,
-                "the mechanism cannot be assembled at t = {t} s: constraint `{constraint}` stays violated \
-                 by {violation:.3e}; check the dimensions, or start from a closer guess",
+                "the mechanism cannot be assembled at t = {t} s: constraint `{constraint}` cannot be met{}; check \
+                 the dimensions, or start from a closer guess",
+                Violated(violation),
                 t = Shown(t)
             ),
             Self::NotDriven { dof } => write!(

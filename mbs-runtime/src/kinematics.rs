@@ -1,6 +1,6 @@
 //! Kinematic analysis: the motion from the constraints alone.
 
-use crate::diagnosis::{Solution, check_inputs, check_solution};
+use crate::diagnosis::{Solution, check_inputs, check_solution, singular};
 use crate::equations::{Arrays, At, Equations, assemble, project_velocities};
 use crate::room::{OnStack, Room};
 use crate::run::check_outputs;
@@ -210,10 +210,9 @@ impl<T: Real> Way<'_, T> {
     /// Beyond this position there is none near, but one on another branch.
     fn jumped(&self) -> Error {
         let worst = self.equations.worst_start_pivot(self.t, self.q);
-        let pivot = worst.and_then(|(at, _)| self.equations.info().start_pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
-        let growth = worst.map_or(f64::INFINITY, |(_, growth)| growth.to_f64());
-        Error::Singular { t: self.t.to_f64(), constraint, coordinate, growth }
+        let info = self.equations.info();
+        let growth = worst.map_or(T::from_f64(f64::INFINITY), |(_, growth)| growth);
+        singular(info, self.t, worst.and_then(|(at, _)| info.start_pivots.get(at)), growth)
     }
 
     fn acceleration(

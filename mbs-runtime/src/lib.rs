@@ -175,7 +175,7 @@ pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
 pub use mbs_schemes::sine::Octant;
 pub use mbs_schemes::{
-    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, Explicit, HEUN, RATTLE, RATTLE4, RK4, SCHEMES,
+    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, Explicit, HEUN, RATTLE, RATTLE4, RK4, Row, SCHEMES,
     Stabilization, Tableau,
 };
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
@@ -188,6 +188,8 @@ pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;
 pub use system::System;
+#[cfg(feature = "std")]
+pub use system::SystemClone;
 pub use watch::WorstPlace;
 
 /// What generated code calls. Not part of the public interface.

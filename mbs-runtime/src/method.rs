@@ -24,6 +24,14 @@ pub trait Scheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     /// The same for all stages.
     #[doc(hidden)]
     fn stages<X: Clone + Send>(x: X) -> Self::Stages<X>;
+
+    /// One of something for each slope and each term of an interpolant, none without one.
+    #[doc(hidden)]
+    type Between<X: Clone + Send>: Clone + Send + AsRef<[X]> + AsMut<[X]>;
+
+    /// The same for all of them.
+    #[doc(hidden)]
+    fn between<X: Clone + Send>(x: X) -> Self::Between<X>;
 }
 
 /// The types of schemes.
@@ -41,6 +49,12 @@ macro_rules! schemes {
 
             #[inline(always)]
             fn stages<X: Clone + Send>(x: X) -> Self::Stages<X> {
+                core::array::from_fn(|_| x.clone())
+            }
+
+            type Between<X: Clone + Send> = [X; $tableau.interpolated()];
+
+            fn between<X: Clone + Send>(x: X) -> Self::Between<X> {
                 core::array::from_fn(|_| x.clone())
             }
         })*
@@ -106,7 +120,7 @@ pub struct Held<S = Heun>(PhantomData<S>);
 /// Feedback evaluated in each stage, as Eq. (8) of the paper has it for Heun's method.
 ///
 /// A stage stands O(h²) beside the constraints, which is fed back with β² ~ 1/h², so its
-/// acceleration is off by O(1): positions stay second order, with [`Rk4`] too, and
+/// acceleration is off by O(1): positions are of second order, with [`Rk4`] too, velocities of first, and
 /// multipliers taken with these terms are wrong however small ‖Φ‖ looks. With gains that do
 /// not grow as the step becomes smaller, the scheme keeps its order.
 #[derive(Clone, Copy, Debug, PartialEq)]

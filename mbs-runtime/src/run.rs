@@ -3,7 +3,7 @@
 
 use mbs_schemes::{Explicit, Stabilization};
 
-use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, stage_error};
+use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, singular, stage_error};
 use crate::equations::{At, Equations};
 use crate::explicit::{self, Beside, Slopes, Span};
 use crate::mechanism::growth_limit;
@@ -42,7 +42,8 @@ impl<T: Real> Run<'_, T> {
     /// ```
     ///
     /// (q⁺, v⁺) is written to `next`; after an error, what stands there means nothing.
-    /// Time is passed in so that it is k·h and not a sum of k roundings.
+    /// Time is passed in so that it is k·h and not a sum of k roundings. The value is the growths of all
+    /// stages, added.
     ///
     /// # Errors
     /// [`Error::OutOfReach`] if the constraints cannot be met any more at its end,
@@ -54,7 +55,7 @@ impl<T: Real> Run<'_, T> {
         next: [&mut [T]; 2],
         watch: &mut Watch<T>,
         room: &mut Room<'_, T>,
-    ) -> Result<(), Error> {
+    ) -> Result<T, Error> {
         let [q_next, v_next] = next;
         let growth = self
             .explicit(t_next, [&mut *q_next, &mut *v_next], room)
@@ -68,7 +69,7 @@ impl<T: Real> Run<'_, T> {
             completed(self.equations, [self.at, next], room, &mut examine)?;
             watch.note_examined(growth);
         }
-        Ok(())
+        Ok(growth)
     }
 
     /// Whether a step to `next` needs no examination: its growth has not risen, and
@@ -208,9 +209,8 @@ impl<T: Real> Run<'_, T> {
             [Some(here), Some(there)] if there.1 > here.1 => Some(there),
             [here, there] => here.or(there),
         };
-        let pivot = worst.and_then(|(at, _)| equations.info().pivots.get(at));
-        let (constraint, coordinate) = pivot.map_or(("", ""), |pivot| (pivot.constraint, pivot.coordinate));
-        Err(Error::Singular { t: at.t.to_f64(), constraint, coordinate, growth: growth.to_f64() })
+        let info = equations.info();
+        Err(singular(info, at.t, worst.and_then(|(at, _)| info.pivots.get(at)), growth))
     }
 
     /// Why a step to `t_next` failed: an input, or a position that cannot be reached from

@@ -82,6 +82,17 @@ pub trait System<T: Real = f64>: Send {
     /// [`Error::EndTime`], [`Error::Time`].
     fn steps_to(&self, end: f64) -> Result<u64, Error>;
 
+    /// Says that the run ends at `end` seconds, and tells how many steps lead there.
+    ///
+    /// A run to a tolerance ends one of its own steps there, and its last sample is at that time, however
+    /// near the one before it is. One with a constant step ends as [`steps_to`](Self::steps_to) says.
+    ///
+    /// # Errors
+    /// As [`steps_to`](Self::steps_to).
+    fn ends_at(&mut self, end: f64) -> Result<u64, Error> {
+        self.steps_to(end)
+    }
+
     /// Advances by one step.
     ///
     /// # Errors
@@ -141,6 +152,45 @@ pub trait System<T: Real = f64>: Send {
 
     /// The digits that it left; see [`Simulation::digits_left`].
     fn digits_left(&self) -> f64;
+}
+
+/// A [`System`] that can be copied while its type is not known, so that a run in the loop of another program is saved
+/// and gone back to.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::{Simulation, SystemClone, mechanism};
+/// # mechanism! {
+/// #     pub Fall {
+/// #         dof = 1;
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body ball (y) { mass = 1 [kg]; }
+/// #     }
+/// # }
+/// let mut run: Box<dyn SystemClone> = Box::new(Simulation::new(Fall::declared(), 1e-3)?);
+/// run.advance(100)?;
+/// let mut saved = run.boxed_clone();
+/// run.advance(20)?;
+/// saved.advance(20)?;
+/// let y = |run: &dyn SystemClone| {
+///     let (mut y, mut v) = ([0.0], [0.0]);
+///     run.state(&mut y, &mut v);
+///     y[0]
+/// };
+/// assert_eq!(y(&*run), y(&*saved));
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+#[cfg(feature = "std")]
+pub trait SystemClone<T: Real = f64>: System<T> {
+    /// A copy, which goes on by itself: to the same bits.
+    fn boxed_clone(&self) -> std::boxed::Box<dyn SystemClone<T>>;
+}
+
+#[cfg(feature = "std")]
+impl<T: Real, S: System<T> + Clone + 'static> SystemClone<T> for S {
+    fn boxed_clone(&self) -> std::boxed::Box<dyn SystemClone<T>> {
+        std::boxed::Box::new(self.clone())
+    }
 }
 
 impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {

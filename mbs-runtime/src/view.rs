@@ -13,9 +13,9 @@ pub(crate) struct View<'a, D: Dynamics> {
 }
 
 impl<D: Dynamics> View<'_, D> {
-    /// Does something with the inputs as a slice.
+    /// Does something with the present inputs as a slice.
     pub fn with_inputs<R>(&self, what: impl FnOnce(&[D::Real]) -> R) -> R {
-        let mut inputs = self.inputs.clone();
+        let mut inputs = self.dynamics.inputs_at(self.at.t, self.inputs);
         self.dynamics.with_inputs(&mut inputs, |inputs| what(inputs))
     }
 

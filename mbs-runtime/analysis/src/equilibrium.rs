@@ -129,6 +129,8 @@ impl Equilibrium {
 /// unstable ones, from which it is pushed if it begins there. The equation of each step is solved, which
 /// leads along the curved valley of a stiff spring.
 ///
+/// A mechanism without degrees of freedom rests where it is assembled: what is found are its reactions.
+///
 /// Drives are held where they are at `t`. Derivatives are exact for a mechanism that is
 /// [`differentiable`](Described::differentiable): a text, or a type in
 /// [`Differentiated`](mbs_runtime::equations::Differentiated). For other types they are five-point
@@ -136,7 +138,7 @@ impl Equilibrium {
 /// stiffnesses are good to ten digits then.
 ///
 /// # Errors
-/// [`Error::NoFreedom`], [`Error::NoEquilibrium`], [`Error::Length`]; [`Error::Undefined`] and
+/// [`Error::NoEquilibrium`], [`Error::Length`]; [`Error::Undefined`] and
 /// [`Error::Slope`] where a force has no value or an infinite slope; of the mechanism
 /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
 ///
@@ -147,9 +149,6 @@ impl Equilibrium {
 /// Numer. Anal. 35 (1998) 508-523.
 pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Equilibrium, Error> {
     let info = mechanism.info();
-    if info.dof <= 0 {
-        return Err(Error::NoFreedom { mechanism: info.name });
-    }
     let declared: Vec<f64> = info.coordinates.iter().map(|q| q.default).collect();
     let defaults: Vec<f64> = info.inputs.iter().map(|input| input.default).collect();
     let from = search.from.clone().unwrap_or(declared);
@@ -159,22 +158,30 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let mut start = DVector::from_vec(from);
     let rest = Rest::new(mechanism, search.t, &inputs, start.as_slice());
     rest.assemble(&mut start)?;
+    let is_held = info.dof == 0;
     let Found { q, iterations } = match search.strategy {
+        _ if is_held => Found { q: start, iterations: 0 },
         Strategy::Newton => newton(&rest, start, ITERATIONS)?,
         Strategy::Relaxation => relax(&rest, start)?,
         Strategy::Automatic => automatic(&rest, start)?,
     };
     let (_, multipliers) = rest.acceleration(&q);
-    let Some(stiffness) = Stiffness::at(&rest, &q) else { return Err(lost(&rest, &q, iterations)) };
+    let stiffness =
+        if is_held { multipliers.iter().all(|x| x.is_finite()).then(Vec::new) } else { stiffness(&rest, &q) };
+    let Some(stiffness) = stiffness else { return Err(lost(&rest, &q, iterations)) };
     Ok(Equilibrium {
         t: search.t,
         q: q.as_slice().to_vec(),
         multipliers: multipliers.as_slice().to_vec(),
-        stiffness: stiffness.values,
+        stiffness,
         resolution: rest.resolution(),
         iterations,
         inputs,
     })
+}
+
+fn stiffness(rest: &Rest<'_>, q: &DVector<f64>) -> Option<Vec<f64>> {
+    Stiffness::at(rest, q).map(|stiffness| stiffness.values)
 }
 
 fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {

@@ -10,7 +10,7 @@ pub enum Error {
     /// A mechanism whose motion is prescribed.
     #[error(
         "`{mechanism}` has no degree of freedom: its drives and constraints determine where it is; \
-         take a drive away to ask where it rests or how it vibrates"
+         take a drive away to ask how it vibrates"
     )]
     NoFreedom {
         /// The name of the mechanism.
@@ -105,8 +105,8 @@ pub enum Error {
     },
     /// A derivative that is no number.
     #[error(
-        "{of} has no derivative at this position: a force or a constraint has an infinite slope there, as \
-         sqrt(x) has at x = 0; choose another one"
+        "{of} has no derivative at this position: a formula is 0/0 or has an infinite slope there, as \
+         sqrt(x) has at x = 0; choose another position"
     )]
     Slope {
         /// What has none: "the acceleration of `x`", "the output `y`".

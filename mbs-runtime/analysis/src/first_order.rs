@@ -7,7 +7,7 @@ use mbs_runtime::equations::{At, Described, PARTIALS, Partials};
 use mbs_runtime::{Gains, Real, System};
 use nalgebra::DMatrix;
 
-use crate::Error;
+use crate::{Error, InputTable};
 
 /// A mechanism as ẏ = f(t, y), as crates that solve ordinary differential equations take it.
 ///
@@ -58,6 +58,7 @@ pub struct FirstOrder {
     mechanism: Arc<dyn Described<f64> + Send + Sync>,
     parameters: Vec<Partials>,
     inputs: Vec<f64>,
+    table: Arc<InputTable>,
 }
 
 impl FirstOrder {
@@ -80,7 +81,13 @@ impl FirstOrder {
         let mut parameters = vec![0.0; info.parameters.len()];
         mechanism.parameters(&mut parameters);
         let parameters = parameters.into_iter().map(Partials::constant).collect();
-        Ok(Self { mechanism: Arc::new(mechanism), parameters, inputs })
+        Ok(Self { mechanism: Arc::new(mechanism), parameters, inputs, table: Arc::default() })
+    }
+
+    /// The same with inputs that change with time.
+    #[must_use]
+    pub fn driven_by(self, table: Arc<InputTable>) -> Self {
+        Self { table, ..self }
     }
 
     /// The numbers of y: twice the coordinates that are integrated.
@@ -88,7 +95,7 @@ impl FirstOrder {
         2 * self.mechanism.info().states.len()
     }
 
-    /// The inputs in SI units, which f holds constant.
+    /// The inputs in SI units, which f holds constant where no table has them.
     pub fn inputs(&self) -> &[f64] {
         &self.inputs
     }
@@ -121,17 +128,23 @@ impl FirstOrder {
         all
     }
 
+    fn inputs_at(&self, t: f64) -> Vec<f64> {
+        let mut inputs = self.inputs.clone();
+        self.table.set(t, &mut inputs);
+        inputs
+    }
+
     /// Writes f(t, y). At a position in which the mechanism is singular, and where a force is not
     /// defined, it is not finite or has no accuracy.
     pub fn derivative(&self, t: f64, y: &[f64], slope: &mut [f64]) {
-        derivative(&*self.mechanism, t, y, &self.inputs, slope);
+        derivative(&*self.mechanism, t, y, &self.inputs_at(t), slope);
     }
 
     /// Writes ∂f/∂y, of as many rows and columns as the [dimension](Self::dimension).
     pub fn jacobian(&self, t: f64, y: &[f64], jacobian: &mut DMatrix<f64>) {
         jacobian.fill(f64::NAN);
         let constants = |numbers: &[f64]| numbers.iter().map(|x| Partials::constant(*x)).collect::<Vec<_>>();
-        let (inputs, still) = (constants(&self.inputs), constants(y));
+        let (inputs, still) = (constants(&self.inputs_at(t)), constants(y));
         let mut slope = still.clone();
         let mut evaluate = |equations: &dyn Described<Partials>| {
             for first in (0..y.len()).step_by(PARTIALS) {

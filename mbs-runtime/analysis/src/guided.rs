@@ -112,7 +112,9 @@ impl<'a> Guided<'a> {
         let predicted = &self.q + tangent;
         let Some((q, jacobian)) = self.corrected(t, &z, predicted.clone()) else { return false };
         let away = (&q - &predicted).component_div(&self.scales).amax();
-        if away.is_nan() || away > NEAR || jacobian.sign() != self.jacobian.sign() {
+        // of rows that are independent where the step begins
+        let rows = self.jacobian.independent();
+        if away.is_nan() || away > NEAR || jacobian.sign(&rows) != self.jacobian.sign(&rows) {
             return false;
         }
         (self.t, self.q, self.jacobian) = (t, q, jacobian);

@@ -1,27 +1,36 @@
 //! The Jacobian of constraints and prescribed coordinates.
 
 use mbs_runtime::equations::{At, Described};
-use nalgebra::{DMatrix, DVector, Dyn, LU, SVD};
+use nalgebra::{DMatrix, DVector, Dyn, LU, QR, SVD};
 
 /// Singular values below this share of the largest are 0.
 const SINGULAR: f64 = 1e-9;
 
-/// J = [Φ_q; 1_I] at a position, with as many independent rows as coordinates.
+/// J = [Φ_q; 1_I] at a position.
 ///
-/// It is factorized in numbers without units: columns are multiplied by the scales of coordinates, rows
-/// divided by their largest entry.
+/// It has a row for every constraint, also for those that repeat others: where the rows that a run
+/// solves for depend on each other, all together may still be independent. J is factorized in numbers
+/// without units: columns are multiplied by the scales of coordinates, rows divided by their largest
+/// entry.
 #[derive(Clone)]
 pub struct Jacobian {
-    /// Φ_q, all rows.
+    /// Φ_q
     all: DMatrix<f64>,
-    /// The rows that do not repeat others.
-    independent: Vec<usize>,
     places: Vec<usize>,
     scales: DVector<f64>,
     /// What each row of J is divided by.
     sizes: DVector<f64>,
     scaled: DMatrix<f64>,
-    factors: LU<f64, Dyn, Dyn>,
+    factors: Factors,
+}
+
+/// J as a product.
+#[derive(Clone)]
+enum Factors {
+    /// With as many rows as coordinates.
+    Square(LU<f64, Dyn, Dyn>),
+    /// With rows that repeat others, J = QR.
+    Tall(QR<f64, Dyn, Dyn>),
 }
 
 impl Jacobian {
@@ -46,40 +55,43 @@ impl Jacobian {
             all.set_column(at, &((rate(&unit) - &at_rest) / scales[at]));
             unit[at] = 0.0;
         }
-        let independent: Vec<usize> = (0..m).filter(|row| !info.redundant.contains(row)).collect();
-        let mut scaled = DMatrix::zeros(n, n);
-        let constraints = independent.iter().map(|row| all.row(*row).into_owned());
-        let chosen = places
-            .iter()
-            .map(|place| DVector::from_fn(n, |at, _| f64::from(u8::from(at == *place))).transpose());
-        for (mut row, values) in scaled.row_iter_mut().zip(constraints.chain(chosen)) {
-            row.copy_from(&values.component_mul(&scales.transpose()));
+        let mut scaled = DMatrix::zeros(m + places.len(), n);
+        scaled.rows_mut(0, m).copy_from(&all);
+        for (row, place) in places.iter().enumerate() {
+            scaled[(m + row, *place)] = 1.0;
         }
-        let sizes = DVector::from_fn(n, |row, _| {
-            let size = scaled.row(row).amax();
-            if size > 0.0 { size } else { 1.0 }
-        });
+        for (mut column, scale) in scaled.column_iter_mut().zip(scales) {
+            column *= *scale;
+        }
+        let size = |row: usize| scaled.row(row).amax();
+        let sizes = DVector::from_fn(scaled.nrows(), |row, _| if size(row) > 0.0 { size(row) } else { 1.0 });
         for (mut row, size) in scaled.row_iter_mut().zip(&sizes) {
             row /= *size;
         }
-        let factors = scaled.clone().lu();
+        let factors = match scaled.is_square() {
+            true => Factors::Square(scaled.clone().lu()),
+            false => Factors::Tall(scaled.clone().qr()),
+        };
         let (places, scales) = (places.to_vec(), scales.clone());
-        Self { all, independent, places, scales, sizes, scaled, factors }
+        Self { all, places, scales, sizes, scaled, factors }
     }
 
-    /// x with Φ_q x = `rates` and x_I = `chosen`; not finite where J is singular. Rows that repeat others
-    /// are not asked.
+    /// x with Φ_q x = `rates` and x_I = `chosen`, in the sense of least squares where rows repeat others;
+    /// not finite where J is singular.
     pub fn solve(&self, rates: &DVector<f64>, chosen: &DVector<f64>) -> DVector<f64> {
-        let right = rates.select_rows(&self.independent);
-        let right = DVector::from_iterator(self.sizes.len(), right.iter().chain(chosen).copied());
-        let n = right.len();
-        let found = self.factors.solve(&right.component_div(&self.sizes));
-        found.map_or_else(|| DVector::from_element(n, f64::NAN), |x| x.component_mul(&self.scales))
+        let right = DVector::from_iterator(self.sizes.len(), rates.iter().chain(chosen).copied());
+        let right = right.component_div(&self.sizes);
+        let found = match &self.factors {
+            Factors::Square(factors) => factors.solve(&right),
+            Factors::Tall(factors) => factors.r().solve_upper_triangular(&factors.q().tr_mul(&right)),
+        };
+        let none = || DVector::from_element(self.scales.len(), f64::NAN);
+        found.map_or_else(none, |x| x.component_mul(&self.scales))
     }
 
     /// N with Φ_q N = 0 and N_I = 1.
     pub fn directions(&self) -> DMatrix<f64> {
-        let (n, f) = (self.sizes.len(), self.places.len());
+        let (n, f) = (self.scales.len(), self.places.len());
         let still = DVector::zeros(self.all.nrows());
         let mut directions = DMatrix::zeros(n, f);
         for at in 0..f {
@@ -92,7 +104,7 @@ impl Jacobian {
     /// λ and σ with Φ_qᵀλ + 1_Iᵀσ = `push`. Where rows repeat others, λ is the least one.
     pub fn balance(&self, push: &DVector<f64>) -> [DVector<f64>; 2] {
         let (m, f) = (self.all.nrows(), self.places.len());
-        if self.independent.len() < m {
+        if !self.scaled.is_square() {
             return self.least_balance(push);
         }
         // Jᵀ y = push of J = sizes · scaled / scales
@@ -118,10 +130,24 @@ impl Jacobian {
         [y.rows(0, m).clone_owned(), y.rows(m, f).clone_owned()]
     }
 
-    /// Whether the determinant is positive.
-    pub fn sign(&self) -> bool {
-        let swaps: f64 = self.factors.p().determinant();
-        let pivots = self.factors.lu_internal().diagonal();
+    /// Rows of J that are independent here, as many as there are coordinates.
+    pub fn independent(&self) -> Vec<usize> {
+        let count = self.scaled.nrows();
+        let mut rows = DMatrix::from_fn(1, count, |_, row| row);
+        if let Factors::Tall(_) = self.factors {
+            self.scaled.transpose().col_piv_qr().p().permute_columns(&mut rows);
+        }
+        rows.iter().take(self.scales.len()).copied().collect()
+    }
+
+    /// `true` if the determinant of these rows of J is positive.
+    pub fn sign(&self, rows: &[usize]) -> bool {
+        let factors = match &self.factors {
+            Factors::Square(factors) => factors.clone(),
+            Factors::Tall(_) => self.scaled.select_rows(rows).lu(),
+        };
+        let swaps: f64 = factors.p().determinant();
+        let pivots = factors.lu_internal().diagonal();
         pivots.iter().fold(swaps, |sign, pivot| sign * pivot.signum()) > 0.0
     }
 
@@ -136,11 +162,11 @@ impl Jacobian {
     pub fn nearly_singular(&self) -> [usize; 2] {
         let Some(decomposition) = self.decomposed() else { return [0, 0] };
         let least = decomposition.singular_values.imin();
-        let rows = self.independent.len();
+        let rows = self.all.nrows();
         let left = decomposition.u.filter(|_| rows > 0);
         let row = left.map_or(0, |left| left.column(least).rows(0, rows).icamax());
         let free = decomposition.v_t.map_or(0, |right| right.row(least).transpose().icamax());
-        [self.independent.get(row).copied().unwrap_or(0), free]
+        [row, free]
     }
 
     /// Nothing of numbers that are not finite, on which the decomposition would not end.

@@ -20,12 +20,14 @@ mod complex;
 mod curve;
 mod derivative;
 mod difference;
+mod driven;
 mod equilibrium;
 mod error;
 mod family;
 mod first_order;
 mod fit;
 mod guided;
+mod input_table;
 mod inverse;
 mod jacobian;
 #[doc = include_str!("fit/identification.md")]
@@ -40,6 +42,7 @@ mod point;
 #[doc = include_str!("prescribed.md")]
 #[doc = include_str!("tailgate.svg")]
 pub mod prescribed {}
+mod rates;
 mod response;
 mod rest;
 mod sensitivity;
@@ -59,18 +62,21 @@ pub use nalgebra;
 #[cfg(feature = "bdf")]
 pub use bdf::{Bdf, BdfSteps};
 pub use curve::{Curve, Moment, Time};
+pub use driven::Driven;
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};
 pub use error::Error;
 pub use family::{Family, of_type};
 pub use first_order::FirstOrder;
 pub use fit::{
-    Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown,
+    Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown, clock_of,
     trials_of_type,
 };
+pub use input_table::{InputTable, own_clock};
 pub use inverse::{By, Instant, Prescription, inverse};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};
 pub use point::{Drives, OperatingPoint};
+pub use rates::{Rates, rates};
 pub use response::{StepResponse, phases};
 pub use sensitivity::{Sensitivities, sensitivities};
 pub use signal::{Signal, Variable};

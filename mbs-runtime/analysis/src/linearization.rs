@@ -20,7 +20,8 @@ pub struct Ports<'a> {
     /// The inputs; `None` for all.
     pub inputs: Option<Vec<String>>,
     /// Declared outputs, coordinates `x`, their rates `der(x)` and multipliers `lambda(row)`; `None`
-    /// for all declared outputs, or for the coordinates of a mechanism that declares none.
+    /// for all declared outputs that have a value and derivatives at the point, or for the coordinates of a
+    /// mechanism that declares none.
     pub outputs: Option<Vec<String>>,
     /// Parameters that are inputs too, after the others.
     pub parameters: Vec<String>,
@@ -42,6 +43,9 @@ pub struct Linearization {
     pub inputs: Vec<Signal>,
     /// y
     pub outputs: Vec<Signal>,
+    /// Declared outputs that are left out of y, since they have no value or no derivative at the point, as
+    /// der(y)/der(x) has none at rest. An output that [`Ports::outputs`] names is an error instead.
+    pub left_out: Vec<Signal>,
     /// A, 2f × 2f: [0 1; ∂z̈/∂z ∂z̈/∂ż].
     pub a: DMatrix<f64>,
     /// B
@@ -88,7 +92,7 @@ pub struct Linearization {
 /// [`Error::NoFreedom`]; [`Error::Length`] and [`Error::OffConstraints`] of the point;
 /// [`Error::Unknown`], [`Error::Dependent`] and [`Error::NoFamily`] of the ports;
 /// [`Error::Undefined`] where the accelerations at the point are no numbers, and [`Error::Slope`] where a
-/// derivative is none.
+/// derivative of them, or an output that the ports name, is none.
 ///
 /// # Example
 /// ```
@@ -172,14 +176,33 @@ pub fn linearize(
         point: point.clone(),
         inputs,
         outputs,
+        left_out: Vec::new(),
     };
-    check_derivatives(&linear).map(|()| linear)
+    check_accelerations(&linear)?;
+    linear.with_values(ports.outputs.is_some())
 }
 
 impl Linearization {
     /// f, the degrees of freedom.
     pub fn dof(&self) -> usize {
         self.directions.ncols()
+    }
+
+    /// Without the outputs that have no value or no derivative; an error if they are asked for by name.
+    fn with_values(mut self, is_named: bool) -> Result<Self, Error> {
+        let has_value = |at: &usize| self.values[*at].is_finite() && is_finite([&self.c, &self.d], *at);
+        let (kept, without): (Vec<usize>, Vec<usize>) = (0..self.outputs.len()).partition(has_value);
+        let of =
+            |rows: &[usize]| -> Vec<Signal> { rows.iter().map(|&at| self.outputs[at].clone()).collect() };
+        let (outputs, left_out) = (of(&kept), of(&without));
+        if let (Some(output), true) = (left_out.first(), is_named) {
+            return Err(Error::Slope { of: format!("the output `{}`", output.name) });
+        }
+        self.c = self.c.select_rows(&kept);
+        self.d = self.d.select_rows(&kept);
+        self.values = self.values.select_rows(&kept);
+        (self.outputs, self.left_out) = (outputs, left_out);
+        Ok(self)
     }
 
     /// The scales of the coordinates that are states.
@@ -200,21 +223,17 @@ fn check_finite(info: &mbs_runtime::Info, here: &Values) -> Result<(), Error> {
     }
 }
 
-/// Refuses A, B, C or D with an entry that is no number.
-fn check_derivatives(linear: &Linearization) -> Result<(), Error> {
-    let has_none = |rows: [&DMatrix<f64>; 2], at: usize| {
-        rows.iter().any(|matrix| matrix.row(at).iter().any(|x| !x.is_finite()))
-    };
-    let f = linear.dof();
-    let acceleration = (0..f).find(|at| has_none([&linear.a, &linear.b], f + at));
-    if let Some(state) = acceleration.and_then(|at| linear.states.get(at)) {
-        return Err(Error::Slope { of: format!("the acceleration of `{}`", state.name) });
-    }
-    let output = (0..linear.outputs.len()).find(|at| has_none([&linear.c, &linear.d], *at));
-    match output.and_then(|at| linear.outputs.get(at)) {
-        Some(output) => Err(Error::Slope { of: format!("the output `{}`", output.name) }),
+/// Refuses A or B with an entry that is no number.
+fn check_accelerations(linear: &Linearization) -> Result<(), Error> {
+    let has_none = |at: &usize| !is_finite([&linear.a, &linear.b], linear.dof() + at);
+    match (0..linear.dof()).find(has_none).and_then(|at| linear.states.get(at)) {
+        Some(state) => Err(Error::Slope { of: format!("the acceleration of `{}`", state.name) }),
         None => Ok(()),
     }
+}
+
+fn is_finite(rows: [&DMatrix<f64>; 2], at: usize) -> bool {
+    rows.iter().all(|matrix| matrix.row(at).iter().all(|x| x.is_finite()))
 }
 
 /// An output at the operating point.

@@ -29,6 +29,8 @@ pub struct Tangent {
     pub directions: DMatrix<f64>,
 }
 
+/// Rows whose part beside others is less than this share of the largest repeat them.
+const DEPENDENT: f64 = 1e-9;
 /// Newton's corrections of positions end before this.
 const CORRECTIONS: usize = 50;
 
@@ -87,28 +89,25 @@ impl<'a> Rest<'a> {
     /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
     pub fn assemble(&self, q: &mut DVector<f64>) -> Result<(), Error> {
         let info = self.mechanism.info();
-        let mut phi = vec![0.0; info.constraints.len()];
-        let mut delta = vec![0.0; q.len()];
-        let scales = self.scales();
+        let mut phi = self.violation(q);
+        let mut size = f64::NAN;
         for _ in 0..CORRECTIONS {
-            self.mechanism.phi(self.t, q.as_slice(), &mut phi);
-            self.mechanism.projection(self.t, q.as_slice(), &phi, &mut delta);
-            let size =
-                delta.iter().zip(&scales).map(|(delta, scale)| (delta / scale).abs()).fold(0.0, f64::max);
+            let delta = self.correction(q, &phi);
+            size = self.measure(&delta);
             if !size.is_finite() {
                 break;
             }
             // far from the constraints a full correction may overshoot
-            let share = (0.5 / size).min(1.0);
-            q.iter_mut().zip(&delta).for_each(|(q, delta)| *q -= share * delta);
+            *q -= delta * (0.5 / size).min(1.0);
             if size < 1e-14 * (1.0 + q.amax()) {
                 return Ok(());
             }
+            phi = self.violation(q);
         }
-        let worst = phi.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
-        let (row, violation) = worst.map_or((0, 0.0), |(row, phi)| (row, phi.abs()));
+        let row = if phi.is_empty() { 0 } else { phi.icamax() };
+        let violation = phi.amax();
         // at rounding Newton's method may circle; at a singular position a correction is no number
-        if delta.iter().all(|delta| delta.is_finite()) && violation <= 1e-13 * (1.0 + q.amax()) {
+        if size.is_finite() && violation <= 1e-13 * (1.0 + q.amax()) {
             return Ok(());
         }
         let constraint = info.constraints.get(row).map_or("", |constraint| constraint.name);
@@ -135,11 +134,44 @@ impl<'a> Rest<'a> {
         rate
     }
 
-    /// The smallest Δ, in the norm of the mass matrix, with Φ_q Δ = `violation`.
+    /// The smallest Δ, in the norm of the mass matrix, with Φ_q Δ = `violation`. Where constraints repeat
+    /// others, all of them are asked, in the sense of least squares: those that a run solves for may depend
+    /// on each other at a position that is regular.
     pub fn correction(&self, q: &DVector<f64>, violation: &DVector<f64>) -> DVector<f64> {
-        let mut delta = DVector::zeros(q.len());
-        self.mechanism.projection(self.t, q.as_slice(), violation.as_slice(), delta.as_mut_slice());
-        delta
+        if self.mechanism.info().redundant.is_empty() {
+            let mut delta = DVector::zeros(q.len());
+            self.mechanism.projection(self.t, q.as_slice(), violation.as_slice(), delta.as_mut_slice());
+            return delta;
+        }
+        let weights = self.weights(q);
+        let rows = self.weighed_rows(q, &weights);
+        if rows.iter().any(|x| !x.is_finite()) {
+            return DVector::from_element(q.len(), f64::NAN);
+        }
+        let decomposition = rows.svd(true, true);
+        let least = DEPENDENT * decomposition.singular_values.amax();
+        let found = decomposition.solve(violation, least);
+        found.map_or_else(|_| DVector::from_element(q.len(), f64::NAN), |y| y.component_mul(&weights))
+    }
+
+    /// W, by which coordinates weigh alike; see [`Tangent`].
+    fn weights(&self, q: &DVector<f64>) -> DVector<f64> {
+        let n = q.len();
+        let mass = |at: usize| 2.0 * self.kinetic_energy(q, &unit(n, at));
+        let masses: Vec<f64> = (0..n).map(mass).collect();
+        let lightest = masses.iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
+        let lightest = if lightest.is_finite() { lightest } else { 1.0 };
+        DVector::from_fn(n, |at, _| 1.0 / if masses[at] > 0.0 { masses[at] } else { lightest }.sqrt())
+    }
+
+    /// Φ_q W
+    fn weighed_rows(&self, q: &DVector<f64>, weights: &DVector<f64>) -> DMatrix<f64> {
+        let n = q.len();
+        let mut rows = DMatrix::zeros(self.mechanism.info().constraints.len(), n);
+        for at in 0..n {
+            rows.set_column(at, &self.along(q, &(unit(n, at) * weights[at])));
+        }
+        rows
     }
 
     /// Φ_q w
@@ -156,19 +188,11 @@ impl<'a> Rest<'a> {
     pub fn tangent(&self, q: &DVector<f64>) -> Tangent {
         let info = self.mechanism.info();
         let (n, m) = (q.len(), info.constraints.len());
-        let unit = |at: usize| DVector::from_fn(n, |other, _| f64::from(u8::from(at == other)));
-        let masses: Vec<f64> = (0..n).map(|at| 2.0 * self.kinetic_energy(q, &unit(at))).collect();
-        let lightest = masses.iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
-        let lightest = if lightest.is_finite() { lightest } else { 1.0 };
-        let weights =
-            DVector::from_fn(n, |at, _| 1.0 / if masses[at] > 0.0 { masses[at] } else { lightest }.sqrt());
+        let weights = self.weights(q);
         // Φ_qᵀ = QR with the rows of Φ_q in the order of what is left of them: behind as many columns as
         // rows are independent, Q spans the directions that Φ_q does not see; square, to have all of Q
         let mut transposed = DMatrix::zeros(n, n.max(m));
-        for at in 0..n {
-            let column = self.along(q, &(unit(at) * weights[at]));
-            transposed.view_mut((at, 0), (1, m)).copy_from(&column.transpose());
-        }
+        transposed.columns_mut(0, m).copy_from(&self.weighed_rows(q, &weights).transpose());
         for mut row in transposed.column_iter_mut() {
             let size = row.amax();
             if size > 0.0 {
@@ -224,6 +248,11 @@ impl<'a> Rest<'a> {
         let rates = self.rates(q, &self.tangent(q).directions);
         rates.row_iter().position(|row| row.iter().any(|rate| !rate.is_finite()))
     }
+}
+
+/// The direction in which one coordinate moves.
+fn unit(n: usize, at: usize) -> DVector<f64> {
+    DVector::from_fn(n, |other, _| f64::from(u8::from(at == other)))
 }
 
 impl Tangent {

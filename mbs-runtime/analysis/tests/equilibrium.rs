@@ -94,15 +94,6 @@ mechanism! {
 }
 
 mechanism! {
-    /// Driven.
-    pub Driven {
-        dof = 0;
-        body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
-        drive motor: phi = 3 [rad/s]*t;
-    }
-}
-
-mechanism! {
     /// A drive holds one of two coordinates that a spring joins.
     pub Held {
         dof = 1;
@@ -247,10 +238,34 @@ fn a_falling_body_has_no_equilibrium() {
     assert_eq!(drifting.stability(), Stability::Indifferent);
 }
 
+mechanism! {
+    /// A beam of 60 N on a pin and a slide 2 m apart.
+    pub Bridge {
+        dof = 0;
+        param l = 2 [m];
+        gravity = (0, -10) [m/s^2];
+        body beam (x, y, theta) { mass = 6 [kg]; inertia = 2 [kg*m^2]; }
+        point left on beam = (-l/4, 0);
+        point right on beam = (3*l/4, 0);
+        revolute pin (beam.left, ground);
+        point_on_line slide (beam.right, ground) along (1, 0);
+        start { guess x = 0.5 [m]; }
+    }
+}
+
+#[test]
+fn what_has_no_freedom_has_reactions() {
+    let found = equilibrium(&Bridge::declared(), &Search::default()).expect("it is held");
+    assert!(found.is_stable() && found.stiffness.is_empty());
+    // 3/4 of the weight near the centre, 1/4 far away, to some roundings of 60 N
+    let sizes: Vec<f64> = found.multipliers.iter().map(|x| x.abs()).collect();
+    for (size, expected) in sizes.iter().zip([0.0, 45.0, 15.0]) {
+        assert!((size - expected).abs() < 1e-12, "{sizes:?}");
+    }
+}
+
 #[test]
 fn what_cannot_rest_is_refused() {
-    let error = equilibrium(&Driven::declared(), &Search::default()).expect_err("driven");
-    assert!(matches!(error, Error::NoFreedom { mechanism: "Driven" }), "{error}");
     let error = equilibrium(&Spring::declared(), &from(&[1.0, 2.0])).expect_err("too many");
     assert!(error.to_string().contains("2 numbers"), "{error}");
 }

@@ -243,6 +243,13 @@ fn what_has_no_derivative_is_named() {
     assert!(error.starts_with("the acceleration of `x` has no derivative at this position"), "{error}");
     let error = refused(at(1.0), Ports { outputs: Some(vec!["left".into()]), ..Ports::default() });
     assert!(error.starts_with("the output `left` has no derivative at this position"), "{error}");
+    // one that nobody asked for is left out
+    let linear = linearize(&bead, &at(1.0), &Ports::default()).expect("a linear system");
+    let names = |signals: &[mbs_analysis::Signal]| signals.iter().map(|y| y.name.clone()).collect::<Vec<_>>();
+    assert!(names(&linear.left_out).contains(&"left".to_owned()), "{:?}", linear.left_out);
+    assert!(!names(&linear.outputs).contains(&"left".to_owned()), "{:?}", linear.outputs);
+    assert_eq!(linear.c.nrows(), linear.outputs.len());
+    assert!(linear.modes().is_ok());
     let error = refused(at(-1.0), Ports::default());
     assert!(error.starts_with("the acceleration of `x` is no number at this position"), "{error}");
     assert!(linearize(&bead, &at(0.5), &Ports::default()).is_ok());

@@ -399,7 +399,8 @@ MBS_API mbs_status mbs_run_start(mbs_run *run);
 MBS_API mbs_status mbs_run_step(mbs_run *run, uint64_t steps);
 
 /**
- * @brief Advances by steps until less than half a step is left to a time.
+ * @brief Advances by steps until less than half a step is left to a time; a run to a tolerance to that time,
+ * where one of its own steps ends.
  * @param run a handle
  * @param end time in s
  * @return ::MBS_VALUE for a time before the present one, and as ::mbs_run_step

@@ -179,7 +179,7 @@ export! {
 
     fn mbs_run_advance_to(run: Exclusive<'_, Run>, end: f64) {
         let motion = run.get()?.motion_mut()?;
-        let steps = motion.steps_to(end)?;
+        let steps = motion.ends_at(end)?;
         Ok(motion.advance(steps)?)
     }
 }

@@ -4,23 +4,11 @@ use mbs_live::{Live, Prepared};
 use mbs_runtime::equations::At;
 use mbs_runtime::{
     Adaptive, ConstantStepBuilder, DOPRI5, Error, Explicit, Kernel, MethodVisitor, Rattle, Sampled,
-    Stabilization, System, Tableau, Tolerances, TrBdf2, with_type,
+    Stabilization, SystemClone, Tableau, Tolerances, TrBdf2, with_type,
 };
 
 use crate::method::Method;
 use crate::status::{Failure, Status};
-
-/// A run of any kind that can be copied.
-pub trait Motion: System {
-    /// A copy, which goes on by itself.
-    fn copied(&self) -> Box<dyn Motion>;
-}
-
-impl<T: System + Clone + 'static> Motion for T {
-    fn copied(&self) -> Box<dyn Motion> {
-        Box::new(self.clone())
-    }
-}
 
 /// What is set for a run.
 #[derive(Clone)]
@@ -48,7 +36,7 @@ impl Settings {
     ///
     /// # Errors
     /// What the mechanism refuses, and settings that do not go together.
-    pub fn begin(&self) -> Result<Box<dyn Motion>, Failure> {
+    pub fn begin(&self) -> Result<Box<dyn SystemClone>, Failure> {
         let live = self.live.with_parameters(|own| own.copy_from_slice(&self.parameters))?;
         match (self.method, self.tolerances) {
             (Method::Explicit(scheme, kept), None) => self.explicit(&live, scheme, kept),
@@ -91,7 +79,7 @@ impl Settings {
         live: &Live,
         scheme: Option<&'static Tableau>,
         kept: Option<Stabilization>,
-    ) -> Result<Box<dyn Motion>, Failure> {
+    ) -> Result<Box<dyn SystemClone>, Failure> {
         let declared = live.declared_feedback().filter(|_| kept.is_none());
         let stabilization = match &declared {
             Some(feedback) if !feedback.is_held => Stabilization::PerStage,
@@ -116,7 +104,7 @@ impl Settings {
         scheme: Option<&'static Tableau>,
         kept: Option<Stabilization>,
         tolerances: Tolerances,
-    ) -> Result<Box<dyn Motion>, Failure> {
+    ) -> Result<Box<dyn SystemClone>, Failure> {
         if matches!(kept, Some(Stabilization::Held | Stabilization::PerStage)) {
             let message = "a run to a tolerance keeps the constraints by projection; leave the feedback out of the \
                            method, or set no tolerances";
@@ -130,7 +118,7 @@ impl Settings {
     }
 
     /// Constant steps of a method that keeps the constraints itself.
-    fn constant<K>(&self, builder: ConstantStepBuilder<Prepared, K>) -> Result<Box<dyn Motion>, Failure>
+    fn constant<K>(&self, builder: ConstantStepBuilder<Prepared, K>) -> Result<Box<dyn SystemClone>, Failure>
     where
         K: Kernel<Prepared> + 'static,
     {
@@ -150,7 +138,7 @@ struct Sampling<'a> {
 }
 
 impl MethodVisitor for Sampling<'_> {
-    type Result = Result<Box<dyn Motion>, Failure>;
+    type Result = Result<Box<dyn SystemClone>, Failure>;
 
     fn visit<X: mbs_runtime::Method>(self) -> Self::Result {
         let Self { settings, live, tolerances } = self;

@@ -1,18 +1,18 @@
 //! A run as C sees it: what is set for it, and the mechanism in motion once it was started.
 
 use mbs_runtime::equations::At;
-use mbs_runtime::{Baumgarte, Error, Held, Info, Tolerances};
+use mbs_runtime::{Baumgarte, Error, Held, Info, SystemClone, Tolerances};
 
 use crate::border::Handle;
 use crate::mechanism::{Kind, Mechanism, no_index};
 use crate::method::Method;
-use crate::motion::{Motion, Settings};
+use crate::motion::Settings;
 use crate::status::{Failure, Status};
 
 /// A run, `mbs_run` of the header.
 pub struct Run {
     settings: Settings,
-    motion: Option<Box<dyn Motion>>,
+    motion: Option<Box<dyn SystemClone>>,
 }
 
 impl Handle for Run {
@@ -21,7 +21,7 @@ impl Handle for Run {
 
 impl Clone for Run {
     fn clone(&self) -> Self {
-        let motion = self.motion.as_ref().map(|motion| motion.copied());
+        let motion = self.motion.as_ref().map(|motion| motion.boxed_clone());
         Self { settings: self.settings.clone(), motion }
     }
 }
@@ -136,7 +136,7 @@ impl Run {
     ///
     /// # Errors
     /// The run was not started.
-    pub fn motion(&self) -> Result<&dyn Motion, Failure> {
+    pub fn motion(&self) -> Result<&dyn SystemClone, Failure> {
         self.motion.as_deref().ok_or_else(not_started)
     }
 
@@ -144,7 +144,7 @@ impl Run {
     ///
     /// # Errors
     /// The run was not started.
-    pub fn motion_mut(&mut self) -> Result<&mut dyn Motion, Failure> {
+    pub fn motion_mut(&mut self) -> Result<&mut dyn SystemClone, Failure> {
         // the box is taken apart here, since its contents have no lifetime of their own
         match &mut self.motion {
             Some(motion) => Ok(motion.as_mut()),

@@ -112,7 +112,10 @@ impl From<Error> for Failure {
             Error::OutOfReach { .. } => Status::OutOfReach,
             Error::NonFinite { .. } => Status::Diverged,
             Error::Undefined { .. } => Status::Undefined,
-            Error::StepTooShort { .. } | Error::NotConverged { .. } => Status::Accuracy,
+            Error::StepTooShort { .. }
+            | Error::TooManySteps { .. }
+            | Error::NotConverged { .. }
+            | Error::EndlessEvents { .. } => Status::Accuracy,
             // a new kind of error has to be given a status here
             _ => Status::Internal,
         };

@@ -11,7 +11,7 @@ use mbs_runtime::{Components, Error, Lanes, Mechanism, Method, Real, Simulation}
 use crate::{Observe, Outcome, Run};
 
 /// Steps between two looks at the cancelling flag.
-const STEPS_AT_ONCE: u64 = 4096;
+const STEPS_AT_ONCE: u64 = 256;
 
 /// The outcomes of these members, at most `N`, in order, none of them `None`; or nothing if
 /// cancelled.

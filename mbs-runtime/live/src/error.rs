@@ -7,6 +7,8 @@ use ariadne::{CharSet, Config, IndexType, Label, Report, ReportKind, Source};
 use mbs_codegen::Diagnostic;
 use proc_macro2::Span;
 
+use crate::excerpt::Excerpt;
+
 /// So many problems are shown, which is more than anybody reads at once.
 const MOST_SHOWN: usize = 100;
 
@@ -20,6 +22,28 @@ pub struct Error {
     file: String,
     text: String,
     problems: Vec<Problem>,
+}
+
+/// Warnings about parts of a text that compile and are likely mistakes. They are shown as an [`Error`] is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warnings(pub(crate) Error);
+
+impl Warnings {
+    /// The problems, in the order of the text.
+    pub fn problems(&self) -> &[Problem] {
+        self.0.problems()
+    }
+
+    /// The warnings with colours, for a terminal.
+    pub fn colored(&self) -> impl fmt::Display + '_ {
+        Shown { error: &self.0, kind: ReportKind::Warning, is_colored: true }
+    }
+}
+
+impl fmt::Display for Warnings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Shown { error: &self.0, kind: ReportKind::Warning, is_colored: false }.fmt(f)
+    }
 }
 
 /// One problem of a text.
@@ -74,13 +98,13 @@ impl Error {
 
     /// The error with colours, for a terminal.
     pub fn colored(&self) -> impl fmt::Display + '_ {
-        Shown { error: self, is_colored: true }
+        Shown { error: self, kind: ReportKind::Error, is_colored: true }
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Shown { error: self, is_colored: false }.fmt(f)
+        Shown { error: self, kind: ReportKind::Error, is_colored: false }.fmt(f)
     }
 }
 
@@ -90,6 +114,12 @@ impl Problem {
     /// A problem of the text as a whole.
     pub(crate) fn everywhere(message: impl Into<String>) -> Self {
         Self { message: message.into(), location: None, help: None, notes: Vec::new() }
+    }
+
+    /// The bytes of all its places.
+    fn places(&self) -> Vec<Range<usize>> {
+        let notes = self.notes.iter().map(|note| &note.location);
+        [&self.location].into_iter().chain(notes).flatten().map(|place| place.bytes.clone()).collect()
     }
 
     /// What the compiler says of a text.
@@ -132,16 +162,24 @@ impl Location {
 /// An error as text.
 struct Shown<'a> {
     error: &'a Error,
+    kind: ReportKind<'static>,
     is_colored: bool,
 }
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Error { file, text, problems } = self.error;
-        let source = Source::from(printable(text));
+        let text = printable(text);
+        let source = Source::from(text.as_str());
         let (mut shown, mut count) = (Vec::new(), 0);
         for problem in problems.iter().take(MOST_SHOWN) {
-            self.report(problem).write((file.as_str(), &source), &mut shown).map_err(|_| fmt::Error)?;
+            match Excerpt::of(&text, &problem.places()) {
+                None => {
+                    let report = self.report(problem, &|place| place.bytes.clone());
+                    report.write((file.as_str(), &source), &mut shown).map_err(|_| fmt::Error)?;
+                }
+                Some(excerpt) => shown.extend_from_slice(self.excerpt(problem, &excerpt)?.as_bytes()),
+            }
             count += 1;
             if shown.len() > LONGEST_SHOWN {
                 break;
@@ -167,15 +205,34 @@ fn printable(text: &str) -> String {
 }
 
 impl<'a> Shown<'a> {
-    fn report(&self, problem: &'a Problem) -> Report<'a, (&'a str, Range<usize>)> {
+    /// A problem with a part of its lines, at the place that it has in the text.
+    fn excerpt(&self, problem: &'a Problem, excerpt: &Excerpt) -> Result<String, fmt::Error> {
+        let file = self.error.file.as_str();
+        let shown_at = |place: &Location| excerpt.place(&place.bytes);
+        let mut shown = Vec::new();
+        let report = self.report(problem, &shown_at);
+        report.write((file, Source::from(excerpt.text.as_str())), &mut shown).map_err(|_| fmt::Error)?;
+        let shown = String::from_utf8_lossy(&shown).into_owned();
+        let Some(place) = &problem.location else { return Ok(shown) };
+        let cut = Location::new(&excerpt.text, shown_at(place));
+        let named = |place: &Location| format!("{file}:{}:{} ", place.line, place.column);
+        Ok(shown.replacen(&named(&cut), &named(place), 1))
+    }
+
+    /// A report of a problem whose places are shown at other bytes.
+    fn report(
+        &self,
+        problem: &'a Problem,
+        shown_at: &dyn Fn(&Location) -> Range<usize>,
+    ) -> Report<'a, (&'a str, Range<usize>)> {
         let file = self.error.file.as_str();
         let config = Config::default()
             .with_index_type(IndexType::Byte)
             .with_char_set(CharSet::Unicode)
             .with_color(self.is_colored);
-        let place = |location: &Location| (file, location.bytes.clone());
+        let place = |location: &Location| (file, shown_at(location));
         let start = problem.location.as_ref().map_or((file, 0..0), place);
-        let mut report = Report::build(ReportKind::Error, start).with_config(config);
+        let mut report = Report::build(self.kind, start).with_config(config);
         report.set_message(&problem.message);
         if let Some(location) = &problem.location {
             report.add_label(Label::new(place(location)).with_message("here"));

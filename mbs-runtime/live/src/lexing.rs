@@ -35,6 +35,7 @@ fn words(rest: &str) -> (&'static str, &'static str) {
         }
         (Some('\''), _) => ("this is no character and no lifetime", "declarations have neither"),
         (Some('0'..='9'), _) => ("this is not a number", "numbers look like `12`, `0.25` or `1e-3`"),
+        (Some('°'), _) => ("this character has no meaning here", "degrees are written as in `90 [deg]`"),
         (Some(_), _) => ("this character has no meaning here", "names have letters, digits and `_`"),
         (None, _) => ("the text ends too early", "look for a bracket that is never closed"),
     }

@@ -50,6 +50,7 @@ mod check;
 mod code;
 mod equations;
 mod error;
+mod excerpt;
 mod find;
 mod grouped;
 mod instruction;
@@ -70,7 +71,7 @@ mod words;
 pub use mbs_codegen::compiled::Feedback;
 pub use mbs_codegen::target::{CSources, Experiment, Fmu, RUN_SCRIPT, Scalar, Version as FmiVersion, Wasm};
 
-pub use error::{Error, Location, Note, Problem};
+pub use error::{Error, Location, Note, Problem, Warnings};
 pub use lanes::LANES;
 pub use live::Live;
 pub use prepared::Prepared;

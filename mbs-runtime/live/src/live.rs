@@ -57,10 +57,12 @@ pub(crate) struct Programs {
     pub tables: &'static Tables,
     /// In the order of [`FunctionId`].
     functions: Vec<Code>,
-    /// The scheme that the declaration asks for, and
+    /// The scheme of the declaration: the one it names, or Heun's method.
     scheme: &'static Tableau,
-    /// a whole step of it, with feedback held over it and in each of its stages, of a
-    /// mechanism that is small enough.
+    /// `true` if the declaration names its scheme.
+    declares_scheme: bool,
+    /// A whole step of the scheme as one program, with feedback held over the step and with feedback in each of its
+    /// stages. `None` if the mechanism is too large for that.
     steps: Option<[Arc<Code>; 2]>,
     conditions: Vec<Condition>,
     /// What goes back through a run, where that was asked for.
@@ -83,6 +85,7 @@ impl Programs {
         Ok(Self {
             functions: functions.collect::<Result<_, _>>()?,
             scheme: compiled.choices.scheme,
+            declares_scheme: compiled.choices.declares_scheme,
             steps,
             conditions: conditions.collect(),
             tables: statics::tables(declaration, compiled),
@@ -249,6 +252,11 @@ impl<T: Real> Live<T> {
     /// The scheme that the declaration asks for: Heun's method, unless it says another.
     pub fn declared_scheme(&self) -> &'static Tableau {
         self.programs.scheme
+    }
+
+    /// `true` if the declaration names its scheme, `false` if the scheme is the default.
+    pub fn declares_scheme(&self) -> bool {
+        self.programs.declares_scheme
     }
 
     /// The step that the declaration asks for, in s.

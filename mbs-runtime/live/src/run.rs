@@ -75,6 +75,7 @@ pub struct Builder<T = f64> {
     gains: [f64; 2],
     inputs: Vec<T>,
     state: Option<(T, Vec<T>, Vec<T>)>,
+    steps_taken: u64,
     start: Start,
     allow_unstable: bool,
 }
@@ -111,6 +112,7 @@ impl<T: Real> Run<T> {
             gains: method.deadbeat(step),
             inputs: vec![T::ZERO; mechanism.declared_info().inputs.len()],
             state: None,
+            steps_taken: 0,
             start: Start::Declared,
             allow_unstable: false,
         }
@@ -223,6 +225,34 @@ impl<T: Real> Builder<T> {
         self
     }
 
+    /// Goes on with a run that has taken so many steps: the given state is that at t + n·h, where t is the time at
+    /// which that run started.
+    ///
+    /// # Example
+    /// A run that another process goes on with, to the same bits:
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::System;
+    /// use mbs_runtime::equations::At;
+    ///
+    /// let text = "Fall { dof = 1; gravity = (0, -9.81) [m/s^2]; body ball (y) { mass = 1 [kg]; } }";
+    /// let ball = Text::declaration("fall.mbs", text).compile()?;
+    /// let mut run = Run::builder(&ball, 1e-3).build()?;
+    /// run.advance(77)?;
+    /// let (mut y, mut v) = ([0.0], [0.0]);
+    /// run.state(&mut y, &mut v);
+    /// let started = At { t: 0.0, q: &y, v: &v };
+    /// let mut other = Run::builder(&ball, 1e-3).from_state(started).steps_taken(77).build()?;
+    /// run.step()?;
+    /// other.step()?;
+    /// assert_eq!((run.time(), run.steps()), (other.time(), other.steps()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn steps_taken(self, steps_taken: u64) -> Self {
+        Self { steps_taken, ..self }
+    }
+
     /// Keeps the start as it is, consistent or not.
     #[must_use]
     pub fn as_declared(mut self) -> Self {
@@ -249,7 +279,7 @@ impl<T: Real> Builder<T> {
     /// # Errors
     /// As the builder of a [`Simulation`](mbs_runtime::Simulation).
     pub fn build(self) -> Result<Run<T>, Error> {
-        let Self { mechanism, step, method, gains, inputs, state, start, allow_unstable } = self;
+        let Self { mechanism, step, method, gains, inputs, state, steps_taken, start, allow_unstable } = self;
         // as the scalar holds it
         let h = T::from_f64(step);
         if !(h > T::ZERO && h.is_finite()) {
@@ -266,7 +296,8 @@ impl<T: Real> Builder<T> {
             return Err(Error::UnstableGains { alpha, beta, step, feedback: method.stabilization.word() });
         }
         let info = mechanism.declared_info();
-        let (t, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
+        let (start_time, mut q, mut v) = state.unwrap_or_else(|| mechanism.declared_start());
+        let t = start_time + T::from_f64(steps_taken as f64) * h;
         [&mut q, &mut v]
             .into_iter()
             .for_each(|all| all.resize(info.coordinates.len(), T::from_f64(f64::NAN)));
@@ -283,8 +314,8 @@ impl<T: Real> Builder<T> {
             keeps_constraints,
             inputs,
             step: h,
-            start_time: t,
-            steps: 0,
+            start_time,
+            steps: steps_taken,
             t,
             q,
             v,

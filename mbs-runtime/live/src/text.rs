@@ -17,7 +17,7 @@ use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
 
-use crate::error::{Error, Problem};
+use crate::error::{Error, Problem, Warnings};
 use crate::live::{Live, Programs};
 use crate::{find, lexing};
 
@@ -151,15 +151,32 @@ impl Text {
     /// All errors of the first stage that has any, as `mechanism!` shows them; brackets
     /// and literals that cannot be read; a Rust file that does not have the block.
     pub fn compile(&self) -> Result<Live, Error> {
-        self.make(|declaration, compiled| {
-            let programs = Programs::new(declaration, compiled);
-            let programs = programs.and_then(|programs| match compiled.choices.has_reverse {
-                true => programs.with_transposes(compiled),
-                false => Ok(programs),
-            });
-            programs.map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
-        })
-        .map(Live::new)
+        self.make(programs).map(Live::new)
+    }
+
+    /// Compiles the declaration, and tells what of it is likely a mistake although it compiles: parameters, inputs,
+    /// definitions and profiles that nothing uses, profiles that leave their dwells.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Slider { dof = 1; param k = 2 [N/m]; body block (x) { mass = 1 [kg]; } }";
+    /// let (_, warnings) = Text::declaration("slider.mbs", text).check()?;
+    /// assert_eq!(warnings.problems()[0].message, "this parameter is never used");
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
+    pub fn check(&self) -> Result<(Live, Warnings), Error> {
+        let text = self.text.clone();
+        let (programs, warnings) = self.make(move |declaration, compiled| {
+            let warnings = compiled.warnings.iter().map(|warning| Problem::of(warning, &text));
+            let warnings: Vec<_> = warnings.collect();
+            Ok((programs(declaration, compiled)?, warnings))
+        })?;
+        Ok((Live::new(programs), Warnings(self.error(warnings))))
     }
 
     /// Compiles the declaration with transposed programs, by which
@@ -308,6 +325,17 @@ fn make<T>(
     let compiled = mbs_codegen::analyse(declaration).map_err(problems)?;
     check_feedback(&compiled).map_err(|error| problems(error.into()))?;
     target(key, &compiled).map_err(problems)
+}
+
+/// Compiles the programs that runs of a mechanism need, with transposed ones if the declaration asks for gradients
+/// in reverse.
+fn programs(declaration: String, compiled: &Compiled) -> Result<Programs, Diagnostics> {
+    let programs = Programs::new(declaration, compiled);
+    let programs = programs.and_then(|programs| match compiled.choices.has_reverse {
+        true => programs.with_transposes(compiled),
+        false => Ok(programs),
+    });
+    programs.map_err(|mistake| Diagnostic::internal(Span::call_site(), mistake).into())
 }
 
 /// The lines without the spaces with which all of them begin, and without empty ones around them.

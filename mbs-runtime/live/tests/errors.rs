@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use mbs_live::{LONGEST, Problem, Text};
+use mbs_live::{LONGEST, Problem, Scalar, Text};
 
 /// What rustc shows of a problem, without its frame; see `tests/compile_fail`.
 fn as_rustc_shows(problem: &Problem) -> String {
@@ -158,4 +158,101 @@ fn compiling_ends_in_time() {
     }";
     let error = Text::declaration("a.mbs", chain).within(Duration::from_millis(1)).compile().unwrap_err();
     assert!(error.problems()[0].message.contains("0.001 s"), "{error}");
+}
+
+/// Regression: of an error in a text of one long line the whole line was shown.
+#[test]
+fn of_a_long_line_what_is_around_the_error_is_shown() {
+    let names: String = (0..2000).map(|at| format!("param p{at} = {at}; ")).collect();
+    let text = format!("A {{ dof = 1; {names} body b (x) {{ mass = 1 [kgg]; }} {names} }}");
+    let error = Text::declaration("a.mbs", text).compile().unwrap_err();
+    let column = error.problems()[0].location.as_ref().unwrap().column;
+    let shown = error.to_string();
+    assert!(shown.len() < 2500 && shown.contains(&format!("a.mbs:1:{column} ")), "{shown}");
+    assert!(
+        shown.contains("…m p1998 = 1998; param p1999 = 1999;  body b (x) { mass = 1 [kgg]; } param p0"),
+        "{shown}"
+    );
+}
+
+/// Regression: nothing was said of a cam whose dwell is none. The largest way from 20 mm between 90° and 180° of
+/// the natural cubic through these points was computed with SciPy's `CubicSpline(…, bc_type="periodic")`.
+#[test]
+fn a_profile_that_leaves_its_dwell_is_told() {
+    let warnings = |points: &str| {
+        let text = format!(
+            "Cam {{
+    dof = 0;
+    body follower (y) {{ mass = 1 [kg]; }}
+    profile lift = spline({points}) period 360 [deg];
+    drive cam: y = lift(10 [rad/s]*t);
+    start {{ guess y = 20 [mm]; }}
+}}"
+        );
+        let (_, warnings) =
+            Text::declaration("cam.mbs", text).check().unwrap_or_else(|error| panic!("{error}"));
+        warnings.to_string()
+    };
+    let cam = "(-90 [deg], 20 [mm]), (-40 [deg], 21 [mm]), (0 [deg], 29 [mm]), (40 [deg], 21 [mm]), \
+               (90 [deg], 20 [mm]), (180 [deg], 20 [mm])";
+    let told = warnings(cam);
+    assert!(told.contains("goes away from its value by 6.2 % of its range"), "{told}");
+    assert!(told.contains("`cycloidal`"), "{told}");
+    // a sine through 36 points, the two highest of which are equal, is smooth
+    let sine = |at: i32| {
+        let angle = f64::from(10 * at + 5);
+        format!("({angle} [deg], {} [mm])", (angle.to_radians().cos() * 1e9).round() / 1e9)
+    };
+    assert_eq!(warnings(&(0..36).map(sine).collect::<Vec<_>>().join(", ")), "");
+}
+
+/// Regression: nothing was said of what is declared and never used.
+#[test]
+fn what_nothing_uses_is_told() {
+    let text = "Cart {
+    dof = 2;
+    param m = 1 [kg] where m > 0;
+    param idle = 1 [kg] where idle > 0;
+    param rest = 0 [m];
+    param level = 2 [m];
+    param k = 3 [N/m];
+    param only = 4 [m];
+    const N = 2;
+    const none = 7;
+    input pull [N];
+    input ignored [N];
+    let twice = 2*k;
+    let lost = 2*only;
+    profile hump = spline((0, 0 [m]), (1, 1 [m]), (2, 0 [m])) period 3;
+    assembly Part {
+        param mass = 1 [kg];
+        param spare = 1 [kg];
+        body block (x) { mass = mass; }
+    }
+    instance a: Part { mass = m; spare = m; }
+    instance b: Part { }
+    force push on a.block = (pull - twice*a.x, 0);
+    start { a.x = rest; }
+    output above = b.x - level;
+}";
+    let checked = Text::declaration("cart.mbs", text).check();
+    let (_, warnings) = checked.unwrap_or_else(|error| panic!("{error}"));
+    let told = |problem: &Problem| {
+        let place = problem.location.as_ref().unwrap();
+        (text[place.bytes.clone()].to_owned(), problem.message.clone())
+    };
+    let told: Vec<_> = warnings.problems().iter().map(told).collect();
+    let expected = [
+        ("idle", "parameter"),
+        ("ignored", "input"),
+        ("lost", "definition"),
+        ("hump", "profile"),
+        ("spare", "parameter"),
+    ];
+    let expected = expected.map(|(name, what)| (name.to_owned(), format!("this {what} is never used")));
+    assert_eq!(told, expected);
+    // Regression: the table of the profile was a constant that C code does not use.
+    let c = Text::declaration("cart.mbs", text).c(Scalar::Double).unwrap();
+    assert!(!c.source.text.contains("cart_splines"));
+    assert!(warnings.to_string().starts_with("Warning: this parameter is never used"), "{warnings}");
 }

@@ -23,7 +23,8 @@ fn mechanisms_of_the_library() {
         if !is_rust || is_chain || !fs::read_to_string(&path).unwrap().contains("\nmechanism! {") {
             continue;
         }
-        let live = Text::read(&path).unwrap().compile().unwrap_or_else(|error| panic!("{error}"));
+        let (live, warnings) = Text::read(&path).unwrap().check().unwrap_or_else(|error| panic!("{error}"));
+        assert!(warnings.problems().is_empty(), "{warnings}");
         names.push(live.info().name);
     }
     assert!(names.len() > 25 && names.contains(&"SliderCrankFree"), "{names:?}");

@@ -3,6 +3,9 @@
 use core::marker::PhantomData;
 
 use super::attempt::{Attempt, copy, is_healthy};
+use super::between::Between;
+use super::events::Happened;
+use super::noise::Progress;
 use super::{Adaptive, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
 use crate::equations::Start;
 use crate::watch::Watch;
@@ -16,6 +19,7 @@ const NOMINAL_STEP: f64 = 1e-3;
 pub struct AdaptiveBuilder<D: Dynamics, S: Scheme = Dopri5> {
     beginning: Beginning<D>,
     tolerances: Tolerances,
+    most_steps: u64,
     scheme: PhantomData<S>,
 }
 
@@ -24,7 +28,7 @@ impl<D: Dynamics> Adaptive<D> {
     /// pair 5(4) of Dormand and Prince, the default [`Tolerances`] and inputs.
     pub fn builder(mechanism: D) -> AdaptiveBuilder<D> {
         let (beginning, tolerances) = (Beginning::new(mechanism), Tolerances::default());
-        AdaptiveBuilder { beginning, tolerances, scheme: PhantomData }
+        AdaptiveBuilder { beginning, tolerances, most_steps: u64::MAX, scheme: PhantomData }
     }
 }
 
@@ -33,14 +37,20 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
     /// [`Dopri5`] or [`Dop853`](crate::Dop853) for fine ones, from about 10⁻⁸ on.
     #[must_use]
     pub fn scheme<R: Scheme>(self) -> AdaptiveBuilder<D, R> {
-        let Self { beginning, tolerances, .. } = self;
-        AdaptiveBuilder { beginning, tolerances, scheme: PhantomData }
+        let Self { beginning, tolerances, most_steps, .. } = self;
+        AdaptiveBuilder { beginning, tolerances, most_steps, scheme: PhantomData }
     }
 
     /// The tolerances.
     #[must_use]
     pub fn tolerances(self, tolerances: Tolerances) -> Self {
         Self { tolerances, ..self }
+    }
+
+    /// Lets it take so many steps at most, after which it ends with [`Error::TooManySteps`].
+    #[must_use]
+    pub fn most_steps(self, most_steps: u64) -> Self {
+        Self { most_steps, ..self }
     }
 
     /// The inputs of the first step.
@@ -81,7 +91,7 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
         let scheme = S::TABLEAU.word;
         let estimate = S::TABLEAU.estimate.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
-        let Self { mut beginning, tolerances, .. } = self;
+        let Self { mut beginning, tolerances, most_steps, .. } = self;
         let length = beginning.prepare::<S>(NOMINAL_STEP)?;
         let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
@@ -93,16 +103,20 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
             next: moment.clone(),
             all: [q, v],
             attempt: Attempt { there: moment.q.clone(), velocities: stages.clone(), accelerations: stages },
+            between: Between::new(S::between([moment.q.clone(), moment.q.clone()])),
+            arrival: moment.clone(),
             now: moment,
             dynamics,
             inputs,
             tolerances,
+            most_steps,
             estimate,
             is_solved: false,
             watch: Watch::new(length),
             effort: Effort::default(),
-            due: 0,
-            due_rising: 0,
+            progress: Progress::new(),
+            happened: Happened { is_set: true, ..Happened::default() },
+            happened_before: Happened::default(),
         };
         run.solve()?;
         run.before = run.now.clone();
@@ -165,7 +179,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
 
 impl Tolerances {
     /// The root mean square of vectors, measured by what is allowed at a state.
-    fn size<T: Real, V: AsRef<[T]>>(&self, state: [&V; 2], vectors: [&V; 2]) -> f64 {
+    pub(super) fn size<T: Real, V: AsRef<[T]>>(&self, state: [&V; 2], vectors: [&V; 2]) -> f64 {
         let [rtol, atol] = [self.rtol, self.atol].map(T::from_f64);
         let (mut sum, mut count) = (0.0, 0.0);
         for (state, vector) in state.into_iter().zip(vectors) {

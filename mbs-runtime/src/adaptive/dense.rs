@@ -1,7 +1,7 @@
 //! The motion within a step, from what is known at both of its ends.
 
-use crate::Real;
 use crate::equations::At;
+use crate::{Real, vectors};
 
 /// Time, q, v and q̈ at an end of a step.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +20,15 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
     /// Time, positions and velocities.
     pub fn at(&self) -> At<'_, T> {
         At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+
+    /// Writes positions and velocities at a time between this moment and `end`, by the terms of a scheme
+    /// where there are such.
+    pub fn between(&self, terms: Option<&[[V; 2]; 4]>, end: &Self, t: T, q: &mut V, v: &mut V) {
+        match terms {
+            Some(terms) => self.interpolate_by(terms, end, t, q, v),
+            None => self.interpolate(end, t, q, v),
+        }
     }
 
     /// Writes positions and velocities at a time between this moment and `end`: the quintic that
@@ -51,6 +60,28 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
             let slope = d4 + number(2.0) * c * d5;
             *q = q0 + s * (v0 + s * (half * a0 + s * cubic));
             *v = (v0 + s * (a0 + s * (three * cubic + s * slope))) / h;
+        }
+    }
+
+    /// The same by the polynomial of a scheme's own, with the terms of positions and of velocities; see
+    /// [`Interpolant`](mbs_schemes::Interpolant).
+    pub fn interpolate_by(&self, terms: &[[V; 2]; 4], end: &Self, t: T, q: &mut V, v: &mut V) {
+        let h = end.t - self.t;
+        let s = (t - self.t) / h;
+        let c = T::from_f64(1.0) - s;
+        let of_q = [&self.q, &end.q, &self.v, &end.v].map(|vector| vector.as_ref());
+        let of_v = [&self.v, &end.v, &self.a, &end.a].map(|vector| vector.as_ref());
+        for (which, ([x0, x1, k0, k1], to)) in [(of_q, q), (of_v, v)].into_iter().enumerate() {
+            let terms = terms.each_ref().map(|term| term.get(which).map_or(&[][..], |term| term.as_ref()));
+            let [t1, t2, t3, t4] = terms;
+            vectors::zip_into([to.as_mut()], [x0, x1, k0, k1, t1, t2, t3, t4], |of| {
+                let [x0, x1, k0, k1, t1, t2, t3, t4] = of;
+                let change = x1 - x0;
+                let first = h * k0 - change;
+                let second = change - h * k1 - first;
+                let terms = t1 + s * (t2 + c * (t3 + s * t4));
+                [x0 + s * (change + c * (first + s * (second + c * terms)))]
+            });
         }
     }
 

@@ -54,6 +54,17 @@ pub trait Dynamics: Clone + Send {
         what: impl FnOnce(&mut Room<'_, Self::Real>) -> Result<(), Error>,
     ) -> Result<(), Error>;
 
+    /// The inputs at a time, of those that a run was given: the same, unless they change by themselves.
+    fn inputs_at(&self, _t: Self::Real, inputs: &Self::Inputs) -> Self::Inputs {
+        inputs.clone()
+    }
+
+    /// The first time behind `t` at which the accelerations have a corner, such as inputs of straight
+    /// lines have between two of them; a step ends there. Infinite where there is none.
+    fn next_corner(&self, _t: Self::Real) -> Self::Real {
+        Self::Real::from_f64(f64::INFINITY)
+    }
+
     /// Writes the values whose changes of sign are the declared events.
     fn events(&self, at: At<'_, Self::Real>, inputs: &Self::Inputs, values: &mut [Self::Real]);
 

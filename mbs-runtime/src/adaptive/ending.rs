@@ -12,10 +12,12 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         if t >= self.now.t && D::Real::ORDER == 0 {
             return Ok(());
         }
-        let Self { dynamics, inputs, before, now, next, attempt, .. } = self;
+        let Self { dynamics, inputs, before, now, next, attempt, between, .. } = self;
+        between.lose_stages();
         let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
         if growth.is_some_and(|growth| is_healthy(growth, next)) {
             core::mem::swap(now, next);
+            between.begin(true);
             return Ok(());
         }
         let start = before.clone();
@@ -42,7 +44,8 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             return t;
         }
         let t = t.without_partials();
-        let Self { dynamics, inputs, before, next, attempt, all, .. } = self;
+        let Self { dynamics, inputs, before, next, attempt, all, between, .. } = self;
+        between.lose_stages();
         let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
         if !growth.is_some_and(|growth| is_healthy(growth, next)) {
             return t;

@@ -2,21 +2,25 @@
 
 mod attempt;
 mod beginning;
+mod between;
 mod builder;
 mod cause;
 mod change;
 mod control;
+mod crossing;
 mod dense;
 mod dynamics;
 mod effort;
 mod ending;
 mod events;
+mod noise;
 mod sampled;
 mod typed;
 
 use attempt::{Attempt, converge_partials};
 pub(crate) use attempt::{copy, is_healthy};
 pub(crate) use beginning::Beginning;
+use between::Between;
 pub use builder::AdaptiveBuilder;
 pub use cause::cause;
 use control::Control;
@@ -24,7 +28,9 @@ pub use control::Tolerances;
 pub use dense::Moment;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
+use events::Happened;
 pub use events::{Direction, Event, MOST_EVENTS};
+use noise::Progress;
 pub use sampled::{Measured, Sampled, Threshold};
 
 use core::fmt;
@@ -91,6 +97,7 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     dynamics: D,
     inputs: D::Inputs,
     tolerances: Tolerances,
+    most_steps: u64,
     estimate: Estimate,
     control: Control,
     /// The start of the last step, and its end.
@@ -99,16 +106,20 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     /// The end of the step that is tried.
     next: Moment<D::Real, D::States>,
     attempt: Attempt<D::States, S::Stages<D::States>>,
+    between: Between<S::Between<[D::States; 2]>>,
     /// Room for all coordinates and velocities.
     all: [D::Coordinates; 2],
     /// Whether the acceleration of the present state is that of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
     effort: Effort,
-    /// The events at the present time that were not told yet, a bit each, and those of them that
-    /// rise.
-    due: u64,
-    due_rising: u64,
+    progress: Progress<D::Real>,
+    /// Events at the present time.
+    happened: Happened,
+    /// Events at the start of the last step.
+    happened_before: Happened,
+    /// The end of the last step, where events were, before a program has set another state there.
+    arrival: Moment<D::Real, D::States>,
 }
 
 impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
@@ -118,10 +129,10 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     ///
     /// # Errors
     /// [`Error::StepTooShort`] where no step meets the tolerance, [`Error::Singular`],
-    /// [`Error::OutOfReach`], [`Error::NonFinite`], [`Error::Input`]. The state stays that of the
-    /// last good step.
+    /// [`Error::OutOfReach`], [`Error::NonFinite`], [`Error::Input`], [`Error::TooManySteps`] where a bound was
+    /// asked for. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
-        self.step_within(D::Real::from_f64(f64::INFINITY))
+        self.step_to(D::Real::from_f64(f64::INFINITY))
     }
 
     /// Takes steps until `end` seconds, the last one of which ends there. It does not change how
@@ -140,9 +151,12 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         Ok(())
     }
 
-    /// A step that ends at `limit` at the latest. Where it is cut short, the next one is not.
+    /// A step that ends at `limit` at the latest, and at the first corner of the accelerations. Where it is
+    /// cut short, the next one is not.
     fn step_to(&mut self, limit: D::Real) -> Result<(), Error> {
         let (next, rejected) = (self.control.next, self.effort.rejected);
+        let corner = self.dynamics.next_corner(self.now.t);
+        let limit = if corner < limit { corner } else { limit };
         self.step_within(limit)?;
         let is_cut = self.now.t >= limit && self.effort.rejected == rejected;
         if is_cut && self.control.next < next {
@@ -163,13 +177,20 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         while self.now.t < at {
             self.step()?;
         }
+        if at < self.now.t {
+            self.look_between();
+        }
         Ok(())
     }
 
     /// A step that ends at `limit` at the latest.
     fn step_within(&mut self, limit: D::Real) -> Result<(), Error> {
         self.solve()?;
+        self.is_held_up()?;
         let t = self.now.t;
+        if self.effort.steps >= self.most_steps {
+            return Err(Error::TooManySteps { t: t.to_f64(), steps: self.effort.steps });
+        }
         for _ in 0..TRIALS {
             let h = D::Real::from_f64(self.next_step());
             let left = limit - t;
@@ -181,7 +202,8 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             if !is_ahead {
                 break;
             }
-            let Self { dynamics, inputs, now, next, attempt, .. } = self;
+            let Self { dynamics, inputs, now, next, attempt, between, .. } = self;
+            between.lose_stages();
             let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, now, t_next, next);
             let growth = growth.filter(|growth| is_healthy(*growth, next));
             let ratio = match growth {
@@ -209,7 +231,10 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         }
         core::mem::swap(before, now);
         core::mem::swap(now, next);
+        (self.happened_before, self.happened) = (self.happened, Happened::default());
+        self.between.begin(true);
         self.effort.count((self.now.t - self.before.t).to_f64());
+        self.note_progress(growth);
         Ok(())
     }
 
@@ -235,13 +260,32 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         let Self { dynamics, inputs, now, next, control, watch, .. } = self;
         // steps that only look for the error are not steps of the run
         let found = cause::<D, S>(dynamics, inputs, now, next, *watch, LONGEST);
-        found.unwrap_or(Error::StepTooShort { t: now.t.to_f64(), step: control.next })
+        let step = control.next;
+        found.unwrap_or_else(|| self.too_short(step))
+    }
+
+    /// Makes known what lies between the ends of the last step, if its scheme needs more for it than
+    /// the ends.
+    fn look_between(&mut self) {
+        let Self { dynamics, inputs, attempt, before, now, next, between, .. } = self;
+        if Self::TABLEAU.interpolant.is_none() || between.is_known() || now.t <= before.t {
+            return;
+        }
+        if between.wants_stages() {
+            // another step was tried since
+            let again = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, now.t, next);
+            if again.is_none() {
+                return;
+            }
+            between.begin(true);
+        }
+        between.find((&*dynamics, Self::TABLEAU), inputs, attempt, [before, now], next);
     }
 
     /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
     /// onto the constraints.
     fn interpolate(&self, t: D::Real) -> Result<(D::States, D::States), Error> {
-        let Self { before, now, dynamics, .. } = self;
+        let Self { before, now, dynamics, between, .. } = self;
         if !(t >= before.t && t <= now.t) {
             return Err(Error::EndTime { end: t.to_f64(), now: before.t.to_f64() });
         }
@@ -249,7 +293,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         // the end of a step at an event moves with derivatives of its own
         let is_end = t >= now.t;
         if !is_end || (!t.is_same(now.t) && now.t > before.t) {
-            before.interpolate(now, t, &mut q, &mut v);
+            before.between(between.terms(), now, t, &mut q, &mut v);
             let mut delta = before.q.clone();
             dynamics.correction(t, &Beside { q: &q, v: None }, &mut delta);
             subtract(&mut q, &delta);
@@ -270,13 +314,16 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     /// [`Error::EndTime`] for a time outside of the last step.
     pub fn rewind_to(&mut self, t: f64) -> Result<(), Error> {
         let at = D::Real::from_f64(t);
+        self.look_between();
         let (q, v) = self.interpolate(at)?;
         copy(&mut self.now.q, &q);
         copy(&mut self.now.v, &v);
         self.now.t = at;
         self.is_solved = false;
         self.before = self.now.clone();
-        self.due = 0;
+        self.between.begin(false);
+        self.happened = Happened::default();
+        self.progress.go_on();
         Ok(())
     }
 
@@ -307,7 +354,10 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
 
     /// The inputs, to be changed for the steps that follow.
     pub fn inputs_mut(&mut self) -> &mut D::Inputs {
+        // what lies behind was computed with those of before
+        self.look_between();
         self.is_solved = false;
+        self.progress.go_on();
         &mut self.inputs
     }
 

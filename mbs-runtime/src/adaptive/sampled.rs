@@ -10,11 +10,15 @@ use crate::view::View;
 use crate::watch::WorstPlace;
 use crate::{Derivation, Error, Real, Scheme, Sketch, System, vectors};
 
+/// A sample is at the end of a run that is nearer to it than this share of an interval.
+const AT_END: f64 = 1e-6;
+
 /// A run to a tolerance whose state is looked at on a grid of times: a [`System`] whose `step`
 /// leads to the next of these times.
 ///
 /// The grid does not shorten the steps of the run: a sample is interpolated, and projected onto the
-/// constraints. The run starts anew from a sample at which inputs change, and from every event.
+/// constraints. The run starts anew from a sample at which inputs change, and from every event. Where it
+/// [ends](System::ends_at) a step ends too.
 ///
 /// # Example
 /// ```
@@ -48,6 +52,8 @@ pub struct Sampled<D: Dynamics, S: Scheme> {
     /// From when samples are that far apart, and how many there were until then.
     since: (f64, u64),
     samples: u64,
+    /// When the run ends, and the number of the last sample then.
+    end: Option<(f64, u64)>,
     t: D::Real,
     q: D::Coordinates,
     v: D::Coordinates,
@@ -76,6 +82,8 @@ pub enum Measured {
     Velocity(usize),
     /// An output, one of the first [`MOST_EVENTS`].
     Output(usize),
+    /// The multiplier of a constraint.
+    Multiplier(usize),
 }
 
 impl Threshold {
@@ -84,7 +92,7 @@ impl Threshold {
         let found = match self.measured {
             Measured::Position(index) => at.q.get(index).copied(),
             Measured::Velocity(index) => at.v.get(index).copied(),
-            Measured::Output(index) => {
+            Measured::Output(_) | Measured::Multiplier(_) => {
                 let (mut a, mut multipliers) = (dynamics.declared_start().1, dynamics.no_feedback());
                 let mut outputs = [D::Real::from_f64(f64::NAN); MOST_EVENTS];
                 let (a, multipliers) = (a.as_mut(), multipliers.as_mut());
@@ -96,7 +104,11 @@ impl Threshold {
                         mechanism.outputs(at, inputs, [a, multipliers], outputs);
                     }
                 });
-                outputs.get(index).copied()
+                match self.measured {
+                    Measured::Multiplier(row) => multipliers.get(row).copied(),
+                    Measured::Output(index) => outputs.get(index).copied(),
+                    _ => None,
+                }
             }
         };
         found.unwrap_or(D::Real::from_f64(f64::NAN)) - D::Real::from_f64(self.value)
@@ -113,7 +125,8 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         let (t, q_now, v_now) = (run.now.t, run.now.q.clone(), run.now.v.clone());
         let [q, v] = run.all.clone();
         let since = (t.to_f64(), 0);
-        let mut sampled = Self { run, interval, since, samples: 0, t, q, v, ahead: None, threshold: None };
+        let mut sampled =
+            Self { run, interval, since, samples: 0, end: None, t, q, v, ahead: None, threshold: None };
         sampled.put(t, &q_now, &v_now);
         Ok(sampled)
     }
@@ -127,13 +140,28 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         check_interval(interval)?;
         self.interval = interval;
         self.since = (self.t.to_f64(), self.samples);
+        self.end = None;
         Ok(())
     }
 
     /// When the sample with a number is.
     fn time_of(&self, sample: u64) -> f64 {
         let (t, samples) = self.since;
-        t + sample.saturating_sub(samples) as f64 * self.interval
+        match self.end {
+            Some((end, last)) if sample == last => end,
+            _ => t + sample.saturating_sub(samples) as f64 * self.interval,
+        }
+    }
+
+    /// Behind its end, if that is no sample of the others, a run is looked at anew.
+    fn pass_end(&mut self) {
+        let Some((end, last)) = self.end else { return };
+        if self.samples == last {
+            self.end = None;
+            if (end - self.time_of(last)).abs() > AT_END * self.interval {
+                self.since = (end, last);
+            }
+        }
     }
 
     /// The same run with one value more that it watches: its event has the index behind those of
@@ -143,9 +171,11 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         Self { threshold: Some(threshold), ..self }
     }
 
-    /// A step of the run, which ends at its first event.
+    /// A step of the run, which ends at its first event, and at the end of the run.
     fn run_on(&mut self) -> Result<Option<Event>, Error> {
-        let Self { run, threshold, .. } = self;
+        let Self { run, threshold, end, .. } = self;
+        let end = end.map_or(f64::INFINITY, |(end, _)| end);
+        let ahead = D::Real::from_f64(if end > run.now.t.to_f64() { end } else { f64::INFINITY });
         let events = run.dynamics.equations().info().events;
         let extra = threshold.filter(|_| events.len() < MOST_EVENTS);
         let direction = |index: usize| {
@@ -162,8 +192,9 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
                 }
             },
             room: &mut [D::Real::from_f64(f64::NAN); MOST_EVENTS],
+            is_declared: true,
         };
-        run.step_or_event(&mut watched)
+        run.step_or_event(ahead, &mut watched)
     }
 
     /// The run, which may be ahead of what is seen by a part of a step.
@@ -238,6 +269,8 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
+        // with the inputs of the step that it lies in
+        self.run.look_between();
         let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
         let is_new = dynamics.with_inputs(own, |own| {
             let is_new = own.iter().zip(inputs).any(|(own, input)| !own.is_same(*input));
@@ -249,7 +282,7 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
             // last step, so that there is no error
             let _ = self.run.rewind_to(self.t.to_f64());
             self.run.is_solved = false;
-            (self.ahead, self.run.due) = (None, 0);
+            self.ahead = None;
         }
     }
 
@@ -264,6 +297,18 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
     fn steps_to(&self, end: f64) -> Result<u64, Error> {
         let (t, samples) = self.since;
         clock::steps_to::<D::Real>(t, self.interval, self.samples - samples, end)
+    }
+
+    fn ends_at(&mut self, end: f64) -> Result<u64, Error> {
+        let now = self.t.to_f64();
+        let nearest = self.steps_to(end)?;
+        if end < now {
+            return Err(Error::EndTime { end, now });
+        }
+        let is_behind = end - self.time_of(self.samples + nearest) > AT_END * self.interval;
+        let steps = nearest + u64::from(is_behind);
+        self.end = Some((end, self.samples + steps));
+        Ok(steps)
     }
 
     fn step(&mut self) -> Result<(), Error> {
@@ -282,9 +327,11 @@ impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
             }
             let at = D::Real::from_f64(t);
             if self.run.now.t >= at {
+                self.run.look_between();
                 let (q, v) = self.run.interpolate(at)?;
                 self.put(at, &q, &v);
                 self.samples += 1;
+                self.pass_end();
                 return Ok(None);
             }
             self.ahead = self.run_on()?;

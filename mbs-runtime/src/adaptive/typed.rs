@@ -1,6 +1,7 @@
 //! A run to a tolerance of a mechanism whose coordinates have names.
 
 use super::attempt::copy;
+use super::events::Happened;
 use super::{Adaptive, Moment};
 use crate::{Components, Error, Mechanism, Real, Scheme, State};
 
@@ -21,12 +22,22 @@ impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
     /// fifth degree that has q, v and q̈ of both ends, projected onto the constraints. It is off
     /// by O(h⁶) and its velocities by O(h⁵), beside the errors of the ends.
     ///
+    /// [`Dop853`](crate::Dop853) has a polynomial of seventh degree of its own, off by O(h⁸), which takes
+    /// three evaluations more in a step that is looked into. [`cover`](Self::cover) keeps them for all
+    /// times of a step.
+    ///
     /// # Errors
     /// [`Error::EndTime`] for a time outside of the last step; [`cover`](Self::cover) takes steps
     /// until it is inside.
     pub fn at(&self, t: f64) -> Result<State<M::Coordinates>, Error> {
         let t = M::Real::from_f64(t);
-        let (q, v) = self.interpolate(t)?;
+        let (q, v) = if Self::TABLEAU.interpolant.is_none() || self.between.is_known() {
+            self.interpolate(t)?
+        } else {
+            let mut looked_into = self.clone();
+            looked_into.look_between();
+            looked_into.interpolate(t)?
+        };
         let states = State { t, q: Components::from_array(q), v: Components::from_array(v) };
         Ok(Mechanism::complete(&self.dynamics, &states))
     }
@@ -40,18 +51,27 @@ impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
     /// event: after an impact, or with a latch that has opened. Events at the same time that were
     /// not told yet are told by the next call; those of another time are forgotten.
     ///
+    /// Where the state is set at an event, the value of which it turns around, the value counts as before
+    /// the event again, whatever its rounding says: a ball whose velocity is turned at the ground is above
+    /// it. If it is back before rounding can tell, the next step ends with [`Error::EndlessEvents`].
+    ///
     /// # Errors
     /// [`Error::Inconsistent`] for one that violates the constraints, [`Error::NonFinite`].
     pub fn set_state(&mut self, state: State<M::Coordinates>) -> Result<(), Error> {
         crate::start::check(&self.dynamics, &state, M::Real::from_f64(1e-3))?;
         if state.t != self.now.t {
-            self.due = 0;
+            self.happened = Happened::default();
+        } else if !self.happened.is_set {
+            self.arrival = self.now;
         }
+        self.happened.is_set = true;
         copy(&mut self.now.q, &M::states(state.q).into_array());
         copy(&mut self.now.v, &M::states(state.v).into_array());
         self.now.t = state.t;
         self.is_solved = false;
         self.before = self.now;
+        self.between.begin(false);
+        self.progress.go_on();
         Ok(())
     }
 }

@@ -12,6 +12,7 @@ use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
 pub struct ConstantStepBuilder<D: Dynamics, K: Kernel<D>> {
     beginning: Beginning<D>,
     step: f64,
+    steps_taken: u64,
     pub(super) kernel: K,
 }
 
@@ -19,7 +20,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
     /// Choices to make before a run of a method starts. Without any: the declared start, made
     /// consistent, steps of `step` seconds, inputs at their defaults.
     pub fn new(mechanism: D, step: f64, kernel: K) -> Self {
-        Self { beginning: Beginning::new(mechanism), step, kernel }
+        Self { beginning: Beginning::new(mechanism), step, steps_taken: 0, kernel }
     }
 
     /// The inputs of the first step.
@@ -36,6 +37,13 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
         self
     }
 
+    /// Goes on with a run that has taken so many steps: the given state is that at t + n·h, where t is the time at
+    /// which that run started.
+    #[must_use]
+    pub fn steps_taken(self, steps_taken: u64) -> Self {
+        Self { steps_taken, ..self }
+    }
+
     /// Keeps the start as it is, consistent or not; the first step leads to the constraints.
     #[must_use]
     pub fn as_declared(mut self) -> Self {
@@ -50,12 +58,14 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
     /// [`Error::ReducedStates`] for a mechanism that does not integrate all of its coordinates;
     /// [`Error::Step`], and those of the start of a [`Simulation`](crate::Simulation).
     pub fn build(self) -> Result<ConstantStep<D, K>, Error> {
-        let Self { mut beginning, step, kernel } = self;
+        let Self { mut beginning, step, steps_taken, kernel } = self;
         kernel.check(beginning.dynamics.equations().info())?;
         let h = D::Real::from_f64(step);
         if !(h > D::Real::default() && h.is_finite()) {
             return Err(Error::Step { step });
         }
+        let start_time = beginning.state.0;
+        beginning.state.0 = start_time + D::Real::from_f64(steps_taken as f64) * h;
         let length = beginning.prepare::<Heun>(step)?;
         let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
@@ -68,8 +78,8 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
             inputs,
             kernel,
             step: h,
-            start_time: t.to_f64(),
-            steps: 0,
+            start_time: start_time.to_f64(),
+            steps: steps_taken,
             is_solved: false,
             watch: Watch::new(length),
         };

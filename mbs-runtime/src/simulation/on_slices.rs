@@ -36,7 +36,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let (mut next, mut watch) = (Arrays::of(&self.state), self.watch);
         next.t = self.next_time();
         let Arrays { t, q, v } = &mut next;
-        self.on_slices(&mut |run, room| run.step(*t, [q.as_mut(), v.as_mut()], &mut watch, room))?;
+        self.on_slices(&mut |run, room| run.step(*t, [q.as_mut(), v.as_mut()], &mut watch, room).map(drop))?;
         (self.state, self.watch) = (next.state(), watch);
         self.steps += 1.0;
         Ok(())

@@ -78,12 +78,16 @@ pub(super) fn newton<T: Real>(
     }
     let (row, violation) = vectors::largest(phi);
     // Newton may circle at rounding level, where Φ itself is at rounding.
-    let rounding = T::from_f64(64.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
-    if violation <= rounding {
+    if violation <= rounding(q) {
         converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }
     Err(not_assembled(equations, t, row, violation))
+}
+
+/// The rounding of a constraint whose terms are of the order of the positions, of 1 at least: 64 ε (1 + maxⱼ |qⱼ|).
+pub(super) fn rounding<T: Real>(q: &[T]) -> T {
+    T::from_f64(64.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1)
 }
 
 /// Positions whose value has converged get the derivatives of the solution, an order with each

@@ -1,5 +1,6 @@
 //! Whether a state is consistent.
 
+use super::assembly::rounding;
 use super::jacobian::Jacobian;
 use crate::diagnosis::check_finite;
 use crate::equations::{At, Equations};
@@ -59,6 +60,8 @@ pub(super) fn check_projected<T: Real>(
 
 /// Refuses a state with more violation of a constraint or of its rate than `allowed` by
 /// the size Sᵢ, by Σⱼ |∂Φᵢ/∂qⱼ vⱼ| + |∂Φᵢ/∂t|, and by the larger of that and Sᵢ maxⱼ |vⱼ|/sⱼ.
+/// The rounding with which an assembly ends is never refused: a constraint such as x + a = b has no
+/// size where a is b and x is 0.
 fn check_sizes<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
@@ -72,6 +75,9 @@ fn check_sizes<T: Real>(
     for (row, rate) in rows.iter_mut().zip(rates.iter_mut()) {
         (*row, *rate) = allowed(*row, *rate, rate.max(*row * fastest));
     }
+    let (of_positions, of_rates) = (rounding(at.q), rounding(at.v));
+    vectors::map(rows, |row| if row > of_positions { row } else { of_positions });
+    vectors::map(rates, |rate| if rate > of_rates { rate } else { of_rates });
     equations.phi(at.t, at.q, found);
     check_rows(equations.info(), at.t, found, rows, false)?;
     equations.phi_dot(at, found);
@@ -103,7 +109,9 @@ fn check_rows<T: Real>(info: &Info, t: T, found: &[T], allowed: &[T], is_rate: b
 /// Refuses a start in which redundant constraints are met, but not by its accelerations:
 /// with parameters for which they fit at this instant only.
 ///
-/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind.
+/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind. What violates a constraint
+/// over a step by no more than the rounding of positions is none: a structure at rest has
+/// accelerations that are rounding.
 pub(super) fn check_redundant_accelerations<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
@@ -140,7 +148,8 @@ pub(super) fn check_redundant_accelerations<T: Real>(
     vectors::zip_map(rates, rows, |motion, size| {
         let rate = motion.max(size * fastest);
         let turning = if size > zero { rate * rate / size } else { zero };
-        number(SHARE) * turning + number(64.0) * T::EPSILON * rate / apart
+        let rounding = number(64.0) * T::EPSILON * (rate / apart + number(2.0) * size / (step * step));
+        number(SHARE) * turning + rounding
     });
     let allowed = rates;
     for (j, &a) in acceleration.iter().enumerate() {

@@ -16,11 +16,7 @@ const NAMED: f64 = 1e-2;
 ///
 /// # Errors
 /// [`Error::Undetermined`].
-pub fn covariance(
-    experiment: &Experiment<'_>,
-    best: &Minimum,
-    free: &[usize],
-) -> Result<DMatrix<f64>, Error> {
+pub fn covariance(experiment: &Experiment, best: &Minimum, free: &[usize]) -> Result<DMatrix<f64>, Error> {
     let mut covariance = DMatrix::zeros(best.x.len(), best.x.len());
     if free.is_empty() {
         return Ok(covariance);
@@ -32,6 +28,9 @@ pub fn covariance(
     }
     let size = |at: usize| best.x[free[at]].abs();
     let scaled = DMatrix::from_fn(jacobian.nrows(), free.len(), |row, at| jacobian[(row, at)] / norms[at]);
+    if scaled.iter().any(|entry| !entry.is_finite()) {
+        return Err(Error::NoPrediction);
+    }
     let decomposed = scaled.qr().r().svd(false, true);
     let (s, v_t) = (&decomposed.singular_values, decomposed.v_t.unwrap_or_default());
     let (least, smallest) = s
@@ -57,7 +56,7 @@ pub fn covariance(
 }
 
 /// The changes, of which the largest is 1.
-fn undetermined(experiment: &Experiment<'_>, changes: &[(usize, f64)]) -> Error {
+fn undetermined(experiment: &Experiment, changes: &[(usize, f64)]) -> Error {
     let largest = changes
         .iter()
         .map(|(_, change)| *change)

@@ -1,29 +1,28 @@
 //! What was measured, under which conditions, and what is looked for.
 
+use std::sync::Arc;
+
 use mbs_runtime::{Info, Tolerances};
 
 use super::{Fit, Progress, Trials, search};
-use crate::{Error, Signal, Variable};
+use crate::{Error, InputTable, Signal, Variable, own_clock};
 
 /// A measured run of a mechanism and what is unknown of it.
 ///
 /// Values are in SI units and rad. See [`fit`](crate::identification) for an example.
 #[derive(Clone)]
-pub struct Experiment<'a> {
+pub struct Experiment {
     pub(super) info: &'static Info,
     pub(super) parameters: Vec<f64>,
     pub(super) inputs: Vec<f64>,
-    pub(super) signal: Option<&'a Driver<'a>>,
-    pub(super) hold: f64,
+    pub(super) table: Arc<InputTable>,
+    pub(super) start_time: Option<f64>,
     pub(super) tolerances: Tolerances,
     pub(super) measured: Vec<Measurement>,
     pub(super) unknown: Vec<Unknown>,
     pub(super) starts: usize,
     pub(super) confidence: f64,
 }
-
-/// The value of an input at a time in s, by its place in [`Info`]; nothing where it is constant.
-type Driver<'a> = dyn Fn(f64, usize) -> Option<f64> + 'a;
 
 /// A quantity that was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,12 +50,12 @@ pub struct Unknown {
 
 /// The runs of a fit unless others are asked for: their error lies well below that of a measurement.
 const TOLERANCES: [f64; 2] = [1e-9, 1e-12];
-/// For how long an input is held unless it is said, in s.
-const HOLD: f64 = 0.5e-3;
+/// Values beyond this have no squares that are numbers.
+const LARGEST: f64 = 1e100;
 /// From so many starts it looks at most.
 const STARTS: usize = 12;
 
-impl<'a> Experiment<'a> {
+impl Experiment {
     /// An experiment with a mechanism as it is declared, in which nothing was measured yet.
     pub fn of(info: &'static Info) -> Self {
         let defaults = |list: &[mbs_runtime::Quantity]| list.iter().map(|q| q.default).collect();
@@ -65,8 +64,8 @@ impl<'a> Experiment<'a> {
             info,
             parameters: defaults(info.parameters),
             inputs: defaults(info.inputs),
-            signal: None,
-            hold: HOLD,
+            table: Arc::default(),
+            start_time: None,
             tolerances: Tolerances { rtol, atol, ..Tolerances::default() },
             measured: Vec::new(),
             unknown: Vec::new(),
@@ -87,12 +86,16 @@ impl<'a> Experiment<'a> {
         Self { inputs, ..self }
     }
 
-    /// With inputs that change: `signal` gives the value of an input at a time in s, by the place of the
-    /// input in [`Info`], or nothing where it stays what it is. Inputs are held over `hold` seconds at most,
-    /// at their value in the middle; the error of that is O(hold²).
+    /// With inputs that change with time.
     #[must_use]
-    pub fn driven_by(self, signal: &'a Driver<'a>, hold: f64) -> Self {
-        Self { signal: Some(signal), hold, ..self }
+    pub fn driven_by(self, table: Arc<InputTable>) -> Self {
+        Self { table, ..self }
+    }
+
+    /// Starts at another time than the declared one, in s: when a clock of its own showed this as the motion began.
+    #[must_use]
+    pub fn starting_at(self, start_time: f64) -> Self {
+        Self { start_time: Some(start_time), ..self }
     }
 
     /// With samples of a quantity whose noise is estimated from what the model leaves over.
@@ -190,13 +193,6 @@ impl<'a> Experiment<'a> {
         if !(self.confidence > 0.0 && self.confidence < 1.0) {
             return Err(Error::Confidence { value: self.confidence });
         }
-        if !(self.hold > 0.0 && self.hold.is_finite()) {
-            return Err(Error::Range {
-                what: "the time over which inputs are held",
-                value: self.hold,
-                unit: "s",
-            });
-        }
         for (what, found, expected) in [
             ("parameters", self.parameters.len(), self.info.parameters.len()),
             ("inputs", self.inputs.len(), self.info.inputs.len()),
@@ -220,6 +216,14 @@ impl<'a> Experiment<'a> {
     }
 }
 
+/// When the runs of a fit start, where what was measured has a clock of its own; see [`own_clock`].
+pub fn clock_of(measured: &[Measurement]) -> Option<f64> {
+    let ends =
+        measured.iter().filter_map(|measured| Some([*measured.times.first()?, *measured.times.last()?]));
+    let both = |[first, last]: [f64; 2], other: [f64; 2]| [first.min(other[0]), last.max(other[1])];
+    own_clock(ends.fold([f64::INFINITY, f64::NEG_INFINITY], both))
+}
+
 impl Measurement {
     fn check(&self) -> Result<(), Error> {
         let Self { name, times, values, deviation } = self;
@@ -232,6 +236,9 @@ impl Measurement {
         for (index, (time, value)) in times.iter().zip(values).enumerate() {
             if !(time.is_finite() && value.is_finite()) {
                 return wrong(index, "it is not a finite number; leave out what was not measured");
+            }
+            if value.abs() > LARGEST {
+                return wrong(index, "it is out of all measure, beyond 1e100");
             }
             if index > 0 && times[index - 1] >= *time {
                 return wrong(index, "its time is not after the one before it");

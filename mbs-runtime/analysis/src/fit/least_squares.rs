@@ -47,7 +47,8 @@ impl Local {
     }
 
     fn is_finite(&self) -> bool {
-        self.residuals.iter().chain(self.jacobian.iter()).all(|x| x.is_finite())
+        // so that the decomposition of numbers whose squares are none is not tried
+        self.residuals.norm_squared().is_finite() && self.jacobian.norm_squared().is_finite()
     }
 }
 

@@ -8,7 +8,7 @@ mod quantile;
 mod search;
 mod trials;
 
-pub use experiment::{Experiment, Measurement, Unknown};
+pub use experiment::{Experiment, Measurement, Unknown, clock_of};
 use nalgebra::DMatrix;
 pub use trials::{Look, See, Trial, Trials, trials_of_type};
 

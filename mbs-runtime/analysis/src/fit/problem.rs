@@ -13,7 +13,7 @@ use crate::{Error, Variable};
 
 /// An experiment whose names were found and whose samples are in the order of time.
 pub struct Problem<'a> {
-    pub experiment: &'a Experiment<'a>,
+    pub experiment: &'a Experiment,
     trials: &'a dyn Trials,
     channels: Vec<Variable>,
     places: Vec<Variable>,
@@ -24,7 +24,7 @@ pub struct Problem<'a> {
     pub guess: DVector<f64>,
     pub bounds: Vec<[f64; 2]>,
     pub runs: Cell<usize>,
-    /// The steps that a run may take; as many as it likes until the first has come to its end.
+    /// The steps that a run may take.
     most_steps: Cell<u64>,
     /// Why the last run that failed did.
     pub failure: RefCell<Option<RunError>>,
@@ -42,7 +42,7 @@ impl<'a> Problem<'a> {
     ///
     /// # Errors
     /// As [`Experiment::fit`].
-    pub fn new(experiment: &'a Experiment<'a>, trials: &'a dyn Trials) -> Result<Self, Error> {
+    pub fn new(experiment: &'a Experiment, trials: &'a dyn Trials) -> Result<Self, Error> {
         let (channels, places) = (experiment.channels()?, experiment.places()?);
         experiment.check()?;
         let measured = &experiment.measured;
@@ -67,9 +67,11 @@ impl<'a> Problem<'a> {
             guess: DVector::zeros(0),
             bounds: Vec::new(),
             runs: Cell::new(0),
-            most_steps: Cell::new(u64::MAX),
+            most_steps: Cell::new(0),
             failure: RefCell::new(None),
         };
+        let instants = problem.times.len() + experiment.table.len();
+        problem.most_steps.set(FIRST + MOST * instants as u64);
         problem.begin()?;
         Ok(problem)
     }
@@ -98,8 +100,11 @@ impl<'a> Problem<'a> {
         self.bounds = (0..unknown.len()).map(|at| self.declared_bounds(at)).collect();
         let steps = Cell::new(0);
         let first = self.run(&self.guess, 0, self.samples.len(), &mut |_, run| steps.set(steps_of(run)));
-        if first.is_ok() {
-            self.most_steps.set(MOST * (steps.get() + self.times.len() as u64));
+        match first {
+            Ok(()) => self.most_steps.set(MOST * (steps.get() + self.times.len() as u64)),
+            // no other start would come to the end of such data
+            Err(error @ RunError::TooManySteps { .. }) => return Err(Error::Mechanism(error)),
+            Err(_) => {}
         }
         Ok(())
     }
@@ -148,10 +153,9 @@ impl<'a> Problem<'a> {
     }
 
     fn trial<'t>(&'t self, parameters: &'t [Partials]) -> Trial<'t> {
-        let Experiment { hold, tolerances, .. } = *self.experiment;
-        // what does not change is held for ever
-        let hold = if self.experiment.signal.is_some() { hold } else { f64::MAX };
-        Trial { parameters, start: &|_, _| (), times: &[], inputs: &NO_INPUTS, hold, tolerances }
+        let Experiment { start_time, inputs, table, tolerances, .. } = self.experiment;
+        let (start_time, tolerances, most_steps) = (*start_time, *tolerances, self.most_steps.get());
+        Trial { parameters, start: &|_, _| (), times: &[], start_time, inputs, table, tolerances, most_steps }
     }
 
     /// Parameters, positions and velocities with some values of x, as variables from the one with the number
@@ -215,17 +219,12 @@ impl<'a> Problem<'a> {
             let places = q.iter_mut().zip(&positions).chain(v.iter_mut().zip(&velocities));
             places.filter(|(_, new)| new.is_finite()).for_each(|(place, new)| *place = *new);
         };
-        let inputs = |t: f64, inputs: &mut [f64]| self.inputs(t, inputs);
         let instants = self.samples.get(count.wrapping_sub(1)).map_or(0, |last| last.instant + 1);
         let times = self.times.get(..instants).unwrap_or(&self.times);
-        let trial = Trial { start: &change, times, inputs: &inputs, ..self.trial(&parameters) };
+        let trial = Trial { start: &change, times, ..self.trial(&parameters) };
         let mut view = View::new(self);
         let mut samples = self.samples.iter().take(count).peekable();
         self.trials.follow(&trial, &mut |instant, run| {
-            if steps_of(run) > self.most_steps.get() {
-                let step = run.effort().map_or(f64::NAN, |effort| effort.shortest);
-                return Err(RunError::StepTooShort { t: run.time().value, step });
-            }
             view.see(run)?;
             while let Some(sample) = samples.next_if(|sample| sample.instant == instant) {
                 take(view.value(self.channels[sample.channel]), run);
@@ -233,25 +232,17 @@ impl<'a> Problem<'a> {
             Ok(())
         })
     }
-
-    fn inputs(&self, t: f64, inputs: &mut [f64]) {
-        let constant = self.experiment.inputs.iter().enumerate();
-        for (place, (at, constant)) in inputs.iter_mut().zip(constant) {
-            *place = self.experiment.signal.and_then(|signal| signal(t, at)).unwrap_or(*constant);
-        }
-    }
 }
 
 /// A run that takes so many times the steps of the first and a step to each instant is one of a stiffness that
 /// nothing measured asks for.
 const MOST: u64 = 30;
+/// The first run may take so many steps beside those to the instants of the data and of the inputs.
+const FIRST: u64 = 100_000;
 
 fn steps_of(run: &dyn System<Partials>) -> u64 {
     run.effort().map_or(0, |effort| effort.steps)
 }
-
-/// Of a run that is only started.
-const NO_INPUTS: fn(f64, &mut [f64]) = |_, inputs| inputs.fill(0.0);
 
 /// What is seen of a run at an instant, in room that is made once.
 struct View {

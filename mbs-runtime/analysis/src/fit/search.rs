@@ -34,7 +34,7 @@ const LEAST: f64 = 1e-9;
 
 /// Looks for the smallest sum of squares.
 pub fn fit(
-    experiment: &Experiment<'_>,
+    experiment: &Experiment,
     trials: &dyn Trials,
     goes_on: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Fit, Error> {
@@ -67,7 +67,7 @@ pub fn fit(
 }
 
 /// Those that are given, and the range of the data for those that are not.
-fn first_deviations(experiment: &Experiment<'_>) -> Vec<f64> {
+fn first_deviations(experiment: &Experiment) -> Vec<f64> {
     let ranges = ranges(experiment);
     experiment
         .measured
@@ -78,7 +78,7 @@ fn first_deviations(experiment: &Experiment<'_>) -> Vec<f64> {
 }
 
 /// The root mean square of the data about their mean, or their size where they are constant.
-fn ranges(experiment: &Experiment<'_>) -> Vec<f64> {
+fn ranges(experiment: &Experiment) -> Vec<f64> {
     let range = |values: &[f64]| {
         let n = values.len().max(1) as f64;
         let mean = values.iter().sum::<f64>() / n;

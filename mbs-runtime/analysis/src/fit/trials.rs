@@ -1,9 +1,12 @@
 //! Runs with derivatives, of a mechanism whose parameters are tried.
 
+use std::sync::Arc;
+
 use mbs_runtime::equations::{Described, Partials};
 use mbs_runtime::{Adaptive, Dopri5, Dynamics, Error, Mechanism, Sampled, System, Tolerances};
 
 use crate::family::components;
+use crate::{Driven, InputTable};
 
 /// A mechanism of which runs over [`Partials`] can be made with any parameters: what is fitted to data.
 ///
@@ -59,12 +62,16 @@ pub struct Trial<'a> {
     pub start: &'a dyn Fn(&mut [Partials], &mut [Partials]),
     /// When the run is looked at, in s, ascending; from its start on.
     pub times: &'a [f64],
-    /// The inputs, held over a time at whose middle they are asked for,
-    pub inputs: &'a dyn Fn(f64, &mut [f64]),
-    /// and how long that is at most, in s.
-    pub hold: f64,
-    /// The tolerances of the run.
+    /// When the run starts, in s, unless as the mechanism declares it.
+    pub start_time: Option<f64>,
+    /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs),
+    pub inputs: &'a [f64],
+    /// and those that change with time.
+    pub table: &'a Arc<InputTable>,
+    /// The tolerances of the run,
     pub tolerances: Tolerances,
+    /// and the steps that it may take.
+    pub most_steps: u64,
 }
 
 /// Runs of a type.
@@ -89,50 +96,33 @@ where
     }
 
     fn follow(&self, trial: &Trial<'_>, see: &mut See<'_>) -> Result<(), Error> {
-        let dynamics = self(trial.parameters)?;
+        let dynamics =
+            Driven::new(self(trial.parameters)?, trial.table.clone()).starting_at(trial.start_time);
         let (t, mut q, mut v) = dynamics.declared_start();
         (trial.start)(q.as_mut(), v.as_mut());
         let mut inputs = dynamics.default_inputs();
-        dynamics.with_inputs(&mut inputs, |inputs| set(trial, t.value, inputs));
+        dynamics.with_inputs(&mut inputs, |inputs| {
+            let given = trial.inputs.iter().map(|value| Partials::constant(*value));
+            inputs.iter_mut().zip(given).for_each(|(input, value)| *input = value);
+        });
         let run = Adaptive::builder(dynamics)
             .scheme::<Dopri5>()
             .tolerances(trial.tolerances)
+            .most_steps(trial.most_steps)
             .from_vectors(t, q, v)
             .made_consistent()
             .inputs(inputs)
             .build()?;
-        let mut run = Sampled::new(run, trial.hold)?;
+        // the time between two samples is set before each
+        let mut run = Sampled::new(run, 1.0)?;
         for (number, time) in trial.times.iter().enumerate() {
-            advance(&mut run, *time, trial)?;
+            let span = time - run.time().value;
+            if span > 0.0 {
+                run.set_interval(span)?;
+                run.step()?;
+            }
             see(number, &run)?;
         }
         Ok(())
     }
-}
-
-/// Goes to a time, with inputs that change on the way.
-fn advance<D: Dynamics<Real = Partials>>(
-    run: &mut Sampled<D, Dopri5>,
-    end: f64,
-    trial: &Trial<'_>,
-) -> Result<(), Error> {
-    let span = end - run.time().value;
-    if span <= 0.0 {
-        return Ok(());
-    }
-    let parts = (span / trial.hold).ceil().max(1.0);
-    run.set_interval(span / parts)?;
-    let mut inputs = vec![Partials::default(); run.described().info().inputs.len()];
-    for _ in 0..parts as u64 {
-        set(trial, run.time().value + 0.5 * span / parts, &mut inputs);
-        run.set_inputs(&inputs);
-        run.step()?;
-    }
-    Ok(())
-}
-
-fn set(trial: &Trial<'_>, t: f64, inputs: &mut [Partials]) {
-    let mut values = vec![0.0; inputs.len()];
-    (trial.inputs)(t, &mut values);
-    inputs.iter_mut().zip(values).for_each(|(input, value)| *input = Partials::constant(value));
 }

@@ -7,10 +7,12 @@
 
 mod refusals;
 
-use mbs_analysis::{Experiment, Fit, Measurement, Trials, Unknown, trials_of_type};
+use std::sync::Arc;
+
+use mbs_analysis::{Driven, Experiment, Fit, InputTable, Measurement, Trials, Unknown, trials_of_type};
 use mbs_live::{Live, Prepared, Text};
 use mbs_runtime::equations::Partials;
-use mbs_runtime::{Mechanism, Sampled, System, Tolerances, mechanism};
+use mbs_runtime::{Adaptive, Mechanism, Sampled, System, Tolerances, mechanism};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -80,7 +82,7 @@ fn instants(count: usize, interval: f64) -> Vec<f64> {
     (0..count).map(|at| at as f64 * interval).collect()
 }
 
-fn oscillator<'a>() -> Experiment<'a> {
+fn oscillator() -> Experiment {
     Experiment::of(<Oscillator as Mechanism>::INFO).inputs(vec![20.0])
 }
 
@@ -140,7 +142,8 @@ fn mass_damper_and_spring_are_found_again() {
 #[test]
 fn a_suspension_is_found_again() {
     let live = Text::declaration("car.mbs", CAR).compile().unwrap();
-    let road = |t: f64, _: usize| Some(0.05 * ((t - 0.1) / 0.05).clamp(0.0, 1.0));
+    let road = InputTable::new(vec![0.1, 0.15], vec![(0, vec![0.0, 0.05])]).unwrap();
+    let road = Arc::new(road);
     let (often, seldom) = (instants(301, 0.005), instants(76, 0.02));
     let sensors = recorded(&live, &road);
     let truth = [20e3, 1200.0, 300.0];
@@ -153,7 +156,7 @@ fn a_suspension_is_found_again() {
             let every_fourth: Vec<f64> = position.iter().step_by(4).copied().collect();
             let factor = |bit: u64| if seed >> bit & 1 == 0 { 3.0 } else { 1.0 / 3.0 };
             let fit = Experiment::of(live.declared_info())
-                .driven_by(&road, 0.0025)
+                .driven_by(road.clone())
                 .measured("body", &seldom, &noise.added(&every_fourth, 0.5e-3))
                 .measured("acceleration", &often, &noise.added(acceleration, 0.1))
                 .unknown("spring", 20e3 * factor(0))
@@ -177,21 +180,18 @@ fn a_suspension_is_found_again() {
     assert!(most < Some(85), "{most:?}");
 }
 
-/// Position and acceleration of the car every 5 ms, with the inputs of every 0.1 ms.
-fn recorded(live: &Live, road: &dyn Fn(f64, usize) -> Option<f64>) -> [Vec<f64>; 2] {
+/// Position and acceleration of the car every 5 ms.
+fn recorded(live: &Live, road: &Arc<InputTable>) -> [Vec<f64>; 2] {
     let tolerances = Tolerances { rtol: 1e-11, atol: 1e-13, ..Tolerances::default() };
-    let run = mbs_live::Run::adaptive(live).tolerances(tolerances).build().unwrap();
-    let mut run = Sampled::new(run, 1e-4).unwrap();
+    let car = Driven::new(Prepared::new(live), road.clone());
+    let mut run = Sampled::new(Adaptive::builder(car).tolerances(tolerances).build().unwrap(), 5e-3).unwrap();
     let [mut positions, mut accelerations] = [Vec::new(), Vec::new()];
-    for step in 0..=15_000 {
+    for _ in 0..=300 {
         let (mut q, mut v, mut a) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-        run.set_inputs(&[road(run.time() + 0.5e-4, 0).unwrap()]);
-        if step % 50 == 0 {
-            run.state(&mut q, &mut v);
-            run.reactions(&mut a, &mut []).unwrap();
-            positions.push(q[0]);
-            accelerations.push(a[0]);
-        }
+        run.state(&mut q, &mut v);
+        run.reactions(&mut a, &mut []).unwrap();
+        positions.push(q[0]);
+        accelerations.push(a[0]);
         run.step().unwrap();
     }
     [positions, accelerations]

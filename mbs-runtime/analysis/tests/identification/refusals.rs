@@ -6,7 +6,7 @@ use mbs_runtime::Mechanism;
 use super::{Oscillator, instants, oscillator, pushed};
 
 #[track_caller]
-fn refused(experiment: &Experiment<'_>) -> String {
+fn refused(experiment: &Experiment) -> String {
     experiment.fit(&trials_of_type::<Oscillator>()).unwrap_err().to_string()
 }
 
@@ -41,6 +41,13 @@ fn what_cannot_be_fitted_is_refused() {
     assert!(
         refused(&oscillator().measured("x", &times, &broken).unknown("k", 1.0)).contains("sample 4 of `x`")
     );
+    // its square is no number, which a decomposition met with a panic
+    broken[3] = 1e155;
+    let message = refused(&oscillator().measured("x", &times, &broken).unknown("k", 1.0));
+    assert!(message.contains("sample 4 of `x`") && message.contains("beyond 1e100"), "{message}");
+    let late = [0.0, 0.1, 1e9];
+    let message = refused(&oscillator().measured("x", &late, &values[..3]).unknown("k", 100.0));
+    assert!(message.contains("steps, and may take no more"), "{message}");
     let mut back = times.clone();
     back[5] = 0.2;
     let message = refused(&oscillator().measured("x", &back, &values).unknown("k", 1.0));

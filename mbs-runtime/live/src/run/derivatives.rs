@@ -45,6 +45,7 @@ impl Builder {
             gains: self.gains,
             inputs: constants(&self.inputs),
             state,
+            steps_taken: self.steps_taken,
             start: self.start,
             allow_unstable: self.allow_unstable,
         })

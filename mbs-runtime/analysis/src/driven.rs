@@ -1,0 +1,330 @@
+//! A mechanism whose inputs are functions of time.
+
+use std::sync::Arc;
+
+use mbs_runtime::equations::{At, Described, Differentiable, Equations, Room};
+use mbs_runtime::explicit::Beside;
+use mbs_runtime::{Derivation, Dynamics, Error, Gains, Info, Real, Scheme, Sketch};
+
+use crate::InputTable;
+
+/// A mechanism with inputs from a table: whoever asks it for accelerations, reactions or outputs at a time
+/// gets those with the inputs of that time, whatever inputs are handed over. So every stage of every method
+/// sees the inputs of its own time, and steps to a tolerance end where the lines of the table have corners.
+///
+/// # Example
+/// A cart of 2 kg, pushed by a force that rises to 3 N within 2 s, has moved by ∫∫ 3 t/4 dt² = 1 m then:
+/// ```
+/// use std::sync::Arc;
+///
+/// use mbs_analysis::{Driven, InputTable};
+/// use mbs_live::{Prepared, Text};
+/// use mbs_runtime::{Adaptive, Sampled, System};
+///
+/// let text = "Cart {
+///     dof = 1;
+///     input push [N];
+///     body cart (x) { mass = 2 [kg]; }
+///     force pushed on x = push;
+///     start { x = 0; }
+/// }";
+/// let cart = Text::declaration("cart.mbs", text).compile()?;
+/// let table = InputTable::new(vec![0.0, 2.0], vec![(0, vec![0.0, 3.0])])?;
+/// let run = Adaptive::builder(Driven::new(Prepared::new(&cart), Arc::new(table))).build()?;
+/// // looked at once, after 2 s
+/// let mut run = Sampled::new(run, 2.0)?;
+/// run.step()?;
+/// let (mut x, mut v) = ([0.0], [0.0]);
+/// run.state(&mut x, &mut v);
+/// assert!((x[0] - 1.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Driven<D> {
+    dynamics: D,
+    table: Arc<InputTable>,
+    start_time: Option<f64>,
+}
+
+impl<D: Dynamics> Driven<D> {
+    /// A mechanism with the inputs of a table, in which others keep the values that they are given.
+    pub fn new(dynamics: D, table: Arc<InputTable>) -> Self {
+        Self { dynamics, table, start_time: None }
+    }
+
+    /// The same with another time than the declared one as that of the start, in s.
+    #[must_use]
+    pub fn starting_at(self, start_time: Option<f64>) -> Self {
+        Self { start_time, ..self }
+    }
+
+    /// The inputs at a time.
+    fn at(&self, t: D::Real, inputs: &[D::Real]) -> Vec<D::Real> {
+        let mut present = inputs.to_vec();
+        self.table.set(t, &mut present);
+        present
+    }
+}
+
+impl<D: Dynamics> Dynamics for Driven<D> {
+    type Real = D::Real;
+    type Coordinates = D::Coordinates;
+    type States = D::States;
+    type Constraints = D::Constraints;
+    type Inputs = D::Inputs;
+
+    fn equations(&self) -> &dyn Equations<D::Real> {
+        self
+    }
+
+    fn described(&self) -> &dyn Described<D::Real> {
+        self
+    }
+
+    fn declared_start(&self) -> (D::Real, D::Coordinates, D::Coordinates) {
+        let (t, q, v) = self.dynamics.declared_start();
+        (self.start_time.map_or(t, D::Real::from_f64), q, v)
+    }
+
+    fn states(&self, all: &D::Coordinates) -> D::States {
+        self.dynamics.states(all)
+    }
+
+    fn complete(&self, t: D::Real, q: &D::States, v: &D::States, all: &mut [D::Coordinates; 2]) {
+        self.dynamics.complete(t, q, v, all);
+    }
+
+    fn no_feedback(&self) -> D::Constraints {
+        self.dynamics.no_feedback()
+    }
+
+    fn default_inputs(&self) -> D::Inputs {
+        self.dynamics.default_inputs()
+    }
+
+    fn with_inputs<R>(&self, inputs: &mut D::Inputs, what: impl FnOnce(&mut [D::Real]) -> R) -> R {
+        self.dynamics.with_inputs(inputs, what)
+    }
+
+    fn inputs_at(&self, t: D::Real, inputs: &D::Inputs) -> D::Inputs {
+        let mut inputs = self.dynamics.inputs_at(t, inputs);
+        self.dynamics.with_inputs(&mut inputs, |inputs| self.table.set(t, inputs));
+        inputs
+    }
+
+    fn next_corner(&self, t: D::Real) -> D::Real {
+        let (own, others) = (self.table.next_corner(t), self.dynamics.next_corner(t));
+        if own < others { own } else { others }
+    }
+
+    fn with_room<S: Scheme>(
+        &self,
+        what: impl FnOnce(&mut Room<'_, D::Real>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.dynamics.with_room::<S>(what)
+    }
+
+    fn events(&self, at: At<'_, D::Real>, inputs: &D::Inputs, values: &mut [D::Real]) {
+        self.dynamics.events(at, &self.inputs_at(at.t, inputs), values);
+    }
+
+    fn acceleration(
+        &self,
+        t: D::Real,
+        q: &D::States,
+        v: &D::States,
+        inputs: &D::Inputs,
+        acceleration: &mut D::States,
+    ) -> D::Real {
+        self.dynamics.acceleration(t, q, v, &self.inputs_at(t, inputs), acceleration)
+    }
+
+    fn implicit(
+        &self,
+        t: D::Real,
+        at: [&D::States; 2],
+        inputs: &D::Inputs,
+        predicted: (D::Real, &D::States),
+        acceleration: &mut D::States,
+    ) -> D::Real {
+        self.dynamics.implicit(t, at, &self.inputs_at(t, inputs), predicted, acceleration)
+    }
+
+    fn correction(&self, t: D::Real, at: &Beside<'_, D::States>, delta: &mut D::States) -> D::Real {
+        self.dynamics.correction(t, at, delta)
+    }
+
+    fn correction_along(
+        &self,
+        from: (D::Real, &D::States),
+        t: D::Real,
+        q: &D::States,
+        delta: &mut D::States,
+    ) -> D::Real {
+        self.dynamics.correction_along(from, t, q, delta)
+    }
+}
+
+impl<D: Dynamics> Equations<D::Real> for Driven<D> {
+    fn info(&self) -> &Info {
+        self.dynamics.equations().info()
+    }
+
+    fn phi(&self, t: D::Real, q: &[D::Real], phi: &mut [D::Real]) {
+        self.dynamics.equations().phi(t, q, phi);
+    }
+
+    fn phi_dot(&self, at: At<'_, D::Real>, phi_dot: &mut [D::Real]) {
+        self.dynamics.equations().phi_dot(at, phi_dot);
+    }
+
+    fn complete(&self, states: At<'_, D::Real>, q: &mut [D::Real], v: &mut [D::Real]) {
+        self.dynamics.equations().complete(states, q, v);
+    }
+
+    fn stabilized(
+        &self,
+        states: At<'_, D::Real>,
+        inputs: &[D::Real],
+        gains: &Gains<D::Real>,
+        acceleration: &mut [D::Real],
+        feedback: &mut [D::Real],
+    ) -> D::Real {
+        let inputs = self.at(states.t, inputs);
+        self.dynamics.equations().stabilized(states, &inputs, gains, acceleration, feedback)
+    }
+
+    fn constrained(
+        &self,
+        states: At<'_, D::Real>,
+        inputs: &[D::Real],
+        feedback: &[D::Real],
+        acceleration: &mut [D::Real],
+    ) -> D::Real {
+        let inputs = self.at(states.t, inputs);
+        self.dynamics.equations().constrained(states, &inputs, feedback, acceleration)
+    }
+
+    fn implicit(
+        &self,
+        states: At<'_, D::Real>,
+        inputs: &[D::Real],
+        shift: D::Real,
+        predicted: &[D::Real],
+        acceleration: &mut [D::Real],
+    ) -> D::Real {
+        let inputs = self.at(states.t, inputs);
+        self.dynamics.equations().implicit(states, &inputs, shift, predicted, acceleration)
+    }
+
+    fn accelerations(
+        &self,
+        at: At<'_, D::Real>,
+        inputs: &[D::Real],
+        feedback: &[D::Real],
+        acceleration: &mut [D::Real],
+    ) -> D::Real {
+        let inputs = self.at(at.t, inputs);
+        self.dynamics.equations().accelerations(at, &inputs, feedback, acceleration)
+    }
+
+    fn position_correction(
+        &self,
+        t: D::Real,
+        q: &[D::Real],
+        residual: &[D::Real],
+        correction: &mut [D::Real],
+    ) -> D::Real {
+        self.dynamics.equations().position_correction(t, q, residual, correction)
+    }
+
+    fn velocity_correction(
+        &self,
+        t: D::Real,
+        q: &[D::Real],
+        residual: &[D::Real],
+        correction: &mut [D::Real],
+    ) -> D::Real {
+        self.dynamics.equations().velocity_correction(t, q, residual, correction)
+    }
+
+    fn projection(
+        &self,
+        t: D::Real,
+        q: &[D::Real],
+        violation: &[D::Real],
+        correction: &mut [D::Real],
+    ) -> D::Real {
+        self.dynamics.equations().projection(t, q, violation, correction)
+    }
+
+    fn worst_pivot(&self, t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)> {
+        self.dynamics.equations().worst_pivot(t, q)
+    }
+
+    fn worst_start_pivot(&self, t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)> {
+        self.dynamics.equations().worst_start_pivot(t, q)
+    }
+
+    fn kinetic_energy(&self, at: At<'_, D::Real>) -> D::Real {
+        self.dynamics.equations().kinetic_energy(at)
+    }
+
+    fn states(&self, all: &[D::Real], states: &mut [D::Real]) {
+        self.dynamics.equations().states(all, states);
+    }
+}
+
+impl<D: Dynamics> Described<D::Real> for Driven<D> {
+    fn reactions(
+        &self,
+        at: At<'_, D::Real>,
+        inputs: &[D::Real],
+        acceleration: &mut [D::Real],
+        multipliers: &mut [D::Real],
+    ) -> D::Real {
+        let inputs = self.at(at.t, inputs);
+        self.dynamics.described().reactions(at, &inputs, acceleration, multipliers)
+    }
+
+    fn outputs(
+        &self,
+        at: At<'_, D::Real>,
+        inputs: &[D::Real],
+        reactions: [&[D::Real]; 2],
+        outputs: &mut [D::Real],
+    ) {
+        let inputs = self.at(at.t, inputs);
+        self.dynamics.described().outputs(at, &inputs, reactions, outputs);
+    }
+
+    fn events(&self, at: At<'_, D::Real>, inputs: &[D::Real], values: &mut [D::Real]) {
+        let inputs = self.at(at.t, inputs);
+        self.dynamics.described().events(at, &inputs, values);
+    }
+
+    fn potential_energy(&self, at: At<'_, D::Real>) -> D::Real {
+        self.dynamics.described().potential_energy(at)
+    }
+
+    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
+        self.dynamics.described().points(t, q, points);
+    }
+
+    fn parameters(&self, parameters: &mut [D::Real]) {
+        self.dynamics.described().parameters(parameters);
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.dynamics.described().derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.dynamics.described().sketch()
+    }
+
+    /// The mechanism alone, with the inputs that are handed over.
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        self.dynamics.described().differentiable()
+    }
+}
