@@ -6,6 +6,12 @@ pub(super) fn query(text: &str) -> Option<String> {
     before.starts_with("http").then(|| decoded(behind))
 }
 
+/// `true` if a text is an address of PMKS+ before its version 2, which has parts named `j` and `l`.
+pub(super) fn is_of_old_pmks_plus(text: &str) -> bool {
+    let query = query(text).unwrap_or_default();
+    ["j=", "l="].iter().all(|name| query.split('&').any(|part| part.starts_with(name)))
+}
+
 /// A text in which `%7C` stands for a byte.
 fn decoded(text: &str) -> String {
     let mut bytes = Vec::new();

@@ -11,7 +11,10 @@ pub(super) struct Written {
     pub lines: Vec<Line>,
     /// How many links move.
     pub links: usize,
+    /// Where it is drawn.
     pub dof: usize,
+    /// Number of its constraints that repeat others where it is drawn.
+    pub repeated: usize,
 }
 
 /// A line of a declaration.
@@ -38,7 +41,8 @@ pub(super) fn written(linkage: &Linkage, file: &str) -> Result<Written, Refusal>
     writer.start();
     writer.outputs();
     writer.line("}");
-    Ok(Written { lines: writer.lines, links: linkage.links.len() - 1, dof: mobility.dof })
+    let links = linkage.links.len() - 1;
+    Ok(Written { lines: writer.lines, links, dof: mobility.dof, repeated: mobility.repeated })
 }
 
 /// A link as it is declared.

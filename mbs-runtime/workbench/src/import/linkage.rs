@@ -163,6 +163,12 @@ impl Linkage {
         if !at.iter().all(|number| number.abs() < 1e9) {
             return Err(Refusal(format!("{of} has no place within 1e9 {} of the origin", self.unit)));
         }
+        // Readers look for pins by their names among all others.
+        if self.pins.len() >= MOST_PINS {
+            return Err(Refusal(format!(
+                "it has more than {MOST_PINS} joints, which is the most that is imported"
+            )));
+        }
         self.pins.push(Pin { name: name.to_owned(), of, at });
         Ok(self.pins.len() - 1)
     }

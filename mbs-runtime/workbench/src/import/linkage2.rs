@@ -3,7 +3,7 @@
 //! A connector may be an anchor on the ground, an input that turns the links on it, or a
 //! slider on the line between two others. A positive speed turns clockwise.
 
-use roxmltree::{Document, Node};
+use super::xml::{Document, Node};
 
 use super::geometry::minus;
 use super::linkage::{Drive, GROUND, Linkage, Motion, Slot};
@@ -11,10 +11,9 @@ use super::{Refusal, shown};
 
 /// What a file describes. Lengths of the program are in mm or, in a file of inches, in them.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
-    let document = Document::parse(text.trim_start_matches('\u{feff}'))
-        .map_err(|error| Refusal(format!("it is no complete XML: {error}")))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "linkage2" {
+    let document = Document::parse(text)?;
+    let root = document.root();
+    if root.name() != "linkage2" {
         return Err(Refusal("its root is not `linkage2`".into()));
     }
     let mut reader = Reader { linkage: Linkage::new("Linkage", "mm"), known: Vec::new() };
@@ -29,7 +28,7 @@ pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
         reader.slider(node)?;
         reader.input(node)?;
     }
-    if let Some(ratios) = parts(root, &["ratios"]).find(|node| node.has_children())
+    if let Some(ratios) = parts(root, &["ratios"]).find(|node| node.elements().next().is_some())
         && parts(ratios, &["ratio"]).next().is_some()
     {
         return Err(Refusal("it has gears or chains, which are not imported".into()));
@@ -38,16 +37,16 @@ pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
 }
 
 /// The parts of a node with one of these names.
-fn parts<'a, 'b>(of: Node<'a, 'b>, names: &'static [&'static str]) -> impl Iterator<Item = Node<'a, 'b>> {
-    of.children().filter(|node| names.contains(&node.tag_name().name()))
+fn parts<'a>(of: Node<'a>, names: &'static [&'static str]) -> impl Iterator<Item = Node<'a>> {
+    of.elements().filter(|node| names.contains(&node.name()))
 }
 
-fn is_set(node: Node<'_, '_>, attribute: &str) -> bool {
+fn is_set(node: Node<'_>, attribute: &str) -> bool {
     node.attribute(attribute) == Some("true")
 }
 
 /// A number of an attribute, which has to be there.
-fn number(node: Node<'_, '_>, attribute: &str, of: &str) -> Result<f64, Refusal> {
+fn number(node: Node<'_>, attribute: &str, of: &str) -> Result<f64, Refusal> {
     let text = node.attribute(attribute).ok_or_else(|| Refusal(format!("{of} has no `{attribute}`")))?;
     let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| Refusal(format!("{of}: `{attribute}` = {} is no number", shown(text))))
@@ -60,7 +59,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn scale(&mut self, root: Node<'_, '_>) {
+    fn scale(&mut self, root: Node<'_>) {
         let program = parts(root, &["program"]).next();
         let attribute = |name: &str| program.and_then(|node| node.attribute(name));
         if attribute("units").is_some_and(|units| units.eq_ignore_ascii_case("inches")) {
@@ -76,14 +75,14 @@ impl<'a> Reader<'a> {
     }
 
     /// The pin of a connector by its number.
-    fn find(&self, node: Node<'_, '_>, by: &str) -> Result<usize, Refusal> {
+    fn find(&self, node: Node<'_>, by: &str) -> Result<usize, Refusal> {
         let id =
             node.attribute("id").ok_or_else(|| Refusal(format!("{by} refers to a part without its `id`")))?;
         let known = self.known.iter().position(|known| *known == id);
         known.ok_or_else(|| Linkage::missing("the connector", id, by))
     }
 
-    fn connector(&mut self, node: Node<'a, '_>) -> Result<(), Refusal> {
+    fn connector(&mut self, node: Node<'a>) -> Result<(), Refusal> {
         let id = node.attribute("id").ok_or_else(|| Refusal("a connector has no `id`".into()))?;
         let of = format!("the connector {}", shown(id));
         if self.known.contains(&id) {
@@ -99,7 +98,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn link(&mut self, node: Node<'_, '_>) -> Result<(), Refusal> {
+    fn link(&mut self, node: Node<'_>) -> Result<(), Refusal> {
         let id = node.attribute("id").ok_or_else(|| Refusal("a link has no `id`".into()))?;
         let of = format!("the link {}", shown(id));
         for (attribute, what) in [("actuator", "an actuator"), ("gear", "a gear")] {
@@ -121,7 +120,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A connector that slides between two others of one link.
-    fn slider(&mut self, node: Node<'_, '_>) -> Result<(), Refusal> {
+    fn slider(&mut self, node: Node<'_>) -> Result<(), Refusal> {
         let limits: Vec<_> = parts(node, &["slidelimit"]).collect();
         if !is_set(node, "slider") || limits.len() < 2 {
             return Ok(());
@@ -149,7 +148,7 @@ impl<'a> Reader<'a> {
     }
 
     /// An input turns each link that is on it.
-    fn input(&mut self, node: Node<'_, '_>) -> Result<(), Refusal> {
+    fn input(&mut self, node: Node<'_>) -> Result<(), Refusal> {
         if !is_set(node, "input") {
             return Ok(());
         }

@@ -19,6 +19,7 @@ mod pylinkage;
 mod pyslvs;
 mod robot;
 mod values;
+mod xml;
 
 use std::time::Duration;
 
@@ -78,19 +79,28 @@ pub(crate) struct Imported {
     pub dof: usize,
 }
 
-/// The declaration of what a file describes. `unit` is that of its lengths, where the caller
-/// knows it.
+/// Facts about a file that its caller knows, each `None` if it does not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known<'k> {
+    /// The program that wrote it; else its content shows it.
+    pub format: Option<Format>,
+    /// The unit of its lengths.
+    pub unit: Option<&'k str>,
+    /// The name of the model that is wanted, if it has several.
+    pub model: Option<&'k str>,
+}
+
+/// The declaration of what a file describes.
 ///
 /// # Errors
 /// A file that is none of the format, one with a part that the language lacks, and what the
 /// compiler says of the mechanism.
-pub(crate) fn import(
-    file: &str,
-    text: &str,
-    format: Option<Format>,
-    unit: Option<&str>,
-) -> Result<Imported, Refusal> {
+pub(crate) fn import(file: &str, text: &str, known: Known<'_>) -> Result<Imported, Refusal> {
+    let Known { format, unit, model } = known;
     let format = format.map_or_else(|| recognized(text), Ok)?;
+    if model.is_some() && format != Format::Sdf {
+        return Err(Refusal("it has one mechanism; --model is for files of SDF with several models".into()));
+    }
     let text = text.trim_start_matches('\u{feff}');
     let (written, notes) = match format {
         Format::Mjcf | Format::Urdf | Format::Sdf if unit.is_some_and(|unit| unit != "m") => {
@@ -100,7 +110,7 @@ pub(crate) fn import(
         }
         Format::Mjcf => robot::of_mjcf(text, file)?,
         Format::Urdf => robot::of_urdf(text, file)?,
-        Format::Sdf => robot::of_sdf(text, file)?,
+        Format::Sdf => robot::of_sdf(text, file, model)?,
         Format::Pylinkage => of_linkage(pylinkage::read(text)?, file, unit)?,
         Format::Linkage => of_linkage(linkage2::read(text)?, file, unit)?,
         Format::Pyslvs => of_linkage(pyslvs::read(text)?, file, unit)?,
@@ -108,7 +118,7 @@ pub(crate) fn import(
         Format::PmksPlus => of_linkage(pmks_plus::read(text)?, file, unit)?,
     };
     compiles(&written)?;
-    let declaration::Written { lines, links, dof } = written;
+    let declaration::Written { lines, links, dof, .. } = written;
     let text = lines.into_iter().map(|line| line.text + "\n").collect();
     Ok(Imported { text, notes, links, dof })
 }
@@ -158,6 +168,13 @@ fn recognized(text: &str) -> Result<Format, Refusal> {
     if pyslvs::is_begun(text) {
         return Ok(Format::Pyslvs);
     }
+    if address::is_of_old_pmks_plus(text) {
+        return Err(Refusal(
+            "it is an address of an older PMKS+, which names its parts (`j=`, `l=`); the PMKS+ of today reads it, and \
+             what that saves is imported"
+                .into(),
+        ));
+    }
     if pmks_plus::is_begun(text) {
         return Ok(Format::PmksPlus);
     }
@@ -176,6 +193,9 @@ fn compiles(written: &declaration::Written) -> Result<(), Refusal> {
     let text: String = written.lines.iter().map(|line| line.text.clone() + "\n").collect();
     let compiled = mbs_live::Text::declaration("imported", text).within(PATIENCE).compile();
     let Err(error) = compiled else { return Ok(()) };
+    if written.repeated > 0 && error.problems().iter().any(|problem| is_about_freedom(problem, written)) {
+        return Err(singular(written));
+    }
     let problem = |problem: &mbs_live::Problem| {
         let line = problem.location.as_ref().and_then(|place| written.lines.get(place.line - 1));
         let of = line.and_then(|line| line.of.as_deref());
@@ -187,6 +207,23 @@ fn compiles(written: &declaration::Written) -> Result<(), Refusal> {
     };
     let problems: Vec<String> = error.problems().iter().take(10).map(problem).collect();
     Err(Refusal(format!("what it describes is refused: {}", problems.join("; "))))
+}
+
+/// `true` if a problem is with the number of degrees of freedom: it is in the line `dof = …`.
+fn is_about_freedom(problem: &mbs_live::Problem, written: &declaration::Written) -> bool {
+    let line = problem.location.as_ref().and_then(|place| written.lines.get(place.line.checked_sub(1)?));
+    line.is_some_and(|line| line.text.trim_start().starts_with("dof = "))
+}
+
+/// The refusal of a mechanism whose constraints repeat each other where it is drawn and nowhere else.
+fn singular(written: &declaration::Written) -> Refusal {
+    let (drawn, moved) = (written.dof, written.dof.saturating_sub(written.repeated));
+    let freedom = |count| crate::number::counted(count, "degree");
+    Refusal(format!(
+        "it is drawn in a singular position, as with links in one line: {} of freedom there and {moved} everywhere \
+         else; draw it a little away from there",
+        freedom(drawn)
+    ))
 }
 
 /// A part of a file as it is named in messages and comments: on one line, and not long.

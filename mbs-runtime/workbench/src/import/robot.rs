@@ -10,11 +10,12 @@ mod efforts;
 mod flat;
 mod freedom;
 mod mjcf;
+mod numbers;
 mod plane;
 mod sdf;
 mod space;
+mod table;
 mod urdf;
-mod xml;
 
 use space::{Matrix, Pose, Vector};
 
@@ -215,17 +216,33 @@ impl Robot {
     /// One too many.
     fn body(&mut self, body: Body) -> Result<usize, Refusal> {
         if self.bodies.len() > MOST_BODIES {
-            return Err(Refusal(format!(
-                "it has more than {MOST_BODIES} bodies, which is the most that is imported"
-            )));
+            return Err(too_many_bodies());
         }
         self.bodies.push(body);
         Ok(self.bodies.len() - 1)
     }
 
+    /// Refuses a robot that has too many ties, so that readers look through few of them.
+    ///
+    /// # Errors
+    /// One too many.
+    fn is_limited(&self) -> Result<(), Refusal> {
+        let ties = [self.loops.len(), self.closings.len(), self.couplings.len(), self.actuators.len()];
+        match ties.iter().sum::<usize>() > MOST_TIES {
+            true => Err(Refusal(format!(
+                "it has more than {MOST_TIES} closed loops, couplings and actuators, which is the most that is imported"
+            ))),
+            false => Ok(()),
+        }
+    }
+
     fn lost(&mut self, what: impl AsRef<str>) {
         self.notes.push(format!("not carried over: {}", what.as_ref()));
     }
+}
+
+fn too_many_bodies() -> Refusal {
+    Refusal(format!("it has more than {MOST_BODIES} bodies, which is the most that is imported"))
 }
 
 /// The declaration of what a file of MuJoCo describes, and its notes.
@@ -238,19 +255,14 @@ pub(super) fn of_urdf(text: &str, file: &str) -> Result<(Written, Vec<String>), 
     written(urdf::read(text)?, file)
 }
 
-/// The declaration of what a file of SDF describes, and its notes.
-pub(super) fn of_sdf(text: &str, file: &str) -> Result<(Written, Vec<String>), Refusal> {
-    written(sdf::read(text)?, file)
+/// The declaration of what a file of SDF describes, or one of its models, and its notes.
+pub(super) fn of_sdf(text: &str, file: &str, model: Option<&str>) -> Result<(Written, Vec<String>), Refusal> {
+    written(sdf::read(text, model)?, file)
 }
 
-fn written(robot: Robot, file: &str) -> Result<(Written, Vec<String>), Refusal> {
-    let ties = robot.loops.len() + robot.closings.len() + robot.couplings.len() + robot.actuators.len();
-    if ties > MOST_TIES {
-        return Err(Refusal(format!(
-            "it has {ties} closed loops, couplings and actuators; at most {MOST_TIES} are imported"
-        )));
-    }
-    let plane = plane::of(&robot)?;
+fn written(mut robot: Robot, file: &str) -> Result<(Written, Vec<String>), Refusal> {
+    robot.is_limited()?;
+    let plane = plane::of(&mut robot)?;
     let flat = flat::laid(&robot, &plane)?;
     let mut notes = robot.notes.clone();
     notes.extend(flat.notes.iter().cloned());

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-use super::{FORMATS, Format, import, pmks, pmks_plus, recognized};
+use super::{FORMATS, Format, Known, import, pmks, pmks_plus, recognized};
 
 const FILES: [&str; 24] = [
     include_str!("../../../../models/command/tests/command/imported/four_bar.json"),
@@ -38,6 +38,10 @@ const WRONG: [&str; 16] = [
     "ground",
 ];
 
+fn of_format(format: Format) -> Known<'static> {
+    Known { format: Some(format), ..Known::default() }
+}
+
 /// A file in which words are exchanged for others, and which may be cut.
 fn damaged() -> impl Strategy<Value = String> {
     let change = (any::<Index>(), 0..WRONG.len(), any::<bool>());
@@ -62,14 +66,14 @@ fn damaged() -> impl Strategy<Value = String> {
 proptest! {
     #[test]
     fn damaged_files_never_panic(text in damaged()) {
-        if let Err(refusal) = import("damaged", &text, None, None) {
+        if let Err(refusal) = import("damaged", &text, Known::default()) {
             prop_assert!(!refusal.0.is_empty());
         }
     }
 
     #[test]
     fn any_text_in_any_format(text in "[ -~\\n]{0,60}", format in 0..FORMATS.len()) {
-        let _ = import("any", &text, Some(FORMATS[format].1), None);
+        let _ = import("any", &text, of_format(FORMATS[format].1));
     }
 }
 
@@ -78,7 +82,7 @@ proptest! {
 fn files_that_are_cut_never_panic() {
     for file in FILES {
         for (end, _) in file.char_indices() {
-            if let Err(refusal) = import("cut", &file[..end], None, None) {
+            if let Err(refusal) = import("cut", &file[..end], Known::default()) {
                 assert!(!refusal.0.is_empty());
             }
         }
@@ -90,7 +94,7 @@ fn files_that_nest_deeply_are_refused() {
     let deep = 100_000;
     for text in ["[".repeat(deep), "{\"joints\":".repeat(deep), "M[".repeat(deep), "J[R,".repeat(deep)] {
         for (_, format) in FORMATS {
-            assert!(import("deep", &text, Some(format), None).is_err());
+            assert!(import("deep", &text, of_format(format)).is_err());
         }
     }
     for (root, part) in [
@@ -105,7 +109,7 @@ fn files_that_nest_deeply_are_refused() {
         let ended: Vec<&str> = root.split("><").collect();
         let ended: String = ended.iter().rev().map(|name| format!("</{name}>")).collect();
         let elements = format!("{begun}{}{ended}", format!("</{part}>").repeat(deep));
-        assert!(import("deep", &elements, None, None).is_err());
+        assert!(import("deep", &elements, Known::default()).is_err());
     }
 }
 
@@ -137,7 +141,7 @@ fn texts_of_pmks_may_be_cut_anywhere() {
 #[test]
 fn sound_files_are_imported() {
     for file in FILES {
-        let imported = import("sound", file, None, None).unwrap();
+        let imported = import("sound", file, Known::default()).unwrap();
         assert!(imported.links >= 2 && imported.text.contains("body "), "{}", imported.text);
     }
 }

@@ -59,7 +59,8 @@ pub(super) fn written(
     writer.start();
     writer.outputs();
     writer.line("", "}");
-    Ok(Written { lines: writer.lines, links: flat.parts.len() - 1, dof: mobility.dof })
+    let links = flat.parts.len() - 1;
+    Ok(Written { lines: writer.lines, links, dof: mobility.dof, repeated: mobility.repeated })
 }
 
 pub(super) struct Writer<'a> {

@@ -1,8 +1,10 @@
 //! What acts along coordinates: springs, rotors, couplings and actuators.
 
+use std::collections::BTreeMap;
+
 use super::declaration::Writer;
 use super::digits::{angle, product, term, tidy};
-use super::flat::{Freedom, Measure};
+use super::flat::{Coupled, Freedom, Measure};
 use super::{Actuator, GROUND, Input, Kind};
 use crate::import::Refusal;
 use crate::import::declaration::number;
@@ -143,9 +145,26 @@ impl Writer<'_> {
                 }
             }
             let right = if terms.is_empty() { "0".into() } else { terms.join(" + ") };
-            let word = if coupled.leader.is_some() { "coupler" } else { "constraint" };
+            let word = if self.is_transmission(coupled) { "coupler" } else { "constraint" };
             self.line(&coupled.coupling.of, format!("    {word} {name}: {follower} = {right};"));
         }
+    }
+
+    /// `true` if a coupling has more than one coordinate of the language in it, or is curved. A body whose joint goes
+    /// back as far as that of its parent goes forth keeps its own angle, which is then the only coordinate.
+    fn is_transmission(&self, coupled: &Coupled<'_>) -> bool {
+        let Some(leader) = coupled.leader else { return false };
+        let [_, slope, curved @ ..] = coupled.coupling.coefficients.as_slice() else { return false };
+        let mut angles: BTreeMap<usize, f64> = BTreeMap::new();
+        for (at, factor) in [(coupled.follower, 1.0), (leader, -slope)] {
+            let coordinate = &self.flat.coordinates[at];
+            let Measure::Angle { sign } = coordinate.measure else { return true };
+            let [body, parent] = self.flat.joints[coordinate.held].parts;
+            *angles.entry(body).or_default() += sign * factor;
+            *angles.entry(parent).or_default() -= sign * factor;
+        }
+        let turning = angles.iter().filter(|(part, factor)| **part != GROUND && **factor != 0.0);
+        turning.count() > 1 || curved.iter().any(|coefficient| *coefficient != 0.0)
     }
 
     pub(super) fn actuators(&mut self) -> Result<(), Refusal> {

@@ -2,7 +2,7 @@
 
 mod joints;
 
-use super::plane::Plane;
+use super::plane::{PARALLEL, Plane};
 use super::space::{Pose, Rotation, Vector, dot};
 use super::{Actuator, Body, Closing, Coupling, GROUND, Joint, Robot};
 use crate::import::Refusal;
@@ -135,7 +135,7 @@ pub(super) fn laid<'a>(robot: &'a Robot, plane: &'a Plane) -> Result<Flat<'a>, R
     layer.notes();
     layer.parts()?;
     layer.joints()?;
-    layer.closings();
+    layer.closings()?;
     layer.couplings()?;
     layer.actuators()?;
     layer.size();
@@ -268,23 +268,32 @@ impl<'a> Layer<'a> {
         Ok(())
     }
 
-    fn closings(&mut self) {
+    fn closings(&mut self) -> Result<(), Refusal> {
         for closing in &self.robot.closings {
             let parts = closing.bodies.map(|body| self.places[body].0);
             let at = [0, 1].map(|end: usize| self.place(closing.bodies[end], closing.at[end]));
-            let angle = closing.fixed.map(|fixed| {
-                let [first, second] = closing.bodies.map(|body| self.flat.plane.poses[body].turn);
-                // How far the second is turned from where it is drawn to where it is fixed.
-                let turn = first.after(&fixed.turn).after(&second.back());
-                let [a, b] = parts.map(|part| self.flat.parts[part].angle);
-                a - b - self.angle(&turn).unwrap_or(0.0)
-            });
             if parts[0] == parts[1] {
                 self.flat.notes.push(idle(&closing.of));
                 continue;
             }
+            let angle = closing.fixed.map(|fixed| self.kept(closing, &fixed, parts)).transpose()?;
             self.flat.closings.push(Closed { closing, parts, at, angle });
         }
+        Ok(())
+    }
+
+    /// The angle of the first part against the second that a closing keeps.
+    fn kept(&self, closing: &Closing, fixed: &Pose, parts: [usize; 2]) -> Result<f64, Refusal> {
+        let plane = self.flat.plane;
+        let [first, second] = closing.bodies.map(|body| plane.poses[body].turn);
+        // How far the second is turned from where it is drawn to where it is fixed.
+        let turn = first.after(&fixed.turn).after(&second.back());
+        if dot(turn.apply(plane.normal), plane.normal) < 1.0 - PARALLEL * PARALLEL {
+            return Err(Refusal(format!("{} turns its bodies out of the plane {}", closing.of, plane.name)));
+        }
+        let [x, y] = plane.point(turn.apply(plane.right));
+        let [a, b] = parts.map(|part| self.flat.parts[part].angle);
+        Ok(a - b - y.atan2(x))
     }
 
     fn coordinate(&self, name: &str, of: &str) -> Result<usize, Refusal> {

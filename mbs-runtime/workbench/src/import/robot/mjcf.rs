@@ -6,13 +6,18 @@
 
 mod classes;
 mod drives;
+mod laws;
 mod mass;
 mod settings;
+mod table;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
+use std::collections::BTreeMap;
+
+use super::numbers::parsed;
 use super::space::{Pose, unit};
-use super::xml::{described, elements, elements_named, parsed};
+use super::table::Table;
 use super::{Body, GROUND, Joint, Kind, Mark, Robot};
 use crate::import::Refusal;
 use classes::{Classes, Element};
@@ -21,23 +26,25 @@ use settings::Settings;
 /// What a file describes.
 pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
     let document = parsed(text, "mujoco")?;
-    let root = document.root_element();
+    let root = document.root();
     let mut robot = Robot::new("MuJoCo", root.attribute("model").unwrap_or_default(), [0.0; 3]);
+    let table = Table::new(table::ROWS);
+    robot.notes = table.check(root, |_| false)?;
     let settings = settings::read(root, &mut robot)?;
-    let classes = Classes::read(root)?;
-    let mut reader = Reader { robot, settings, classes, has_geoms: false };
-    for world in elements_named(root, "worldbody") {
+    let classes = Classes::read(root, table)?;
+    let mut reader = Reader { robot, settings, classes, has_geoms: false, capped: BTreeMap::new() };
+    for world in root.elements_named("worldbody") {
         reader.inside(world, GROUND, None)?;
     }
     reader.scale();
-    for section in elements_named(root, "equality") {
+    for section in root.elements_named("equality") {
         if reader.settings.has_equalities {
             reader.equalities(section)?;
         } else {
-            reader.robot.lost(format!("{}: a flag takes it away", described("equality", section)));
+            reader.robot.lost(format!("{}: a flag takes it away", section.described("equality")));
         }
     }
-    for section in elements_named(root, "actuator") {
+    for section in root.elements_named("actuator") {
         reader.actuators(section)?;
     }
     if reader.has_geoms && reader.settings.has_contacts {
@@ -46,21 +53,23 @@ pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
     Ok(reader.robot)
 }
 
-struct Reader<'a, 'i> {
+struct Reader<'a> {
     robot: Robot,
     settings: Settings,
-    classes: Classes<'a, 'i>,
+    classes: Classes<'a>,
+    /// Joints whose actuators have limits together, as they are in messages.
+    capped: BTreeMap<String, String>,
     /// Whether there are geoms that could touch.
     has_geoms: bool,
 }
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a> Reader<'a> {
     fn element(
         &self,
-        node: Node<'a, 'i>,
+        node: Node<'a>,
         kind: &'static str,
         inherited: Option<&'a str>,
-    ) -> Result<Element<'a, 'i, '_>, Refusal> {
+    ) -> Result<Element<'a, '_>, Refusal> {
         self.classes.element(node, kind, inherited)
     }
 
@@ -76,33 +85,27 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// What is in a body. Each body comes before those in it, and there are not many, so that
     /// these calls do not nest deeply.
-    fn inside(&mut self, node: Node<'a, 'i>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
+    fn inside(&mut self, node: Node<'a>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
         let inherited = node.attribute("childclass").or(inherited);
         self.masses(node, at, inherited)?;
-        for child in elements(node) {
-            match child.tag_name().name() {
+        for child in node.elements() {
+            match child.name() {
                 "body" => self.body(child, at, inherited)?,
                 "joint" => self.joint(child, at, inherited)?,
                 "freejoint" => return Err(free(child)),
                 "site" => self.site(child, at, inherited)?,
                 "geom" | "inertial" | "camera" | "light" => {}
-                other => return Err(Refusal(format!("{} is not imported", described(other, child)))),
+                other => return Err(Refusal(format!("{} is not imported", child.described(other)))),
             }
         }
         Ok(())
     }
 
-    fn body(&mut self, node: Node<'a, 'i>, parent: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
-        let of = described("body", node);
+    fn body(&mut self, node: Node<'a>, parent: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
+        let of = node.described("body");
         let inherited = node.attribute("childclass").or(inherited);
         // A body has no defaults; its own attributes are read as those of the others.
         let element = self.element(node, "body", None)?;
-        if element.get("mocap") == Some("true") {
-            return Err(Refusal(format!("{of} is moved from outside (`mocap`), which is not imported")));
-        }
-        if element.number("gravcomp")?.is_some_and(|part| part != 0.0) {
-            return Err(Refusal(format!("{of} is held against gravity (`gravcomp`), which is not imported")));
-        }
         let pose =
             Pose { at: element.vector("pos")?.unwrap_or_default(), turn: element.turn(&self.settings)? };
         let name = match node.attribute("name").unwrap_or_default() {
@@ -114,8 +117,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.inside(node, at, inherited)
     }
 
-    fn joint(&mut self, node: Node<'a, 'i>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
-        let of = described("joint", node);
+    fn joint(&mut self, node: Node<'a>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
+        let of = node.described("joint");
         if at == GROUND {
             return Err(Refusal(format!("{of} is on the ground, which does not move")));
         }
@@ -138,11 +141,6 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let axis = element.vector("axis")?.unwrap_or([0.0, 0.0, 1.0]);
         let axis = unit(axis).ok_or_else(|| Refusal(format!("{of}: its `axis` has no direction")))?;
-        if element.list("springdamper")?.iter().any(|number| *number != 0.0) {
-            return Err(Refusal(format!(
-                "{of}: `springdamper` is not imported; `stiffness` and `damping` say the same"
-            )));
-        }
         let body = &self.robot.bodies[at];
         let name = match node.attribute("name").unwrap_or_default() {
             "" => format!("{}_{}", body.name, if kind == Kind::Hinge { "hinge" } else { "slide" }),
@@ -159,6 +157,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let is_limited = element.get("limited").is_none_or(|limited| limited != "false");
         let has_range = is_limited && element.list("range")?.iter().any(|number| *number != 0.0);
         let rubs = element.number("frictionloss")?.is_some_and(|loss| loss != 0.0);
+        let is_capped = element.get("actuatorfrclimited").is_none_or(|limited| limited != "false");
+        if is_capped && element.list("actuatorfrcrange")?.iter().any(|number| *number != 0.0) {
+            self.capped.insert(joint.name.clone(), of.clone());
+        }
         if has_range {
             self.robot.lost(format!("the stops (`range`) of {of}"));
         }
@@ -169,7 +171,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(())
     }
 
-    fn site(&mut self, node: Node<'a, 'i>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
+    fn site(&mut self, node: Node<'a>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
         let element = self.element(node, "site", inherited)?;
         let place = match element.ends()? {
             Some([a, b]) => [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])),
@@ -196,8 +198,8 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 }
 
-fn free(node: Node<'_, '_>) -> Refusal {
-    let of = described(node.tag_name().name(), node);
+fn free(node: Node<'_>) -> Refusal {
+    let of = node.described(node.name());
     Refusal(format!(
         "{of} lets its body move through space: it is not planar; two slides and a hinge move in a plane"
     ))

@@ -1,13 +1,16 @@
 //! The plane in which a robot moves.
 
-use super::space::{Pose, Vector, cross, dot, minus, scaled, unit};
-use super::{GROUND, Kind, Robot};
+use super::space::{Pose, Rotation, Vector, cross, dot, minus, scaled, unit};
+use super::{GROUND, Joint, Kind, Robot};
 use crate::import::Refusal;
 use crate::import::geometry::Point;
 
 /// Axes that are off by less than this, in rad, count as parallel: angles of files are
 /// written with few digits, such as 1.57 for a right angle.
-const PARALLEL: f64 = 2e-3;
+pub(super) const PARALLEL: f64 = 2e-3;
+
+/// Axes that are off by less than this are off by rounding alone.
+const ROUNDING: f64 = 1e-9;
 
 /// Two directions of space in which everything moves; about the third one, `normal`, it turns.
 #[derive(Debug)]
@@ -32,45 +35,102 @@ const Y: Vector = [0.0, 1.0, 0.0];
 const Z: Vector = [0.0, 0.0, 1.0];
 
 /// The plane across the axes of the hinges; without one, that of the slides and of gravity.
+/// Bodies whose axes are nearly across it are turned about their joints until they are, so that
+/// everything is projected along its own axis.
 ///
 /// # Errors
 /// Axes that leave no plane, with the joints by name.
-pub(super) fn of(robot: &Robot) -> Result<Plane, Refusal> {
+pub(super) fn of(robot: &mut Robot) -> Result<Plane, Refusal> {
+    let (right, up, normal, name) = found(robot)?;
+    let mut plane = Plane { right, up, normal, name, poses: vec![Pose::NONE] };
+    let mut turned: Vec<String> = Vec::new();
+    let mut first: Option<(String, Vector)> = None;
+    for body in robot.bodies.iter_mut().skip(1) {
+        let parent = plane.poses.get(body.parent).copied().unwrap_or(Pose::NONE);
+        let pose = parent.of(&body.pose);
+        for joint in &body.joints {
+            plane.fits(joint, pose.turn.apply(joint.axis), &mut first)?;
+        }
+        let leads = body.joints.iter().find(|joint| joint.kind == Kind::Hinge).or(body.joints.first());
+        if let Some((joint, turn)) = leads.and_then(|joint| Some((joint, plane.turn(joint, &pose)?))) {
+            let turn = parent.turn.back().after(&turn).after(&pose.turn);
+            let at = minus(body.pose.place(joint.at), turn.apply(joint.at));
+            body.pose = Pose { at, turn };
+            turned.push(joint.of.clone());
+        }
+        plane.poses.push(parent.of(&body.pose));
+    }
+    for closing in &robot.loops {
+        let pose = plane.poses.get(closing.bodies[0]).copied().unwrap_or(Pose::NONE);
+        plane.fits(&closing.joint, pose.turn.apply(closing.joint.axis), &mut first)?;
+    }
+    if let Some(joint) = turned.first() {
+        let others =
+            if turned.len() > 1 { format!(" (and {} more)", turned.len() - 1) } else { String::new() };
+        robot.notes.push(format!(
+            "the axis of {joint}{others} is off by less than {PARALLEL} rad: it counts as parallel to the others and \
+             to the axes of the file"
+        ));
+    }
+    Ok(plane)
+}
+
+impl Plane {
+    /// Refuses an axis that leaves the plane; `first` is the hinge that it is compared with.
+    fn fits(&self, joint: &Joint, axis: Vector, first: &mut Option<(String, Vector)>) -> Result<(), Refusal> {
+        let across = cross(axis, self.normal);
+        match joint.kind {
+            Kind::Hinge if dot(across, across).sqrt() > PARALLEL => Err(Refusal(format!(
+                "{} turns about {}, and {} about {}: axes that are not parallel make no planar mechanism",
+                joint.of,
+                written(axis),
+                first.as_ref().map_or("the others", |(first, _)| first),
+                written(first.as_ref().map_or(self.normal, |(_, axis)| *axis))
+            ))),
+            Kind::Slide if dot(axis, self.normal).abs() > PARALLEL => Err(Refusal(format!(
+                "{} slides along {}, which leaves the plane {} of the other joints",
+                joint.of,
+                written(axis),
+                self.name
+            ))),
+            Kind::Hinge => {
+                first.get_or_insert_with(|| (joint.of.clone(), axis));
+                Ok(())
+            }
+            Kind::Slide => Ok(()),
+        }
+    }
+
+    /// The rotation that brings the axis of a hinge onto the normal, or that of a slide into the plane. `None` if the
+    /// axis is there but for rounding.
+    fn turn(&self, joint: &Joint, pose: &Pose) -> Option<Rotation> {
+        let axis = pose.turn.apply(joint.axis);
+        let part = dot(axis, self.normal);
+        let wanted = match joint.kind {
+            Kind::Hinge => scaled(self.normal, part.signum()),
+            Kind::Slide => unit(minus(axis, scaled(self.normal, part)))?,
+        };
+        let across = cross(axis, wanted);
+        let sine = dot(across, across).sqrt();
+        (sine > ROUNDING).then_some(())?;
+        Some(Rotation::about(scaled(across, 1.0 / sine), sine.atan2(dot(axis, wanted))))
+    }
+}
+
+/// Right and up in the plane of a robot, its normal and its name.
+fn found(robot: &Robot) -> Result<(Vector, Vector, Vector, String), Refusal> {
     let poses = poses(robot);
     let of_tree = robot.bodies.iter().zip(&poses).skip(GROUND + 1);
     let of_tree = of_tree.flat_map(|(body, pose)| body.joints.iter().map(move |joint| (joint, pose)));
     let of_loops = robot.loops.iter().map(|closing| (&closing.joint, &poses[closing.bodies[0]]));
     let axes = of_tree.chain(of_loops).map(|(joint, pose)| (joint, pose.turn.apply(joint.axis)));
     let (hinges, slides): (Vec<_>, Vec<_>) = axes.partition(|(joint, _)| joint.kind == Kind::Hinge);
-    let first = hinges
-        .first()
-        .or(slides.first())
-        .ok_or_else(|| Refusal("nothing in it moves: it has no joint".into()))?;
-    let normal = match hinges.first() {
-        Some((_, axis)) => *axis,
-        None => across(first.1, slides.iter().map(|(_, axis)| *axis), robot.gravity),
-    };
-    let (right, up, normal, name) = directions(normal);
-    for (joint, axis) in &hinges {
-        if dot(cross(*axis, normal), cross(*axis, normal)).sqrt() > PARALLEL {
-            let (of, first) = (&joint.of, &first.0.of);
-            return Err(Refusal(format!(
-                "{of} turns about {}, and {first} about {}: axes that are not parallel make no planar mechanism",
-                written(*axis),
-                written(hinges.first().map_or(normal, |(_, axis)| *axis))
-            )));
-        }
-    }
-    for (joint, axis) in &slides {
-        if dot(*axis, normal).abs() > PARALLEL {
-            return Err(Refusal(format!(
-                "{} slides along {}, which leaves the plane {name} of the other joints",
-                joint.of,
-                written(*axis)
-            )));
-        }
-    }
-    Ok(Plane { right, up, normal, name, poses })
+    let first = hinges.first().or(slides.first());
+    let (_, first) = first.ok_or_else(|| Refusal("nothing in it moves: it has no joint".into()))?;
+    Ok(directions(match hinges.is_empty() {
+        false => *first,
+        true => across(*first, slides.iter().map(|(_, axis)| *axis), robot.gravity),
+    }))
 }
 
 /// Where the bodies are in space.

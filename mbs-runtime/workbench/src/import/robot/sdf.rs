@@ -7,12 +7,14 @@ mod frames;
 mod joints;
 mod links;
 mod scene;
+mod table;
 mod tree;
 mod values;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
-use super::xml::{described, elements, elements_named, parsed};
+use super::numbers::parsed;
+use super::table::Table;
 use super::{Actuator, Input, Robot};
 use crate::import::{Refusal, shown};
 use frames::Frames;
@@ -29,26 +31,29 @@ const AXES_OF_JOINTS: u32 = 5;
 const AXES_BY_NAME: u32 = 7;
 
 /// What a file describes.
-pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
+pub(super) fn read(text: &str, model: Option<&str>) -> Result<Robot, Refusal> {
     let document = parsed(text, "sdf")?;
-    let root = document.root_element();
+    let root = document.root();
     let version = version(root)?;
-    let Scene { model, gravity, notes } = scene::read(root)?;
+    let Scene { model, gravity, notes } = scene::read(root, model)?;
+    let is_other = |node: Node<'_>| node.name() == "model" && node.at != model.at;
+    let left = Table::new(table::ROWS).check(root, is_other)?;
     let mut robot = Robot::new("Gazebo (SDF)", model.attribute("name").unwrap_or_default(), gravity);
-    robot.notes = notes;
+    robot.notes = left;
+    robot.notes.extend(notes);
     check(model, &mut robot)?;
     let frames = Frames::read(model)?;
     links::gravity(model, &mut robot)?;
     let edges = joints::read(model, &frames, version, &mut robot)?;
     tree::grow(model, &frames, edges, &mut robot)?;
-    for node in elements(model) {
+    for node in model.elements() {
         extra(node, &mut robot)?;
     }
     Ok(robot)
 }
 
 /// The second number of `version`; the first one is 1.
-fn version(root: Node<'_, '_>) -> Result<u32, Refusal> {
+fn version(root: Node<'_>) -> Result<u32, Refusal> {
     let version = root.attribute("version").ok_or_else(|| Refusal("the sdf has no `version`".into()))?;
     let minor = version.trim().strip_prefix("1.").and_then(|minor| minor.parse().ok());
     minor.filter(|minor| *minor >= OLDEST).ok_or_else(|| {
@@ -60,16 +65,16 @@ fn version(root: Node<'_, '_>) -> Result<u32, Refusal> {
 }
 
 /// Refuses models that are more than links and joints.
-fn check(model: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refusal> {
+fn check(model: Node<'_>, robot: &mut Robot) -> Result<(), Refusal> {
     if is_set(model, "static") {
-        let of = described("model", model);
+        let of = model.described("model");
         return Err(Refusal(format!("{of} is static: nothing in it moves")));
     }
-    for node in elements(model) {
-        match node.tag_name().name() {
+    for node in model.elements() {
+        match node.name() {
             "include" => return Err(scene::include(node)),
             "model" => {
-                let of = described("model", node);
+                let of = node.described("model");
                 return Err(Refusal(format!(
                     "{of} is in another model, which is not imported; its links and joints may stand in that one"
                 )));
@@ -77,17 +82,17 @@ fn check(model: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refusal> {
             _ => {}
         }
     }
-    let is_solid = |link| elements_named(link, "collision").next().is_some();
-    if elements_named(model, "link").any(is_solid) {
+    let is_solid = |link: Node<'_>| link.elements_named("collision").next().is_some();
+    if model.elements_named("link").any(is_solid) {
         robot.lost("contacts: bodies pass through each other");
     }
     Ok(())
 }
 
 /// What else a model has: programs, of which one kind gives an effort to a joint.
-fn extra(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refusal> {
-    let name = node.tag_name().name();
-    let of = described(name, node);
+fn extra(node: Node<'_>, robot: &mut Robot) -> Result<(), Refusal> {
+    let name = node.name();
+    let of = node.described(name);
     let is_effort = node.attribute("name").is_some_and(|name| name.ends_with("ApplyJointForce"));
     match (name, text(node, "joint_name")) {
         ("plugin", Some(joint)) if is_effort => {
@@ -97,8 +102,8 @@ fn extra(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refusal> {
         }
         ("plugin" | "gripper", _) => robot.lost(of),
         ("link" | "joint", _) => {
-            for sensor in elements_named(node, "sensor") {
-                robot.lost(described("sensor", sensor));
+            for sensor in node.elements_named("sensor") {
+                robot.lost(sensor.described("sensor"));
             }
         }
         _ => {}

@@ -3,42 +3,62 @@
 //! The frame of a link is that of the joint above it; all joints are at zero where the file
 //! draws them. The link that no joint has as its child is the ground.
 
+mod table;
+
 use std::collections::BTreeMap;
 
-use roxmltree::Node;
-
+use super::numbers::{exactly, not_negative, parsed};
 use super::space::{Pose, Rotation, symmetric, unit};
-use super::xml::{described, elements, elements_named, exactly, not_negative, parsed};
-use super::{Actuator, Body, Coupling, GROUND, Input, Joint, Kind, Lump, Robot};
+use super::table::Table;
+use super::{Actuator, Body, Coupling, GROUND, Input, Joint, Kind, Lump, MOST_BODIES, Robot};
+use crate::import::xml::{Document, Node};
 use crate::import::{Refusal, shown};
+
+/// The name of what does not move, with an element of its own or without one.
+const WORLD: &str = "world";
 
 /// What a file describes.
 pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
     let document = parsed(text, "robot")?;
-    let root = document.root_element();
+    let root = document.root();
     let gravity = [0.0, 0.0, -9.81];
     let mut reader =
         Reader { robot: Robot::new("ROS (URDF)", root.attribute("name").unwrap_or_default(), gravity) };
+    is_expanded(&document)?;
+    reader.robot.notes = Table::new(table::ROWS).check(root, |_| false)?;
     reader.robot.notes.push("the file has no gravity: 9.81 m/s^2 against z is assumed".into());
     let links = links(root)?;
     reader.tree(root, &links)?;
-    for node in elements_named(root, "transmission") {
+    for node in root.elements_named("transmission") {
         reader.transmission(node)?;
     }
-    for node in elements(root) {
-        if let name @ ("gazebo" | "sensor") = node.tag_name().name() {
-            reader.robot.lost(described(name, node));
+    for node in root.elements() {
+        if let name @ ("gazebo" | "sensor") = node.name() {
+            reader.robot.lost(node.described(name));
         }
     }
     Ok(reader.robot)
 }
 
-type Links<'a, 'i> = BTreeMap<&'a str, Node<'a, 'i>>;
+/// Refuses formulas that xacro is still to compute.
+fn is_expanded(document: &Document<'_>) -> Result<(), Refusal> {
+    let is_raw = |text: &&str| text.contains("${") || text.contains("$(");
+    for node in document.all() {
+        let raw = node.attributes().map(|(_, value)| value).chain(node.text()).find(is_raw);
+        if let Some(raw) = raw {
+            let of = node.described(node.name());
+            return Err(Refusal(format!("{of} has {}; {}", shown(raw), table::RAW)));
+        }
+    }
+    Ok(())
+}
 
-fn links<'a, 'i>(root: Node<'a, 'i>) -> Result<Links<'a, 'i>, Refusal> {
+type Links<'a> = BTreeMap<&'a str, Node<'a>>;
+
+fn links<'a>(root: Node<'a>) -> Result<Links<'a>, Refusal> {
     let mut links = BTreeMap::new();
-    for node in elements_named(root, "link") {
-        let of = described("link", node);
+    for node in root.elements_named("link") {
+        let of = node.described("link");
         let name = node.attribute("name").ok_or_else(|| Refusal(format!("{of} has no `name`")))?;
         if links.insert(name, node).is_some() {
             return Err(Refusal(format!("{of} is there twice")));
@@ -48,24 +68,24 @@ fn links<'a, 'i>(root: Node<'a, 'i>) -> Result<Links<'a, 'i>, Refusal> {
 }
 
 /// An attribute of a part of an element.
-fn attribute<'a>(node: Node<'a, '_>, part: &'static str, name: &str) -> Option<&'a str> {
-    elements_named(node, part).next().and_then(|part| part.attribute(name))
+fn attribute<'a>(node: Node<'a>, part: &'static str, name: &str) -> Option<&'a str> {
+    node.elements_named(part).next().and_then(|part| part.attribute(name))
 }
 
-fn number(node: Node<'_, '_>, part: &'static str, name: &str, of: &str) -> Result<Option<f64>, Refusal> {
+fn number(node: Node<'_>, part: &'static str, name: &str, of: &str) -> Result<Option<f64>, Refusal> {
     let found = attribute(node, part, name).map(|text| exactly::<1>(text, name, of)).transpose()?;
     Ok(found.map(|[number]| number))
 }
 
 /// The frame of an `origin`: roll, pitch and yaw turn about axes that do not move.
-fn origin(node: Node<'_, '_>, of: &str) -> Result<Pose, Refusal> {
+fn origin(node: Node<'_>, of: &str) -> Result<Pose, Refusal> {
     let at = attribute(node, "origin", "xyz").map_or(Ok([0.0; 3]), |text| exactly(text, "xyz", of))?;
     let angles = attribute(node, "origin", "rpy").map_or(Ok([0.0; 3]), |text| exactly(text, "rpy", of))?;
     Ok(Pose { at, turn: Rotation::of_roll_pitch_yaw(angles) })
 }
 
-fn lump(link: Node<'_, '_>, of: &str) -> Result<Option<Lump>, Refusal> {
-    let Some(inertial) = elements_named(link, "inertial").next() else { return Ok(None) };
+fn lump(link: Node<'_>, of: &str) -> Result<Option<Lump>, Refusal> {
+    let Some(inertial) = link.elements_named("inertial").next() else { return Ok(None) };
     let mass = number(inertial, "mass", "value", of)?
         .ok_or_else(|| Refusal(format!("{of} has no value of its `mass`")))?;
     let mut entries = [0.0; 6];
@@ -80,8 +100,8 @@ struct Reader {
 }
 
 /// A joint with the names of the links that it joins.
-struct Edge<'a, 'i> {
-    node: Node<'a, 'i>,
+struct Edge<'a> {
+    node: Node<'a>,
     of: String,
     parent: &'a str,
     child: &'a str,
@@ -89,9 +109,9 @@ struct Edge<'a, 'i> {
 
 impl Reader {
     /// The bodies from the root on.
-    fn tree<'a>(&mut self, root: Node<'a, '_>, links: &Links<'a, '_>) -> Result<(), Refusal> {
-        let mut edges: Vec<Edge<'a, '_>> = Vec::new();
-        for node in elements_named(root, "joint") {
+    fn tree<'a>(&mut self, root: Node<'a>, links: &Links<'a>) -> Result<(), Refusal> {
+        let mut edges: Vec<Edge<'a>> = Vec::new();
+        for node in root.elements_named("joint") {
             let edge = edge(node, links)?;
             // others are coupled to joints by their names
             let name = node.attribute("name");
@@ -99,6 +119,10 @@ impl Reader {
                 return Err(Refusal(format!("{} is there twice", edge.of)));
             }
             edges.push(edge);
+            // Each of them has a body.
+            if edges.len() > MOST_BODIES {
+                return Err(super::too_many_bodies());
+            }
         }
         for (at, edge) in edges.iter().enumerate() {
             if edges.iter().take(at).any(|other| other.child == edge.child) {
@@ -108,15 +132,19 @@ impl Reader {
                 )));
             }
         }
-        let mut roots = links.keys().filter(|link| edges.iter().all(|edge| edge.child != **link));
-        let ground = *roots.next().ok_or_else(|| Refusal("no link is the root of a tree".into()))?;
+        // The world needs no element of its own.
+        let world = edges.iter().map(|edge| edge.parent).find(|parent| *parent == WORLD);
+        let world = world.filter(|world| !links.contains_key(world));
+        let is_root = |link: &&str| edges.iter().all(|edge| edge.child != *link);
+        let mut roots = world.into_iter().chain(links.keys().copied().filter(is_root));
+        let ground = roots.next().ok_or_else(|| Refusal("no link is the root of a tree".into()))?;
         if let Some(other) = roots.next() {
             let (first, other) = (shown(ground), shown(other));
             return Err(Refusal(format!(
                 "the links {first} and {other} hang on no joint: one of them would be the ground"
             )));
         }
-        if ground != "world" {
+        if ground != WORLD {
             self.robot.notes.push(format!("the link {} is the ground", shown(ground)));
         }
         let mut bodies = BTreeMap::from([(ground, GROUND)]);
@@ -134,8 +162,8 @@ impl Reader {
         }
     }
 
-    fn body(&mut self, edge: &Edge<'_, '_>, link: Node<'_, '_>, parent: usize) -> Result<usize, Refusal> {
-        let of = described("link", link);
+    fn body(&mut self, edge: &Edge<'_>, link: Node<'_>, parent: usize) -> Result<usize, Refusal> {
+        let of = link.described("link");
         let joints = self.joints(edge)?;
         self.coupling(edge)?;
         self.robot.body(Body {
@@ -149,7 +177,7 @@ impl Reader {
         })
     }
 
-    fn joints(&mut self, edge: &Edge<'_, '_>) -> Result<Vec<Joint>, Refusal> {
+    fn joints(&mut self, edge: &Edge<'_>) -> Result<Vec<Joint>, Refusal> {
         let Edge { node, of, .. } = edge;
         let kind = match node.attribute("type").unwrap_or_default() {
             "fixed" => return Ok(Vec::new()),
@@ -172,15 +200,15 @@ impl Reader {
         if number(*node, "dynamics", "friction", of)?.is_some_and(|friction| friction != 0.0) {
             self.robot.lost(format!("the dry friction of {of}"));
         }
-        if elements_named(*node, "limit").next().is_some() {
+        if node.elements_named("limit").next().is_some() {
             self.robot.lost(format!("the limits of {of}"));
         }
         Ok(vec![joint])
     }
 
-    fn coupling(&mut self, edge: &Edge<'_, '_>) -> Result<(), Refusal> {
+    fn coupling(&mut self, edge: &Edge<'_>) -> Result<(), Refusal> {
         let Edge { node, of, .. } = edge;
-        if elements_named(*node, "mimic").next().is_none() {
+        if node.elements_named("mimic").next().is_none() {
             return Ok(());
         }
         let leader = attribute(*node, "mimic", "joint");
@@ -194,21 +222,21 @@ impl Reader {
     }
 
     /// A motor at a joint.
-    fn transmission(&mut self, node: Node<'_, '_>) -> Result<(), Refusal> {
-        let of = described("transmission", node);
+    fn transmission(&mut self, node: Node<'_>) -> Result<(), Refusal> {
+        let of = node.described("transmission");
         let joint = attribute(node, "joint", "name")
             .ok_or_else(|| Refusal(format!("{of} has no `joint` with a name")))?;
-        if elements_named(node, "joint").count() > 1 {
+        if node.elements_named("joint").count() > 1 {
             return Err(Refusal(format!("{of} drives more than one joint, which is not imported")));
         }
-        let motor = elements_named(node, "actuator").next();
+        let motor = node.elements_named("actuator").next();
         let name = motor
             .and_then(|motor| motor.attribute("name"))
             .map_or_else(|| format!("{joint}_motor"), str::to_owned);
         let reduction = motor
             .into_iter()
             .chain([node])
-            .flat_map(|part| elements_named(part, "mechanicalReduction"))
+            .flat_map(|part| part.elements_named("mechanicalReduction"))
             .next();
         let gear = match reduction.and_then(|reduction| reduction.text()) {
             Some(text) => exactly::<1>(text, "mechanicalReduction", &of)?[0],
@@ -228,14 +256,15 @@ impl Reader {
     }
 }
 
-fn edge<'a, 'i>(node: Node<'a, 'i>, links: &Links<'a, 'i>) -> Result<Edge<'a, 'i>, Refusal> {
-    let of = described("joint", node);
+fn edge<'a>(node: Node<'a>, links: &Links<'a>) -> Result<Edge<'a>, Refusal> {
+    let of = node.described("joint");
     let end = |part: &'static str| {
         let name = attribute(node, part, "link")
             .ok_or_else(|| Refusal(format!("{of} has no `{part}` with a link")))?;
         let missing =
             || Refusal(format!("{of} refers to the link {}, which the file does not have", shown(name)));
-        links.contains_key(name).then_some(name).ok_or_else(missing)
+        let is_world = part == "parent" && name == WORLD;
+        (is_world || links.contains_key(name)).then_some(name).ok_or_else(missing)
     };
     let (parent, child) = (end("parent")?, end("child")?);
     Ok(Edge { node, of, parent, child })

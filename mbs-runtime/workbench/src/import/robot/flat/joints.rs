@@ -57,7 +57,12 @@ impl<'a> Layer<'a> {
     /// The direction of a slide in the frame of the parent's part, and in that of the body's.
     fn along(&self, between: &Between<'_>, joint: &Joint) -> [Point; 2] {
         let [at, parent] = between.bodies;
-        [self.vector(parent, between.pose.turn.apply(joint.axis)), self.vector(at, joint.axis)]
+        let unit = |[x, y]: Point| match x.hypot(y) {
+            length if length > 0.0 && length != 1.0 => [x / length, y / length],
+            _ => [x, y],
+        };
+        let of_parent = self.vector(parent, between.pose.turn.apply(joint.axis));
+        [of_parent, self.vector(at, joint.axis)].map(unit)
     }
 
     fn freedom(&self, between: &Between<'_>) -> Result<Freedom, Refusal> {

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
+use super::laws::{Law, is_actuator};
 use super::settings::Settings;
+use crate::import::robot::numbers::{exactly, not_negative, numbers};
 use crate::import::robot::space::{Rotation, Vector, cross, dot, minus, scaled, unit};
-use crate::import::robot::xml::{described, elements, elements_named, exactly, not_negative, numbers};
+use crate::import::robot::table::Table;
 use crate::import::{Refusal, shown};
 
 /// Defaults are nested at most so deep.
@@ -16,98 +18,114 @@ const DEEPEST: usize = 50;
 type Attributes<'a> = BTreeMap<(&'a str, &'a str), &'a str>;
 
 /// The defaults of a file.
-pub(super) struct Classes<'a, 'i> {
+pub(super) struct Classes<'a> {
     /// The first one is the class of elements that name none.
-    classes: Vec<(&'a str, Attributes<'a>)>,
-    input: std::marker::PhantomData<&'i ()>,
+    classes: Vec<Class<'a>>,
+    names: BTreeMap<&'a str, usize>,
+    table: Table,
 }
 
-/// All actuators share their defaults.
+struct Class<'a> {
+    /// The class around it, which has what it does not say itself.
+    parent: Option<usize>,
+    own: Attributes<'a>,
+    /// The law that actuators of the class have by default.
+    law: Law,
+}
+
+/// Elements that share their defaults have one name there.
 fn shared(kind: &str) -> &str {
     match kind {
-        "motor" | "position" | "velocity" => "general",
         "connect" | "weld" => "equality",
+        kind if is_actuator(kind) => "general",
         other => other,
     }
 }
 
-impl<'a, 'i> Classes<'a, 'i> {
-    pub fn read(root: Node<'a, 'i>) -> Result<Self, Refusal> {
-        let mut classes = Self { classes: vec![("main", BTreeMap::new())], input: std::marker::PhantomData };
-        for node in elements_named(root, "default") {
+impl<'a> Classes<'a> {
+    pub fn read(root: Node<'a>, table: Table) -> Result<Self, Refusal> {
+        let main = Class { parent: None, own: BTreeMap::new(), law: Law::USUAL };
+        let mut classes = Self { classes: vec![main], names: BTreeMap::from([("main", 0)]), table };
+        for node in root.elements_named("default") {
             classes.class(node, None, 0)?;
         }
         Ok(classes)
     }
 
-    fn class(&mut self, node: Node<'a, 'i>, parent: Option<usize>, depth: usize) -> Result<(), Refusal> {
-        let of = described("default", node);
+    fn class(&mut self, node: Node<'a>, parent: Option<usize>, depth: usize) -> Result<(), Refusal> {
+        let of = node.described("default");
         if depth > DEEPEST {
             return Err(Refusal(format!("{of} is nested more than {DEEPEST} deep")));
         }
-        let at = match (parent, node.attribute("class")) {
-            (None, _) => 0,
+        let at = parent.map_or(0, |_| self.classes.len());
+        match (parent, node.attribute("class")) {
             (Some(_), None) => return Err(Refusal(format!("{of} has no `class`"))),
-            (Some(parent), Some(class)) => {
-                let inherited = self.classes.get(parent).map(|(_, inherited)| inherited.clone());
-                self.classes.push((class, inherited.unwrap_or_default()));
-                self.classes.len() - 1
+            (_, Some(class)) => {
+                self.names.entry(class).or_insert(at);
             }
-        };
-        if let (None, Some(class)) = (parent, node.attribute("class")) {
-            self.classes[0].0 = class;
+            (None, None) => {}
         }
-        let own = elements(node).filter(|child| child.tag_name().name() != "default");
-        for child in own {
-            let kind = shared(child.tag_name().name());
-            let attributes =
-                child.attributes().map(|attribute| ((kind, attribute.name()), attribute.value()));
-            self.classes[at].1.extend(attributes);
+        let inherited = self.classes.get(parent.unwrap_or(0)).map_or(Law::USUAL, |class| class.law);
+        let begun = self.classes.get_mut(at).map(|class| std::mem::take(&mut class.own));
+        let mut class = Class { parent, own: begun.unwrap_or_default(), law: inherited };
+        for child in node.elements().filter(|child| child.name() != "default") {
+            let kind = shared(child.name());
+            class.own.extend(child.attributes().map(|(name, value)| ((kind, name), value)));
+            class.law.set(child)?;
         }
-        elements_named(node, "default").try_for_each(|child| self.class(child, Some(at), depth + 1))
+        match self.classes.get_mut(at) {
+            Some(main) => *main = class,
+            None => self.classes.push(class),
+        }
+        node.elements_named("default").try_for_each(|child| self.class(child, Some(at), depth + 1))
     }
 
     /// An element with its class, or that of the bodies around it.
+    ///
+    /// # Errors
+    /// A class that is not there, and attributes that are refused, its own or those of its class.
     pub fn element(
         &self,
-        node: Node<'a, 'i>,
+        node: Node<'a>,
         kind: &'static str,
         inherited: Option<&'a str>,
-    ) -> Result<Element<'a, 'i, '_>, Refusal> {
-        let of = described(node.tag_name().name(), node);
-        let wanted = node.attribute("class").or(inherited);
-        let found = match wanted {
-            None => self.classes.first(),
-            Some(class) => self.classes.iter().find(|(name, _)| *name == class),
+    ) -> Result<Element<'a, '_>, Refusal> {
+        let of = node.described(node.name());
+        let class = match node.attribute("class").or(inherited) {
+            None => 0,
+            Some(class) => *self.names.get(class).ok_or_else(|| {
+                Refusal(format!("{of} has the class {}, which the file does not have", shown(class)))
+            })?,
         };
-        let missing = || {
-            Refusal(format!(
-                "{of} has the class {}, which the file does not have",
-                shown(wanted.unwrap_or_default())
-            ))
-        };
-        let (_, attributes) = found.ok_or_else(missing)?;
-        Ok(Element { node, kind: shared(kind), attributes, of })
+        let element = Element { node, kind: shared(kind), class, classes: &self.classes, of };
+        self.table.refuse(node, |attribute| element.get(attribute))?;
+        Ok(element)
     }
 }
 
 /// An element with the attributes of its class.
-pub(super) struct Element<'a, 'i, 'c> {
-    pub node: Node<'a, 'i>,
+pub(super) struct Element<'a, 'c> {
+    pub node: Node<'a>,
     kind: &'static str,
-    attributes: &'c Attributes<'a>,
+    class: usize,
+    classes: &'c [Class<'a>],
     /// What it is in messages.
     pub of: String,
 }
 
-impl<'a> Element<'a, '_, '_> {
+impl<'a> Element<'a, '_> {
     pub fn get(&self, attribute: &str) -> Option<&'a str> {
-        let own = self.node.attributes().find(|own| own.name() == attribute).map(|own| own.value());
-        own.or_else(|| {
-            let inherited =
-                self.attributes.iter().find(|((kind, name), _)| *kind == self.kind && *name == attribute);
-            inherited.map(|(_, value)| *value)
-        })
+        let class = self.classes.get(self.class);
+        let mut all = std::iter::successors(class, |class| self.classes.get(class.parent?));
+        let inherited = || all.find_map(|class| class.own.get(&(self.kind, attribute)).copied());
+        self.node.attribute(attribute).or_else(inherited)
+    }
+
+    /// The law of an actuator: that of its class with what it says itself.
+    pub fn law(&self) -> Result<Law, Refusal> {
+        let mut law = self.classes.get(self.class).map_or(Law::USUAL, |class| class.law);
+        law.set(self.node)?;
+        Ok(law)
     }
 
     pub fn list(&self, attribute: &str) -> Result<Vec<f64>, Refusal> {

@@ -1,25 +1,26 @@
 //! Equalities and actuators.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::Reader;
 use super::classes::Element;
 use crate::import::robot::plane::poses;
 use crate::import::robot::space::{Pose, Rotation, Vector};
-use crate::import::robot::xml::{described, elements};
-use crate::import::robot::{Actuator, Closing, Coupling, GROUND, Input};
+
+use crate::import::robot::{Actuator, Closing, Coupling, GROUND};
 use crate::import::{Refusal, shown};
 
-impl<'a, 'i> Reader<'a, 'i> {
-    pub(super) fn equalities(&mut self, section: Node<'a, 'i>) -> Result<(), Refusal> {
-        for node in elements(section) {
-            let of = described(node.tag_name().name(), node);
+impl<'a> Reader<'a> {
+    pub(super) fn equalities(&mut self, section: Node<'a>) -> Result<(), Refusal> {
+        for node in section.elements() {
+            self.robot.is_limited()?;
+            let of = node.described(node.name());
             let element = self.element(node, "equality", None)?;
             if element.get("active") == Some("false") {
                 self.robot.lost(format!("{of}, which is not active"));
                 continue;
             }
-            match node.tag_name().name() {
+            match node.name() {
                 kind @ ("connect" | "weld") => {
                     let closing = self.closing(&element, kind == "weld")?;
                     self.robot.closings.push(closing);
@@ -38,7 +39,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(())
     }
 
-    fn closing(&self, element: &Element<'_, '_, '_>, is_weld: bool) -> Result<Closing, Refusal> {
+    fn closing(&self, element: &Element<'_, '_>, is_weld: bool) -> Result<Closing, Refusal> {
         let of = element.of.clone();
         let name = element.node.attribute("name").unwrap_or("closing").to_owned();
         let has_sites = element.get("site1").is_some();
@@ -67,11 +68,15 @@ impl<'a, 'i> Reader<'a, 'i> {
             None => None,
         };
         let fixed = fixed.unwrap_or(drawn);
-        Ok(Closing { name, of, bodies: [first, second], at: [fixed.at, [0.0; 3]], fixed: Some(fixed) })
+        let anchor = element.vector("anchor")?.unwrap_or_default();
+        // Without torque it holds a place of the two bodies, and not their angle.
+        let turns = element.number("torquescale")? == Some(0.0);
+        let at = [fixed.place(anchor), anchor];
+        Ok(Closing { name, of, bodies: [first, second], at, fixed: (!turns).then_some(fixed) })
     }
 
     /// The body of a site that an attribute names, and its place.
-    fn site_of(&self, element: &Element<'_, '_, '_>, attribute: &str) -> Result<(usize, Vector), Refusal> {
+    fn site_of(&self, element: &Element<'_, '_>, attribute: &str) -> Result<(usize, Vector), Refusal> {
         let of = &element.of;
         let name = element.get(attribute).ok_or_else(|| Refusal(format!("{of} has no `{attribute}`")))?;
         let sites = self
@@ -86,24 +91,49 @@ impl<'a, 'i> Reader<'a, 'i> {
         found.map(|(at, mark)| (at, mark.at)).ok_or_else(missing)
     }
 
-    pub(super) fn actuators(&mut self, section: Node<'a, 'i>) -> Result<(), Refusal> {
-        for node in elements(section) {
+    pub(super) fn actuators(&mut self, section: Node<'a>) -> Result<(), Refusal> {
+        for node in section.elements() {
+            self.robot.is_limited()?;
             let element = self.element(node, "general", None)?;
             let actuator = actuator(&element)?;
+            let parts = [element.coefficient("damping")?, element.number("armature")?.unwrap_or_default()];
+            let group = element.number("group")?.unwrap_or_default();
+            let of = element.of.clone();
             let mut lost = Vec::new();
             for range in ["ctrlrange", "forcerange"] {
                 if element.list(range)?.iter().any(|limit| *limit != 0.0) {
-                    lost.push(format!("the limits (`{range}`) of {}", element.of));
+                    lost.push(format!("the limits (`{range}`) of {of}"));
                 }
+            }
+            // A part that belongs to the joint, whether or not the actuator acts.
+            self.reflect(&actuator, parts);
+            if self.settings.disabled_groups.contains(&group) {
+                self.robot.lost(format!("{of}: `actuatorgroupdisable` takes it away"));
+                continue;
+            }
+            if let Some(capped) = self.capped.get(&actuator.joint) {
+                return Err(Refusal(format!(
+                    "{capped}: `actuatorfrcrange` limits what {of} does to it, which is not imported"
+                )));
             }
             lost.into_iter().for_each(|what| self.robot.lost(what));
             self.robot.actuators.push(actuator);
         }
         Ok(())
     }
+
+    /// Gives the joint of an actuator the damping and the inertia of that, as its gear shows them.
+    fn reflect(&mut self, actuator: &Actuator, [damping, armature]: [f64; 2]) {
+        let joints = self.robot.bodies.iter_mut().flat_map(|body| &mut body.joints);
+        let scale = actuator.gear * actuator.gear;
+        for joint in joints.filter(|joint| joint.name == actuator.joint) {
+            joint.damping += scale * damping;
+            joint.armature += scale * armature;
+        }
+    }
 }
 
-fn coupling(element: &Element<'_, '_, '_>) -> Result<Coupling, Refusal> {
+fn coupling(element: &Element<'_, '_>) -> Result<Coupling, Refusal> {
     let of = element.of.clone();
     let joint = |attribute: &str| element.get(attribute).map(str::to_owned);
     let follower = joint("joint1").ok_or_else(|| Refusal(format!("{of} has no `joint1`")))?;
@@ -120,53 +150,14 @@ fn coupling(element: &Element<'_, '_, '_>) -> Result<Coupling, Refusal> {
     Ok(Coupling { name, of, follower, leader, coefficients })
 }
 
-/// The gain and the bias of an actuator, as MuJoCo makes them of the short forms.
-fn actuator(element: &Element<'_, '_, '_>) -> Result<Actuator, Refusal> {
+/// An actuator at a joint.
+fn actuator(element: &Element<'_, '_>) -> Result<Actuator, Refusal> {
     let of = element.of.clone();
     let Some(joint) = element.get("joint").or(element.get("jointinparent")) else {
         return Err(Refusal(format!("{of} has no `joint`; what acts on other things is not imported")));
     };
     let gear = element.list("gear")?.first().copied().unwrap_or(1.0);
-    let (input, gain, bias) = match element.node.tag_name().name() {
-        "motor" => (Input::Effort, 1.0, [0.0; 3]),
-        "position" => position(element)?,
-        "velocity" => {
-            let kv = element.number("kv")?.unwrap_or(1.0);
-            (Input::Velocity, kv, [0.0, 0.0, -kv])
-        }
-        "general" => general(element)?,
-        _ => return Err(Refusal(format!("{of} is not imported; motor, position, velocity and general are"))),
-    };
+    let (input, gain, bias) = element.law()?.imported(element.node, &of)?;
     let name = element.node.attribute("name").map_or_else(|| format!("{joint}_motor"), str::to_owned);
     Ok(Actuator { name, of, joint: joint.to_owned(), gear, gain, bias, input })
-}
-
-type Law = (Input, f64, [f64; 3]);
-
-fn position(element: &Element<'_, '_, '_>) -> Result<Law, Refusal> {
-    let of = &element.of;
-    for attribute in ["dampratio", "timeconst", "inheritrange"] {
-        if element.number(attribute)?.is_some_and(|number| number != 0.0) {
-            return Err(Refusal(format!("{of}: `{attribute}` is not imported")));
-        }
-    }
-    let kp = element.number("kp")?.unwrap_or(1.0);
-    Ok((Input::Position, kp, [0.0, -kp, -element.number("kv")?.unwrap_or_default()]))
-}
-
-fn general(element: &Element<'_, '_, '_>) -> Result<Law, Refusal> {
-    let of = &element.of;
-    for (attribute, known) in [("dyntype", "none"), ("gaintype", "fixed")] {
-        if let Some(other) = element.get(attribute).filter(|value| *value != known) {
-            return Err(Refusal(format!("{of}: `{attribute}` = {} is not imported", shown(other))));
-        }
-    }
-    let gain = element.list("gainprm")?.first().copied().unwrap_or(1.0);
-    let given = element.list("biasprm")?;
-    let bias = match element.get("biastype").unwrap_or("none") {
-        "none" => [0.0; 3],
-        "affine" => [0, 1, 2].map(|at: usize| given.get(at).copied().unwrap_or_default()),
-        other => return Err(Refusal(format!("{of}: `biastype` = {} is not imported", shown(other)))),
-    };
-    Ok((Input::Number, gain, bias))
 }

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::Reader;
 use super::classes::Element;
 use crate::import::robot::space::{Matrix, Pose, Rotation, Vector, diagonal, dot, minus, symmetric, unit};
-use crate::import::robot::xml::{elements, elements_named};
+
 use crate::import::robot::{GROUND, Lump, Mark};
 use crate::import::{Refusal, shown};
 
@@ -23,21 +23,21 @@ struct Solid {
     half: Option<f64>,
 }
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a> Reader<'a> {
     /// The masses of a body, by its `inertial` or by its geoms, which also give it a shape.
     pub(super) fn masses(
         &mut self,
-        node: Node<'a, 'i>,
+        node: Node<'a>,
         at: usize,
         inherited: Option<&'a str>,
     ) -> Result<(), Refusal> {
-        let written = elements_named(node, "inertial").next();
+        let written = node.elements_named("inertial").next();
         let from_geoms = self.settings.masses_of_geoms.unwrap_or(written.is_none());
         if let Some(inertial) = written.filter(|_| !from_geoms && at != GROUND) {
             let lump = inertia(&self.element(inertial, "inertial", None)?, self)?;
             self.robot.bodies[at].lumps.push(lump);
         }
-        for child in elements(node).filter(|child| child.tag_name().name() == "geom") {
+        for child in node.elements().filter(|child| child.name() == "geom") {
             self.has_geoms = true;
             if at != GROUND {
                 let (lump, mark) = self.geom(child, inherited, from_geoms)?;
@@ -50,7 +50,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn geom(
         &self,
-        node: Node<'a, 'i>,
+        node: Node<'a>,
         inherited: Option<&'a str>,
         has_mass: bool,
     ) -> Result<(Option<Lump>, Vec<Mark>), Refusal> {
@@ -92,11 +92,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 }
 
 /// Where a geom is in its body.
-fn pose(
-    element: &Element<'_, '_, '_>,
-    ends: Option<[Vector; 2]>,
-    reader: &Reader<'_, '_>,
-) -> Result<Pose, Refusal> {
+fn pose(element: &Element<'_, '_>, ends: Option<[Vector; 2]>, reader: &Reader<'_>) -> Result<Pose, Refusal> {
     let Some([a, b]) = ends else {
         let at = element.vector("pos")?.unwrap_or_default();
         return Ok(Pose { at, turn: element.turn(&reader.settings)? });
@@ -108,7 +104,7 @@ fn pose(
 }
 
 /// The solid of a geom; nothing of a kind that is none, or whose form is in another file.
-fn solid(element: &Element<'_, '_, '_>, ends: Option<[Vector; 2]>) -> Result<Option<Solid>, Refusal> {
+fn solid(element: &Element<'_, '_>, ends: Option<[Vector; 2]>) -> Result<Option<Solid>, Refusal> {
     let kind = element.get("type").unwrap_or("sphere");
     let size = element.list("size")?;
     let count = match kind {
@@ -124,6 +120,10 @@ fn solid(element: &Element<'_, '_, '_>, ends: Option<[Vector; 2]>) -> Result<Opt
             )));
         }
     };
+    if element.get("mesh").is_some() {
+        let of = &element.of;
+        return Err(Refusal(format!("{of} is a {kind} of the size of a `mesh`, which is in another file")));
+    }
     // With `fromto` the distance between its two places is the length, of which a size has half.
     let long = ends.map(|[a, b]| 0.5 * dot(minus(b, a), minus(b, a)).sqrt());
     let given = match (long, kind) {
@@ -171,7 +171,7 @@ fn capsule(r: f64, half: f64) -> Solid {
 }
 
 /// The mass of an `inertial`.
-fn inertia(element: &Element<'_, '_, '_>, reader: &Reader<'_, '_>) -> Result<Lump, Refusal> {
+fn inertia(element: &Element<'_, '_>, reader: &Reader<'_>) -> Result<Lump, Refusal> {
     let of = &element.of;
     let mass = element.number("mass")?.ok_or_else(|| Refusal(format!("{of} has no `mass`")))?;
     let at = element.vector("pos")?.ok_or_else(|| Refusal(format!("{of} has no `pos`")))?;

@@ -1,11 +1,11 @@
 //! What a file says of all of its parts: the sections `compiler` and `option`, and those that
 //! are left out or refused.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use crate::import::Refusal;
 use crate::import::robot::Robot;
-use crate::import::robot::xml::{described, elements, exactly, numbers};
+use crate::import::robot::numbers::{exactly, numbers};
 
 /// How numbers of the file are to be read.
 pub(super) struct Settings {
@@ -19,6 +19,8 @@ pub(super) struct Settings {
     pub has_gravity: bool,
     pub has_contacts: bool,
     pub has_equalities: bool,
+    /// The groups of actuators that do not act.
+    pub disabled_groups: Vec<f64>,
 }
 
 impl Settings {
@@ -28,23 +30,8 @@ impl Settings {
     }
 }
 
-/// Attributes of the compiler that change masses or places, with the value that does not.
-const CHANGING: [(&str, &str); 8] = [
-    ("coordinate", "local"),
-    ("boundmass", "0"),
-    ("boundinertia", "0"),
-    ("balanceinertia", "false"),
-    ("inertiagrouprange", "0 5"),
-    ("fitaabb", "false"),
-    ("discardvisual", "false"),
-    ("alignfree", "false"),
-];
-
-/// Flags of the option that take forces away.
-const TAKING: [&str; 4] = ["passive", "spring", "damper", "actuation"];
-
 /// The settings of a file; gravity goes to the robot.
-pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Refusal> {
+pub(super) fn read(root: Node<'_>, robot: &mut Robot) -> Result<Settings, Refusal> {
     let mut settings = Settings {
         is_in_degrees: true,
         euler: ['x', 'y', 'z'],
@@ -53,25 +40,15 @@ pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Re
         has_gravity: true,
         has_contacts: true,
         has_equalities: true,
+        disabled_groups: Vec::new(),
     };
     robot.gravity = [0.0, 0.0, -9.81];
-    for section in elements(root) {
-        let name = section.tag_name().name();
-        match name {
+    for section in root.elements() {
+        match section.name() {
             "compiler" => compiler(section, &mut settings)?,
             "option" => option(section, &mut settings, robot)?,
             "keyframe" => robot.lost("the keyframes: it begins at the reference of its joints"),
-            "default" | "worldbody" | "equality" | "actuator" => {}
-            "asset" | "visual" | "statistic" | "size" | "custom" | "contact" | "sensor" => {}
-            _ if name == "tendon" && elements(section).next().is_none() => {}
-            "include" => {
-                let of = described(name, section);
-                return Err(Refusal(format!(
-                    "{of} names another file, which is not read; `mj_saveLastXML` of MuJoCo writes a file with its \
-                     includes in it"
-                )));
-            }
-            other => return Err(Refusal(format!("{} is not imported", described(other, section)))),
+            _ => {}
         }
     }
     // whichever of several sections says so
@@ -81,16 +58,11 @@ pub(super) fn read(root: Node<'_, '_>, robot: &mut Robot) -> Result<Settings, Re
     Ok(settings)
 }
 
-fn compiler(node: Node<'_, '_>, settings: &mut Settings) -> Result<(), Refusal> {
-    let of = described("compiler", node);
+fn compiler(node: Node<'_>, settings: &mut Settings) -> Result<(), Refusal> {
+    let of = node.described("compiler");
     let wrong = |attribute: &str, value: &str| {
         Refusal(format!("{of}: `{attribute}` = {} is not imported", crate::import::shown(value)))
     };
-    for (attribute, usual) in CHANGING {
-        if let Some(value) = node.attribute(attribute).filter(|value| value.trim() != usual) {
-            return Err(wrong(attribute, value));
-        }
-    }
     match node.attribute("angle") {
         None => {}
         Some("degree") => settings.is_in_degrees = true,
@@ -117,25 +89,16 @@ fn compiler(node: Node<'_, '_>, settings: &mut Settings) -> Result<(), Refusal> 
     Ok(())
 }
 
-fn option(node: Node<'_, '_>, settings: &mut Settings, robot: &mut Robot) -> Result<(), Refusal> {
-    let of = described("option", node);
+fn option(node: Node<'_>, settings: &mut Settings, robot: &mut Robot) -> Result<(), Refusal> {
+    let of = node.described("option");
     if let Some(gravity) = node.attribute("gravity") {
         robot.gravity = exactly(gravity, "gravity", &of)?;
     }
-    for attribute in ["density", "viscosity"] {
-        let value = numbers(node.attribute(attribute).unwrap_or_default(), attribute, &of)?;
-        if value.iter().any(|number| *number != 0.0) {
-            return Err(Refusal(format!("{of}: a fluid around the bodies (`{attribute}`) is not imported")));
-        }
+    if let Some(groups) = node.attribute("actuatorgroupdisable") {
+        settings.disabled_groups = numbers(groups, "actuatorgroupdisable", &of)?;
     }
-    for flag in elements(node).filter(|child| child.tag_name().name() == "flag") {
+    for flag in node.elements().filter(|child| child.name() == "flag") {
         let is_off = |name: &str| flag.attribute(name) == Some("disable");
-        if let Some(taken) = TAKING.iter().find(|name| is_off(name)) {
-            return Err(Refusal(format!(
-                "{}: `{taken}` = `disable` is not imported",
-                described("flag", flag)
-            )));
-        }
         settings.has_gravity &= !is_off("gravity");
         settings.has_contacts &= !is_off("contact") && !is_off("constraint");
         settings.has_equalities &= !is_off("equality") && !is_off("constraint");

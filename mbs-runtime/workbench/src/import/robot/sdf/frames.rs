@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
+use super::joints::WORLD;
 use super::values::pose;
 use crate::import::robot::space::{Pose, Vector};
-use crate::import::robot::xml::{described, elements, elements_named};
+
 use crate::import::{Refusal, shown};
 
 /// The name of the model's own frame.
@@ -45,14 +46,14 @@ pub(super) struct Marked<'f> {
 }
 
 impl<'a> Frames<'a> {
-    pub fn read(model: Node<'a, '_>) -> Result<Self, Refusal> {
-        let of = described("model", model);
-        let first = elements_named(model, "link").next().and_then(|link| link.attribute("name"));
+    pub fn read(model: Node<'a>) -> Result<Self, Refusal> {
+        let of = model.described("model");
+        let first = model.elements_named("link").next().and_then(|link| link.attribute("name"));
         let canonical = model.attribute("canonical_link").filter(|name| !name.is_empty()).or(first);
         let canonical = canonical.ok_or_else(|| Refusal(format!("{of} has no link with a name")))?;
         let mut frames = Self { frames: BTreeMap::new(), model: Pose::NONE, canonical };
-        for node in elements(model) {
-            if matches!(node.tag_name().name(), "link" | "joint" | "frame") {
+        for node in model.elements() {
+            if matches!(node.name(), "link" | "joint" | "frame") {
                 frames.insert(node)?;
             }
         }
@@ -60,7 +61,7 @@ impl<'a> Frames<'a> {
             return Err(Refusal(format!("{of} has no link {}, its `canonical_link`", shown(canonical))));
         }
         let (pose, relative_to) = pose(model, &of)?;
-        if let Some(other) = relative_to.filter(|name| *name != "world") {
+        if let Some(other) = relative_to.filter(|name| *name != WORLD) {
             return Err(Refusal(format!(
                 "{of}: its pose is relative to {}; only `world` is imported there",
                 shown(other)
@@ -73,14 +74,14 @@ impl<'a> Frames<'a> {
         Ok(frames)
     }
 
-    fn insert(&mut self, node: Node<'a, '_>) -> Result<(), Refusal> {
-        let kind = node.tag_name().name();
-        let of = described(kind, node);
+    fn insert(&mut self, node: Node<'a>) -> Result<(), Refusal> {
+        let kind = node.name();
+        let of = node.described(kind);
         let name = node.attribute("name").unwrap_or_default();
         if name.is_empty() {
             return Err(Refusal(format!("{of} has no `name`")));
         }
-        if name == "world" || name == MODEL {
+        if name == WORLD || name == MODEL {
             return Err(Refusal(format!("{of} has a name that SDF keeps for itself")));
         }
         let (pose, relative_to) = pose(node, &of)?;
@@ -131,6 +132,9 @@ impl<'a> Frames<'a> {
             if name == MODEL {
                 return Ok(pose);
             }
+            if name == WORLD {
+                return Ok(Pose::NONE.seen_from(&self.model).of(&pose));
+            }
             let frame = self.frame(name, of)?;
             (pose, name) = (frame.pose.of(&pose), frame.relative_to);
         }
@@ -143,17 +147,20 @@ impl<'a> Frames<'a> {
     }
 
     /// Where a joint is in the world, which is relative to its child unless it says otherwise.
-    pub fn joint(&self, node: Node<'a, '_>, child: &'a str, of: &str) -> Result<Pose, Refusal> {
+    pub fn joint(&self, node: Node<'a>, child: &'a str, of: &str) -> Result<Pose, Refusal> {
         let (pose, relative_to) = pose(node, of)?;
         Ok(self.place(relative_to.unwrap_or(child), of)?.of(&pose))
     }
 
-    /// The link that a frame moves with; `of` refers to it.
+    /// The link that a frame moves with, or the world; `of` refers to it.
     pub fn link(&self, name: &'a str, of: &str) -> Result<&'a str, Refusal> {
         let mut name = name;
         for _ in 0..=self.frames.len() {
             if name == MODEL {
                 return Ok(self.canonical);
+            }
+            if name == WORLD {
+                return Ok(WORLD);
             }
             let frame = self.frame(name, of)?;
             if frame.kind == "link" {

@@ -1,12 +1,12 @@
 //! The joints of a model: what they join, what they leave, and which ones follow each other.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::frames::Frames;
 use super::values::{is_set, number, text};
 use super::{AXES_BY_NAME, AXES_OF_JOINTS};
+use crate::import::robot::numbers::{exactly, not_negative};
 use crate::import::robot::space::{Pose, Rotation, Vector, dot, unit};
-use crate::import::robot::xml::{described, elements_named, exactly, not_negative};
 use crate::import::robot::{Coupling, Joint, Kind, Robot};
 use crate::import::{Refusal, shown};
 
@@ -48,14 +48,14 @@ struct Reader<'a, 'r> {
 
 /// The joints of a model. What they follow and what they lose goes to the robot.
 pub(super) fn read<'a>(
-    model: Node<'a, '_>,
+    model: Node<'a>,
     frames: &Frames<'a>,
     version: u32,
     robot: &mut Robot,
 ) -> Result<Vec<Edge<'a>>, Refusal> {
     let mut reader = Reader { frames, version, robot };
-    let is_gearbox = |node: &Node<'_, '_>| node.attribute("type") == Some("gearbox");
-    let (gearboxes, joints): (Vec<_>, Vec<_>) = elements_named(model, "joint").partition(is_gearbox);
+    let is_gearbox = |node: &Node<'_>| node.attribute("type") == Some("gearbox");
+    let (gearboxes, joints): (Vec<_>, Vec<_>) = model.elements_named("joint").partition(is_gearbox);
     let edges = joints.into_iter().map(|node| reader.edge(node)).collect::<Result<Vec<_>, _>>()?;
     for node in gearboxes {
         reader.gearbox(node, &edges)?;
@@ -64,8 +64,8 @@ pub(super) fn read<'a>(
 }
 
 impl<'a> Reader<'a, '_> {
-    fn edge(&mut self, node: Node<'a, '_>) -> Result<Edge<'a>, Refusal> {
-        let of = described("joint", node);
+    fn edge(&mut self, node: Node<'a>) -> Result<Edge<'a>, Refusal> {
+        let of = node.described("joint");
         let (parent, child) = self.links(node, &of)?;
         let below = text(node, "child").unwrap_or_default();
         let pose = self.frames.joint(node, below, &of)?;
@@ -74,11 +74,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The links that a joint joins, or the world above one.
-    fn links(&self, node: Node<'a, '_>, of: &str) -> Result<(&'a str, &'a str), Refusal> {
+    fn links(&self, node: Node<'a>, of: &str) -> Result<(&'a str, &'a str), Refusal> {
         let end = |part: &'static str| match text(node, part) {
             None | Some("") => Err(Refusal(format!("{of} has no `{part}`"))),
-            Some(WORLD) if part == "parent" => Ok(WORLD),
-            Some(name) => self.frames.link(name, of),
+            Some(name) => match self.frames.link(name, of)? {
+                WORLD if part == "child" => Err(Refusal(format!(
+                    "{of} has the world as its child; it is the parent, and the link the child"
+                ))),
+                link => Ok(link),
+            },
         };
         let (parent, child) = (end("parent")?, end("child")?);
         match parent == child {
@@ -87,7 +91,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    fn hold(&mut self, node: Node<'a, '_>, pose: &Pose, of: &str) -> Result<Hold, Refusal> {
+    fn hold(&mut self, node: Node<'a>, pose: &Pose, of: &str) -> Result<Hold, Refusal> {
         let kind = match node.attribute("type").unwrap_or_default() {
             "fixed" => return Ok(Hold::Fixed),
             "ball" => return Ok(Hold::Ball),
@@ -105,7 +109,7 @@ impl<'a> Reader<'a, '_> {
                 return Err(Refusal(format!("{of} is of the type {}, which is not known", shown(other))));
             }
         };
-        let axis = elements_named(node, "axis").next();
+        let axis = node.elements_named("axis").next();
         let axis = axis.ok_or_else(|| Refusal(format!("{of} has no `axis`")))?;
         if self.is_locked(axis, of)? {
             let note = format!("{of} has limits that leave it no motion: it counts as fixed");
@@ -125,8 +129,8 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// An axis in the world.
-    fn direction(&self, axis: Node<'a, '_>, what: &str, pose: &Pose, of: &str) -> Result<Vector, Refusal> {
-        let xyz = elements_named(axis, "xyz").next();
+    fn direction(&self, axis: Node<'a>, what: &str, pose: &Pose, of: &str) -> Result<Vector, Refusal> {
+        let xyz = axis.elements_named("xyz").next();
         let given = match xyz.and_then(|xyz| xyz.text()) {
             Some(text) => exactly(text, "xyz", of)?,
             None => [0.0, 0.0, 1.0],
@@ -145,8 +149,8 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Whether limits leave a joint no motion: files fixed links so before there were fixed joints.
-    fn is_locked(&mut self, axis: Node<'a, '_>, of: &str) -> Result<bool, Refusal> {
-        let Some(limit) = elements_named(axis, "limit").next() else { return Ok(false) };
+    fn is_locked(&mut self, axis: Node<'a>, of: &str) -> Result<bool, Refusal> {
+        let Some(limit) = axis.elements_named("limit").next() else { return Ok(false) };
         let bound = |part: &'static str| -> Result<Option<f64>, Refusal> {
             let Some(text) = text(limit, part) else { return Ok(None) };
             let wrong = || Refusal(format!("{of}: `{part}` has {} in the place of a number", shown(text)));
@@ -166,12 +170,12 @@ impl<'a> Reader<'a, '_> {
         Ok(false)
     }
 
-    fn dynamics(&mut self, axis: Node<'a, '_>, joint: &mut Joint) -> Result<(), Refusal> {
+    fn dynamics(&mut self, axis: Node<'a>, joint: &mut Joint) -> Result<(), Refusal> {
         let of = joint.of.as_str();
         if number(axis, "initial_position", of)?.is_some_and(|position| position != 0.0) {
             self.robot.lost(format!("the `initial_position` of {of}: it begins at zero"));
         }
-        let Some(dynamics) = elements_named(axis, "dynamics").next() else { return Ok(()) };
+        let Some(dynamics) = axis.elements_named("dynamics").next() else { return Ok(()) };
         let coefficient =
             |part: &'static str| not_negative(number(dynamics, part, of)?.unwrap_or_default(), part, of);
         (joint.damping, joint.stiffness) = (coefficient("damping")?, coefficient("spring_stiffness")?);
@@ -182,9 +186,9 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn mimic(&mut self, axis: Node<'a, '_>, joint: &Joint) -> Result<(), Refusal> {
+    fn mimic(&mut self, axis: Node<'a>, joint: &Joint) -> Result<(), Refusal> {
         let of = joint.of.as_str();
-        let Some(mimic) = elements_named(axis, "mimic").next() else { return Ok(()) };
+        let Some(mimic) = axis.elements_named("mimic").next() else { return Ok(()) };
         let leader = mimic.attribute("joint").filter(|name| !name.is_empty());
         let leader = leader.ok_or_else(|| Refusal(format!("{of} has a `mimic` without its `joint`")))?;
         if mimic.attribute("axis").is_some_and(|axis| axis != "axis") {
@@ -203,18 +207,17 @@ impl<'a> Reader<'a, '_> {
 
     /// Gears between two links: the hinges that each of them has to the reference body follow
     /// each other.
-    fn gearbox(&mut self, node: Node<'a, '_>, edges: &[Edge<'a>]) -> Result<(), Refusal> {
-        let of = described("joint", node);
+    fn gearbox(&mut self, node: Node<'a>, edges: &[Edge<'a>]) -> Result<(), Refusal> {
+        let of = node.described("joint");
         let (parent, child) = self.links(node, &of)?;
         let pose = self.frames.joint(node, text(node, "child").unwrap_or_default(), &of)?;
         let reference = match text(node, "gearbox_reference_body") {
             None | Some("") => return Err(Refusal(format!("{of} has no `gearbox_reference_body`"))),
-            Some(WORLD) => WORLD,
             Some(name) => self.frames.link(name, &of)?,
         };
         let ratio = number(node, "gearbox_ratio", &of)?.unwrap_or(1.0);
         let hinge = |link: &str, part: &'static str| {
-            let axis = elements_named(node, part).next();
+            let axis = node.elements_named(part).next();
             let axis = axis.ok_or_else(|| Refusal(format!("{of} has no `{part}`")))?;
             let direction = self.direction(axis, part, &pose, &of)?;
             hinge(edges, [reference, link], direction).ok_or_else(|| {

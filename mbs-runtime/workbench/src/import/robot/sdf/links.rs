@@ -1,11 +1,11 @@
 //! Masses of links, and whether gravity acts on them.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::values::{is_set, number, pose, text};
 use crate::import::Refusal;
 use crate::import::robot::space::{Pose, symmetric};
-use crate::import::robot::xml::{described, elements_named};
+
 use crate::import::robot::{Body, Lump, Robot};
 
 /// The entries of an inertia, with what they are in a file that does not say them.
@@ -13,16 +13,16 @@ const ENTRIES: [(&str, f64); 6] =
     [("ixx", 1.0), ("iyy", 1.0), ("izz", 1.0), ("ixy", 0.0), ("ixz", 0.0), ("iyz", 0.0)];
 
 /// Takes the gravity away from all links that are without it, or from none.
-pub(super) fn gravity(model: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refusal> {
-    let floats = |link: &Node<'_, '_>| text(*link, "gravity").is_some() && !is_set(*link, "gravity");
-    let links: Vec<_> = elements_named(model, "link").collect();
+pub(super) fn gravity(model: Node<'_>, robot: &mut Robot) -> Result<(), Refusal> {
+    let floats = |link: &Node<'_>| text(*link, "gravity").is_some() && !is_set(*link, "gravity");
+    let links: Vec<_> = model.elements_named("link").collect();
     let Some(floating) = links.iter().find(|link| floats(link)) else { return Ok(()) };
     let held = links.iter().find(|link| !floats(link));
     match held.filter(|_| robot.gravity != [0.0; 3]) {
         Some(held) => Err(Refusal(format!(
             "{} is without gravity and {} is not, which is not imported; all links or none are",
-            described("link", *floating),
-            described("link", *held)
+            floating.described("link"),
+            held.described("link")
         ))),
         None => {
             robot.gravity = [0.0; 3];
@@ -33,17 +33,17 @@ pub(super) fn gravity(model: Node<'_, '_>, robot: &mut Robot) -> Result<(), Refu
 
 /// A link as a body that has no joints yet. One that does not move needs no mass.
 pub(super) fn body(
-    node: Node<'_, '_>,
+    node: Node<'_>,
     parent: usize,
     pose: Pose,
     moves: bool,
     robot: &mut Robot,
 ) -> Result<Body, Refusal> {
-    let of = described("link", node);
+    let of = node.described("link");
     if is_set(node, "kinematic") {
         return Err(Refusal(format!("{of} is moved from outside (`kinematic`), which is not imported")));
     }
-    if elements_named(node, "velocity_decay").next().is_some() {
+    if node.elements_named("velocity_decay").next().is_some() {
         robot.lost(format!("the `velocity_decay` of {of}"));
     }
     let lumps = if moves { vec![lump(node, &of, robot)?] } else { Vec::new() };
@@ -52,18 +52,18 @@ pub(super) fn body(
 }
 
 /// The mass of a link. What the file does not say is 1, as SDF has it.
-fn lump(link: Node<'_, '_>, of: &str, robot: &mut Robot) -> Result<Lump, Refusal> {
-    let inertial = elements_named(link, "inertial").next();
+fn lump(link: Node<'_>, of: &str, robot: &mut Robot) -> Result<Lump, Refusal> {
+    let inertial = link.elements_named("inertial").next();
     if inertial.and_then(|inertial| inertial.attribute("auto")).is_some_and(super::values::is_true) {
         return Err(Refusal(format!(
             "{of} has the inertia of its shapes (`auto`), which is not imported; numbers may stand there"
         )));
     }
-    if let Some(fluid) = inertial.and_then(|node| elements_named(node, "fluid_added_mass").next()) {
-        return Err(Refusal(format!("{of}: {} is not imported", described("fluid_added_mass", fluid))));
+    if let Some(fluid) = inertial.and_then(|node| node.elements_named("fluid_added_mass").next()) {
+        return Err(Refusal(format!("{of}: {} is not imported", fluid.described("fluid_added_mass"))));
     }
     let mass = inertial.map_or(Ok(None), |node| number(node, "mass", of))?;
-    let inertia = inertial.and_then(|node| elements_named(node, "inertia").next());
+    let inertia = inertial.and_then(|node| node.elements_named("inertia").next());
     let said = match (mass, inertia) {
         (None, None) => "a mass of 1 kg and inertias of 1 kg*m^2",
         (None, Some(_)) => "a mass of 1 kg",

@@ -1,10 +1,10 @@
 //! The model of a file that moves, and what is around it.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::values::{is_set, text};
+use crate::import::robot::numbers::exactly;
 use crate::import::robot::space::Vector;
-use crate::import::robot::xml::{described, elements, elements_named, exactly};
 use crate::import::{Refusal, shown};
 
 /// The gravity of a world that says none.
@@ -14,15 +14,15 @@ const GRAVITY: Vector = [0.0, 0.0, -9.8];
 const STILL: [&str; 2] = ["sun", "ground_plane"];
 
 /// A model, and what acts on it.
-pub(super) struct Scene<'a, 'i> {
-    pub model: Node<'a, 'i>,
+pub(super) struct Scene<'a> {
+    pub model: Node<'a>,
     pub gravity: Vector,
     pub notes: Vec<String>,
 }
 
 /// The only model of a file that moves: in its world, or without one.
-pub(super) fn read<'a, 'i>(root: Node<'a, 'i>) -> Result<Scene<'a, 'i>, Refusal> {
-    let mut worlds = elements_named(root, "world");
+pub(super) fn read<'a>(root: Node<'a>, wanted: Option<&str>) -> Result<Scene<'a>, Refusal> {
+    let mut worlds = root.elements_named("world");
     let (place, gravity, mut notes) = match worlds.next() {
         Some(world) => (world, gravity(world)?, surroundings(world)?),
         None => {
@@ -31,41 +31,55 @@ pub(super) fn read<'a, 'i>(root: Node<'a, 'i>) -> Result<Scene<'a, 'i>, Refusal>
         }
     };
     if let Some(second) = worlds.next() {
-        return Err(Refusal(format!("{} is the second one of the file", described("world", second))));
+        return Err(Refusal(format!("{} is the second one of the file", second.described("world"))));
     }
-    if let Some(include) = elements_named(root, "include").next() {
+    if let Some(include) = root.elements_named("include").next() {
         return Err(self::include(include));
     }
-    let all: Vec<Node<'_, '_>> = elements_named(place, "model").collect();
+    let all: Vec<Node<'_>> = place.elements_named("model").collect();
     // A model alone may be static: it is refused for that, and not as missing.
-    let (still, moving): (Vec<_>, Vec<_>) =
+    let (still, mut moving): (Vec<_>, Vec<_>) =
         all.iter().copied().partition(|model| all.len() > 1 && is_set(*model, "static"));
+    if let Some(wanted) = wanted {
+        let others;
+        (moving, others) = moving.into_iter().partition(|model| model.attribute("name") == Some(wanted));
+        if moving.is_empty() {
+            let known: Vec<String> =
+                others.iter().filter_map(|model| model.attribute("name").map(str::to_owned)).collect();
+            return Err(Refusal(crate::names::unknown("model that moves", wanted, &known)));
+        }
+        notes.extend(others.iter().map(|other| {
+            format!("not carried over: {}, which is not the one wanted", other.described("model"))
+        }));
+    }
     for model in still {
-        let of = described("model", model);
+        let of = model.described("model");
         notes.push(format!("not carried over: {of}, which is static and could act by contacts alone"));
     }
     let model = *moving.first().ok_or_else(|| Refusal("it has no model that moves".into()))?;
     match moving.get(1) {
         None => Ok(Scene { model, gravity, notes }),
         Some(second) => Err(Refusal(format!(
-            "{} moves besides {}; one model of a file is imported",
-            described("model", *second),
-            described("model", model)
+            "{} moves besides {}; one model of a file is imported: --model NAME says which one",
+            second.described("model"),
+            model.described("model")
         ))),
     }
 }
 
-fn gravity(world: Node<'_, '_>) -> Result<Vector, Refusal> {
-    let of = described("world", world);
-    text(world, "gravity").map_or(Ok(GRAVITY), |text| exactly(text, "gravity", &of))
+fn gravity(world: Node<'_>) -> Result<Vector, Refusal> {
+    let of = world.described("world");
+    // Until SDF 1.5 it was in the physics.
+    let of_physics = world.elements_named("physics").find_map(|physics| text(physics, "gravity"));
+    text(world, "gravity").or(of_physics).map_or(Ok(GRAVITY), |text| exactly(text, "gravity", &of))
 }
 
 /// What of a world is left out, in notes.
-fn surroundings(world: Node<'_, '_>) -> Result<Vec<String>, Refusal> {
+fn surroundings(world: Node<'_>) -> Result<Vec<String>, Refusal> {
     let mut notes = Vec::new();
-    for node in elements(world) {
-        let name = node.tag_name().name();
-        let of = described(name, node);
+    for node in world.elements() {
+        let name = node.name();
+        let of = node.described(name);
         match name {
             "include" if is_still(node) => {
                 notes.push(format!("not carried over: {of}, which could act by contacts alone"));
@@ -84,14 +98,14 @@ fn surroundings(world: Node<'_, '_>) -> Result<Vec<String>, Refusal> {
 }
 
 /// Whether an include names a model that everybody knows to stand still.
-fn is_still(node: Node<'_, '_>) -> bool {
+fn is_still(node: Node<'_>) -> bool {
     let name = text(node, "uri").and_then(|uri| uri.rsplit('/').next()).unwrap_or_default();
     STILL.contains(&name.to_ascii_lowercase().replace("%20", "_").replace(' ', "_").as_str())
 }
 
 /// The refusal of what is in another file.
-pub(super) fn include(node: Node<'_, '_>) -> Refusal {
-    let (of, uri) = (described("include", node), shown(text(node, "uri").unwrap_or_default()));
+pub(super) fn include(node: Node<'_>) -> Refusal {
+    let (of, uri) = (node.described("include"), shown(text(node, "uri").unwrap_or_default()));
     Refusal(format!(
         "{of} names the other file {uri}, which is not read; `gz sdf -p` prints a file with its includes in it"
     ))

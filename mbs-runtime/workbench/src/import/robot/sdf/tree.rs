@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use super::frames::Frames;
 use super::joints::{Edge, Hold, WORLD};
 use super::links;
 use crate::import::robot::space::{Pose, scaled};
-use crate::import::robot::xml::{described, elements_named};
+
 use crate::import::robot::{Body, Closing, GROUND, Joint, LoopJoint, Mark, Robot};
 use crate::import::{Refusal, shown};
 
@@ -17,12 +17,12 @@ use crate::import::{Refusal, shown};
 /// # Errors
 /// Links that no joint leads to, and links that a ball alone holds.
 pub(super) fn grow<'a>(
-    model: Node<'a, '_>,
+    model: Node<'a>,
     frames: &Frames<'a>,
     mut edges: Vec<Edge<'a>>,
     robot: &mut Robot,
 ) -> Result<(), Refusal> {
-    let nodes = elements_named(model, "link");
+    let nodes = model.elements_named("link");
     let nodes = nodes.map(|node| (node.attribute("name").unwrap_or_default(), node)).collect();
     let ground = ground(frames, &edges, robot);
     let mut tree = Tree {
@@ -43,11 +43,11 @@ pub(super) fn grow<'a>(
         tree.body(edges.remove(at), robot)?;
     }
     if let Some(link) =
-        elements_named(model, "link").find(|link| link.attribute("name").is_none_or(|name| !tree.has(name)))
+        model.elements_named("link").find(|link| link.attribute("name").is_none_or(|name| !tree.has(name)))
     {
         return Err(Refusal(format!(
             "{}: no joint leads from it to {}, which is the ground",
-            described("link", link),
+            link.described("link"),
             if ground == WORLD { "the world".into() } else { format!("the link {}", shown(ground)) }
         )));
     }
@@ -68,9 +68,9 @@ fn ground<'a>(frames: &Frames<'a>, edges: &[Edge<'a>], robot: &mut Robot) -> &'a
     frames.canonical
 }
 
-struct Tree<'a, 'i, 'r> {
+struct Tree<'a, 'r> {
     frames: &'r Frames<'a>,
-    nodes: BTreeMap<&'a str, Node<'a, 'i>>,
+    nodes: BTreeMap<&'a str, Node<'a>>,
     /// The body of each link that was reached.
     bodies: BTreeMap<&'a str, usize>,
     /// Where the bodies are in the world.
@@ -79,7 +79,7 @@ struct Tree<'a, 'i, 'r> {
     moving: Vec<bool>,
 }
 
-impl<'a> Tree<'a, '_, '_> {
+impl<'a> Tree<'a, '_> {
     fn has(&self, link: &str) -> bool {
         self.bodies.contains_key(link)
     }

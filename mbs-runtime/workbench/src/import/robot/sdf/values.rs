@@ -1,22 +1,22 @@
 //! Values that stand as texts in elements.
 
-use roxmltree::Node;
+use crate::import::xml::Node;
 
 use crate::import::Refusal;
+use crate::import::robot::numbers::exactly;
 use crate::import::robot::space::{Pose, Rotation};
-use crate::import::robot::xml::{elements_named, exactly};
 
 /// The text in a part of an element.
-pub(super) fn text<'a>(node: Node<'a, '_>, part: &'static str) -> Option<&'a str> {
-    elements_named(node, part).next().map(|part| part.text().unwrap_or_default().trim())
+pub(super) fn text<'a>(node: Node<'a>, part: &'static str) -> Option<&'a str> {
+    node.elements_named(part).next().map(|part| part.text().unwrap_or_default().trim())
 }
 
-pub(super) fn number(node: Node<'_, '_>, part: &'static str, of: &str) -> Result<Option<f64>, Refusal> {
+pub(super) fn number(node: Node<'_>, part: &'static str, of: &str) -> Result<Option<f64>, Refusal> {
     Ok(text(node, part).map(|text| exactly::<1>(text, part, of)).transpose()?.map(|[number]| number))
 }
 
 /// Whether a part of an element is there and says yes.
-pub(super) fn is_set(node: Node<'_, '_>, part: &'static str) -> bool {
+pub(super) fn is_set(node: Node<'_>, part: &'static str) -> bool {
     text(node, part).is_some_and(is_true)
 }
 
@@ -25,8 +25,8 @@ pub(super) fn is_true(text: &str) -> bool {
 }
 
 /// The `pose` of an element, and the frame that it says it is relative to.
-pub(super) fn pose<'a>(node: Node<'a, '_>, of: &str) -> Result<(Pose, Option<&'a str>), Refusal> {
-    let Some(pose) = elements_named(node, "pose").next() else { return Ok((Pose::NONE, None)) };
+pub(super) fn pose<'a>(node: Node<'a>, of: &str) -> Result<(Pose, Option<&'a str>), Refusal> {
+    let Some(pose) = node.elements_named("pose").next() else { return Ok((Pose::NONE, None)) };
     // Until SDF 1.6 the attribute was called `frame`.
     let relative_to = pose.attribute("relative_to").or(pose.attribute("frame"));
     let relative_to = relative_to.filter(|name| !name.is_empty());

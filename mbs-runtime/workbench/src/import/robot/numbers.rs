@@ -1,7 +1,6 @@
-//! Numbers and names of XML elements, with the lines in which they stand.
+//! Numbers of XML elements.
 
-use roxmltree::{Document, Node};
-
+use crate::import::xml::Document;
 use crate::import::{Refusal, shown};
 
 /// Squares and products of numbers up to this one stay numbers.
@@ -9,37 +8,16 @@ const LARGEST: f64 = 1e9;
 
 /// The text as XML whose root has a name.
 pub(super) fn parsed<'a>(text: &'a str, root: &str) -> Result<Document<'a>, Refusal> {
-    let document =
-        Document::parse(text).map_err(|error| Refusal(format!("it is no complete XML: {error}")))?;
-    if document.root_element().tag_name().name() != root {
+    let document = Document::parse(text)?;
+    if document.root().name() != root {
         return Err(Refusal(format!("its root is not `{root}`")));
     }
     Ok(document)
 }
 
-pub(super) fn elements<'a, 'b>(of: Node<'a, 'b>) -> impl Iterator<Item = Node<'a, 'b>> {
-    of.children().filter(Node::is_element)
-}
-
-pub(super) fn elements_named<'a, 'b>(
-    of: Node<'a, 'b>,
-    name: &'static str,
-) -> impl Iterator<Item = Node<'a, 'b>> {
-    elements(of).filter(move |node| node.tag_name().name() == name)
-}
-
-/// The line in which an element begins.
-fn line(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
-}
-
-/// An element in messages: what it is, its name if it has one, and its line.
-pub(super) fn described(what: &str, node: Node<'_, '_>) -> String {
-    let line = line(node);
-    match node.attribute("name").filter(|name| !name.is_empty()) {
-        Some(name) => format!("the {what} {} (line {line})", shown(name)),
-        None => format!("the {what} in line {line}"),
-    }
+/// Numbers with spaces between them, if nothing else stands there.
+pub(super) fn quantities(text: &str) -> Option<Vec<f64>> {
+    text.split_whitespace().map(|word| word.parse().ok()).collect()
 }
 
 /// Numbers with spaces between them.
