@@ -2,23 +2,42 @@
 
 use std::sync::Arc;
 
-use mbs_analysis::Trials;
+use mbs_analysis::{Driven, Trials};
 use mbs_runtime::equations::{At, Correction, Described, Equations, Partials, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
     Adaptive, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method, MethodVisitor,
-    Rattle, Real, Sampled, Scheme, State, System, Tolerances, TrBdf2, with_type,
+    Rattle, Real, Sampled, Scheme, State, SystemClone, Tolerances, TrBdf2, with_type,
 };
 
 use crate::model::components;
 use crate::settings::{ConstantMethod, Start, StartKind};
+use crate::stages::Stages;
+use crate::start_state::StartState;
+
+/// Dynamics of which runs are made here: coordinates and inputs are vectors of `f64`. Every mechanism has this
+/// form behind its equations on slices.
+pub(crate) trait OnVectors:
+    Dynamics<Real = f64, Coordinates = Vec<f64>, Inputs = Vec<f64>> + Clone + Send + 'static
+{
+}
+
+impl<D> OnVectors for D where
+    D: Dynamics<Real = f64, Coordinates = Vec<f64>, Inputs = Vec<f64>> + Clone + Send + 'static
+{
+}
 
 /// Starts a run with the scheme that is asked for, looked at in steps of the given length.
-pub(crate) fn start<D>(dynamics: D, tolerances: Tolerances, start: &Start) -> Result<Box<dyn System>, Error>
+pub(crate) fn start<D>(
+    dynamics: D,
+    tolerances: Tolerances,
+    start: &Start,
+) -> Result<Box<dyn SystemClone>, Error>
 where
-    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+    D: OnVectors,
 {
     let name = start.method.tableau.word;
+    let dynamics = driven(dynamics, start);
     with_type(start.method, Started { dynamics, tolerances, start }).unwrap_or(Err(Error::Scheme { name }))
 }
 
@@ -27,10 +46,11 @@ pub(crate) fn constant<D>(
     dynamics: D,
     method: ConstantMethod,
     start: &Start,
-) -> Result<Box<dyn System>, Error>
+) -> Result<Box<dyn SystemClone>, Error>
 where
-    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+    D: OnVectors,
 {
+    let dynamics = driven(dynamics, start);
     match method {
         ConstantMethod::Rattle(composition) => {
             begun(Rattle::builder(dynamics, start.step).composition(composition), start)
@@ -48,20 +68,37 @@ pub(crate) fn bdf<D>(
     dynamics: D,
     system: mbs_analysis::FirstOrder,
     start: &Start,
-) -> Result<Box<dyn System>, Error>
+) -> Result<Box<dyn SystemClone>, Error>
 where
-    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+    D: OnVectors,
 {
     let tolerances = start.tolerances.unwrap_or_default();
+    let (dynamics, system) = (driven(dynamics, start), system.driven_by(start.table.clone()));
     begun(mbs_analysis::BdfSteps::builder(dynamics, system, tolerances, start.step), start)
 }
 
-fn begun<D, K>(builder: ConstantStepBuilder<D, K>, start: &Start) -> Result<Box<dyn System>, Error>
+/// Starts a run with a constant step of a scheme, with inputs from a table.
+pub(crate) fn in_stages<D>(dynamics: D, start: &Start) -> Result<Box<dyn SystemClone>, Error>
 where
-    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
-    K: Kernel<D> + 'static,
+    D: OnVectors,
+{
+    begun(ConstantStepBuilder::new(driven(dynamics, start), start.step, Stages::new(start)), start)
+}
+
+/// The mechanism with the inputs that change, and the time at which it starts.
+fn driven<D: Dynamics>(dynamics: D, start: &Start) -> Driven<D> {
+    Driven::new(dynamics, start.table.clone()).starting_at(start.start_time)
+}
+
+fn begun<D, K>(builder: ConstantStepBuilder<D, K>, start: &Start) -> Result<Box<dyn SystemClone>, Error>
+where
+    D: OnVectors,
+    K: Kernel<D> + Clone + 'static,
 {
     let mut builder = builder.inputs(start.inputs.clone());
+    if let Some(StartState { start_time, steps_taken, q, v }) = start.state.clone() {
+        builder = builder.from_vectors(start_time, q, v).steps_taken(steps_taken);
+    }
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();
     }
@@ -76,9 +113,9 @@ struct Started<'a, D> {
 
 impl<D> MethodVisitor for Started<'_, D>
 where
-    D: Dynamics<Real = f64, Inputs = Vec<f64>> + Send + 'static,
+    D: OnVectors,
 {
-    type Result = Result<Box<dyn System>, Error>;
+    type Result = Result<Box<dyn SystemClone>, Error>;
 
     fn visit<X: Method>(self) -> Self::Result {
         let Self { dynamics, tolerances, start } = self;
@@ -86,6 +123,9 @@ where
             .scheme::<X::Scheme>()
             .tolerances(tolerances)
             .inputs(start.inputs.clone());
+        if let Some(StartState { start_time, q, v, .. }) = start.state.clone() {
+            builder = builder.from_vectors(start_time, q, v);
+        }
         if start.kind == StartKind::Declared {
             builder = builder.as_declared();
         }

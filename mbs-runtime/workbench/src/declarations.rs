@@ -52,7 +52,16 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
 
 /// An error with its source, in colours on a terminal.
 pub(crate) fn shown(error: &mbs_live::Error) -> String {
-    let has_colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let text = if has_colours { error.colored().to_string() } else { error.to_string() };
+    let text = if has_colours() { error.colored().to_string() } else { error.to_string() };
     text.trim_end().to_owned()
+}
+
+/// The same of warnings.
+pub(crate) fn shown_warnings(warnings: &mbs_live::Warnings) -> String {
+    let text = if has_colours() { warnings.colored().to_string() } else { warnings.to_string() };
+    text.trim_end().to_owned()
+}
+
+fn has_colours() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }

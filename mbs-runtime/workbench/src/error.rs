@@ -203,6 +203,7 @@ impl Error {
     }
 
     /// The same about a value that stands elsewhere.
+    #[cfg(feature = "desk")]
     pub(crate) fn about(self, place: String) -> Self {
         match self {
             Self::Value { text, reason, .. } => Self::Value { what: place, text, reason },

@@ -6,12 +6,30 @@
 //! it is.
 
 use std::fs::{File, OpenOptions, Permissions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::Error;
+
+/// Files that are read are no longer than so many bytes, so that an endless one comes to an end.
+pub(crate) const LARGEST_FILE: u64 = 64 << 20;
+
+/// The bytes of a file.
+///
+/// # Errors
+/// [`Error::File`], also of one that is longer than [`LARGEST_FILE`].
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+    let read = read.and_then(|_| {
+        let too_large = || format!("it is longer than {} MiB", LARGEST_FILE >> 20);
+        let is_short = bytes.len() as u64 <= LARGEST_FILE;
+        if is_short { Ok(()) } else { Err(io::Error::new(ErrorKind::FileTooLarge, too_large())) }
+    });
+    read.map(|()| bytes).map_err(Error::file("read", path))
+}
 
 /// A file that is being written. Dropped before [`finish`](Self::finish), it leaves
 /// nothing behind.
@@ -171,6 +189,13 @@ mod tests {
         assert_eq!(std::fs::read_to_string(&kept).unwrap(), "half");
         let name = kept.file_name().unwrap().to_str().unwrap();
         assert!(name.starts_with("a.svg.") && name.ends_with(".part"), "{name}");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn an_endless_file_ends() {
+        let message = read(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert_eq!(message, "cannot read /dev/zero: it is longer than 64 MiB");
     }
 
     #[cfg(unix)]

@@ -50,7 +50,9 @@ mod csv_file;
 mod declarations;
 #[cfg(any(feature = "desk", feature = "live"))]
 mod derivation;
+mod digits;
 mod doubt;
+mod energy;
 mod error;
 #[cfg(feature = "desk")]
 pub mod figure;
@@ -75,6 +77,7 @@ pub mod model;
 #[cfg(feature = "desk")]
 mod models;
 mod names;
+mod notes;
 #[cfg(feature = "desk")]
 mod npz;
 pub mod number;
@@ -84,11 +87,15 @@ pub mod quantity;
 mod recording;
 #[cfg(feature = "desk")]
 pub mod report;
+mod resolution;
 mod run;
 mod run_options;
 mod settings;
+#[cfg(feature = "desk")]
 mod sheet;
 mod signals;
+mod stages;
+mod start_state;
 #[cfg(feature = "desk")]
 pub mod sweep;
 mod table;
@@ -119,6 +126,7 @@ pub use run::StartValue;
 pub use run_options::RunOptions;
 pub use settings::{ConstantMethod, Settings, Start, StartKind};
 pub use signals::Signals;
+pub use start_state::StartState;
 pub use table::Table;
 pub use unit::Unit;
 pub use until::{Ending, Occurrence, Unmet, Until};

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use mbs_analysis::Trials;
 use mbs_ensemble::Cancelled;
 use mbs_live::{LANES, Live, Pack, Prepared, Run};
-use mbs_runtime::equations::Partials;
-use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, Tableau};
+use mbs_runtime::equations::{At, Partials};
+use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, SystemClone, Tableau};
 use rayon::prelude::*;
 
 use crate::members::lanes::{Batch, InLanes};
@@ -15,6 +15,7 @@ use crate::members::{Extent, Member, extents};
 #[cfg(feature = "bdf")]
 use crate::settings::ConstantMethod;
 use crate::settings::{Settings, Start, StartKind};
+use crate::start_state::StartState;
 use crate::{Model, adaptive};
 
 /// The mechanism of a text.
@@ -67,11 +68,15 @@ impl Model for FromText {
         self.live.declared_scheme()
     }
 
+    fn declares_scheme(&self) -> bool {
+        self.live.declares_scheme()
+    }
+
     fn defaults(&self) -> Settings {
         self.defaults.clone()
     }
 
-    fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
+    fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         let live = self.with(start)?;
         #[cfg(feature = "bdf")]
         if start.constant == Some(ConstantMethod::Bdf)
@@ -84,6 +89,9 @@ impl Model for FromText {
         }
         if let Some(method) = start.constant {
             return adaptive::constant(Prepared::new(&live), method, start);
+        }
+        if start.has_signals() {
+            return adaptive::in_stages(Prepared::new(&live), start);
         }
         Ok(Box::new(run(&live, start)?))
     }
@@ -163,7 +171,7 @@ impl FromText {
             Ok(pack) => pack,
             Err(runs) => {
                 for (place, run) in places.into_iter().zip(runs) {
-                    let alone = extents(Box::new(run), info, None, batch.end, batch.cancel);
+                    let alone = extents(Box::new(run), info, batch.end, batch.cancel);
                     outcomes[place] = alone.transpose()?;
                 }
                 return Some(outcomes);
@@ -206,6 +214,9 @@ fn run(live: &Live, start: &Start) -> Result<Run, Error> {
         .method(start.method)
         .gains([start.alpha, start.beta])
         .inputs(&start.inputs);
+    if let Some(StartState { start_time, steps_taken, q, v }) = &start.state {
+        builder = builder.from_state(At { t: *start_time, q, v }).steps_taken(*steps_taken);
+    }
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();
     }

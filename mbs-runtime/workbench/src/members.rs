@@ -15,7 +15,6 @@ use self::lanes::Batch;
 use crate::model::Model;
 use crate::run::Instant;
 use crate::settings::{Settings, Start, place};
-use crate::signals::Player;
 use crate::{Error, Unit};
 
 /// What happens to the members of a sweep.
@@ -84,7 +83,7 @@ impl dyn Model + '_ {
                 |extents: Vec<Extent>| extents.iter().zip(&units).map(|(x, unit)| x.shown_in(unit)).collect();
             take(index, observed.map(shown));
         };
-        // In lanes, inputs are held, and all take the same step.
+        // In lanes, inputs are constant, and all take the same step.
         let lanes = self.in_lanes().filter(|lanes| lanes.can_take(declared.method));
         let is_alike =
             settings.signals.is_none() && settings.tolerances.is_none() && settings.constant.is_none();
@@ -98,10 +97,9 @@ impl dyn Model + '_ {
                     .map_err(|Cancelled { finished }| interrupted(first + finished, count))
             });
         }
-        let player = Player::of(info, settings)?;
         let member = |index: usize| {
             let run = self.start(&start(index))?;
-            extents(run, info, player.as_ref(), settings.end, cancel)
+            extents(run, info, settings.end, cancel)
         };
         in_batches(count, rayon::current_num_threads(), |batch| {
             let (first, last) = (batch.start, batch.end);
@@ -153,19 +151,15 @@ fn interrupted(finished: usize, of: usize) -> Error {
 pub(crate) fn extents(
     mut run: Box<dyn System>,
     info: &Info,
-    player: Option<&Player<'_>>,
     end: f64,
     cancel: &AtomicBool,
 ) -> Result<Option<Vec<Extent>>, mbs_runtime::Error> {
-    let steps = run.steps_to(end)?;
-    let (mut now, mut inputs) = (Instant::new(info), vec![0.0; info.inputs.len()]);
+    let steps = run.ends_at(end)?;
+    let mut now = Instant::new(info);
     let mut extents: Vec<Extent> = Vec::new();
     for taken in 0..=steps {
-        if taken.is_multiple_of(1024) && cancel.load(Ordering::Relaxed) {
+        if cancel.load(Ordering::Relaxed) {
             return Ok(None);
-        }
-        if let Some(player) = player {
-            player.set(&mut *run, &mut inputs);
         }
         now.see(&*run);
         now.solve(&*run)?;

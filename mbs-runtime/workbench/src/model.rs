@@ -4,13 +4,14 @@ use std::marker::PhantomData;
 
 use mbs_analysis::Trials;
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Error, Info, Mechanism, Method, MethodVisitor, Scheme, Simulation,
-    Sketch, System, Tableau, with_type,
+    Baumgarte, Components, Derivation, Error, HEUN, Info, Mechanism, Method, MethodVisitor, Scheme,
+    Simulation, Sketch, State, SystemClone, Tableau, with_type,
 };
 
 use crate::adaptive::{self, Erased};
 use crate::members::lanes::InLanes;
 use crate::settings::{Settings, Start, StartKind};
+use crate::start_state::StartState;
 
 /// A mechanism that commands can run: every [`Mechanism`] in `f64` by [`of`].
 ///
@@ -29,6 +30,11 @@ pub trait Model: Send + Sync {
     /// The scheme that it declares: Heun's method, unless it says another.
     fn scheme(&self) -> &'static Tableau;
 
+    /// `true` if the declaration names its scheme. By default this holds for every scheme but Heun's method.
+    fn declares_scheme(&self) -> bool {
+        !self.scheme().is(&HEUN)
+    }
+
     /// What a run is asked to do where nothing else is said.
     fn defaults(&self) -> Settings {
         Settings::default()
@@ -38,7 +44,7 @@ pub trait Model: Send + Sync {
     ///
     /// # Errors
     /// Parameters, inputs, gains, a step or a start that the mechanism refuses.
-    fn start(&self, start: &Start) -> Result<Box<dyn System>, Error>;
+    fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error>;
 
     /// Its declaration, where that is a text: other programs than this one can be made of it.
     #[cfg(feature = "live")]
@@ -138,7 +144,7 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         self.defaults.clone()
     }
 
-    fn start(&self, start: &Start) -> Result<Box<dyn System>, Error> {
+    fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         if let (Some(tolerances), None) = (start.tolerances, start.constant) {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::start(Erased::new(mechanism), tolerances, start);
@@ -146,6 +152,10 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         if let Some(method) = start.constant {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::constant(Erased::new(mechanism), method, start);
+        }
+        if start.has_signals() {
+            let mechanism = M::new(components(&start.parameters))?;
+            return adaptive::in_stages(Erased::new(mechanism), start);
         }
         let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
         run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
@@ -167,7 +177,7 @@ struct Started<'a, M> {
 }
 
 impl<M: Mechanism<Real = f64>> MethodVisitor for Started<'_, M> {
-    type Result = Result<Box<dyn System>, Error>;
+    type Result = Result<Box<dyn SystemClone>, Error>;
 
     fn visit<X: Method>(self) -> Self::Result {
         Ok(Box::new(simulation::<M, X>(self.start)?))
@@ -181,6 +191,9 @@ pub(crate) fn simulation<M: Mechanism<Real = f64>, X: Method>(
     let mut builder = Simulation::builder(M::new(components(&start.parameters))?, start.step)
         .baumgarte(Baumgarte::<X>::new(start.alpha, start.beta)?)
         .inputs(components(&start.inputs));
+    if let Some(StartState { start_time, q, v, .. }) = &start.state {
+        builder = builder.from_state(State { t: *start_time, q: components(q), v: components(v) });
+    }
     if start.kind == StartKind::Declared {
         builder = builder.as_declared();
     }

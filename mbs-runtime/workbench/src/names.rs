@@ -25,9 +25,17 @@ pub(crate) fn unknown(kind: &str, name: &str, known: &[String]) -> String {
         }
 }
 
+/// The first of some names, and how many more there are.
+pub(crate) fn some_of(names: &[String]) -> String {
+    const LISTED: usize = 8;
+    let (first, more) = (names.get(..LISTED).unwrap_or(names), names.len().saturating_sub(LISTED));
+    let more = if more == 0 { String::new() } else { format!(", … {more} more") };
+    first.join(", ") + &more
+}
+
 /// The known name that a slip of the fingers away from `name`, if any:
 /// the distance may be a third of the length, case aside.
-fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     let distance = |k: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &k.to_lowercase());
     let best = known.iter().min_by_key(|k| distance(k))?;
     let allowed = 1 + name.chars().count().max(best.chars().count()) / 3;

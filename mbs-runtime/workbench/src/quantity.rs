@@ -80,8 +80,8 @@ pub fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> R
     if usual.name().is_empty() {
         return Err(wrong(format!("{what} is a number without a unit; write {number}")));
     }
-    let unit = units::parse(unit).map_err(|e| wrong(e.to_string()))?;
     let expected = units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]);
+    let unit = units::parse(unit).map_err(|error| wrong(error.in_place_of(expected).to_string()))?;
     if unit.dimension != expected {
         return Err(Error::Dimension {
             what: what.into(),
@@ -141,6 +141,7 @@ mod tests {
         assert_eq!(parse("step", "0.5ms", dimension(0, 0, 1)).unwrap(), 0.5e-3);
         assert_eq!(parse("k", "3", dimension(0, 0, 0)).unwrap(), 3.0);
         assert_eq!(parse("l", "2inch", dimension(0, 1, 0)).unwrap(), 0.0508);
+        assert_eq!(parse("l", "2in", dimension(0, 1, 0)).unwrap(), 0.0508);
     }
 
     /// `--set k=60` was 60 N/m although the list shows N/mm.
@@ -153,6 +154,7 @@ mod tests {
         assert_eq!(parse_as(&stiffness, "60 N/m").unwrap(), 60.0);
         let angle = declared("deg", std::f64::consts::PI / 180.0, dimension(0, 0, 0));
         assert_eq!(parse_as(&angle, "180").unwrap(), std::f64::consts::PI);
+        assert_eq!(parse_as(&angle, "180°").unwrap(), std::f64::consts::PI);
         assert_eq!(parse_as(&angle, "1 rad").unwrap(), 1.0);
         let derived = declared("", 1.0, dimension(0, 1, 0));
         assert_eq!(parse_as(&derived, "0.5").unwrap(), 0.5);

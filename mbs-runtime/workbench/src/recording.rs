@@ -68,6 +68,9 @@ pub struct Recording {
     pub ended: Option<mbs_runtime::Error>,
     /// Why its numbers should not be trusted, although it did not fail.
     pub doubts: Vec<Doubt>,
+    /// Notes on how the run differs from what one may expect: events that were not looked for, another method in place
+    /// of the declared one, the use of a table of inputs. They are no reason to doubt it.
+    pub notes: Vec<String>,
 }
 
 impl Recording {
@@ -82,6 +85,7 @@ impl Recording {
             unmet: None,
             ended: None,
             doubts: Vec::new(),
+            notes: Vec::new(),
         }
     }
 

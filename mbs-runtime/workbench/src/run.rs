@@ -3,11 +3,13 @@
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 
+use crate::digits::Reactions;
 use crate::doubt::{Watch, few_digits, size};
 use crate::model::Model;
+use crate::notes::notes;
 use crate::recording::{Column, MOST_OCCURRENCES, Recording, Summary, columns};
+use crate::resolution::Resolution;
 use crate::settings::{Settings, Start, StartKind};
-use crate::signals::Player;
 use crate::until::{Ending, Unmet};
 use crate::{Error, Motion, Occurrence, Unit, Until, picture};
 
@@ -91,16 +93,16 @@ impl dyn Model + '_ {
     ) -> Result<Recording, Error> {
         let info = self.info();
         let start = Start::of(self, settings)?;
-        let player = Player::of(info, settings)?;
         let mut run = self.start(&start)?;
-        let steps = run.steps_to(settings.end)?;
+        let steps = run.ends_at(settings.end)?;
         let every = settings.every.max(1);
         if steps / every > MAX_ROWS {
             return Err(Error::TooManyRows { rows: steps / every, every: 1 + steps / MAX_ROWS });
         }
         let mut recorder = Recorder::new(self, &*run, settings.until.as_ref());
-        let ended = recorder.follow(&mut *run, player, [steps, every], goes_on).err();
-        Ok(recorder.finish(&*run, ended))
+        recorder.resolution = Resolution::new(info, &start, recorder.size, steps);
+        let ended = recorder.follow(&mut *run, [steps, every], goes_on).err();
+        Ok(Recording { notes: notes(self, settings), ..recorder.finish(&*run, ended) })
     }
 
     /// Where the points of the mechanism were during a run with these settings,
@@ -179,6 +181,11 @@ struct Recorder {
     columns: Vec<Column>,
     summary: Summary,
     watch: Watch,
+    /// The size of the mechanism at the start in m.
+    size: f64,
+    reactions: Reactions,
+    /// Of a run with a constant step.
+    resolution: Option<Resolution>,
     now: Instant,
     phi: Vec<f64>,
     /// The condition that ends the run, and whether it is true at the start.
@@ -198,29 +205,40 @@ impl Recorder {
         let watch = Watch::new(info, model.derivation(), size);
         let phi = vec![0.0; info.constraints.len()];
         let (columns, until, occurrences) = (columns(info), until.cloned(), Vec::new());
-        Self { info, columns, summary, watch, now, phi, until, holds_at_start: false, occurrences }
+        Self {
+            info,
+            columns,
+            summary,
+            watch,
+            size,
+            reactions: Reactions::default(),
+            resolution: None,
+            now,
+            phi,
+            until,
+            holds_at_start: false,
+            occurrences,
+        }
     }
 
     /// Advances by so many steps and records every so many.
     fn follow(
         &mut self,
         run: &mut dyn System,
-        player: Option<Player<'_>>,
         [steps, every]: [u64; 2],
         goes_on: &mut dyn FnMut(u64, u64) -> bool,
     ) -> Result<(), mbs_runtime::Error> {
         let powers_every = every.max(steps / POWERS);
-        let mut inputs = vec![0.0; self.info.inputs.len()];
         for taken in 0..=steps {
-            if let Some(player) = &player {
-                player.set(run, &mut inputs);
-            }
             self.see(run);
-            if self.watch.wants_energy()
-                && taken % powers_every == 0
-                && let Some(power) = self.power(run)
-            {
-                self.watch.see_power(power);
+            if let Some(resolution) = &mut self.resolution {
+                resolution.see(run, &self.now, taken);
+            }
+            if self.watch.energy().is_some() && taken % powers_every == 0 {
+                let power = self.power(run);
+                if let Some((energy, power)) = self.watch.energy().zip(power) {
+                    energy.see_power(power);
+                }
             }
             if taken % every == 0 || taken == steps {
                 self.append_row(run)?;
@@ -273,9 +291,10 @@ impl Recorder {
         summary.max_phi_dot = larger(summary.max_phi_dot, rate);
         run.equations().phi(run.time(), &now.q, phi);
         watch.see_constraints(run.time(), phi);
-        if watch.wants_energy() {
+        if let Some(energy) = watch.energy() {
             let [kinetic, potential] = run.energies(At { t: run.time(), q: &now.q, v: &now.v });
-            watch.see_energy(kinetic, potential);
+            energy.see(kinetic, potential);
+            energy.see_motion(self.info, &now.v, run.step_size());
         }
     }
 
@@ -297,8 +316,9 @@ impl Recorder {
     }
 
     fn append_row(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
-        let Self { info, columns, now, .. } = self;
+        let Self { info, columns, now, reactions, size, .. } = self;
         now.solve(run)?;
+        reactions.see(run, now, *size);
         // what is not finite is shown as it is, and doubted
         let _ = now.measure(run);
         let outputs =
@@ -322,7 +342,9 @@ impl Recorder {
             ..self.summary
         };
         let mut doubts = self.watch.doubts(&self.columns);
-        doubts.extend(few_digits(run.digits_left(), run.worst_place()));
+        let singular = few_digits(run.digits_left(), run.worst_place());
+        doubts.extend(singular.or_else(|| self.reactions.doubt()));
+        doubts.extend(self.resolution.and_then(|resolution| resolution.doubt(summary.steps)));
         let coordinates = self.info.coordinates.len();
         let is_met = |until: &Until| self.occurrences.iter().any(|event| event.name == until.text);
         let unmet = self
@@ -331,7 +353,8 @@ impl Recorder {
             .filter(|until| !is_met(until))
             .map(|until| Unmet { condition: until.text.clone(), holds_at_start: self.holds_at_start });
         let Self { columns, occurrences, .. } = self;
-        Recording { columns, coordinates, summary, occurrences, unmet, ended, doubts }
+        let notes = Vec::new();
+        Recording { columns, coordinates, summary, occurrences, unmet, ended, doubts, notes }
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a run is asked to do, as a person writes it: at the command line, or in another language.
 
-use mbs_runtime::{Dimension, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
+use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{ConstantMethod, Error, Model, Settings, Signals, StartKind, Until, quantity};
+use crate::{ConstantMethod, Error, Model, Settings, Signals, StartKind, StartState, Until, quantity};
 
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -43,6 +43,8 @@ pub struct RunOptions {
     pub inputs: Vec<(String, String)>,
     /// Inputs that change during the run.
     pub signals: Option<Signals>,
+    /// Start values of coordinates `x` and rates `der(x)`, in the same way.
+    pub from: Vec<(String, String)>,
     /// Every how many steps a row is recorded, if it is said.
     pub every: Option<u64>,
     /// Whether declared events are looked for, which makes the run one to a tolerance.
@@ -99,7 +101,8 @@ impl RunOptions {
             not_twice(signals, &inputs)?;
         }
         Ok(Settings {
-            parameters: assignments("parameter", info.parameters, &self.parameters)?,
+            parameters: assignments("parameter", info.parameters, &self.parameters)
+                .map_err(|error| misplaced(error, info, &self.parameters))?,
             signals: self.signals.clone(),
             inputs,
             ..model.defaults()
@@ -112,15 +115,21 @@ impl RunOptions {
     /// As [`values`](Self::values); words that name no method, feedback or start.
     pub fn settings(&self, model: &dyn Model) -> Result<Settings, Error> {
         let (info, defaults) = (model.info(), model.defaults());
+        // inputs on a clock of their own are followed to their end
+        let signals = self.signals.as_ref().filter(|signals| signals.start_time().is_some());
+        let end_of_clock = signals.map(|signals| signals.span()[1]);
         let until = self.text("until").map(|text| Until::parse(info, text)).transpose()?;
         let (scheme, constant) = self.method()?;
         let feedback = self.feedback()?;
         let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| self.text(name).is_some());
+        // a method with a constant step that is asked for, or declared, is taken as it is
+        let asked = scheme.or(defaults.scheme).or(model.declares_scheme().then(|| model.scheme()));
         let has_events = self.finds_events
             && !info.events.is_empty()
             && !has_feedback
             && defaults.stabilization.is_none()
-            && constant.is_none();
+            && constant.is_none()
+            && asked.is_none_or(Tableau::is_adaptive);
         let for_events = (until.is_some() || has_events).then(Tolerances::default);
         // what is declared or of use for events is none for a method that takes constant steps
         let takes_tolerances = matches!(constant, None | Some(ConstantMethod::Bdf));
@@ -134,7 +143,7 @@ impl RunOptions {
         let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
         Ok(Settings {
             step: self.value("step", TIME)?.unwrap_or(defaults.step),
-            end: self.value("end", TIME)?.unwrap_or(defaults.end),
+            end: self.value("end", TIME)?.or(end_of_clock).unwrap_or(defaults.end),
             every: self.every.unwrap_or(defaults.every),
             alpha: self.value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
             beta: self.value("beta", RATE)?.or(declared_gain(defaults.beta)),
@@ -144,6 +153,7 @@ impl RunOptions {
             tolerances,
             until,
             start: self.start()?,
+            from: StartState::values(info, &self.from)?,
             allow_unstable: self.allow_unstable,
             ..self.values(model)?
         })
@@ -175,6 +185,10 @@ impl RunOptions {
     fn tolerances(&self) -> Result<Option<Tolerances>, Error> {
         let (rtol, atol) = (self.value("rtol", NUMBER)?, self.value("atol", NUMBER)?);
         let max_step = self.value("max-step", TIME)?;
+        if let Some(step) = max_step.filter(|step| *step <= 0.0) {
+            let reason = format!("the longest step is {step} s, but it has to be positive");
+            return Err(Error::Name { name: "max-step".into(), reason });
+        }
         if rtol.is_none() && atol.is_none() && max_step.is_none() {
             return Ok(None);
         }
@@ -206,6 +220,24 @@ fn assignments(
         assigned.push((name.clone(), quantity::parse_as(quantity, text)?));
     }
     Ok(assigned)
+}
+
+/// An unknown parameter that is an input, or a coordinate, is told as that.
+fn misplaced(error: Error, info: &Info, parameters: &[(String, String)]) -> Error {
+    let is_known = |quantities: &[Quantity], name: &str| quantities.iter().any(|q| q.name == name);
+    let mut others = parameters.iter().filter(|(name, _)| !is_known(info.parameters, name));
+    let found = others.find_map(|(name, text)| {
+        let (what, option) = if is_known(info.inputs, name) {
+            ("an input", "--input")
+        } else if is_known(info.coordinates, name) {
+            ("a coordinate", "--from")
+        } else {
+            return None;
+        };
+        let reason = format!("it is {what}, and no parameter; give `{option} {name}={text}`");
+        Some(Error::Name { name: name.clone(), reason })
+    });
+    found.unwrap_or(error)
 }
 
 /// Refuses an input that has a value and a signal.

@@ -1,10 +1,14 @@
 //! What a run is asked to do.
 
+use std::sync::Arc;
+
+use mbs_analysis::InputTable;
 use mbs_runtime::{
     COMPOSITIONS, Composition, DOPRI5, Explicit, Info, Quantity, Stabilization, Tableau, Threshold,
     Tolerances,
 };
 
+use crate::start_state::{self, StartState};
 use crate::{Error, Model, Signals, Until};
 
 /// Where a run starts.
@@ -85,6 +89,8 @@ pub struct Settings {
     pub until: Option<Until>,
     /// Where the run starts.
     pub start: StartKind,
+    /// Start values of coordinates `x` and rates `der(x)` in place of the declared ones.
+    pub from: Vec<(String, f64)>,
     /// Accept gains under which violations grow.
     pub allow_unstable: bool,
 }
@@ -107,6 +113,7 @@ impl Default for Settings {
             tolerances: None,
             until: None,
             start: StartKind::default(),
+            from: Vec::new(),
             allow_unstable: false,
         }
     }
@@ -119,6 +126,10 @@ pub struct Start {
     pub parameters: Vec<f64>,
     /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs).
     pub inputs: Vec<f64>,
+    /// The inputs that change with time; of those, the values above do not count.
+    pub table: Arc<InputTable>,
+    /// When the run starts, in s, unless as the mechanism declares it.
+    pub start_time: Option<f64>,
     /// The scheme, and what keeps the constraints.
     pub method: Explicit,
     /// A method with a constant step in its place.
@@ -135,6 +146,9 @@ pub struct Start {
     pub threshold: Option<Threshold>,
     /// Where the run starts.
     pub kind: StartKind,
+    /// The state in place of the declared start. It has to be consistent, unless the start is
+    /// [`Declared`](StartKind::Declared).
+    pub state: Option<StartState>,
     /// Accept gains under which violations grow.
     pub allow_unstable: bool,
 }
@@ -159,9 +173,16 @@ impl Start {
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
-        Ok(Self {
+        let start = Self {
             parameters: assigned("parameter", info.parameters, &settings.parameters)?,
             inputs: assigned("input", info.inputs, &settings.inputs)?,
+            table: settings
+                .signals
+                .as_ref()
+                .map(|signals| signals.table(info))
+                .transpose()?
+                .unwrap_or_default(),
+            start_time: settings.signals.as_ref().and_then(Signals::start_time),
             method,
             constant: settings.constant,
             alpha: settings.alpha.unwrap_or(alpha),
@@ -174,8 +195,25 @@ impl Start {
             }),
             threshold: settings.until.as_ref().and_then(Until::threshold),
             kind: settings.start,
+            state: None,
             allow_unstable: settings.allow_unstable,
-        })
+        };
+        if settings.from.is_empty() { Ok(start) } else { start.with_values(model, &settings.from) }
+    }
+
+    /// The same with these start values of coordinates `x` and rates `der(x)` in place of the declared ones, made
+    /// consistent: what is given keeps its value, the others move to the constraints.
+    ///
+    /// # Errors
+    /// Names that the mechanism does not have, a start from which it cannot be assembled.
+    pub fn with_values(self, model: &dyn Model, values: &[(String, f64)]) -> Result<Self, Error> {
+        let state = Some(start_state::with_values(model, &self, values)?);
+        Ok(Self { state, ..self })
+    }
+
+    /// `true` if inputs from a table change with time.
+    pub(crate) fn has_signals(&self) -> bool {
+        !self.table.is_empty()
     }
 }
 

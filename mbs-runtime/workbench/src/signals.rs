@@ -1,11 +1,16 @@
 //! Inputs that change during a run.
 
+#[cfg(feature = "desk")]
 use std::path::Path;
+use std::sync::Arc;
 
-use mbs_runtime::{Info, System};
+use mbs_analysis::{InputTable, own_clock};
+use mbs_runtime::Info;
 
-use crate::sheet::Sheet;
-use crate::{Error, Settings, Unit, quantity};
+use crate::names::some_of;
+use crate::{Error, Unit};
+#[cfg(feature = "desk")]
+use crate::{quantity, sheet::Sheet};
 
 /// Values of inputs over time, with straight lines between the instants; before the first
 /// and after the last one they stay.
@@ -16,20 +21,82 @@ use crate::{Error, Settings, Unit, quantity};
 pub struct Signals {
     times: Vec<f64>,
     inputs: Vec<(String, Vec<f64>)>,
+    /// Columns of a table that are no inputs.
+    skipped: Vec<String>,
 }
 
 impl Signals {
-    /// Reads a table: time in the first column, an input in each of the others, under
-    /// headings such as `t [s]` and `crank_torque [N*mm]`. Without a unit in its heading,
-    /// time is in s and an input in the unit of its declaration.
+    /// Reads a table: a column of time and an input in each of the others, under headings such as `t [s]` and
+    /// `crank_torque [N*mm]`. Without a unit in its heading, time is in s and an input in the unit of its
+    /// declaration. Other columns are skipped, and [`notes`](Self::notes) says so.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, [`Error::Unknown`] for a heading that is no
-    /// input, [`Error::Value`] for what is no number, and where time does not ascend.
+    /// [`Error::File`] if it cannot be read, [`Error::Unknown`] if no column is an input, [`Error::Value`] for
+    /// what is no number, and where time does not ascend.
+    #[cfg(feature = "desk")]
     pub fn read(path: &Path, info: &Info) -> Result<Self, Error> {
         let sheet = Sheet::read(path)?;
-        sheet.are_known("input", info.inputs)?;
-        Self::of(&sheet, info)
+        let mut signals = Self::of(&sheet, info)?;
+        let others = sheet.columns.iter().filter(|column| signals.names().all(|name| name != column.name));
+        let others: Vec<String> = others.map(|column| column.name.clone()).collect();
+        match others.first() {
+            Some(first) if signals.inputs.is_empty() => {
+                Err(Error::unknown("input", first, info.inputs.iter().map(|input| input.name)))
+            }
+            _ => {
+                signals.skipped = others;
+                Ok(signals)
+            }
+        }
+    }
+
+    /// Reads one input from a table: the column of its name, or the only one beside the time.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); [`Error::Unknown`] for a name that is no input, [`Error::Column`] if the table
+    /// does not have it.
+    #[cfg(feature = "desk")]
+    pub fn read_input(path: &Path, info: &Info, name: &str) -> Result<Self, Error> {
+        let known = || info.inputs.iter().map(|input| input.name);
+        let input = info.inputs.iter().find(|input| input.name == name);
+        let input = input.ok_or_else(|| Error::unknown("input", name, known()))?;
+        let sheet = Sheet::read(path)?;
+        let column = match (sheet.columns.iter().find(|column| column.name == name), &*sheet.columns) {
+            (Some(column), _) | (None, [column]) => column,
+            (None, columns) => {
+                let known = columns.iter().map(|column| column.name.clone()).collect();
+                return Err(Error::Column { file: path.into(), name: name.into(), known });
+            }
+        };
+        let values = sheet.complete(column, |text| quantity::parse_as(input, text))?;
+        Ok(Self { times: sheet.times, inputs: vec![(name.to_owned(), values)], skipped: Vec::new() })
+    }
+
+    /// The inputs of both, at the instants of both.
+    ///
+    /// # Errors
+    /// [`Error::Name`] for an input that both have.
+    pub fn with(self, other: Self) -> Result<Self, Error> {
+        if let Some(name) = self.names().find(|name| other.names().any(|other| other == *name)) {
+            let reason = "two tables have it; leave one of them out".into();
+            return Err(Error::Name { name: name.to_owned(), reason });
+        }
+        let mut times = [&self.times[..], &other.times].concat();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let mut inputs = Vec::new();
+        for of in [&self, &other] {
+            for (name, values) in &of.inputs {
+                let table = InputTable::new(of.times.clone(), vec![(0, values.clone())])?;
+                let at = |t: &f64| {
+                    let mut value = [f64::NAN];
+                    table.set(*t, &mut value);
+                    value[0]
+                };
+                inputs.push((name.clone(), times.iter().map(at).collect()));
+            }
+        }
+        Ok(Self { times, inputs, skipped: [self.skipped, other.skipped].concat() })
     }
 
     /// Inputs at ascending times in s; values are in the units of their declarations.
@@ -55,13 +122,39 @@ impl Signals {
             }
             inputs.push((name, values.into_iter().map(|value| unit.read(value)).collect()));
         }
-        Ok(Self { times, inputs })
+        Ok(Self { times, inputs, skipped: Vec::new() })
+    }
+
+    /// When the table begins and ends, in s.
+    pub fn span(&self) -> [f64; 2] {
+        [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0))
+    }
+
+    /// When a run begins that takes these inputs, where the table has a clock of its own; see [`own_clock`].
+    pub fn start_time(&self) -> Option<f64> {
+        own_clock(self.span())
+    }
+
+    /// Notes on the use of the table: columns that are no inputs, and a start on a clock of its own.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.skipped.is_empty() {
+            notes.push(format!("columns that are no inputs are not used: {}", some_of(&self.skipped)));
+        }
+        if let Some(start) = self.start_time() {
+            notes.push(format!(
+                "the inputs begin at {start} s on a clock of their own, and so does the run; a row for 0 s lets it \
+                 begin then"
+            ));
+        }
+        notes
     }
 
     /// The inputs among the columns of a table.
     ///
     /// # Errors
     /// [`Error::Value`] for what is no number.
+    #[cfg(feature = "desk")]
     pub(crate) fn of(sheet: &Sheet, info: &Info) -> Result<Self, Error> {
         let mut inputs = Vec::new();
         for column in &sheet.columns {
@@ -69,7 +162,7 @@ impl Signals {
             let values = sheet.complete(column, |text| quantity::parse_as(input, text))?;
             inputs.push((input.name.to_owned(), values));
         }
-        Ok(Self { times: sheet.times.clone(), inputs })
+        Ok(Self { times: sheet.times.clone(), inputs, skipped: Vec::new() })
     }
 
     /// The names of the inputs.
@@ -77,52 +170,18 @@ impl Signals {
         self.inputs.iter().map(|(name, _)| name.as_str())
     }
 
-    /// The value of an input at a time in s, by its place in [`Info`]; nothing of inputs that do not change.
-    pub fn by_place(self, info: &Info) -> impl Fn(f64, usize) -> Option<f64> + use<> {
-        let numbers: Vec<Option<usize>> =
-            info.inputs.iter().map(|input| self.names().position(|name| name == input.name)).collect();
-        move |t: f64, place: usize| Some(self.value((*numbers.get(place)?)?, t))
-    }
-
-    fn value(&self, input: usize, t: f64) -> f64 {
-        let Some((_, values)) = self.inputs.get(input) else { return f64::NAN };
-        let after = self.times.partition_point(|time| *time <= t);
-        let at = |index: usize| Some((*self.times.get(index)?, *values.get(index)?));
-        match (after.checked_sub(1).and_then(at), at(after)) {
-            (Some((t0, x0)), Some((t1, x1))) => x0 + (x1 - x0) * (t - t0) / (t1 - t0),
-            (Some((_, x)), None) | (None, Some((_, x))) => x,
-            (None, None) => f64::NAN,
-        }
-    }
-}
-
-/// Sets the inputs of a simulation to what signals say.
-pub(crate) struct Player<'a> {
-    signals: &'a Signals,
-    /// Of every signal, the place among the inputs.
-    places: Vec<usize>,
-}
-
-impl<'a> Player<'a> {
-    pub fn of(info: &Info, settings: &'a Settings) -> Result<Option<Self>, Error> {
-        let Some(signals) = &settings.signals else { return Ok(None) };
+    /// The same by the places of the inputs of a mechanism.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for an input that it does not have.
+    pub fn table(&self, info: &Info) -> Result<Arc<InputTable>, Error> {
         let known = || info.inputs.iter().map(|input| input.name);
-        let place = |name: &str| {
-            known().position(|input| input == name).ok_or_else(|| Error::unknown("input", name, known()))
+        let column = |(name, values): &(String, Vec<f64>)| {
+            let place = known().position(|input| input == name);
+            Ok((place.ok_or_else(|| Error::unknown("input", name, known()))?, values.clone()))
         };
-        Ok(Some(Self { signals, places: signals.names().map(place).collect::<Result<_, _>>()? }))
-    }
-
-    /// Sets the inputs of a run; `inputs` is room for them.
-    pub fn set(&self, run: &mut dyn System, inputs: &mut [f64]) {
-        let t = run.time() + 0.5 * run.step_size();
-        run.inputs(inputs);
-        for (signal, place) in self.places.iter().enumerate() {
-            if let Some(input) = inputs.get_mut(*place) {
-                *input = self.signals.value(signal, t);
-            }
-        }
-        run.set_inputs(inputs);
+        let columns = self.inputs.iter().map(column).collect::<Result<_, Error>>()?;
+        Ok(Arc::new(InputTable::new(self.times.clone(), columns)?))
     }
 }
 
@@ -131,7 +190,7 @@ mod tests {
     use mbs_runtime::Mechanism;
 
     use super::*;
-    use crate::model;
+    use crate::{Settings, model};
 
     mbs_runtime::mechanism! {
         /// A cart that is pushed.
@@ -152,13 +211,17 @@ mod tests {
     }
 
     #[test]
-    fn straight_lines_between_instants() {
-        let signals = read("t [ms], push [N]\n0, 0\n1000, 500\n2000, 500\n").unwrap();
-        assert_eq!([-1.0, 0.5, 1.5, 9.0].map(|t| signals.value(0, t)), [0.0, 250.0, 500.0, 500.0]);
-        assert_eq!(read("t,push\n0,2").unwrap().value(0, 0.0), 2000.0);
+    fn values_have_the_units_of_their_headings() {
+        let given = |text| {
+            let signals = read(text).unwrap();
+            (signals.times, signals.inputs)
+        };
+        let push = |values: &[f64]| vec![("push".to_owned(), values.to_vec())];
+        assert_eq!(given("t [ms], push [N]\n0, 0\n1000, 500\n"), (vec![0.0, 1.0], push(&[0.0, 500.0])));
+        assert_eq!(given("t,push\n0,2"), (vec![0.0], push(&[2000.0])));
     }
 
-    /// ẋ(2 s) = (½ · 500 N · 1 s + 500 N · 1 s)/1000 kg: the middle of a step has the mean of a line.
+    /// ẋ(2 s) = (½ · 500 N · 1 s + 500 N · 1 s)/1000 kg: Heun's method has the mean of a line.
     #[test]
     fn a_run_follows_them() {
         let signals = read("t,push [N]\n0,0\n1,500\n2,500").unwrap();

@@ -18,9 +18,14 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// assert_eq!(mbs_workbench::sweep::evenly(200.0, 2000.0, 4), [200.0, 800.0, 1400.0, 2000.0]);
 /// ```
 pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
-    let last = count.saturating_sub(1).max(1) as f64;
+    (0..count).map(|k| evenly_at(low, high, count, k)).collect()
+}
+
+/// The one of these values with the index `k`.
+pub(crate) fn evenly_at(low: f64, high: f64, count: usize, k: usize) -> f64 {
+    let s = k as f64 / count.saturating_sub(1).max(1) as f64;
     // Weighted so that both ends come out exactly.
-    (0..count).map(|k| k as f64 / last).map(|s| (1.0 - s) * low + s * high).collect()
+    (1.0 - s) * low + s * high
 }
 
 /// f(x, y) for every x and y, row after row, all of `x` for the first `y`

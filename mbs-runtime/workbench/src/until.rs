@@ -1,5 +1,6 @@
 //! `--until 'x3 > 200mm'`, `--until impact`: a value or an event at which a run ends.
 
+use mbs_analysis::{Signal, Variable};
 use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
 
 use crate::run::Instant;
@@ -25,7 +26,8 @@ pub enum Ending {
 
 impl Until {
     /// The name of a declared event, or a condition of the form `x3 > 200mm`: a coordinate, the rate
-    /// `der(…)` of one, or an output, and a value with an optional unit.
+    /// `der(…)` of one, an output, or the multiplier `lambda(…)` of a constraint, and a value with an optional
+    /// unit.
     ///
     /// # Errors
     /// Another form, a name that the mechanism does not have, a value of another dimension.
@@ -59,6 +61,7 @@ impl Until {
             Measured::Position(at) => now.q.get(at),
             Measured::Velocity(at) => now.v.get(at),
             Measured::Output(at) => now.outputs.get(at),
+            Measured::Multiplier(at) => now.multipliers.get(at),
         };
         found.is_some_and(|found| match direction {
             Direction::Falling => *found < value,
@@ -96,9 +99,21 @@ fn measured(info: &Info, name: &str) -> Result<(Measured, Dimension, Unit), Erro
     if let Some((at, q)) = place(info.outputs, name) {
         return Ok((Measured::Output(at), q.dimension, Unit::of(q)));
     }
-    let rates: Vec<String> = info.coordinates.iter().map(|q| format!("der({})", q.name)).collect();
+    let mut multipliers = (0..info.constraints.len()).filter_map(|at| {
+        Signal::of(info, Variable::Multiplier(at)).map(|signal| (Measured::Multiplier(at), signal))
+    });
+    if let Some((measured, signal)) = multipliers.find(|(_, signal)| signal.name == name) {
+        return Ok((measured, signal.dimension, Unit::of_signal(info, &signal)));
+    }
+    let rates = info.coordinates.iter().map(|q| format!("der({})", q.name));
+    let multipliers = info.constraints.iter().map(|row| format!("lambda({})", row.name));
+    let made: Vec<String> = rates.chain(multipliers).collect();
     let names = info.coordinates.iter().chain(info.outputs).map(|q| q.name);
-    Err(Error::unknown("coordinate, rate or output", name, names.chain(rates.iter().map(String::as_str))))
+    Err(Error::unknown(
+        "coordinate, rate, output or multiplier",
+        name,
+        names.chain(made.iter().map(String::as_str)),
+    ))
 }
 
 /// Something that happened during a run.
@@ -155,6 +170,7 @@ mod tests {
         is("der(theta) > 60rpm", Measured::Velocity(0), std::f64::consts::TAU, Direction::Rising);
         // a bare number is in the unit that tables show
         is("opening > 20", Measured::Output(0), 0.02, Direction::Rising);
+        is("lambda(rod) > 3N", Measured::Multiplier(0), 3.0, Direction::Rising);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
-use mbs_live::{Live, Location, Problem, Text};
+use mbs_live::{Live, Location, Problem, Text, Warnings};
 use serde_json::{Value, json};
 
 use crate::console::complain;
@@ -14,7 +14,7 @@ use crate::{Error, declarations, say};
 pub(crate) fn command() -> Command {
     let file = Arg::new("file").value_name("FILE").required(true).num_args(1..);
     Command::new("check")
-        .about("Check the declarations in files, and show all of their errors")
+        .about("Check the declarations in files, and show all of their errors, and what nothing uses")
         .after_help(EXAMPLES)
         .arg(
             file.value_parser(value_parser!(PathBuf))
@@ -34,12 +34,17 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let (mut found, mut refused) = (Vec::new(), 0);
     for file in &files {
         let start = Instant::now();
-        let result = Text::read(file).map_err(Error::file("read", *file))?.compile();
+        let result = Text::read(file).map_err(Error::file("read", *file))?.check();
         let name = file.display().to_string();
         refused += usize::from(result.is_err());
         match result {
             result if is_json => found.push(as_json(&name, &result)),
-            Ok(live) => say(summary(&name, &live, start.elapsed().as_secs_f64()))?,
+            Ok((live, warnings)) => {
+                if !warnings.problems().is_empty() {
+                    complain(declarations::shown_warnings(&warnings));
+                }
+                say(summary(&name, &live, start.elapsed().as_secs_f64()))?;
+            }
             Err(error) => complain(declarations::shown(&error)),
         }
     }
@@ -62,20 +67,23 @@ fn summary(file: &str, live: &Live, seconds: f64) -> String {
     )
 }
 
-fn as_json(file: &str, result: &Result<Live, mbs_live::Error>) -> Value {
+fn as_json(file: &str, result: &Result<(Live, Warnings), mbs_live::Error>) -> Value {
     let place = |location: &Option<Location>| {
         location
             .as_ref()
             .map(|place| json!({ "line": place.line, "column": place.column, "length": place.length }))
     };
+    let (severity, problems) = match result {
+        Ok((_, warnings)) => ("warning", warnings.problems()),
+        Err(error) => ("error", error.problems()),
+    };
     let problem = |problem: &Problem| {
         let notes = problem.notes.iter();
         let notes = notes.map(|note| json!({ "message": note.message, "place": place(&note.location) }));
         json!({
-            "message": problem.message, "place": place(&problem.location), "help": problem.help,
+            "severity": severity, "message": problem.message, "place": place(&problem.location), "help": problem.help,
             "notes": notes.collect::<Vec<_>>(),
         })
     };
-    let problems = result.as_ref().err().map_or(&[][..], mbs_live::Error::problems);
     json!({ "file": file, "problems": problems.iter().map(problem).collect::<Vec<_>>() })
 }

@@ -7,6 +7,7 @@ use super::curves::compared;
 use super::simulate::{Request, recorded};
 use super::{json, page};
 use crate::app::Warnings;
+use crate::console::complain;
 use crate::figure::SERIES_COLOURS;
 use crate::{Column, Error, Recording, Settings, Table, Unit, quantity, say, write_csv};
 
@@ -82,6 +83,8 @@ pub(super) fn carry_out(request: &Request<'_>, comparison: &Comparison) -> Resul
         say(table(request, &runs)?.to_string().trim_end())?;
         request.files.all().try_for_each(|path| say(format_args!("written: {}", path.display())))?;
     }
+    let notes = runs.first().map_or(&[][..], |(_, run)| &run.notes);
+    notes.iter().for_each(|note| complain(format_args!("note: {note}")));
     let ended = runs.iter().find_map(|(name, run)| run.ended.map(|cause| (name, cause)));
     if let Some((name, cause)) = ended {
         return Err(Error::EndedEarly { cause, kept: format!(" ({name})") });

@@ -108,6 +108,7 @@ impl<'a> Found<'a> {
     /// What the stiffness says, in words.
     fn stability(&self) -> String {
         match self.rest.stability() {
+            Stability::Stable if self.rest.stiffness.is_empty() => "held: nothing is free to move".into(),
             Stability::Stable => "stable".into(),
             Stability::Indifferent => "indifferent: some displacements are not driven back".into(),
             Stability::Unstable { directions: 1 } => "unstable: it falls away in one direction".into(),

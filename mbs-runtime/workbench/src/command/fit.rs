@@ -4,7 +4,6 @@ mod request;
 mod result;
 
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
@@ -18,7 +17,7 @@ use super::options::{self, option};
 use crate::app::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
-use crate::{Error, interrupt, say, write_csv};
+use crate::{Error, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,9 +25,11 @@ Examples:
   mbs fit my.mbs --data measured.csv --param k=100N/m,c,m --start x --bounds c=0..50N*s/m
   mbs fit my.mbs --data measured.csv --param k,c --columns x --sigma x=0.2mm --input @force.csv
 
-The first column of the data is the time, as in a recording of `mbs simulate --out`; each other
-one has the name of a coordinate x, a rate der(x), an output or an input, with its unit in
-brackets. A fit that is in doubt is written as any other, with a warning and exit code 3.";
+A column of the data is the time: the one called t or time, or the one in s, ms or such; each other
+one has the name of a coordinate x, a rate der(x), an output or an input, with its unit as x [mm],
+x (mm) or in a row beneath. Lines that begin with # or % are comments; cells are separated by
+commas, semicolons or tabs, and the latter two may have decimal commas. Data that begin late on a
+clock of their own, at 646 s for instance, are those of runs that begin then. A fit that is in doubt is written as any other, with a warning and exit code 3.";
 
 /// Nobody is told of a fit that is over within this time.
 const SOON: Duration = Duration::from_millis(700);
@@ -41,19 +42,42 @@ pub(crate) fn command() -> Command {
         option(name, value, help).value_delimiter(',').action(ArgAction::Append)
     };
     Command::new("fit")
-        .about("Find parameters with which a mechanism moves as measured, and how well the data determine them")
+        .about(
+            "Find parameters with which a mechanism moves as measured, and how well the data determine them",
+        )
         .after_help(EXAMPLES)
         .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
         .args(options::of_values())
         .arg(file("data", "FILE.csv", "The measured motion").required(true))
         .arg(list("param", "NAME[=GUESS],…", "Parameters to be found [guess: as declared or by --set]"))
         .arg(list("start", "NAME[=GUESS],…", "Start values to be found: a coordinate x or a rate der(x)"))
-        .arg(option("bounds", "NAME=LOW..HIGH", "Where to look; an end may be left out; repeatable").action(ArgAction::Append))
-        .arg(list("columns", "NAME,…", "Columns to be compared, also patterns with * [default: coordinates, rates and outputs]"))
-        .arg(option("sigma", "NAME=VALUE", "The standard deviation of the noise of a column [default: estimated]; repeatable").action(ArgAction::Append))
-        .arg(option("confidence", "PERCENT", "The probability with which an interval contains the true value [default: 95%]"))
-        .arg(option("starts", "N", "Look from so many starts at most").value_parser(value_parser!(u16).range(1..)).default_value("12"))
-        .arg(option("step", "TIME", "Hold inputs from a table over this time at most, at their value in its middle [default: as declared, or 0.5ms]"))
+        .arg(
+            option("bounds", "NAME=LOW..HIGH", "Where to look; an end may be left out; repeatable")
+                .action(ArgAction::Append),
+        )
+        .arg(list(
+            "columns",
+            "NAME,…",
+            "Columns to be compared, also patterns with * [default: coordinates, rates and outputs]",
+        ))
+        .arg(
+            option(
+                "sigma",
+                "NAME=VALUE",
+                "The standard deviation of the noise of a column [default: estimated]; repeatable",
+            )
+            .action(ArgAction::Append),
+        )
+        .arg(option(
+            "confidence",
+            "PERCENT",
+            "The probability with which an interval contains the true value [default: 95%]",
+        ))
+        .arg(
+            option("starts", "N", "Look from so many starts at most")
+                .value_parser(value_parser!(u16).range(1..))
+                .default_value("12"),
+        )
         .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
         .arg(file("plot", "FILE.svg|.png", "Draw the data, the fitted motion and what is left over"))
         .arg(file("out", "FILE.csv", "Write the data, the fitted motion and what is left over"))
@@ -93,11 +117,7 @@ fn fitted(request: &Request, trials: &dyn Trials) -> Result<Fit, Error> {
     let (began, bar) = (Instant::now(), ProgressBar::hidden());
     let mut is_shown = false;
     let experiment = request.experiment();
-    let interrupted = interrupt::flag();
     let fit = experiment.fit_while(trials, &mut |progress| {
-        if interrupted.load(Ordering::Relaxed) {
-            return false;
-        }
         if began.elapsed() < SOON {
             return true;
         }

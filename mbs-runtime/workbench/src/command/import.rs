@@ -8,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::options::option;
-use crate::import::{self, FORMATS, Format, Imported, LONGEST};
+use crate::import::{self, FORMATS, Format, Imported, Known, LONGEST};
 use crate::number::counted;
 use crate::{Error, files, say};
 
@@ -38,6 +38,7 @@ pub(crate) fn command() -> Command {
             option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm; files of PMKS+ and of robots say it]")
                 .value_parser(PossibleValuesParser::new(UNITS)),
         )
+        .arg(option("model", "NAME", "The model to import of a file of SDF that has several"))
 }
 
 const EXAMPLES: &str = "\
@@ -58,9 +59,9 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let refused = |reason: String| Error::Import { file: path.clone(), reason };
     let text = read(&path)?.ok_or_else(|| refused(format!("it has more than {LONGEST} bytes")))?;
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("file");
-    let unit = matches.get_one::<String>("unit").map(String::as_str);
-    let imported =
-        import::import(name, &text, format(matches), unit).map_err(|refusal| refused(refusal.0))?;
+    let text_of = |option: &str| matches.get_one::<String>(option).map(String::as_str);
+    let known = Known { format: format(matches), unit: text_of("unit"), model: text_of("model") };
+    let imported = import::import(name, &text, known).map_err(|refusal| refused(refusal.0))?;
     let Some(out) = out else { return say(imported.text.trim_end()) };
     files::write(out, imported.text.as_bytes())?;
     summary(out, &imported)

@@ -46,6 +46,7 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
         "final": recording.columns.iter().map(last).collect::<Map<_, _>>(),
         "error": recording.ended.map(|error| error.to_string()),
         "warnings": recording.doubts.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "notes": recording.notes,
         "files": request.files.all().map(|path| path.display().to_string()).collect::<Vec<_>>(),
     })
 }

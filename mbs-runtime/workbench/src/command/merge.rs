@@ -1,13 +1,14 @@
 //! `mbs merge`: the shares of a sweep as one table.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::options::option;
-use super::sweep::shard::Heading;
+use super::sweep::checked::Next;
+use super::sweep::shard::{Head, Shard};
 use crate::table_file::{self, TableFile};
 use crate::{Error, say};
 
@@ -16,8 +17,8 @@ Example:
   mbs merge part-*.csv --out sweep.csv
 
 Shares and table may also be Parquet files, by the ending .parquet, in a program that is built with it.
-The table is the one that a sweep without --shard writes, to the byte. Shares that are missing, given twice or of
-another sweep are refused.";
+The table is the one that a sweep without --shard writes, to the byte. Shares that are missing, damaged, given twice
+or of another sweep are refused.";
 
 pub(crate) fn command() -> Command {
     let path = || value_parser!(PathBuf);
@@ -35,22 +36,21 @@ pub(crate) fn command() -> Command {
         .arg(option("out", "FILE.csv", "Write the table").required(true).value_parser(path()))
 }
 
-/// A share of a sweep, behind its first line.
+/// A share of a sweep, read up to its rows.
 struct Share {
     path: PathBuf,
-    heading: Heading,
-    columns: String,
+    head: Head,
     rows: BufReader<File>,
 }
 
 pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let paths = matches.get_many::<PathBuf>("share").unwrap_or_default();
     let mut shares = paths.map(|path| Share::open(path)).collect::<Result<Vec<_>, _>>()?;
-    shares.sort_by_key(|share| share.heading.shard.number);
+    shares.sort_by_key(|share| share.head.heading.shard.number);
     check(&shares)?;
     let Some(out) = matches.get_one::<PathBuf>("out") else { return Ok(()) };
     let mut output = TableFile::create(out)?;
-    let columns = shares.first().map_or("", |share| &share.columns);
+    let columns = shares.first().map_or("", |share| &share.head.columns);
     output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;
     let mut count = 0;
     for share in shares {
@@ -62,35 +62,27 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
 impl Share {
     fn open(path: &Path) -> Result<Self, Error> {
         let mut rows = table_file::lines(path)?;
-        let mut line = || {
-            let mut line = String::new();
-            rows.read_line(&mut line).map_err(Error::file("read", path))?;
-            Ok::<_, Error>(line)
-        };
-        let (first, columns) = (line()?, line()?);
-        let heading = Heading::parse(&first).ok_or_else(|| {
+        let head = Head::read(&mut rows).map_err(Error::file("read", path))?;
+        let head = head.ok_or_else(|| {
             refused(path, "it is not a share of a sweep; `mbs sweep … --shard K/N --out FILE.csv` writes one")
         })?;
-        Ok(Self { path: path.to_owned(), heading, columns, rows })
+        Ok(Self { path: path.to_owned(), head, rows })
     }
 
-    /// Writes the rows, as many as the share has to have.
-    fn copy(mut self, output: &mut TableFile, out: &Path) -> Result<usize, Error> {
-        let expected = self.heading.shard.members(self.heading.count).len();
-        let (mut line, mut count) = (Vec::new(), 0);
+    /// Writes the rows, each of which has to be the one that the sweep has there.
+    fn copy(self, output: &mut TableFile, out: &Path) -> Result<usize, Error> {
+        let mut rows = self.head.rows(self.rows);
+        let mut count = 0;
         loop {
-            line.clear();
-            self.rows.read_until(b'\n', &mut line).map_err(Error::file("read", &self.path))?;
-            if line.is_empty() {
-                break;
+            match rows.next().map_err(Error::file("read", &self.path))? {
+                Next::Row(row) => output.write_all(row).map_err(Error::file("write", out))?,
+                Next::End => return Ok(count),
+                Next::Wrong(reason) => {
+                    return Err(refused(&self.path, &format!("{reason}; run its command again")));
+                }
             }
-            output.write_all(&line).map_err(Error::file("write", out))?;
             count += 1;
         }
-        if count == expected {
-            return Ok(count);
-        }
-        Err(refused(&self.path, &format!("it has {count} of its {expected} runs; run its command again")))
     }
 }
 
@@ -98,20 +90,22 @@ impl Share {
 fn check(shares: &[Share]) -> Result<(), Error> {
     let Some(first) = shares.first() else { return Ok(()) };
     for share in shares {
-        if !share.heading.is_like(&first.heading) || share.columns != first.columns {
+        if !share.head.heading.is_like(&first.head.heading) || share.head.columns != first.head.columns {
             let reason = format!("it is a share of another sweep than {}", first.path.display());
             return Err(refused(&share.path, &reason));
         }
     }
     for pair in shares.windows(2) {
         if let [a, b] = pair
-            && a.heading == b.heading
+            && a.head.heading == b.head.heading
         {
-            return Err(refused(&b.path, &format!("it is the same share as {}", a.path.display())));
+            let Shard { number, of } = a.head.heading.shard;
+            let reason = format!("it is the same share as {}: {number}/{of}", a.path.display());
+            return Err(refused(&b.path, &reason));
         }
     }
-    let of = first.heading.shard.of;
-    let is_there = |number: &usize| shares.iter().any(|share| share.heading.shard.number == *number);
+    let of = first.head.heading.shard.of;
+    let is_there = |number: &usize| shares.iter().any(|share| share.head.heading.shard.number == *number);
     let missing: Vec<String> =
         (1..=of).filter(|number| !is_there(number)).take(10).map(|number| format!("{number}/{of}")).collect();
     if missing.is_empty() {

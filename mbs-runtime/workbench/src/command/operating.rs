@@ -5,6 +5,7 @@ use mbs_analysis::{Equilibrium, Linearization, Stability};
 
 use super::options::{self, option};
 use crate::app::Warnings;
+use crate::console::complain;
 use crate::models::Models;
 use crate::operating::doubt;
 use crate::{About, Error, Model, Operating, PortNames, quantity};
@@ -83,12 +84,19 @@ pub(super) fn linearized(operating: &Operating<'_>, matches: &ArgMatches) -> Res
     let list = |name: &str| -> Option<Vec<String>> {
         Some(matches.try_get_many::<String>(name).ok().flatten()?.cloned().collect())
     };
-    operating.linearized(&PortNames {
+    let linear = operating.linearized(&PortNames {
         states: list("states"),
         inputs: list("inputs"),
         parameters: list("parameters").unwrap_or_default(),
         outputs: list("outputs"),
-    })
+    })?;
+    for output in &linear.left_out {
+        complain(format_args!(
+            "note: the output `{}` has no value or no derivative at this position and is left out",
+            output.name
+        ));
+    }
+    Ok(linear)
 }
 
 /// About what it is linearized, in words.

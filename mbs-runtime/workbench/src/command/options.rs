@@ -24,8 +24,9 @@ pub(super) fn of_values() -> [Arg; 2] {
         .action(ArgAction::Append),
         option(
             "input",
-            "NAME=VALUE|@FILE.csv",
-            "An input, in the same way, or @FILE.csv with time and inputs in columns; repeatable",
+            "NAME=VALUE|[NAME=]@FILE.csv",
+            "An input, in the same way; NAME=@FILE.csv with time and the input in columns, or @FILE.csv for all inputs \
+             that it has; repeatable",
         )
         .action(ArgAction::Append),
     ]
@@ -89,8 +90,17 @@ pub(super) fn values(model: &dyn Model, matches: &ArgMatches) -> Result<Settings
     asked(model.info(), matches)?.values(model)
 }
 
-/// What they say, and the mechanism's defaults where they do not.
+/// Settings of a run that looks for no declared events: what the options say, else the defaults of the mechanism.
 pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
+    of_a_run_with(false, model, matches)
+}
+
+/// The same of a run in which declared events are looked for.
+pub(super) fn settings_with_events(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
+    of_a_run_with(true, model, matches)
+}
+
+fn of_a_run_with(finds_events: bool, model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
     let mut asked = asked(model.info(), matches)?;
     for name in RunOptions::NAMES {
         // not every command has all of them
@@ -98,9 +108,10 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
             asked.set(name, text)?;
         }
     }
+    let from = matches.try_get_many::<String>("from").ok().flatten().unwrap_or_default();
+    asked.from = from.map(|text| split(text)).collect::<Result<_, _>>()?;
     asked.every = matches.try_get_one::<u64>("every").ok().flatten().copied();
-    // commands that look for events have a condition for the end
-    asked.finds_events = matches.try_get_one::<String>("until").is_ok();
+    asked.finds_events = finds_events;
     asked.allow_unstable =
         matches.try_get_one::<bool>("allow-unstable").ok().flatten().copied() == Some(true);
     asked.settings(model)
@@ -109,26 +120,38 @@ pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settin
 /// The parameters and inputs that are given.
 pub(super) fn asked(info: &Info, matches: &ArgMatches) -> Result<RunOptions, Error> {
     let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
-    let split = |text: &str| quantity::split_setting(text).map(|(name, value)| (name.into(), value.into()));
-    let (files, inputs): (Vec<&str>, Vec<&str>) = texts("input").partition(|text| text.starts_with('@'));
+    let is_file = |text: &&str| text.starts_with('@') || text.split('=').nth(1).is_some_and(is_table);
+    let (files, inputs): (Vec<&str>, Vec<&str>) = texts("input").partition(is_file);
+    let mut signals: Option<Signals> = None;
+    for text in files {
+        let read = match text.strip_prefix('@') {
+            Some(path) => Signals::read(Path::new(path), info)?,
+            None => {
+                let (name, path) = quantity::split_setting(text)?;
+                Signals::read_input(Path::new(path.trim_start_matches('@')), info, name)?
+            }
+        };
+        signals = Some(match signals.take() {
+            Some(others) => others.with(read)?,
+            None => read,
+        });
+    }
     Ok(RunOptions {
         parameters: texts("set").map(split).collect::<Result<_, _>>()?,
         inputs: inputs.into_iter().map(split).collect::<Result<_, _>>()?,
-        signals: signals(info, &files)?,
+        signals,
         ..RunOptions::default()
     })
 }
 
-/// The inputs of a file.
-fn signals(info: &Info, files: &[&str]) -> Result<Option<Signals>, Error> {
-    match files {
-        [] => Ok(None),
-        [file] => Signals::read(Path::new(file.trim_start_matches('@')), info).map(Some),
-        [_, other, ..] => Err(Error::Name {
-            name: other.trim_start_matches('@').into(),
-            reason: "the inputs of one file can be read; put their columns into one".into(),
-        }),
-    }
+/// The name and the value of `NAME=VALUE`.
+fn split(text: &str) -> Result<(String, String), Error> {
+    quantity::split_setting(text).map(|(name, value)| (name.into(), value.into()))
+}
+
+/// `true` if the value of an input is the file of a table: `@FILE`.
+fn is_table(value: &str) -> bool {
+    value.trim_start().starts_with('@')
 }
 
 /// What was set, in SI units, and the unit in which it is shown.

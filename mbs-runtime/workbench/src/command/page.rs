@@ -27,6 +27,7 @@ pub(super) fn page(
     let figure = curves(name, &thinned(recording), choice)?;
     let run = Section::new("The run").with(Block::Table(summary(name, &[], recording, Shown::Ends)));
     let run = recording.doubts.iter().fold(run, |run, doubt| run.text(format!("Warning: {doubt}.")));
+    let run = recording.notes.iter().fold(run, |run, note| run.text(format!("Note: {note}.")));
     Ok(Report {
         title: name.to_owned(),
         lead: info.doc.to_owned(),

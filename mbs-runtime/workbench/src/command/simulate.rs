@@ -7,9 +7,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::compare::{self, Comparison};
 use super::curves::{Choice, curves};
-use super::options::{self, option, settings};
+use super::options::{self, option, settings_with_events};
 use super::{json, page};
 use crate::app::Warnings;
+use crate::console::complain;
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::{Error, Model, Picture, Recording, Settings, say, write_csv};
@@ -32,6 +33,14 @@ pub(crate) fn command() -> Command {
             "End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a \
              tolerance",
         ))
+        .arg(
+            option(
+                "from",
+                "NAME=VALUE",
+                "Start with this value of a coordinate x or a rate der(x), the others following; repeatable",
+            )
+            .action(ArgAction::Append),
+        )
         .arg(
             option("every", "N", "Record every N-th step")
                 .value_parser(value_parser!(u64).range(1..))
@@ -66,7 +75,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     let name = text("model").unwrap_or_default();
     let found = models.find(name)?;
     let (name, model) = (found.name(), found.model());
-    let settings = settings(model, matches)?;
+    let settings = settings_with_events(model, matches)?;
     let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
     let request = Request {
         name,
@@ -141,6 +150,7 @@ impl Request<'_> {
         if self.json {
             say(json::run(self, settings, &recording))?;
         }
+        recording.notes.iter().for_each(|note| complain(format_args!("note: {note}")));
         if let Some(cause) = recording.ended {
             return Err(Error::EndedEarly { cause, kept });
         }

@@ -1,6 +1,7 @@
 //! `mbs sweep`: one mechanism over a grid of one or two parameters.
 
 mod axis;
+pub(super) mod checked;
 mod rows;
 pub(super) mod shard;
 mod shown;
@@ -14,14 +15,15 @@ use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 
 use self::axis::{Grid, GridAxis};
 use self::rows::Rows;
-use self::shard::{Heading, Shard};
+use self::shard::{Head, Heading, Shard, There};
 use super::options::{self, option, settings};
 use crate::app::Warnings;
+use crate::console::complain;
 use crate::figure::Figure;
 use crate::members::{Extent, Member, Members, quantities};
 use crate::models::Models;
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Unit, interrupt, say};
+use crate::{Error, Model, Settings, Signals, Unit, interrupt, say};
 
 const EXAMPLE: &str = "\
 Example:
@@ -36,7 +38,8 @@ or give what is no number, the exit code is 3; if all do, 1.
 On many machines, each makes a share of the runs, in any order:
   mbs sweep slider-crank --param l1=50mm..80mm:31 --shard 3/16 --out part-3.csv
   mbs merge part-*.csv --out sweep.csv
-The same command goes on where it was ended, and does nothing if its file is complete.";
+The same command goes on where it was ended, makes again what is missing of a damaged file, and does nothing if
+its file is complete.";
 
 pub(crate) fn command() -> Command {
     Command::new("sweep")
@@ -151,6 +154,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     let axes = matches.get_many::<String>("param").unwrap_or_default();
     let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;
     grid.check_against(&settings)?;
+    let notes = settings.signals.iter().flat_map(Signals::notes);
+    notes.for_each(|note| complain(format_args!("note: {note}")));
     let named: Vec<&String> = matches.get_many("output").unwrap_or_default().collect();
     let watched = watched(model, &named)?;
     let shown = match text("show") {
@@ -167,7 +172,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     }
     if let (Some(text), Some(path)) = (matches.get_one::<String>("shard"), path("out")) {
         let heading = Heading::of(Shard::parse(text)?, model, &settings, &grid, &watched);
-        return share(name, model, &settings, (&grid, &watched), &heading, path);
+        let columns = rows::columns(&grid, &watched).map_err(Error::file("write", path))?;
+        return share(name, model, &settings, (&grid, &watched), &Head { heading, columns }, path);
     }
     let mut sweep = Sweep {
         rows: path("out").map(|path| Rows::create(path, &grid, &watched)).transpose()?,
@@ -193,15 +199,21 @@ fn share(
     model: &dyn Model,
     settings: &Settings,
     (grid, watched): (&Grid, &[Watched]),
-    heading: &Heading,
+    head: &Head,
     path: &Path,
 ) -> Result<Warnings, Error> {
-    let Range { start, end } = heading.shard.members(heading.count);
-    if heading.is_complete(path)? {
-        say(format_args!("complete already: {}, {} runs", path.display(), end - start))?;
-        return Ok(Warnings::new());
+    let Range { start, end } = head.heading.shard.members(grid.count());
+    match head.there(path)? {
+        There::Complete => {
+            say(format_args!("complete already: {}, {} runs", path.display(), end - start))?;
+            return Ok(Warnings::new());
+        }
+        There::Damaged(reason) => {
+            complain(format_args!("note: {}, {reason}; what is missing is made again", path.display()));
+        }
+        There::Nothing => {}
     }
-    let (rows, there) = Rows::share(path, heading, grid, watched)?;
+    let (rows, there) = Rows::share(path, head)?;
     let members = (start + there).min(end)..end;
     let count = members.len();
     let mut sweep = Sweep {
@@ -275,6 +287,7 @@ impl Sweep<'_> {
         let Range { start: first, end } = self.members;
         let count = end - first;
         let progress = Progress::new(name, count);
+        let interrupted = interrupt::flag();
         let members = Members {
             names: grid.axes.iter().map(|axis| axis.name.to_owned()).collect(),
             count,
@@ -285,7 +298,7 @@ impl Sweep<'_> {
                 }
             },
             progress: &|done| progress.reached(done),
-            cancel: interrupt::flag(),
+            cancel: &interrupted,
         };
         let swept = model.sweep(settings, members);
         progress.finish();
@@ -302,7 +315,7 @@ impl Sweep<'_> {
         let failure = Failure::of(member, self.watched);
         if let Some(rows) = &mut self.rows {
             let error = failure.as_ref().map_or_else(String::new, ToString::to_string);
-            rows.write(self.grid, index, self.watched, member, error)?;
+            rows.write(self.grid, index, self.watched, member, &error)?;
         }
         if let Some(failure) = failure {
             self.failures += 1;

@@ -74,10 +74,11 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
         bar.set_message(format!("{found} found"));
         !interrupted.load(Ordering::Relaxed)
     });
+    let is_over = interrupted.load(Ordering::Relaxed);
+    drop(interrupted);
     bar.finish_and_clear();
     let synthesis = synthesis?;
     let shown = Shown { name, model, task: &task, units: &units, synthesis: &synthesis };
-    let is_over = interrupted.load(Ordering::Relaxed);
     if is_over && synthesis.linkages.is_empty() {
         return Err(Error::Stopped {
             kept: format!(" after {} starts, which found nothing", synthesis.starts),

@@ -2,15 +2,16 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
 use super::curves::Choice;
-use super::options::{self, option, settings};
+use super::options::{self, option, settings, settings_with_events};
 use super::page::page;
 use crate::interactive::other_than_played;
 use crate::watch::{News, Pages, Server, follow};
-use crate::{Error, Picture, declarations, interrupt, say};
+use crate::{Error, Picture, declarations, say};
 
 pub(crate) fn command() -> Command {
     Command::new("watch")
@@ -48,22 +49,25 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let server = Server::start(&title, &news, port).map_err(|source| Error::Serve { port, source })?;
     say(format_args!("{} follows {}; Ctrl-C ends it", server.url(), path.display()))?;
     let make = || shown(&path, matches).map_err(|error| error.to_string());
-    follow(&path, &make, &news, interrupt::flag());
+    // nothing is kept: Ctrl-C ends the program at once
+    follow(&path, &make, &news, &AtomicBool::new(false));
     Ok(())
 }
 
 /// The pages of the mechanism as it is declared now.
 fn shown(path: &Path, matches: &ArgMatches) -> Result<Pages, Error> {
     let model = declarations::read(path, None)?;
-    let settings = settings(&*model, matches)?;
-    let recording = model.simulate(&settings, &mut |_, _| ())?;
-    let picture = Picture::of(&model.motion(&settings, &recording)?);
+    let recorded = settings_with_events(&*model, matches)?;
+    let recording = model.simulate(&recorded, &mut |_, _| ())?;
+    let picture = Picture::of(&model.motion(&recorded, &recording)?);
     let ended = recording.ended.as_ref().map(|cause| format!("The run ended early: {cause}."));
     let name = model.info().name;
     let mut page = page(name, model.info(), &recording, &picture, &Choice::default())?;
     if let (Some(section), Some(ended)) = (page.sections.get_mut(1), ended) {
         *section = section.clone().text(ended);
     }
+    // a page looks for no events
+    let settings = settings(&*model, matches)?;
     let is_played = other_than_played(&settings).is_none();
     let played = is_played.then(|| model.interactive_page(name, &settings)).transpose()?;
     Ok(Pages { recorded: page.html()?, played })

@@ -23,6 +23,23 @@ const drawing = (() => {
     return scale;
   }
 
+  // What a vertical axis shows: a curve that only rounding moves is a straight line, and below 1e-12 it is 0.
+  function range(u, low, high) {
+    if (low == null) return [low, high];
+    const size = Math.max(Math.abs(low), Math.abs(high));
+    if (size < 1e-12) return [-1, 1];
+    if (high - low > 1e-9 * size) return uPlot.rangeNum(low, high, 0.1, true);
+    const middle = (low + high) / 2;
+    return [middle - 0.1 * size, middle + 0.1 * size];
+  }
+
+  // Numbers at the marks of an axis; what is 0 but for rounding reads as 0.
+  function marks(splits) {
+    const shown = splits.filter((v) => v != null);
+    const step = shown.length > 1 ? Math.abs(shown[1] - shown[0]) : 0;
+    return splits.map((v) => format(v != null && Math.abs(v) < 1e-6 * step ? 0 : v, 6));
+  }
+
   // On a logarithmic axis: a line per decade, or at 1, 2 and 5 where there are few decades.
   function decades(u, splits) {
     const shown = splits.filter((v) => v != null);
@@ -40,9 +57,9 @@ const drawing = (() => {
       label: description.label, size, labelSize: 24, stroke: ink,
       font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif",
       grid: { stroke: grid, width: 1 }, ticks: { stroke: tick, width: 1 },
-      values: (u, splits) => splits.map((v) => format(v, 6)),
+      values: (u, splits) => marks(splits),
     };
   }
 
-  return { COLOURS, format, scale, axis };
+  return { COLOURS, format, scale, range, axis };
 })();

@@ -21,7 +21,7 @@ const curves = (() => {
       const colours = { ink: style("ink"), grid: style("grid"), tick: style("grey") };
       drawn = new uPlot({
         width, height: 230, legend: { show: false }, cursor: { drag: { x: false, y: false } },
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: { range: drawing.range } },
         axes: [drawing.axis({ label: "t [s]" }, 40, colours), drawing.axis({ label: data.columns[choice.value] }, 74, colours)],
         series: [{}, { stroke: drawing.COLOURS[at], width: 1.8 }],
       }, points(), place);
@@ -32,10 +32,10 @@ const curves = (() => {
       return [kept.map((row) => row[0]), kept.map((row) => row[choice.value])];
     };
     choice.addEventListener("change", make);
-    addEventListener("resize", () => { if (Math.max(240, place.clientWidth) !== width) make(); });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", make);
-    make();
-    return () => drawn.setData(points());
+    // at first too, once all boxes are there and have their widths
+    new ResizeObserver(() => { if (Math.max(240, place.clientWidth) !== width) make(); }).observe(place);
+    return () => drawn?.setData(points());
   }
 
   const parent = document.querySelector(".plots");

@@ -16,7 +16,7 @@
     const width = () => Math.max(320, element.clientWidth);
     const options = {
       width: width(), height: 320,
-      scales: { x: scale(panel.x), y: scale(panel.y) },
+      scales: { x: scale(panel.x), y: panel.y.log ? scale(panel.y) : { range: drawing.range, ...scale(panel.y) } },
       axes: [axis(panel.x, 46), axis(panel.y, 88)],
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
@@ -24,7 +24,7 @@
     // One curve is named by its axis.
     element.classList.toggle("alone", panel.series.length === 1);
     const plot = new uPlot(options, uPlot.join(panel.series.map((s) => [s.x, s.y])), element);
-    addEventListener("resize", () => plot.setSize({ width: width(), height: 320 }));
+    new ResizeObserver(() => plot.setSize({ width: width(), height: 320 })).observe(element);
   }
 
   function animation(element, picture) {

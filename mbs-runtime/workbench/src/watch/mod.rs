@@ -1,12 +1,16 @@
 //! A page that follows a file: every save shows what became of it.
 
+mod http;
 mod server;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use std::{fs, thread};
+use std::{fs, io, thread};
+
+use crate::Error;
+use crate::files::{self, LARGEST_FILE};
 
 pub(crate) use server::Server;
 
@@ -80,7 +84,7 @@ pub(crate) fn follow(path: &Path, make: &dyn Fn() -> Outcome, news: &News, end: 
     let mut known: Option<Vec<u8>> = None;
     let mut missing = 0;
     while !end.load(Ordering::Relaxed) {
-        match fs::read(path) {
+        match contents(path) {
             Ok(contents) => {
                 if known.as_ref() != Some(&contents) {
                     known = Some(contents);
@@ -92,12 +96,22 @@ pub(crate) fn follow(path: &Path, make: &dyn Fn() -> Outcome, news: &News, end: 
                 missing += 1;
                 if missing == PATIENCE {
                     known = None;
-                    news.tell(Err(format!("cannot read {}: {error}", path.display())));
+                    news.tell(Err(error.to_string()));
                 }
             }
         }
         thread::sleep(GRAIN);
     }
+}
+
+/// The bytes of a plain file. A device or a pipe might have no end, or none for now.
+fn contents(path: &Path) -> Result<Vec<u8>, Error> {
+    let there = fs::metadata(path).map_err(Error::file("read", path))?;
+    if !there.is_file() || there.len() > LARGEST_FILE {
+        let reason = format!("only a plain file of at most {} MiB is followed", LARGEST_FILE >> 20);
+        return Err(Error::file("read", path)(io::Error::other(reason)));
+    }
+    files::read(path)
 }
 
 #[cfg(test)]
@@ -150,6 +164,13 @@ mod tests {
             assert_eq!(next(), "missing");
             fs::write(&path, "3").unwrap();
             assert_eq!(next(), "3");
+            // Regression: a link to a device without an end was read for ever.
+            #[cfg(unix)]
+            {
+                fs::remove_file(&path).unwrap();
+                std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+                assert_eq!(next(), "missing");
+            }
             end.store(true, Ordering::Relaxed);
         });
     }

@@ -1,15 +1,14 @@
 //! The server of the page, for this machine alone.
 
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::thread;
 use std::time::Duration;
 
 use serde_json::json;
-use tiny_http::{Header, Method, Request, Response};
 
 use super::News;
+use super::http::{Limits, Reply, Request, serve};
 use crate::html::{escaped, filled};
 
 const SHELL: &str = include_str!("shell.html");
@@ -29,17 +28,11 @@ impl Server {
     /// # Errors
     /// The port is taken.
     pub fn start(title: &str, news: &Arc<News>, port: u16) -> io::Result<Self> {
-        let server = tiny_http::Server::http((Ipv4Addr::LOCALHOST, port)).map_err(io::Error::other)?;
-        let address = server.server_addr().to_ip().ok_or_else(|| io::Error::other("no address"))?;
-        let shell: Arc<str> = filled(SHELL, &[("TITLE", &escaped(title))]).into();
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+        let address = listener.local_addr()?;
+        let shell = filled(SHELL, &[("TITLE", &escaped(title))]);
         let news = Arc::clone(news);
-        thread::Builder::new().spawn(move || {
-            for request in server.incoming_requests() {
-                let (news, shell) = (Arc::clone(&news), Arc::clone(&shell));
-                // Most of them wait for news, so each has a thread.
-                let _ = thread::Builder::new().spawn(move || answer(request, address, &shell, &news));
-            }
-        })?;
+        serve(listener, Limits::default(), move |request| answer(request, address, &shell, &news))?;
         Ok(Self { address })
     }
 
@@ -49,40 +42,24 @@ impl Server {
     }
 }
 
-fn answer(request: Request, address: SocketAddr, shell: &str, news: &News) {
-    let text = |status: u16, kind: &str, text: String| {
-        let headers = [
-            ("Content-Type", kind),
-            ("Cache-Control", "no-store"),
-            ("X-Content-Type-Options", "nosniff"),
-            ("X-Frame-Options", "SAMEORIGIN"),
-            ("Referrer-Policy", "no-referrer"),
-        ];
-        let headers = headers.iter().filter_map(|(name, value)| Header::from_bytes(*name, *value).ok());
-        headers.fold(Response::from_string(text).with_status_code(status), Response::with_header)
-    };
-    let html = "text/html; charset=utf-8";
-    let path = request.url().to_owned();
-    let response = if !is_local(&request, address) {
+fn answer(request: &Request, address: SocketAddr, shell: &str, news: &News) -> Reply {
+    let html = |text: String| Reply { status: 200, kind: "text/html; charset=utf-8", text };
+    let path = request.path.as_str();
+    if !is_local(request, address) {
         // A page of somebody else, whose name was made to lead here, is told nothing.
-        text(403, "text/plain", "only for this machine".into())
-    } else if *request.method() != Method::Get {
-        text(405, "text/plain", "only to be read".into())
-    } else if path == "/" {
-        text(200, html, shell.to_owned())
-    } else if let Some(version) = path.strip_prefix("/news?after=").and_then(|n| n.parse().ok()) {
+        return Reply::plain(403, "only for this machine");
+    }
+    if path == "/" {
+        return html(shell.to_owned());
+    }
+    if let Some(version) = path.strip_prefix("/news?after=").and_then(|n| n.parse().ok()) {
         let now = news.after(version, PATIENCE);
         let page = now.pages.as_ref().map(|(version, _)| version);
         let is_played = now.pages.as_ref().is_some_and(|(_, pages)| pages.played.is_some());
         let told = json!({ "version": now.version, "page": page, "played": is_played, "error": now.error });
-        text(200, "application/json", told.to_string())
-    } else if let Some(page) = page(&path, news) {
-        text(200, html, page)
-    } else {
-        text(404, "text/plain", "there is no such page".into())
-    };
-    // whoever has gone away needs no answer
-    let _ = request.respond(response);
+        return Reply { status: 200, kind: "application/json", text: told.to_string() };
+    }
+    page(path, news).map_or_else(|| Reply::plain(404, "there is no such page"), html)
 }
 
 /// The last page at a path: `/recorded/` or `/played/` with a version, which browsers tell apart by it.
@@ -97,10 +74,9 @@ fn page(path: &str, news: &News) -> Option<String> {
 /// Whether a request names the address that it came to: a browser names the host of the
 /// page's own address.
 fn is_local(request: &Request, address: SocketAddr) -> bool {
-    let host = request.headers().iter().find(|header| header.field.equiv("Host"));
     let port = address.port();
     let known = [address.to_string(), format!("localhost:{port}")];
-    host.is_some_and(|host| known.iter().any(|known| known == host.value.as_str()))
+    request.host.as_ref().is_some_and(|host| known.contains(host))
 }
 
 #[cfg(test)]

@@ -254,7 +254,7 @@ def watched(tmp_path):
     program = subprocess.Popen([MBS, "watch", file, "--set", "length=30cm"], stdout=subprocess.PIPE, text=True)
     yield file, program.stdout.readline().split()[0]
     program.send_signal(signal.SIGINT)
-    assert program.wait(10) == 0
+    assert program.wait(10) == -signal.SIGINT
 
 
 def test_a_watched_mechanism_can_be_played(browser, watched):

@@ -20,7 +20,16 @@ fn names_that_do_not_exist() {
 #[test]
 fn units_and_numbers() {
     refuses("simulate slider-crank --set omega=3mm", &["a length [m] was given", "omega is a rate [1/s]"]);
-    refuses("simulate slider-crank --set l1=7furlong", &["unknown unit `furlong`", "mm"]);
+    refuses(
+        "simulate slider-crank --set l1=7furlong",
+        &["unknown unit `furlong`", "a length [m] may be in m, mm"],
+    );
+    refuses("simulate slider-crank --set m1=7lbs", &["unknown unit `lbs`; did you mean `lb`? a mass [kg]"]);
+    // Regression: three hundred digits
+    refuses(
+        "simulate slider-crank --set m1=-1e300",
+        &["`mass of crank` is -1e300, but it must not be negative"],
+    );
     refuses("simulate slider-crank --set l1=long", &["not a number"]);
     refuses("simulate slider-crank --set l1=NaN", &["l1", "has to be finite"]);
     refuses("simulate slider-crank --step 0.5kg", &["a mass [kg] was given", "step is a time [s]"]);

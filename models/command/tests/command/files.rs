@@ -81,6 +81,54 @@ fn an_interrupted_sweep_keeps_what_is_finished() {
     }
 }
 
+/// Regression: `watch` went on until its run was made, `sweep` for a thousand steps, `fit` to the end of a run.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_what_keeps_nothing_at_once() {
+    use std::os::unix::process::ExitStatusExt;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("swing.mbs"), SWING).unwrap();
+    std::fs::write(folder.path().join("swing.csv"), "t [s],phi [rad]\n0,0.1\n1e6,0\n").unwrap();
+    for arguments in [
+        "watch swing.mbs --end 1000000000s",
+        "simulate swing.mbs --end 100000s --every 1000000 --out run.csv",
+        "sweep swing.mbs --param l=1m..2m:3 --end 1000000000s",
+        "sweep pendulum --param length=1m..2m:3 --end 1000000000s",
+        "fit swing.mbs --data swing.csv --param l",
+        "inverse swing.mbs --move phi=0deg..90deg --over 1s --samples 1000000 --out inverse.csv",
+        "travel swing.mbs --along phi=0deg..90deg --samples 1000000 --out travel.csv",
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+        let command = command.args(arguments.split_whitespace()).current_dir(folder.path());
+        let mut running = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+        assert!(running.try_wait().unwrap().is_none(), "`{arguments}` ended by itself");
+        let interrupt = format!("kill -INT {}", running.id());
+        assert!(Command::new("sh").args(["-c", &interrupt]).status().unwrap().success());
+        let ended = (0..500).find_map(|_| {
+            std::thread::sleep(Duration::from_millis(10));
+            running.try_wait().unwrap()
+        });
+        if ended.is_none() {
+            running.kill().unwrap();
+        }
+        let ended = ended.map(|status| (status.code(), status.signal()));
+        assert!(matches!(ended, Some((Some(130), _) | (_, Some(2)))), "`{arguments}`: {ended:?}");
+    }
+}
+
+#[cfg(unix)]
+const SWING: &str = "Swing {
+    dof = 1;
+    param l = 1 [m];
+    gravity = (0, -9.81) [m/s^2];
+    body rod (x, y, phi) { mass = 1 [kg]; inertia = 1 [kg*m^2]; }
+    point end on rod = (l, 0);
+    revolute pivot (rod.end, ground);
+    start { phi = 0.1 [rad]; }
+}
+";
+
 /// Two sweeps with one name mixed their rows, since both wrote `out.csv.part`.
 #[test]
 fn two_sweeps_with_one_name_do_not_mix() {

@@ -141,7 +141,6 @@ fn what_cannot_be_fitted() {
     fit("--param stiffness --sigma y=1mm", &["no compared column `y`"]);
     fit("--param stiffness --sigma x=0mm", &["standard deviation of `x`"]);
     fit("--param stiffness --confidence 95", &["confidence", "95%"]);
-    fit("--param stiffness --step 0s", &["step"]);
     // k alone has an influence at rest; the length of the spring without force has none here
     fit("--param stiffness,free_length", &["do not determine `free_length`", "do not depend on it"]);
     let free = "fit spring-mass-damper --data run.csv --set release=0.1m --param stiffness,damping,mass";
@@ -154,9 +153,46 @@ fn what_cannot_be_fitted() {
         ("t [s],x [mm]\n0,1\n", ["1 samples do not determine 1", "more samples"]),
         ("t [s],x [mm]\n-1,1\n1,2\n", ["measured at -1 s", "starts at 0 s"]),
         ("x [mm]\n1\n", ["bad.csv", "a column for time"]),
+        ("t [s],x [mm]\n0,1\n1,1e155\n2,3\n", ["bad.csv, line 3: x", "out of all measure"]),
+        // hung
+        ("t [s],x [mm]\n0,1\n1,1\n1e9,2\n", ["until 1000000000 s", "unit of their heading"]),
     ] {
         std::fs::write(folder.path().join("bad.csv"), text).unwrap();
         says(folder.path(), "fit spring-mass-damper --data bad.csv --param stiffness", &parts);
     }
     refuses("fit spring-mass-damper --data none.csv --param mass", &["none.csv"]);
+    #[cfg(target_os = "linux")]
+    refuses("fit spring-mass-damper --data /dev/zero --param mass", &["/dev/zero: it is longer than 64 MiB"]);
+}
+
+/// A log that begins at 646 s was compared with runs that begin at 0 s; here it has decimal commas too.
+#[test]
+fn a_log_with_a_clock_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    data(folder.path());
+    let rows = std::fs::read_to_string(folder.path().join("run.csv")).unwrap();
+    let later = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        format!("{:.3};{:.6};7\n", 646.0 + 1e-3 * cells[0], cells[1]).replace('.', ",")
+    };
+    let rows: String = rows.lines().skip(1).map(later).collect();
+    let log = format!("% rig 7\nTime;x;humidity\ns;mm;\n{rows}");
+    std::fs::write(folder.path().join("log.csv"), log).unwrap();
+    let estimates = |data: &str| {
+        let fit = FIT.replace("run.csv", data);
+        let output = mbs(folder.path(), &format!("{fit} --param stiffness=0.6N/mm,damping=12,mass --json"));
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let (own, shifted) = (estimates("run.csv"), estimates("log.csv"));
+    assert_eq!((&own["start_time"], &shifted["start_time"]), (&serde_json::Value::Null, &646.0.into()));
+    for at in 0..3 {
+        let value = |found: &serde_json::Value| found["estimates"][at]["value"].as_f64().unwrap();
+        // times of the log are rounded to 1e-13 s
+        assert!((value(&own) / value(&shifted) - 1.0).abs() < 1e-6, "{} {}", value(&own), value(&shifted));
+    }
+    let output =
+        mbs(folder.path(), &format!("{} --param stiffness,damping", FIT.replace("run.csv", "log.csv")));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("the data begin at 646 s on a clock of their own"), "{text}");
 }

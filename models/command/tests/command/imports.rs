@@ -377,3 +377,19 @@ fn the_compilers_answer_names_the_part_of_the_file() {
     let start = "what it describes is refused: the joint `S`: the mechanism does not close";
     assert!(message.starts_with(start), "{message}");
 }
+
+/// A five-bar in one line was "3 degrees of freedom, 1 constraint too many": its constraints repeat each
+/// other where it is drawn, and nowhere else.
+#[test]
+fn a_linkage_that_is_drawn_in_one_line_is_named_as_singular() {
+    let joint = |x: f64, links: &str| format!("J[R, P[{x}, 0], L[{links}]]");
+    let five_bar = |ends: [f64; 5]| {
+        let links = ["ground, a", "a, b", "b, c", "c, d", "d, ground"];
+        let joints: Vec<String> = ends.into_iter().zip(links).map(|(x, links)| joint(x, links)).collect();
+        refused("f.pyslvs", &format!("M[{}]", joints.join(", ")), "")
+    };
+    let message = "it is drawn in a singular position, as with links in one line: 3 degrees of freedom there and 2 \
+                   everywhere else; draw it a little away from there";
+    assert_eq!(five_bar([0.0, 1.0, 2.0, 3.0, 4.0]), message);
+    assert_eq!(five_bar([0.0, 2.0, 1.0, 3.0, 4.0]), message);
+}

@@ -14,12 +14,16 @@ mod pmks;
 mod pmks_refused;
 mod prescribed;
 mod robots;
+mod robots_left_out;
+mod robots_placed;
 mod robots_refused;
 mod robots_refused_sdf;
 mod runs;
 mod shards;
+mod starts;
 mod sweeps;
 mod texts;
+mod trust;
 mod units;
 mod words;
 

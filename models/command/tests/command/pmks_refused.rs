@@ -131,3 +131,14 @@ fn refusals_of_pmks_plus_name_the_part() {
     let whitworth = fs::read_to_string(data("pmks_plus_whitworth.pmks")).unwrap();
     assert_eq!(refused("f.pmks", &whitworth.replacen("ku", "kv", 1), ""), wrong);
 }
+
+/// Addresses of PMKS+ before its version 2 were "like none of the files that are known".
+#[test]
+fn an_address_of_an_older_pmks_plus_is_named_as_what_it_is() {
+    let address = "https://pmks.mech.website/?j=A,AB,0.1,0.2,R,T,0,F,F&l=AB,1,1,A%7CB&f=&pp=&tp=0&unit=cm";
+    assert_eq!(
+        refused("f.url", address, ""),
+        "it is an address of an older PMKS+, which names its parts (`j=`, `l=`); the PMKS+ of today reads it, and what \
+         that saves is imported"
+    );
+}

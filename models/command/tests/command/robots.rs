@@ -8,7 +8,7 @@ use super::imports::{data, imported, run, table};
 
 /// The declaration of a file, with the accelerations of its joints as outputs.
 #[track_caller]
-fn with_accelerations(folder: &Path, file: &Path) -> String {
+pub(super) fn with_accelerations(folder: &Path, file: &Path) -> String {
     let text = imported(folder, file);
     let coordinates = text.lines().filter_map(|line| line.trim().strip_prefix("let "));
     let names = coordinates.filter_map(|line| line.split_once("_q = ").map(|(name, _)| name.to_owned()));

@@ -17,14 +17,20 @@ const BALL: &str = "<geom size='1'/>";
 #[test]
 fn refusals_of_sections_name_the_line() {
     let says = |content: &str, message: &str| assert_eq!(of_mjcf(content), message);
-    says("<tendon><fixed/></tendon>", "the tendon in line 1 is not imported");
+    says(
+        "<tendon><fixed/></tendon>",
+        "the fixed in line 1 is not imported; tendons pull on several joints at once",
+    );
     says(
         "\n<include file='other.xml'/>",
-        "the include in line 2 names another file, which is not read; `mj_saveLastXML` of MuJoCo writes a file with its \
-         includes in it",
+        "the include in line 2 is not imported; it names another file, which is not read; `mj_saveLastXML` of MuJoCo \
+         writes a file with its includes in it",
     );
     says("<compiler angle='turns'/>", "the compiler in line 1: `angle` = `turns` is not imported");
-    says("<compiler boundmass='3'/>", "the compiler in line 1: `boundmass` = `3` is not imported");
+    says(
+        "<compiler boundmass='3'/>",
+        "the compiler in line 1: `boundmass` = `3` is not imported; an attribute of this name changes masses or places",
+    );
     says(
         "<compiler inertiafromgeom='x'/>",
         "the compiler in line 1: `inertiafromgeom` = `x` is not imported",
@@ -32,12 +38,12 @@ fn refusals_of_sections_name_the_line() {
     says("<compiler eulerseq='xy'/>", "the compiler in line 1: `eulerseq` = `xy` is not imported");
     says(
         "<option density='1.2'/>",
-        "the option in line 1: a fluid around the bodies (`density`) is not imported",
+        "the option in line 1: `density` = `1.2` is not imported; a fluid would act on the bodies",
     );
     says("<option gravity='0 -9.81'/>", "the option in line 1: `gravity` has 2 numbers, not 3");
     says(
         "<option><flag spring='disable'/></option>",
-        "the flag in line 1: `spring` = `disable` is not imported",
+        "the flag in line 1: `spring` = `disable` is not imported; it takes forces away",
     );
     says("<default><default/></default>", "the default in line 1 has no `class`");
     let deep = 60;
@@ -80,7 +86,7 @@ fn refusals_of_bodies_and_joints_name_them() {
     );
     assert_eq!(
         joint("<joint springdamper='1 1'/>"),
-        "the joint in line 3: `springdamper` is not imported; `stiffness` and `damping` say the same"
+        "the joint in line 3: `springdamper` = `1 1` is not imported; `stiffness` and `damping` say the same"
     );
     assert_eq!(
         joint("<joint class='arm'/>"),
@@ -90,11 +96,17 @@ fn refusals_of_bodies_and_joints_name_them() {
         of_mjcf("<worldbody><joint/></worldbody>"),
         "the joint in line 1 is on the ground, which does not move"
     );
-    says("<flexcomp/>", "the flexcomp in line 1 is not imported");
-    says("<body mocap='true'/>", "the body in line 1 is moved from outside (`mocap`), which is not imported");
+    says(
+        "<flexcomp/>",
+        "the flexcomp in line 1 is not imported; joints make planar mechanisms of bodies that stand in the file themselves",
+    );
+    says(
+        "<body mocap='true'/>",
+        "the body in line 1: `mocap` = `true` is not imported; it would be moved from outside",
+    );
     says(
         "<body gravcomp='1'/>",
-        "the body in line 1 is held against gravity (`gravcomp`), which is not imported",
+        "the body in line 1: `gravcomp` = `1` is not imported; it would be held against gravity",
     );
     for (way, value) in
         [("quat", "0 0 0 0"), ("axisangle", "0 0 0 1"), ("xyaxes", "1 0 0 1 0 0"), ("zaxis", "0 0 0")]
@@ -173,7 +185,7 @@ fn refusals_of_equalities_and_actuators_name_them() {
         let file = body(&format!("{BALL}<site name='s'/>")) + &format!("\n<equality>{inside}</equality>");
         assert_eq!(of_mjcf(&file), message);
     };
-    equality("<flex/>", "the flex in line 2 is not imported");
+    equality("<flex/>", "the flex in line 2 is not imported; bodies that bend are no mechanism");
     equality("<connect/>", "the connect in line 2 has no `body1`");
     equality("<connect body1='b'/>", "the connect in line 2 has no `anchor`");
     equality(
@@ -196,7 +208,7 @@ fn refusals_of_equalities_and_actuators_name_them() {
     );
     equality(
         &"<joint joint1='j'/>".repeat(1001),
-        "it has 1001 closed loops, couplings and actuators; at most 1000 are imported",
+        "it has more than 1000 closed loops, couplings and actuators, which is the most that is imported",
     );
     let actuator = |inside: &str, message: &str| {
         let file = body(BALL) + &format!("\n<actuator>{inside}</actuator>");
@@ -210,7 +222,10 @@ fn refusals_of_equalities_and_actuators_name_them() {
         "<muscle joint='j'/>",
         "the muscle in line 2 is not imported; motor, position, velocity and general are",
     );
-    actuator("<position joint='j' dampratio='1'/>", "the position in line 2: `dampratio` is not imported");
+    actuator(
+        "<position joint='j' dampratio='1'/>",
+        "the position in line 2: `dampratio` = `1` is not imported",
+    );
     for (attribute, value) in [("dyntype", "filter"), ("gaintype", "affine"), ("biastype", "muscle")] {
         actuator(
             &format!("<general joint='j' {attribute}='{value}'/>"),

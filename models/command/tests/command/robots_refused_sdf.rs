@@ -38,7 +38,8 @@ fn refusals_of_scenes_name_the_model() {
     says("<world name='w'/>\n<world name='v'/>", "the world `v` (line 2) is the second one of the file");
     says(
         "<model name='m'/>\n<model name='n'/>",
-        "the model `n` (line 2) moves besides the model `m` (line 1); one model of a file is imported",
+        "the model `n` (line 2) moves besides the model `m` (line 1); one model of a file is imported: --model NAME \
+         says which one",
     );
     let include = "the include in line 1 names the other file `model://arm`, which is not read; `gz sdf -p` prints a \
                    file with its includes in it";
@@ -173,7 +174,7 @@ fn refusals_of_joints_of_sdf_name_them() {
     ends("<child>b</child>", "", " has no `child`");
     ends("<parent>a</parent>", "<parent/>", " has no `parent`");
     ends("<child>b", "<child>z", " refers to `z`, which is no link, joint or frame of the model");
-    ends("<child>b", "<child>world", " refers to `world`, which is no link, joint or frame of the model");
+    ends("<child>b", "<child>world", " has the world as its child; it is the parent, and the link the child");
     ends("<child>b", "<child>a", " joins the link `a` with itself");
     let reaches = |parent: &str, ground: &str| {
         let file =

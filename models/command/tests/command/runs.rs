@@ -225,8 +225,85 @@ fn inputs_from_a_file() {
     };
     let (none, rising, constant) = (end(""), end("--input @in.csv"), end("--input crank_torque=0.5"));
     assert!(none < rising && rising < constant, "{none} {rising} {constant}");
+    // the only column beside the time has any name, and columns of a log that are no inputs are skipped
+    std::fs::write(folder.path().join("load.csv"), "t [s];load [N*mm]\n0;0\n0,1;500\n").unwrap();
+    assert_eq!(end("--input crank_torque=@load.csv").to_bits(), rising.to_bits());
+    std::fs::write(
+        folder.path().join("log.csv"),
+        "crank_torque (N*mm),t (ms),oil (K)\n0,0,300\n500,100,301\n",
+    )
+    .unwrap();
+    assert_eq!(end("--input @log.csv").to_bits(), rising.to_bits());
+    let noted = text(run("--input @log.csv").stderr);
+    assert!(noted.contains("note: columns that are no inputs are not used: oil"), "{noted}");
+    let absent = text(run("--input crank_torque=@log2.csv --input crank_torque=@in.csv").stderr);
+    assert!(absent.contains("log2.csv"), "{absent}");
+    let both = text(run("--input @log.csv --input crank_torque=@in.csv").stderr);
+    assert!(both.contains("`crank_torque` cannot be used: two tables have it"), "{both}");
     let twice = run("--input @in.csv --input crank_torque=1");
     assert!(text(twice.stderr).contains("set to a value and changes with time"));
+}
+
+/// The ramp of a geared motor, whose motion depended on the time between two samples: -21.8 rad with 1 s.
+#[test]
+fn a_ramp_for_any_step() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ramp.csv"), "t [s],load [N*m]\n0,0\n1,1\n").unwrap();
+    for step in ["1s", "0.3s", "1ms"] {
+        let run = format!(
+            "simulate geared-motor --set speed=0 --input @ramp.csv --end 1s --rtol 1e-9 --step {step} --json"
+        );
+        let json: serde_json::Value = serde_json::from_slice(&mbs(folder.path(), &run).stdout).unwrap();
+        let phi2 = json["final"]["phi2"]["value"].as_f64().unwrap();
+        assert!((phi2 + 23.77122).abs() < 1e-5, "{step}: {phi2}");
+    }
+}
+
+/// A log that begins at 646 s is followed on its clock, to its end.
+#[test]
+fn inputs_on_a_clock_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = |start: i32| format!("t [s],load [N*m]\n{start},0\n{},1\n", start + 1);
+    for (name, start) in [("own.csv", 0), ("log.csv", 646)] {
+        std::fs::write(folder.path().join(name), table(start)).unwrap();
+    }
+    let run = |arguments: &str| {
+        mbs(
+            folder.path(),
+            &format!("simulate geared-motor --set speed=0 --rtol 1e-9 --step 0.1s {arguments}"),
+        )
+    };
+    let json = |arguments: &str| -> serde_json::Value {
+        serde_json::from_slice(&run(&format!("{arguments} --json")).stdout).unwrap()
+    };
+    let (own, log) = (json("--input @own.csv"), json("--input @log.csv"));
+    let value = |json: &serde_json::Value, name: &str| json["final"][name]["value"].as_f64().unwrap();
+    assert_eq!((value(&own, "t"), value(&log, "t")), (1.0, 647.0));
+    assert!((value(&own, "phi2") - value(&log, "phi2")).abs() < 1e-7);
+    assert!(log["notes"][0].as_str().unwrap().contains("begin at 646 s on a clock of their own"), "{log}");
+    let early = text(run("--input @log.csv --end 2s").stderr);
+    assert!(early.contains("the end time is 2 s"), "{early}");
+}
+
+/// The torque that a motion takes, followed by a run, gives the motion: to a tolerance but for the straight lines
+/// between its samples, an error that falls with the square of their distance; in steps whose stages are at the
+/// samples, to the error of the steps.
+#[test]
+fn inverse_dynamics_lead_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = |samples: u32, method: &str| {
+        let inverse = "inverse four-bar-free --move theta2=0deg..90deg --over 0.1s --inputs crank_torque";
+        let output = mbs(folder.path(), &format!("{inverse} --samples {samples} --out torque.csv"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        let run = "simulate four-bar-free --set omega=0 --input @torque.csv --end 0.1s --json";
+        let output = mbs(folder.path(), &format!("{run} {method}"));
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        (json["final"]["theta2"]["value"].as_f64().unwrap() - std::f64::consts::FRAC_PI_2).abs()
+    };
+    let [coarse, fine] = [201, 401].map(|samples| error(samples, "--rtol 1e-10 --atol 1e-12"));
+    assert!(fine < 2e-4 && (coarse / fine - 4.0).abs() < 0.1, "{coarse} {fine}");
+    let steps = error(201, "--method rk4 --step 1ms");
+    assert!(steps < 2e-6, "{steps}");
 }
 
 #[test]
@@ -333,8 +410,12 @@ fn where_a_mechanism_rests() {
     let table = String::from_utf8_lossy(&chain.stdout).into_owned();
     assert!(table.lines().any(|line| line.starts_with("stability") && line.ends_with(" stable")), "{table}");
 
+    // a drive holds it: what is found are its reactions
+    let held = mbs(folder.path(), "equilibrium slider-crank");
+    let table = String::from_utf8_lossy(&held.stdout).into_owned();
+    assert!(held.status.success() && table.contains("held: nothing is free to move"), "{table}");
+
     for (options, part) in [
-        ("slider-crank", "no degree of freedom"),
         ("double-pendulum --from angle3=1", "angle2"),
         ("double-pendulum --input @force.csv", "@FILE"),
         ("spring-mass-damper --set stiffness=much", "much"),

@@ -94,7 +94,16 @@ fn shares_that_do_not_belong_together_are_refused() {
     let cut = text.trim_end().rsplit_once('\n').unwrap().0;
     fs::write(at("cut.csv"), format!("{cut}\n")).unwrap();
     refused("merge a.csv cut.csv --out all.csv", "4 of its 5 runs");
+    // Regression: a share that was cut inside its last row was merged, and was "complete already".
+    let half = &text[..text.len() - 9];
+    fs::write(at("cut.csv"), half).unwrap();
+    refused("merge a.csv cut.csv --out all.csv", "`cut.csv` cannot be used: row 5: it is cut");
+    fs::write(at("cut.csv"), text.replacen("\n80.0,", "\n81.0,", 1)).unwrap();
+    refused("merge a.csv cut.csv --out all.csv", "row 5: `l1` is `81.0`, where the sweep has 80.0");
     assert!(!at("all.csv").exists());
+    fs::write(at("b.csv"), half).unwrap();
+    assert!(share("", "2/2", "b.csv").contains("5 runs, 4 of them earlier"));
+    assert_eq!(fs::read_to_string(at("b.csv")).unwrap(), text);
     let line = "sweep slider-crank --param l1=50mm..80mm:9 --end 10ms";
     refused(&format!("{line} --shard 2/2 --out table.csv"), "not this share");
     refused(&format!("{line} --shard 3/2 --out c.csv"), "K/N");

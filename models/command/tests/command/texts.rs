@@ -76,6 +76,24 @@ fn errors_are_shown_with_their_source() {
     assert_eq!(found[1]["problems"][0]["place"]["line"], 11);
 }
 
+/// A parameter that nothing uses gives a warning and no error.
+#[test]
+fn what_nothing_uses_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let declaration =
+        "A {\n    dof = 1;\n    param k = 2 [N/m];\n    body block (x) { mass = 1 [slug]; }\n}\n";
+    fs::write(folder.path().join("a.mbs"), declaration).unwrap();
+    let output = mbs(folder.path(), "check a.mbs");
+    assert!(output.status.success() && text(output.stdout).starts_with("a.mbs: A, 1 coordinate"));
+    let message = text(output.stderr);
+    for part in ["Warning: this parameter is never used", "a.mbs:3:11", "param k = 2 [N/m];", "remove it"] {
+        assert!(message.contains(part), "{message}");
+    }
+    let found: serde_json::Value =
+        serde_json::from_slice(&mbs(folder.path(), "check --json a.mbs").stdout).unwrap();
+    assert_eq!(found[0]["problems"][0]["severity"], "warning");
+}
+
 #[test]
 fn a_declaration_to_begin_with() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, ArgMatches, Command, value_parser};
 
 use crate::command::options::{of_values, option, settings};
+use crate::console::complain;
 use crate::{Error, Models, files, say};
 
 pub(super) fn command() -> Command {
@@ -40,5 +41,12 @@ pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     let settings = settings(model, matches)?;
     let html = model.interactive_page(found.name(), &settings)?;
     files::write(&path, html.as_bytes())?;
-    say(format_args!("written: {}", path.display()))
+    say(format_args!("written: {}", path.display()))?;
+    if let [event, ..] = model.info().events {
+        let name = event.name;
+        complain(format_args!(
+            "note: the page makes constant steps and looks for no events such as `{name}`"
+        ));
+    }
+    Ok(())
 }

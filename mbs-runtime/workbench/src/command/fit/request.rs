@@ -3,31 +3,28 @@
 use std::path::PathBuf;
 
 use clap::ArgMatches;
-use mbs_analysis::{Experiment, Signal, Unknown, Variable};
+use mbs_analysis::{Experiment, Signal, Unknown, Variable, clock_of};
 use mbs_runtime::{Dimension, Info};
 
 use crate::command::options;
 use crate::measurements::Measurements;
-use crate::quantity::{self, TIME};
+use crate::number::significant;
+use crate::quantity;
 use crate::settings::Start;
 use crate::{Error, Model, Signals, Unit};
 
 /// An experiment, with the units in which it is shown.
 pub(super) struct Request {
     pub info: &'static Info,
+    path: PathBuf,
     pub data: Measurements,
     pub unknown: Vec<Unknown>,
     /// The units of what is looked for.
     pub units: Vec<Unit>,
     start: Start,
-    drive: Option<Drive>,
-    hold: f64,
     starts: usize,
     confidence: f64,
 }
-
-/// The value of an input at a time, by its place.
-type Drive = Box<dyn Fn(f64, usize) -> Option<f64>>;
 
 /// What can be looked for under a name.
 struct Place {
@@ -42,21 +39,17 @@ impl Request {
             matches.get_many::<String>(name).unwrap_or_default().cloned().collect()
         };
         let mut settings = options::values(model, matches)?;
-        if let Some(text) = matches.get_one::<String>("step") {
-            settings.step = quantity::parse("step", text, TIME)?;
-        }
         let path = matches.get_one::<PathBuf>("data").cloned().unwrap_or_default();
         let mut data = Measurements::read(&path, info, &texts("columns"))?;
-        let signals = inputs(&settings.signals, &mut data, &path)?;
-        let (hold, start) = (settings.step, Start::of(model, &settings)?);
+        settings.signals = inputs(settings.signals, &mut data, &path)?;
+        let start = Start { start_time: clock_of(&data.measured), ..Start::of(model, &settings)? };
         let mut request = Self {
             info,
+            path,
             data,
             unknown: Vec::new(),
             units: Vec::new(),
             start,
-            drive: signals.map(|signals| Box::new(signals.by_place(info)) as Drive),
-            hold,
             starts: matches.get_one::<u16>("starts").copied().map_or(1, usize::from),
             confidence: confidence(matches.get_one::<String>("confidence"))?,
         };
@@ -70,6 +63,11 @@ impl Request {
         texts("bounds").iter().try_for_each(|text| request.bound(text))?;
         texts("sigma").iter().try_for_each(|text| request.deviate(text))?;
         Ok(request)
+    }
+
+    /// When the runs start, where the data have a clock of their own.
+    pub fn start_time(&self) -> Option<f64> {
+        self.start.start_time
     }
 
     /// Takes names, with or without a guess.
@@ -145,7 +143,13 @@ impl Request {
 
     /// An error about values, in the units of the command line.
     pub fn in_its_units(&self, error: mbs_analysis::Error) -> Error {
-        let mbs_analysis::Error::Bounds { name, guess, low, high } = error else { return error.into() };
+        let (name, guess, low, high) = match error {
+            mbs_analysis::Error::Bounds { name, guess, low, high } => (name, guess, low, high),
+            mbs_analysis::Error::Mechanism(mbs_runtime::Error::TooManySteps { t, steps }) => {
+                return self.too_long(t, steps);
+            }
+            other => return other.into(),
+        };
         let unit = self.unknown.iter().zip(&self.units).find(|(unknown, _)| unknown.name == name);
         let text = |value: f64| unit.map_or_else(|| value.to_string(), |(_, unit)| unit.text(value, 6));
         let [guess, low, high] = [guess, low, high].map(text);
@@ -156,24 +160,39 @@ impl Request {
         Error::Name { name, reason }
     }
 
+    /// The refusal of data that no run comes to the end of.
+    fn too_long(&self, t: f64, steps: u64) -> Error {
+        let last = self.data.measured.iter().filter_map(|measured| measured.times.last());
+        let last = last.copied().fold(f64::NEG_INFINITY, f64::max);
+        let reason = format!(
+            "its times go on until {last} s, and a run came to {} s in {steps} steps, the most that a fit takes; \
+             are they in the unit of their heading? Leave out what comes later, or begin with softer forces \
+             (--param NAME=GUESS)",
+            significant(t, 4)
+        );
+        Error::Name { name: self.path.display().to_string(), reason }
+    }
+
     /// What is asked of the analysis.
-    pub fn experiment(&self) -> Experiment<'_> {
-        let mut experiment = Experiment::of(self.info)
+    pub fn experiment(&self) -> Experiment {
+        let experiment = Experiment::of(self.info)
             .parameters(self.start.parameters.clone())
             .inputs(self.start.inputs.clone())
+            .driven_by(self.start.table.clone())
             .starts(self.starts)
             .confidence(self.confidence);
-        if let Some(drive) = &self.drive {
-            experiment = experiment.driven_by(drive, self.hold);
-        }
-        experiment = self.data.measured.iter().cloned().fold(experiment, Experiment::with);
+        let experiment = match self.start.start_time {
+            Some(start) => experiment.starting_at(start),
+            None => experiment,
+        };
+        let experiment = self.data.measured.iter().cloned().fold(experiment, Experiment::with);
         self.unknown.iter().cloned().fold(experiment, Experiment::looking_for)
     }
 }
 
 /// The inputs of a file of their own, or of the data.
 fn inputs(
-    given: &Option<Signals>,
+    given: Option<Signals>,
     data: &mut Measurements,
     path: &std::path::Path,
 ) -> Result<Option<Signals>, Error> {
@@ -190,7 +209,7 @@ fn inputs(
                 format!("{} has columns of other inputs; put all of them into one file", path.display());
             Err(Error::Name { name: "--input".into(), reason })
         }
-        (given, own) => Ok(given.clone().or(own)),
+        (given, own) => Ok(given.or(own)),
     }
 }
 

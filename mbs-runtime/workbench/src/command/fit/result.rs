@@ -9,6 +9,7 @@ use crate::app::Warnings;
 use crate::command::json::number;
 use crate::figure::axis;
 use crate::figure::{Figure, Panel, Series, Stroke};
+use crate::names::some_of;
 use crate::number::significant;
 use crate::{Column, Table, Unit};
 
@@ -20,9 +21,6 @@ const DEPENDENT: f64 = 4.0;
 const UNLIKELY: f64 = 5.0;
 /// Estimates with a larger correlation can hardly be told from each other.
 const CORRELATED: f64 = 0.95;
-
-/// Of columns that are not used, so many are named.
-const LISTED: usize = 8;
 
 /// A fit and what was asked.
 pub(super) struct Shown<'a> {
@@ -98,9 +96,10 @@ impl Shown<'_> {
         }
         let unused = &self.request.data.unused;
         if !unused.is_empty() {
-            let (first, more) = (unused.get(..LISTED).unwrap_or(unused), unused.len().saturating_sub(LISTED));
-            let more = if more == 0 { String::new() } else { format!(", … {more} more") };
-            notes += &format!("columns not used: {}{more}\n", first.join(", "));
+            notes += &format!("columns not used: {}\n", some_of(unused));
+        }
+        if let Some(start) = self.request.start_time() {
+            notes += &format!("the data begin at {start} s on a clock of their own, and so does the run\n");
         }
         notes
     }
@@ -178,6 +177,7 @@ impl Shown<'_> {
             "estimates": self.estimates().enumerate().map(estimate).collect::<Vec<_>>(),
             "columns": self.channels().map(channel).collect::<Vec<_>>(),
             "unused": self.request.data.unused,
+            "start_time": self.request.start_time(),
             "confidence": self.fit.confidence,
             "chi_squared": number(self.fit.chi_squared),
             "degrees_of_freedom": self.fit.freedom,

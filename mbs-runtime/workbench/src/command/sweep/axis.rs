@@ -11,8 +11,31 @@ const MOST_RUNS: usize = 100_000_000;
 pub struct GridAxis {
     pub name: &'static str,
     pub unit: Unit,
-    /// In SI units, ascending.
-    values: Vec<f64>,
+    pub values: Evenly,
+}
+
+/// Evenly spaced values in SI units, ascending.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evenly {
+    pub low: f64,
+    pub high: f64,
+    pub count: usize,
+}
+
+impl Evenly {
+    /// The value with this index, from 0 on.
+    pub fn at(self, index: usize) -> f64 {
+        sweep::evenly_at(self.low, self.high, self.count, index)
+    }
+}
+
+/// Where a run stands among so many values of each parameter: the first one changes from run to run.
+pub fn places(mut run: usize, counts: impl Iterator<Item = usize>) -> impl Iterator<Item = usize> {
+    counts.map(move |count| {
+        let (at, rest) = (run % count.max(1), run / count.max(1));
+        run = rest;
+        at
+    })
 }
 
 impl GridAxis {
@@ -41,18 +64,13 @@ impl GridAxis {
         if low >= high {
             return Err(wrong("the first value has to be smaller than the last"));
         }
-        let values = sweep::evenly(low, high, count);
+        let values = Evenly { low, high, count };
         Ok(Self { name: parameter.name, unit: Unit::of(parameter), values })
-    }
-
-    /// The values to the bit.
-    pub fn bits(&self) -> impl Iterator<Item = u64> {
-        self.values.iter().map(|value| value.to_bits())
     }
 
     /// The values in the declared unit.
     pub fn shown_values(&self) -> Vec<f64> {
-        self.values.iter().map(|value| self.unit.shown(*value)).collect()
+        (0..self.values.count).map(|at| self.unit.shown(self.values.at(at))).collect()
     }
 }
 
@@ -71,7 +89,7 @@ impl Grid {
             _ => {}
         }
         let grid = Self { axes };
-        let count = grid.axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
+        let count = grid.axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.count));
         match count {
             Some(count) if count <= MOST_RUNS => Ok(grid),
             _ => Err(Error::TooManyRuns { most: MOST_RUNS }),
@@ -91,18 +109,13 @@ impl Grid {
     }
 
     pub fn count(&self) -> usize {
-        self.axes.iter().map(|axis| axis.values.len()).product()
+        self.axes.iter().map(|axis| axis.values.count).product()
     }
 
     /// The values of a run, in SI units.
     pub fn values(&self, index: usize) -> Vec<f64> {
-        let mut rest = index;
-        let mut value = |axis: &GridAxis| {
-            let at = rest % axis.values.len();
-            rest /= axis.values.len();
-            axis.values.get(at).copied().unwrap_or(f64::NAN)
-        };
-        self.axes.iter().map(&mut value).collect()
+        let places = places(index, self.axes.iter().map(|axis| axis.values.count));
+        self.axes.iter().zip(places).map(|(axis, at)| axis.values.at(at)).collect()
     }
 
     /// The same in the declared units.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::Watched;
 use super::axis::Grid;
-use super::shard::{Heading, Part};
+use super::shard::{Head, Part};
 use crate::csv_file::csv_number;
 use crate::members::Member;
 use crate::table_file::TableFile;
@@ -56,18 +56,8 @@ impl Rows {
     }
 
     /// The file of a share, and how many of its rows are there already.
-    pub fn share(
-        path: &Path,
-        heading: &Heading,
-        grid: &Grid,
-        watched: &[Watched],
-    ) -> Result<(Self, usize), Error> {
-        let mut line = csv::Writer::from_writer(Vec::new());
-        let wrong = |error: csv::Error| Error::file("write", path)(error.into());
-        line.write_record(headings(grid, watched)).map_err(wrong)?;
-        let line = line.into_inner().map_err(|error| Error::file("write", path)(error.into_error()))?;
-        let head = format!("{}\n{}", heading.line(), String::from_utf8_lossy(&line));
-        let part = Part::open(path, &head)?;
+    pub fn share(path: &Path, head: &Head) -> Result<(Self, usize), Error> {
+        let part = Part::open(path, head)?;
         let there = part.rows;
         Ok((Self::to(path, Target::Share(part)), there))
     }
@@ -87,7 +77,7 @@ impl Rows {
         index: usize,
         watched: &[Watched],
         member: &Member,
-        error: String,
+        error: &str,
     ) -> Result<(), Error> {
         let mut cells: Vec<_> = grid.shown_values(index).into_iter().map(csv_number).collect();
         for quantity in watched {
@@ -96,7 +86,8 @@ impl Rows {
                 None => cells.extend([const { String::new() }; 3]),
             }
         }
-        cells.push(error);
+        // a row is a line
+        cells.push(error.replace(['\n', '\r'], " "));
         self.write_record(cells)?;
         if self.flushed.elapsed() > SAFE {
             self.writer.flush().map_err(Error::file("write", &self.path))?;
@@ -125,6 +116,14 @@ impl Rows {
         let failed = Error::file("write", &self.path);
         self.writer.into_inner().map_err(|error| failed(error.into_error()))
     }
+}
+
+/// The line with the names of the columns.
+pub fn columns(grid: &Grid, watched: &[Watched]) -> io::Result<String> {
+    let mut line = csv::Writer::from_writer(Vec::new());
+    line.write_record(headings(grid, watched))?;
+    let line = line.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    String::from_utf8(line).map_err(io::Error::other)
 }
 
 fn headings(grid: &Grid, watched: &[Watched]) -> Vec<String> {

@@ -2,16 +2,18 @@
 //!
 //! The first line of the file says which share of which sweep it is. While it is written it has the ending `.part`, and
 //! every row that is whole counts. So a process may end at any time, and the next one with the same command goes on
-//! behind the last row.
+//! behind the last row. A file that was damaged later loses no more than the rows behind the damage.
 
+use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::Watched;
-use super::axis::Grid;
+use super::axis::{Evenly, Grid, places};
+use super::checked::{self, CheckedRows, Next};
 use crate::{Error, Model, Settings, table_file};
 
 /// Which share of how many, from 1 on.
@@ -22,13 +24,38 @@ pub struct Shard {
 }
 
 /// What the first line of a file says.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
     pub shard: Shard,
-    /// How many runs the whole sweep has.
-    pub count: usize,
+    /// The parameters of the sweep.
+    pub swept: Vec<Swept>,
     /// Tells sweeps apart: a hash of the mechanism's equations, of the settings, the grid and what is looked at.
     fingerprint: u64,
+}
+
+/// A parameter of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swept {
+    pub name: String,
+    values: Evenly,
+    /// The unit in which its values are written, in SI units.
+    unit: f64,
+}
+
+/// The lines above the rows of a share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Head {
+    pub heading: Heading,
+    /// The line with the names of the columns.
+    pub columns: String,
+}
+
+/// State of the file of a share: missing, complete or damaged.
+pub enum There {
+    Nothing,
+    Complete,
+    /// The share, with what is wrong with it.
+    Damaged(String),
 }
 
 /// The file of a share that is written.
@@ -74,60 +101,152 @@ impl Heading {
         let mut hasher = DefaultHasher::new();
         // equations, names and units stand in their debug texts
         format!("{:?} {:?} {settings:?}", model.info(), model.derivation()).hash(&mut hasher);
-        for axis in &grid.axes {
-            axis.name.hash(&mut hasher);
-            axis.bits().for_each(|bits| bits.hash(&mut hasher));
-        }
+        let swept = grid.axes.iter().map(|axis| Swept {
+            name: axis.name.to_owned(),
+            values: axis.values,
+            unit: axis.unit.read(1.0),
+        });
+        let swept: Vec<_> = swept.collect();
+        swept.iter().for_each(|swept| swept.to_string().hash(&mut hasher));
         watched.iter().for_each(|quantity| quantity.name.hash(&mut hasher));
-        Self { shard, count: grid.count(), fingerprint: hasher.finish() }
+        Self { shard, swept, fingerprint: hasher.finish() }
+    }
+
+    /// Number of runs of the whole sweep: the product of the numbers of values.
+    pub fn count(&self) -> usize {
+        self.swept.iter().map(|swept| swept.values.count).fold(1, usize::saturating_mul)
+    }
+
+    /// The values of a run in the units in which they are written.
+    pub fn shown_values(&self, run: usize) -> impl Iterator<Item = f64> {
+        let places = places(run, self.swept.iter().map(|swept| swept.values.count));
+        self.swept.iter().zip(places).map(|(swept, at)| swept.values.at(at) / swept.unit)
     }
 
     /// The line.
     pub fn line(&self) -> String {
-        let Self { shard: Shard { number, of }, count, fingerprint } = self;
-        format!("# share {number}/{of} of a sweep of {count} runs, {fingerprint:016x}")
+        let Self { shard: Shard { number, of }, swept, fingerprint } = self;
+        let (count, swept): (_, Vec<_>) = (self.count(), swept.iter().map(Swept::to_string).collect());
+        let swept = swept.join(", ");
+        format!("# share {number}/{of} of a sweep of {count} runs, {fingerprint:016x}: {swept}")
     }
 
     /// Reads the line, if it is one.
     pub fn parse(line: &str) -> Option<Self> {
         let rest = line.trim_end().strip_prefix("# share ")?;
         let (shard, rest) = rest.split_once(" of a sweep of ")?;
-        let (count, fingerprint) = rest.split_once(" runs, ")?;
-        Some(Self {
+        let (count, rest) = rest.split_once(" runs, ")?;
+        let (fingerprint, swept) = rest.split_once(": ")?;
+        let heading = Self {
             shard: Shard::parse(shard).ok()?,
-            count: count.parse().ok()?,
+            swept: swept.split(", ").map(Swept::parse).collect::<Option<_>>()?,
             fingerprint: u64::from_str_radix(fingerprint, 16).ok()?,
-        })
+        };
+        (count.parse() == Ok(heading.count())).then_some(heading)
     }
 
     /// Whether another file belongs to the same sweep, cut into as many shares.
     pub fn is_like(&self, other: &Self) -> bool {
-        self.shard.of == other.shard.of && self.count == other.count && self.fingerprint == other.fingerprint
-    }
-
-    /// Whether a file is this share, complete. One of another sweep is refused, because it would be lost.
-    pub fn is_complete(&self, path: &Path) -> Result<bool, Error> {
-        if !path.try_exists().map_err(Error::file("read", path))? {
-            return Ok(false);
-        }
-        let mut line = String::new();
-        table_file::lines(path)?.read_line(&mut line).map_err(Error::file("read", path))?;
-        if Self::parse(&line).as_ref() == Some(self) {
-            return Ok(true);
-        }
-        Err(Error::Name {
-            name: path.display().to_string(),
-            reason:
-                "there is a file of this name that is not this share of this sweep; remove it, or choose \
-                     another name"
-                    .into(),
-        })
+        Self { shard: other.shard, ..self.clone() } == *other && self.shard.of == other.shard.of
     }
 }
 
+impl Swept {
+    /// Reads `l1 0.05..0.08:31 in 0.001`.
+    fn parse(text: &str) -> Option<Self> {
+        let (name, rest) = text.split_once(' ')?;
+        let (range, unit) = rest.split_once(" in ")?;
+        let (low, rest) = range.split_once("..")?;
+        let (high, count) = rest.split_once(':')?;
+        let (low, high, count) = (low.parse().ok()?, high.parse().ok()?, count.parse().ok()?);
+        Some(Self { name: name.to_owned(), values: Evenly { low, high, count }, unit: unit.parse().ok()? })
+    }
+}
+
+impl fmt::Display for Swept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, values: Evenly { low, high, count }, unit } = self;
+        write!(f, "{name} {low:?}..{high:?}:{count} in {unit:?}")
+    }
+}
+
+impl Head {
+    /// Reads both lines, if they are those of a share.
+    pub fn read(reader: &mut impl BufRead) -> io::Result<Option<Self>> {
+        let mut line = || -> io::Result<Option<String>> {
+            let mut line = Vec::new();
+            checked::line(reader, &mut line)?;
+            Ok(String::from_utf8(line).ok().filter(|line| line.ends_with('\n')))
+        };
+        let heading = line()?.as_deref().and_then(Heading::parse);
+        let head = heading.zip(line()?).map(|(heading, columns)| Self { heading, columns });
+        Ok(head)
+    }
+
+    /// Both lines.
+    fn text(&self) -> String {
+        format!("{}\n{}", self.heading.line(), self.columns)
+    }
+
+    /// The rows of a file that is read from its first row on.
+    pub fn rows<R: BufRead>(&self, reader: R) -> CheckedRows<'_, R> {
+        let mut columns = csv::ReaderBuilder::new().has_headers(false).from_reader(self.columns.as_bytes());
+        let count = columns.records().next().and_then(Result::ok).map_or(0, |columns| columns.len());
+        CheckedRows::new(reader, &self.heading, count)
+    }
+
+    /// State of the file of this share. A file of another share or sweep is refused, because it would be lost.
+    pub fn there(&self, path: &Path) -> Result<There, Error> {
+        if !path.try_exists().map_err(Error::file("read", path))? {
+            return Ok(There::Nothing);
+        }
+        let whole = self.whole(table_file::lines(path)?).map_err(Error::file("read", path))?;
+        match whole {
+            Some(Whole { wrong: None, .. }) => Ok(There::Complete),
+            Some(Whole { wrong: Some(wrong), .. }) => Ok(There::Damaged(wrong)),
+            None => Err(Error::Name {
+                name: path.display().to_string(),
+                reason:
+                    "there is a file of this name that is not this share of this sweep; remove it, or choose \
+                     another name"
+                        .into(),
+            }),
+        }
+    }
+
+    /// The sound part of a file of this share. `None` if the file has another head.
+    fn whole(&self, mut reader: impl BufRead) -> io::Result<Option<Whole>> {
+        if Self::read(&mut reader)?.as_ref() != Some(self) {
+            return Ok(None);
+        }
+        let mut rows = self.rows(reader);
+        let mut whole = Whole { rows: 0, bytes: self.text().len() as u64, wrong: None };
+        loop {
+            match rows.next()? {
+                Next::Row(row) => {
+                    (whole.rows, whole.bytes) = (whole.rows + 1, whole.bytes + row.len() as u64)
+                }
+                Next::End => return Ok(Some(whole)),
+                Next::Wrong(wrong) => return Ok(Some(Whole { wrong: Some(wrong), ..whole })),
+            }
+        }
+    }
+}
+
+/// The sound part of a file of a share.
+#[derive(Default)]
+struct Whole {
+    /// The rows before the first one that is wrong,
+    rows: usize,
+    /// where they end,
+    bytes: u64,
+    /// and what is wrong behind them.
+    wrong: Option<String>,
+}
+
 impl Part {
-    /// Begins the file of a share, or goes on with it: `head` is its first lines.
-    pub fn open(path: &Path, head: &str) -> Result<Self, Error> {
+    /// Begins the file of a share, or goes on with it. What is whole of a share that was damaged is taken over.
+    pub fn open(path: &Path, head: &Head) -> Result<Self, Error> {
         table_file::is_parquet(path)?;
         let part = unfinished(path);
         let failed = || Error::file("write", &part);
@@ -141,14 +260,21 @@ impl Part {
             // some file systems have no locks
             Ok(()) | Err(TryLockError::Error(_)) => {}
         }
-        let (rows, bytes) = whole(&file, head).map_err(failed())?;
+        let mut whole = head.whole(BufReader::new(&file)).map_err(failed())?.unwrap_or_default();
+        if path.try_exists().map_err(Error::file("read", path))? {
+            let damaged = head.whole(table_file::lines(path)?).map_err(Error::file("read", path))?;
+            if let Some(damaged) = damaged.filter(|damaged| damaged.rows > whole.rows) {
+                copy(table_file::lines(path)?, damaged.bytes, &mut file).map_err(failed())?;
+                whole = damaged;
+            }
+        }
         let go_on = |file: &mut File| -> io::Result<()> {
-            file.set_len(bytes)?;
+            file.set_len(whole.bytes)?;
             file.seek(SeekFrom::End(0))?;
-            if bytes == 0 { file.write_all(head.as_bytes()) } else { Ok(()) }
+            if whole.bytes == 0 { file.write_all(head.text().as_bytes()) } else { Ok(()) }
         };
         go_on(&mut file).map_err(failed())?;
-        Ok(Self { path: path.to_owned(), file, rows })
+        Ok(Self { path: path.to_owned(), file, rows: whole.rows })
     }
 
     /// Gives the file its form and its name.
@@ -186,30 +312,15 @@ fn unfinished(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// How many rows of a file are whole, and how many bytes that is with its head; none if it begins otherwise.
-fn whole(file: &File, head: &str) -> io::Result<(usize, u64)> {
-    let mut reader = BufReader::new(file);
-    reader.rewind()?;
-    let (mut line, mut bytes, mut rows) = (Vec::new(), 0, 0);
-    for expected in head.split_inclusive('\n') {
-        line.clear();
-        bytes += reader.read_until(b'\n', &mut line)? as u64;
-        if line != expected.as_bytes() {
-            return Ok((0, 0));
-        }
-    }
-    loop {
-        line.clear();
-        let length = reader.read_until(b'\n', &mut line)? as u64;
-        if line.last() != Some(&b'\n') {
-            return Ok((rows, bytes));
-        }
-        (rows, bytes) = (rows + 1, bytes + length);
-    }
+/// Makes the first bytes of a file the contents of another one.
+fn copy(from: impl Read, bytes: u64, to: &mut File) -> io::Result<()> {
+    to.rewind()?;
+    to.set_len(0)?;
+    io::copy(&mut from.take(bytes), to).map(drop)
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     #[test]
@@ -226,31 +337,73 @@ mod tests {
         }
     }
 
+    fn head(shard: &str) -> Head {
+        Head { heading: heading(shard), columns: "l1 [mm],min a,max a,final a,error\n".into() }
+    }
+
+    /// A share of the sweep of l1 over 50, 60 and 70 mm.
+    pub fn heading(shard: &str) -> Heading {
+        let values = Evenly { low: 0.05, high: 0.07, count: 3 };
+        let swept = vec![Swept { name: "l1".into(), values, unit: 1e-3 }];
+        Heading { shard: Shard::parse(shard).unwrap(), swept, fingerprint: 0xabc }
+    }
+
+    const ROWS: [&str; 3] = ["50.0,1.0,2.0,1.5,\n", "60.0,1.0,2.0,1.5,\n", "70.0,1.0,2.0,1.5,\n"];
+
     #[test]
     fn a_file_goes_on_behind_its_last_whole_row() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("part.csv");
-        let head = "# share 1/2\na,b\n";
-        let mut part = Part::open(&path, head).unwrap();
-        part.write_all(b"1,2\n3,4\n5,").unwrap();
-        assert!(Part::open(&path, head).is_err_and(|error| error.to_string().contains("another process")));
+        let head = head("1/1");
+        let mut part = Part::open(&path, &head).unwrap();
+        part.write_all(ROWS[..2].concat().as_bytes()).unwrap();
+        part.write_all(b"70.0,1.0").unwrap();
+        assert!(Part::open(&path, &head).is_err_and(|error| error.to_string().contains("another process")));
         drop(part);
-        let mut part = Part::open(&path, head).unwrap();
+        let mut part = Part::open(&path, &head).unwrap();
         assert_eq!(part.rows, 2);
-        part.write_all(b"5,6\n").unwrap();
+        part.write_all(ROWS[2].as_bytes()).unwrap();
         part.finish().unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), format!("{head}1,2\n3,4\n5,6\n"));
+        assert_eq!(fs::read_to_string(&path).unwrap(), head.text() + &ROWS.concat());
+        assert!(matches!(head.there(&path), Ok(There::Complete)));
         // that of another sweep begins anew
-        fs::write(unfinished(&path), "# share 1/3\na,b\n1,2\n").unwrap();
-        assert_eq!(Part::open(&path, head).unwrap().rows, 0);
-        assert_eq!(fs::read_to_string(unfinished(&path)).unwrap(), head);
+        let other = Head { columns: "l1 [mm],min b,max b,final b,error\n".into(), ..head.clone() };
+        fs::write(unfinished(&path), other.text() + ROWS[0]).unwrap();
+        fs::remove_file(&path).unwrap();
+        assert_eq!(Part::open(&path, &head).unwrap().rows, 0);
+        assert_eq!(fs::read_to_string(unfinished(&path)).unwrap(), head.text());
+    }
+
+    /// Regression: a share that was cut inside its last row counted as complete.
+    #[test]
+    fn a_damaged_share_goes_on_behind_its_last_good_row() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("part.csv");
+        let head = head("1/1");
+        let text = head.text() + &ROWS.concat();
+        let row = text.len() - ROWS[2].len();
+        for cut in row..text.len() {
+            fs::write(&path, &text[..cut]).unwrap();
+            assert!(matches!(head.there(&path), Ok(There::Damaged(_))), "{cut}");
+            let part = Part::open(&path, &head).unwrap();
+            assert_eq!((part.rows, fs::read_to_string(part.kept()).unwrap().as_str()), (2, &text[..row]));
+        }
+        fs::write(&path, text.replace("60.0", "61.0")).unwrap();
+        fs::remove_file(unfinished(&path)).unwrap();
+        assert!(matches!(head.there(&path), Ok(There::Damaged(reason)) if reason.contains("row 2: `l1`")));
+        assert_eq!(Part::open(&path, &head).unwrap().rows, 1);
     }
 
     #[test]
     fn the_first_line_reads_back() {
-        let heading = Heading { shard: Shard { number: 3, of: 16 }, count: 1271, fingerprint: 0xabc };
-        assert_eq!(heading.line(), "# share 3/16 of a sweep of 1271 runs, 0000000000000abc");
-        assert_eq!(Heading::parse(&format!("{}\n", heading.line())), Some(heading));
-        assert_eq!(Heading::parse("l1 [mm],omega [rpm]\n"), None);
+        let heading = heading("3/16");
+        let line = "# share 3/16 of a sweep of 3 runs, 0000000000000abc: l1 0.05..0.07:3 in 0.001";
+        assert_eq!(heading.line(), line);
+        assert_eq!(Heading::parse(&format!("{line}\n")), Some(heading));
+        for no in
+            ["l1 [mm],omega [rpm]\n", &line.replace("of 3 runs", "of 4 runs"), &line.replace(" in ", " ")]
+        {
+            assert_eq!(Heading::parse(no), None, "{no}");
+        }
     }
 }

@@ -1,0 +1,132 @@
+//! Starts that are given in place of the declared one.
+
+use mbs_runtime::equations::{Room, assemble, project, project_velocities};
+use mbs_runtime::{Dimension, Info, System};
+
+use crate::settings::{Start, StartKind};
+use crate::{Error, Model, Unit, quantity};
+
+/// A state at which a run starts, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartState {
+    /// The time in s at which the run started, which is that of the state if no step was taken.
+    pub start_time: f64,
+    /// Steps that the run has taken from there. A run to a tolerance counts none.
+    pub steps_taken: u64,
+    /// The coordinates, in the order of [`Info::coordinates`].
+    pub q: Vec<f64>,
+    /// Their rates.
+    pub v: Vec<f64>,
+}
+
+/// A coordinate or its rate.
+#[derive(Clone, Copy)]
+struct Place {
+    at: usize,
+    is_rate: bool,
+}
+
+impl Place {
+    /// The place of what is called `x` or `der(x)`, with its dimension and the unit of a bare number.
+    fn find(info: &Info, name: &str) -> Result<(Self, Dimension, Unit), Error> {
+        let inner = name.trim().strip_prefix("der(").and_then(|name| name.strip_suffix(')'));
+        let (is_rate, of) = (inner.is_some(), inner.unwrap_or(name).trim());
+        let mut known = info.coordinates.iter().enumerate();
+        let Some((at, q)) = known.find(|(_, q)| q.name == of) else {
+            let rates = info.coordinates.iter().map(|q| format!("der({})", q.name));
+            let names: Vec<String> =
+                info.coordinates.iter().map(|q| q.name.to_owned()).chain(rates).collect();
+            return Err(Error::unknown("coordinate or rate", name, names.iter().map(String::as_str)));
+        };
+        let unit = Unit::of_coordinate(q);
+        Ok(if is_rate {
+            let time = q.dimension.time.saturating_sub(1);
+            (Self { at, is_rate }, Dimension { time, ..q.dimension }, unit.per_second())
+        } else {
+            (Self { at, is_rate }, q.dimension, unit)
+        })
+    }
+}
+
+impl StartState {
+    /// Values in SI units of coordinates `x` and rates `der(x)`, from texts.
+    ///
+    /// # Errors
+    /// Names that the mechanism does not have or that come twice, values that cannot be read or have another
+    /// dimension.
+    pub fn values(info: &Info, texts: &[(String, String)]) -> Result<Vec<(String, f64)>, Error> {
+        let mut found: Vec<(String, f64)> = Vec::new();
+        for (name, text) in texts {
+            let (_, dimension, unit) = Place::find(info, name)?;
+            if found.iter().any(|(other, _)| other == name) {
+                return Err(Error::Name { name: name.clone(), reason: "it is set twice".into() });
+            }
+            found.push((name.clone(), quantity::parse_in(name, text, dimension, &unit)?));
+        }
+        Ok(found)
+    }
+}
+
+/// The declared start of a run with these values in it, made consistent.
+///
+/// It is what the declaration would give with these values in its `start`. If other values that are declared
+/// contradict them, those move too: only what is given here stays.
+///
+/// # Errors
+/// Names that the mechanism does not have, positions from which it cannot be assembled.
+pub(crate) fn with_values(
+    model: &dyn Model,
+    start: &Start,
+    values: &[(String, f64)],
+) -> Result<StartState, Error> {
+    let info = model.info();
+    let places: Vec<(Place, f64)> = values
+        .iter()
+        .map(|(name, value)| Ok((Place::find(info, name)?.0, *value)))
+        .collect::<Result<_, Error>>()?;
+    let run = model.start(&Start { kind: StartKind::Declared, ..start.clone() })?;
+    let n = info.coordinates.len();
+    let (mut q, mut v) = (vec![f64::NAN; n], vec![f64::NAN; n]);
+    run.state(&mut q, &mut v);
+    for (Place { at, is_rate }, value) in &places {
+        *(if *is_rate { &mut v[*at] } else { &mut q[*at] }) = *value;
+    }
+    // all of them are a state, which is as consistent as it is
+    if places.len() < 2 * n && start.kind == StartKind::Consistent {
+        make_consistent(&*run, &places, &mut q, &mut v)?;
+    }
+    Ok(StartState { start_time: run.time(), steps_taken: 0, q, v })
+}
+
+/// Moves positions, then velocities onto the constraints: as in a start that is declared, and where that would move
+/// one of `places`, everything but those.
+fn make_consistent(
+    run: &dyn System,
+    places: &[(Place, f64)],
+    q: &mut [f64],
+    v: &mut [f64],
+) -> Result<(), mbs_runtime::Error> {
+    let (t, equations) = (run.time(), run.equations());
+    let info = equations.info();
+    let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
+    let mut room = Room::within(&mut numbers, info);
+    let given = |is_rate: bool| places.iter().filter(move |(place, _)| place.is_rate == is_rate);
+    let names = |is_rate: bool| -> Vec<&'static str> {
+        given(is_rate).map(|(place, _)| info.coordinates[place.at].name).collect()
+    };
+    let stays = |now: &[f64], is_rate: bool| given(is_rate).all(|(place, value)| now[place.at] == *value);
+
+    let mut moved = q.to_vec();
+    if assemble(equations, t, &mut moved, &mut room).is_ok() && stays(&moved, false) {
+        q.copy_from_slice(&moved);
+    } else {
+        project(equations, t, q, &mut v.to_vec(), [&names(false), &[]], &mut room)?;
+    }
+    let mut moved = v.to_vec();
+    if project_velocities(equations, t, q, &mut moved, &mut room).is_ok() && stays(&moved, true) {
+        v.copy_from_slice(&moved);
+        return Ok(());
+    }
+    let all: Vec<&'static str> = info.coordinates.iter().map(|coordinate| coordinate.name).collect();
+    project(equations, t, q, v, [&all, &names(true)], &mut room)
+}
