@@ -1,4 +1,5 @@
-"""How fast the package is: from text to arrays, sweeps against the command line, two threads, a million runs.
+"""Speed of the package: from text to arrays, steps in a loop, sweeps against the command line, two threads, a million
+runs, a new interpreter.
 
 Times are medians of some turns on this machine; the ratios are what means something.
 """
@@ -38,6 +39,45 @@ def from_text() -> None:
         mbs.compile(CRANK).simulate(0.6)["x3"]
 
     print(f"from text to arrays of 1200 steps: {1e3 * taken(work, 21):.1f} ms")
+
+
+CART_POLE = """CartPole {
+    dof = 2;
+    gravity = (0, -9.81) [m/s^2];
+    input push [N];
+    body cart (x) { mass = 1 [kg]; }
+    body pole (px, py, theta) { mass = 100 [g]; inertia = 2e-3 [kg*m^2]; }
+    constraint pin_x: px = x + 250 [mm]*sin(theta);
+    constraint pin_y: py = 250 [mm]*cos(theta);
+    force hand on x = push;
+    start { x = 0; guess py = 250 [mm]; theta = 0.05 [rad]; }
+}"""
+
+
+def loop() -> None:
+    """Steps of a cart with a pole: one by one, a block at once, and environments side by side."""
+    pole = mbs.compile(CART_POLE)
+    run, many = pole.start(step="1 ms"), pole.start_many(4096, step="1 ms")
+    count, pushes = 20_000, np.zeros(20_000)
+
+    def one_by_one() -> None:
+        run.reset()
+        for push in pushes:
+            run.step(push)
+
+    def block() -> None:
+        run.reset()
+        run.advance(pushes)
+
+    def side_by_side() -> None:
+        for _ in range(5):
+            many.step(pushes[:4096])
+
+    one, together, beside = (taken(work, 7) for work in (one_by_one, block, side_by_side))
+    print(
+        f"steps of a cart with a pole in 1 s: {count / one:.2e} one by one, {count / together:.2e} in a block, "
+        f"{5 * 4096 / beside:.2e} side by side"
+    )
 
 
 def sweeps() -> None:
@@ -104,5 +144,5 @@ def start() -> None:
 
 
 if __name__ == "__main__":
-    for bench in (start, from_text, threads, sweeps, a_million):
+    for bench in (start, from_text, loop, threads, sweeps, a_million):
         bench()

@@ -17,6 +17,8 @@ pub struct Asked {
     inputs: Vec<(String, String)>,
     /// Times, and inputs at them in their declared units.
     signals: Option<(Vec<f64>, Columns)>,
+    /// Start values of coordinates and rates.
+    state: Vec<(String, String)>,
     every: Option<u64>,
     allow_unstable: bool,
 }
@@ -50,6 +52,7 @@ impl Asked {
             parameters: self.parameters,
             inputs: self.inputs,
             signals,
+            from: self.state,
             every: self.every,
             finds_events: true,
             allow_unstable: self.allow_unstable,

@@ -89,7 +89,6 @@ impl Mechanism {
             values: vec![f64::NAN; times.len() * columns.len()],
             derivatives: vec![f64::NAN; times.len() * columns.len() * variables.len()],
         };
-        let signal = settings.signals.clone().map(|signals| signals.by_place(info));
         let units: Vec<Unit> = columns.iter().map(|column| Unit::of_signal(info, column)).collect();
         for (group, part) in variables.chunks(PARTIALS).enumerate() {
             let seeded = |variable: Variable, value: f64| {
@@ -108,18 +107,15 @@ impl Mechanism {
                     }
                 }
             };
-            let inputs = |t: f64, inputs: &mut [f64]| {
-                for (place, (input, constant)) in inputs.iter_mut().zip(&start.inputs).enumerate() {
-                    *input = signal.as_ref().and_then(|signal| signal(t, place)).unwrap_or(*constant);
-                }
-            };
             let trial = Trial {
                 parameters: &parameters,
                 start: &seed_start,
                 times,
-                inputs: &inputs,
-                hold: if signal.is_some() { settings.step } else { settings.end.max(settings.step) },
+                start_time: start.start_time,
+                inputs: &start.inputs,
+                table: &start.table,
                 tolerances: settings.tolerances.unwrap_or(usual),
+                most_steps: u64::MAX,
             };
             trials.follow(&trial, &mut |row, run| {
                 let seen = see(run, columns)?;

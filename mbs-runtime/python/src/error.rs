@@ -16,8 +16,13 @@ pub fn raised(py: Python<'_>, message: &str) -> PyErr {
 pub fn of(py: Python<'_>, error: &mbs_workbench::Error) -> PyErr {
     match error {
         mbs_workbench::Error::Declaration(error) => of_declaration(py, error),
-        other => raised(py, &other.to_string()),
+        other => raised(py, &pythonic(&other.to_string())),
     }
+}
+
+/// The Python exception for an error of a run.
+pub fn of_run(py: Python<'_>, error: mbs_runtime::Error) -> PyErr {
+    of(py, &error.into())
 }
 
 /// What an analysis says.
@@ -70,4 +75,69 @@ fn placed<'py>(py: Python<'py>, message: &str, location: Option<&Location>) -> P
         found.set_item(name, value)?;
     }
     Ok(found)
+}
+
+/// Arguments that the command line has as options, with the value of those that are flags there.
+const ARGUMENTS: [(&str, Option<&str>); 17] = [
+    ("step", None),
+    ("end", None),
+    ("alpha", None),
+    ("beta", None),
+    ("method", None),
+    ("rtol", None),
+    ("atol", None),
+    ("max-step", None),
+    ("feedback", None),
+    ("until", None),
+    ("start", None),
+    ("every", None),
+    ("at", None),
+    ("after", None),
+    ("here", Some("True")),
+    ("relax", Some("True")),
+    ("allow-unstable", Some("True")),
+];
+
+/// A message in the words of Python: `--every 3` is `every=3` there, and `max-step` is `max_step`.
+pub fn pythonic(message: &str) -> String {
+    let mut said = String::with_capacity(message.len());
+    // values are keywords of their own
+    let message = message.replace("--input ", "").replace("--from ", "");
+    let mut rest = message.as_str();
+    while let Some(place) = rest.find("--") {
+        let (before, option) = rest.split_at(place);
+        said.push_str(before);
+        let end = option[2..]
+            .find(|c: char| !(c.is_ascii_lowercase() || c == '-'))
+            .map_or(option.len(), |at| at + 2);
+        let (word, after) = option.split_at(end);
+        rest = after;
+        let Some((name, flag)) = ARGUMENTS.iter().find(|(name, _)| *name == &word[2..]) else {
+            said.push_str(word);
+            continue;
+        };
+        said.push_str(&name.replace('-', "_"));
+        said.push('=');
+        let value = after.strip_prefix(' ').unwrap_or_default();
+        let value = &value[..value.find([' ', ',', ';', ':', '`']).unwrap_or(value.len())];
+        match flag {
+            Some(value) => said.push_str(value),
+            None if value.parse::<f64>().is_ok() => {
+                said.push_str(value);
+                rest = &after[1 + value.len()..];
+            }
+            None if value.starts_with(|c: char| c.is_ascii_digit()) => {
+                said.push_str(&format!("\"{value}\""));
+                rest = &after[1 + value.len()..];
+            }
+            None => said.push('…'),
+        }
+    }
+    said.push_str(rest);
+    said.replace(
+        "projecting the start (`start::project`) makes it consistent",
+        "give fewer values: the others follow",
+    )
+    .replace("max-step", "max_step")
+    .replace("allow-unstable", "allow_unstable")
 }

@@ -1,6 +1,6 @@
 //! Parameters from measured motions.
 
-use mbs_analysis::{Experiment, Fit, Measurement, Signal, Unknown};
+use mbs_analysis::{Experiment, Fit, Measurement, Signal, Unknown, clock_of};
 use mbs_runtime::Info;
 use mbs_workbench::{Error, RunOptions, Start, Unit, quantity};
 use numpy::PyArray1;
@@ -104,15 +104,16 @@ impl Mechanism {
         let settings = options.values(model)?;
         let start = Start::of(model, &settings)?;
         let trials = self.trials()?;
-        let signal = settings.signals.clone().map(|signals| signals.by_place(model.info()));
-        let mut experiment = Experiment::of(model.info())
+        let experiment = Experiment::of(model.info())
             .parameters(start.parameters)
             .inputs(start.inputs)
+            .driven_by(start.table)
             .starts(fit.starts)
             .confidence(fit.confidence);
-        if let Some(signal) = &signal {
-            experiment = experiment.driven_by(signal, settings.step);
-        }
+        let experiment = match clock_of(measured) {
+            Some(start) => experiment.starting_at(start),
+            None => experiment,
+        };
         let experiment = measured.iter().cloned().fold(experiment, Experiment::with);
         let experiment = unknown.iter().cloned().fold(experiment, Experiment::looking_for);
         Ok(experiment.fit_while(&*trials, &mut |now| {

@@ -28,6 +28,9 @@ mod fit;
 mod linear;
 mod mechanism;
 mod recording;
+mod simulation;
+mod simulations;
+mod stepped;
 mod sweep;
 mod synthesis;
 mod watched;
@@ -49,6 +52,10 @@ mod _native {
     use crate::mechanism::{Mechanism, compile};
     #[pymodule_export]
     use crate::recording::Recording;
+    #[pymodule_export]
+    use crate::simulation::Simulation;
+    #[pymodule_export]
+    use crate::simulations::Simulations;
 
     #[pymodule_init]
     fn versioned(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

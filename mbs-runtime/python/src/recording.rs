@@ -27,12 +27,16 @@ type Named<'py> = (String, String, Bound<'py, PyArray1<f64>>);
 
 #[pymethods]
 impl Recording {
-    /// Name, unit and values of each column, the time first.
-    fn columns<'py>(&self, py: Python<'py>) -> Vec<Named<'py>> {
+    /// Name, unit and values of each column, the time first; of those that fit some patterns, if such are given.
+    #[pyo3(signature = (patterns=None))]
+    fn columns<'py>(&self, py: Python<'py>, patterns: Option<Vec<String>>) -> PyResult<Vec<Named<'py>>> {
         let of = |column: &Column| {
             (column.name.clone(), column.unit.clone(), PyArray1::from_slice(py, &column.values))
         };
-        self.recording.columns.iter().map(of).collect()
+        let Some(patterns) = patterns else { return Ok(self.recording.columns.iter().map(of).collect()) };
+        let named = ["t"].into_iter().chain(patterns.iter().map(String::as_str));
+        let found = self.recording.select(named).map_err(|error| error::of(py, &error))?;
+        Ok(found.into_iter().map(of).collect())
     }
 
     /// The figures of the run that one looks at first.
@@ -62,12 +66,17 @@ impl Recording {
 
     /// Why the run ended early, if it did.
     fn ended(&self) -> Option<String> {
-        self.recording.ended.map(|error| error.to_string())
+        self.recording.ended.map(|error| error::pythonic(&error.to_string()))
     }
 
     /// Why its numbers should not be trusted.
     fn doubts(&self) -> Vec<String> {
-        self.recording.doubts.iter().map(ToString::to_string).collect()
+        self.recording.doubts.iter().map(|doubt| error::pythonic(&doubt.to_string())).collect()
+    }
+
+    /// Notes on how the run differs from what one may expect, in the words of Python.
+    fn notes(&self) -> Vec<String> {
+        self.recording.notes.iter().map(|note| error::pythonic(note)).collect()
     }
 
     /// A page with the mechanism in motion and its curves.

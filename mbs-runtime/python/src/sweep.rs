@@ -20,19 +20,19 @@ const MOST_REASONS: usize = 100;
 
 /// The values of a parameter, in its declared unit, or in texts.
 #[derive(FromPyObject)]
-enum Values {
+pub enum Values {
     Numbers(Vec<f64>),
     Texts(Vec<String>),
 }
 
 /// A parameter that differs, and its values in SI units.
-struct Axis {
-    name: String,
-    values: Vec<f64>,
+pub struct Axis {
+    pub name: String,
+    pub values: Vec<f64>,
 }
 
 impl Axis {
-    fn of(info: &Info, name: String, values: Values) -> Result<Self, Error> {
+    pub fn of(info: &Info, name: String, values: Values) -> Result<Self, Error> {
         let known = info.parameters;
         let found = known.iter().find(|parameter| parameter.name == name);
         let found = found.ok_or_else(|| Error::unknown("parameter", &name, known.iter().map(|p| p.name)))?;

@@ -19,6 +19,7 @@ from mbs.gradients import Gradients
 from mbs.linear import Linearization, Mode
 from mbs.mechanism import Constraint, Mechanism, Quantity, compile
 from mbs.run import Event, Run, Summary
+from mbs.simulation import Simulation, Simulations
 from mbs.sweep import Sweep
 from mbs.synthesis import Linkage, Synthesis
 
@@ -39,6 +40,8 @@ __all__ = [
     "Mode",
     "Quantity",
     "Run",
+    "Simulation",
+    "Simulations",
     "Summary",
     "Sweep",
     "Synthesis",

@@ -9,15 +9,18 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from mbs import _native
-from mbs._asked import Asked, Value, asked, numbers
+from mbs._asked import Asked, Value, asked, numbers, whole
 from mbs.equilibrium import Equilibrium
-from mbs.errors import DoubtWarning, EndedEarly
+from mbs.errors import DoubtWarning, EndedEarly, Error
 from mbs.fit import Fit, fit
 from mbs.gradients import Gradients
 from mbs.linear import Linearization, Mode
 from mbs.progress import Progress, told
 from mbs.run import Run
+from mbs.simulation import Simulation, Simulations
 from mbs.sweep import Sweep, sweep
 from mbs.synthesis import Synthesis, synthesize
 
@@ -122,8 +125,14 @@ class Mechanism:
             raise TypeError(f"{self.name} was compiled by rustc, and has no text by which it could be sent elsewhere")
         return _compiled, self._source
 
-    def _asked(self, given: Mapping[str, Any]) -> Asked:
-        return asked(self.name, self.parameters, self.inputs, given)
+    def _asked(self, given: Mapping[str, Any], starts: bool = False) -> Asked:
+        return asked(self.name, self.parameters, self.inputs, given, self.coordinates if starts else None)
+
+    def _has_no_end(self, values: Mapping[str, Any]) -> None:
+        """Refuses what a run in a loop has no use for."""
+        for name in ("end", "until", "every", "columns", "signals", "progress"):
+            if name in values and name not in self.parameters and name not in self.inputs:
+                raise Error(f"`{name}` is an option of `simulate`: this run takes its steps when it is asked to")
 
     def explain(self) -> str:
         """The equations, their elimination and its operations, as text."""
@@ -152,6 +161,8 @@ class Mechanism:
         parameters: Mapping[str, Value] | None = None,
         inputs: Mapping[str, Value] | None = None,
         signals: Mapping[str, Sequence[float]] | None = None,
+        state: Mapping[str, Value] | None = None,
+        columns: Sequence[str] | None = None,
         progress: Progress = None,
         **values: Value,
     ) -> Run:
@@ -159,9 +170,11 @@ class Mechanism:
 
         ``step``, ``method``, ``feedback``, ``alpha``, ``beta`` are as declared unless they are given, else Heun's method
         with 0.5 ms and deadbeat feedback. With ``rtol``, ``atol`` or ``max_step`` the steps are as long as their error
-        permits, and ``step`` is the time between two rows; so are runs with declared events and those that end at a
-        condition, ``until="x3 > 200mm"``. ``every`` keeps every so many rows. ``start="declared"`` does not make the
-        start consistent. ``signals`` are inputs that change: ``{"t": times, "force": values}``, straight lines between.
+        permits, and ``step`` is the time between two rows; so are runs with declared events, unless the mechanism declares
+        a method with constant steps, and those that end at a condition, ``until="x3 > 200mm"``. ``every`` keeps every so
+        many rows. ``start="declared"`` does not make the start consistent. ``signals`` are inputs that change:
+        ``{"t": times, "force": values}``, straight lines between. Coordinates are start values, ``x3=0.2``, as are those
+        in ``state={"der(x3)": 1}``; the other coordinates follow them. ``columns=["x*", "lambda(pin_x)"]`` keeps these.
 
         Raises ``Error``, and ``EndedEarly`` with the run up to there. What makes its numbers doubtful is a
         ``DoubtWarning``.
@@ -169,11 +182,12 @@ class Mechanism:
         options = dict(
             end=end, step=step, method=method, rtol=rtol, atol=atol, max_step=max_step, until=until, every=every,
             start=start, feedback=feedback, alpha=alpha, beta=beta, allow_unstable=allow_unstable,
-            parameters=parameters, inputs=inputs, signals=signals,
+            parameters=parameters, inputs=inputs, signals=signals, state=state,
         )  # fmt: skip
+        asked = self._asked({**options, **values}, starts=True)
         with told(progress, self.name, " steps") as tell:
-            native = self._native.simulate(self._asked({**options, **values}), tell)
-        run = Run(self.name, native)
+            native = self._native.simulate(asked, tell)
+        run = Run(self, asked, native, columns)
         ended = native.ended()
         if ended is not None:
             raise EndedEarly(f"the run ended early: {ended}", run)
@@ -183,6 +197,67 @@ class Mechanism:
         for doubt in run.doubts:
             warnings.warn(doubt, DoubtWarning, stacklevel=2)
         return run
+
+    def start(
+        self,
+        *,
+        step: Value | None = None,
+        method: str | None = None,
+        rtol: Value | None = None,
+        atol: Value | None = None,
+        max_step: Value | None = None,
+        start: str | None = None,
+        feedback: str | None = None,
+        alpha: Value | None = None,
+        beta: Value | None = None,
+        allow_unstable: bool = False,
+        parameters: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        state: Mapping[str, Value] | None = None,
+        **values: Value,
+    ) -> Simulation:
+        """A run that takes its steps when it is asked to: for controllers, environments and games.
+
+        ``run = m.start(step="10 ms", y=0.1)``, then ``run.step(force)``. Options are those of ``simulate``; coordinates
+        are start values, as are those in ``state={"der(y)": 2}``, and the other coordinates follow them. With ``rtol``
+        a step leads over ``step`` seconds in as many steps as its error asks for. Events are passed over.
+        """
+        self._has_no_end(values)
+        options = dict(
+            step=step, method=method, rtol=rtol, atol=atol, max_step=max_step, start=start, feedback=feedback,
+            alpha=alpha, beta=beta, allow_unstable=allow_unstable, parameters=parameters, inputs=inputs, state=state,
+        )  # fmt: skip
+        return Simulation(self, self._asked({**options, **values}, starts=True))
+
+    def start_many(
+        self,
+        count: int,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        state: Mapping[str, Any] | None = None,
+        **values: Any,
+    ) -> Simulations:
+        """Some runs side by side, whose steps are taken together on all cores: a vectorised environment.
+
+        Options are those of ``start``. A parameter or a start value that is an array has a value for each run:
+        ``m.start_many(4096, step="10 ms", length=lengths, state={"der(y)": speeds})``.
+        """
+        whole(count, "count", 0)
+        self._has_no_end(values)
+        for name, value in values.items():
+            if name in self.inputs and np.ndim(value) > 0:
+                raise Error(f"the input `{name}` of each run is given to `step`")
+            if name in (state or {}) or name in (parameters or {}):
+                raise Error(f"`{name}` is given twice")
+        several: dict[str, Any] = {}
+        one: dict[str, dict[str, Any]] = {"parameters": {}, "state": {}}
+        for kind, given in (("parameters", parameters), ("state", state)):
+            for name, value in (given or {}).items():
+                (one[kind] if np.ndim(value) == 0 else several)[name] = value
+        names = {*self.parameters, *self.coordinates}
+        several |= {name: value for name, value in values.items() if name in names and np.ndim(value) > 0}
+        alone = {name: value for name, value in values.items() if name not in several}
+        return Simulations(self, self._asked({**one, **alone}, starts=True), count, several)
 
     def sweep(
         self,
@@ -333,9 +408,9 @@ def _point(
     from mbs._asked import text, texts
 
     return {
-        "guess": texts(guess or {}),
-        "at": None if at is None else text(at),
-        "after": None if after is None else text(after),
+        "guess": texts(guess or {}, "the values of a guess"),
+        "at": None if at is None else text(at, "`at`"),
+        "after": None if after is None else text(after, "`after`"),
         "relax": relax,
         "here": here,
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,7 +14,9 @@ from mbs._asked import Array
 from mbs.errors import Error
 
 if TYPE_CHECKING:
+    from mbs._asked import Asked
     from mbs._native import Recording
+    from mbs.mechanism import Mechanism
 
 
 class Event(NamedTuple):
@@ -50,16 +52,22 @@ class Summary(NamedTuple):
 class Run(Mapping[str, Array]):
     """A run: every coordinate ``x``, rate ``der(x)``, multiplier ``lambda(row)`` and output as an array by its name.
 
-    Values are in the units of ``units``, which are those of the declaration; the times are in ``t``.
+    Values are in the units of ``units``, which are those of the declaration; the times are in ``t``. A run can be
+    pickled, unless rustc compiled its mechanism.
     """
 
-    def __init__(self, mechanism: str, native: Recording) -> None:
-        self._native = native
-        self.mechanism: str = mechanism
+    def __init__(
+        self, mechanism: Mechanism, asked: Asked, native: Recording, columns: Sequence[str] | None = None
+    ) -> None:
+        self._native: Recording | None = native
+        self._source = mechanism, asked
+        self.mechanism: str = mechanism.name
         """The name of the mechanism."""
-        columns = native.columns()
-        self._columns = {name: values for name, _, values in columns}
-        self.units: dict[str, str] = {name: unit for name, unit, _ in columns}
+        if isinstance(columns, str):
+            raise TypeError(f"columns are a list of names, not the text {columns!r}")
+        found = native.columns(None if columns is None else [str(name) for name in columns])
+        self._columns = {name: values for name, _, values in found}
+        self.units: dict[str, str] = {name: unit for name, unit, _ in found}
         """The unit of every column; empty for a bare number."""
         self.summary: Summary = Summary(**native.summary())
         """Steps, violations and energies."""
@@ -67,6 +75,10 @@ class Run(Mapping[str, Array]):
         """What happened, in its order."""
         self.doubts: list[str] = native.doubts()
         """Why the numbers should not be trusted, although the run did not fail."""
+        self.notes: list[str] = native.notes()
+        """Notes on how the run differs from what one may expect: declared events that a constant step does not look
+        for, another method in place of the declared one in a run to a tolerance, the use of signals. They cast no doubt
+        on its numbers."""
 
     @property
     def t(self) -> Array:
@@ -91,6 +103,9 @@ class Run(Mapping[str, Array]):
             f"{self.summary.steps} steps, violation {self.summary.violation:.1e}>"
         )
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_native": None}
+
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` over the time; ``attrs["units"]`` has the units."""
         import pandas as pd
@@ -113,6 +128,10 @@ class Run(Mapping[str, Array]):
     def page(self, path: str | os.PathLike[str] | None = None) -> str:
         """One HTML page with the mechanism in motion and its curves, which needs no network; written to a file if
         ``path`` is given."""
+        if self._native is None:
+            # the same run, to the bit
+            mechanism, asked = self._source
+            self._native = mechanism._native.simulate(asked)
         html = self._native.page()
         if path is not None:
             Path(path).write_text(html, encoding="utf-8")
