@@ -6,6 +6,7 @@ pub mod bushing;
 pub mod by_hand;
 pub mod by_hand_on_pairs;
 pub mod chains;
+pub mod dense;
 pub mod differences;
 pub mod fuzzing;
 pub mod jet;

@@ -69,23 +69,24 @@ fn the_error_of_a_run_is_the_tolerance_within_a_factor_of_ten() {
     reaches_its_tolerance::<Dop853>();
 }
 
-/// Steps of a given length, by a scheme whose errors are far below those of the interpolation.
-fn in_steps_of(h: f64) -> Adaptive<Swing, Dop853> {
+/// Steps of a given length.
+fn in_steps_of<S: Scheme>(h: f64) -> Adaptive<Swing, S> {
     let tolerances = Tolerances { rtol: 1.0, atol: 1.0, max_step: h, first_step: Some(h) };
-    let builder = Adaptive::builder(Swing::declared()).scheme::<Dop853>();
+    let builder = Adaptive::builder(Swing::declared()).scheme::<S>();
     builder.tolerances(tolerances).build().expect("a start")
 }
 
-/// The largest errors of positions and of velocities within the steps of 0.8 s, against runs that
-/// end where it is looked at.
-fn errors_between_steps(h: f64) -> [f64; 2] {
-    let (mut errors, mut run) = ([0.0_f64; 2], in_steps_of(h));
-    while run.time() < 0.8 {
+/// The largest errors of positions and of velocities within the steps of 0.8 s, against runs from the start
+/// of each step to where it is looked at.
+fn errors_between_steps<S: Scheme>(h: f64) -> [f64; 2] {
+    let (mut errors, mut run) = ([0.0_f64; 2], in_steps_of::<S>(h));
+    while run.time() < 0.8 - 1e-9 {
+        let start = run.state();
         run.step().expect("a step");
-        let from = run.time() - h;
         for share in [0.2, 0.35, 0.5, 0.7, 0.85] {
-            let t = from + share * h;
-            let mut exact = swing::<Dop853>(1e-12);
+            let t = start.t + share * h;
+            let builder = Adaptive::builder(Swing::declared()).scheme::<Dop853>().from_state(start);
+            let mut exact = builder.tolerances(tolerances(1e-13)).build().expect("a consistent state");
             exact.advance_to(t).expect("a regular motion");
             let (found, exact) = (run.at(t).expect("within the step"), exact.state());
             let apart = |x: SwingCoordinates, y: SwingCoordinates| x.zip_map(y, |x, y| x - y).norm();
@@ -95,12 +96,93 @@ fn errors_between_steps(h: f64) -> [f64; 2] {
     errors
 }
 
-/// O(h⁶) and O(h⁵), from h = 0.1 s and 0.05 s, where the angle changes by up to 0.4 rad in a step.
+/// The polynomial through both ends is off by O(h⁶) and O(h⁵), with the ends of `bs3` by O(h⁴) and O(h³), and that
+/// of `dop853` by O(h⁸). In steps of 0.1 s the angle changes by up to 0.4 rad.
 #[test]
-fn positions_between_steps_are_of_sixth_order_and_velocities_of_fifth() {
-    let [coarse, fine] = [0.1, 0.05].map(errors_between_steps);
-    let [positions, velocities] = [0, 1].map(|at| (coarse[at] / fine[at]).log2());
-    assert!((positions - 6.0).abs() < 0.3 && (velocities - 5.0).abs() < 0.3, "{positions} {velocities}");
+fn what_lies_between_steps_has_the_order_that_methods_say() {
+    fn orders<S: Scheme>(h: f64) -> [f64; 2] {
+        let [coarse, fine] = [h, 0.5 * h].map(errors_between_steps::<S>);
+        [0, 1].map(|at| (coarse[at] / fine[at]).log2())
+    }
+    for (word, found, expected) in [
+        ("bs3", orders::<Bs3>(0.02), [4.0, 3.0]),
+        ("dopri5", orders::<Dopri5>(0.02), [6.0, 5.0]),
+        ("dop853", orders::<Dop853>(0.1), [8.0, 8.0]),
+    ] {
+        println!("{word}: {found:?}");
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 0.4, "{word}: {found} and not {expected}");
+        }
+    }
+}
+
+/// A pendulum of 0.8 m, released from the side, against a run whose steps end where it is looked at: what is
+/// seen between steps is off by ten times the error of their ends at most, and the end of the run, which is on no
+/// grid, is the end of a step.
+#[test]
+fn samples_are_as_good_as_the_tolerance_and_the_end_is_the_end_of_a_step() {
+    fn compare<S: Scheme>(rtol: f64, allowed: f64) {
+        let end = 1.9371;
+        let start = |rtol: f64| Tolerances { rtol, atol: rtol, ..Tolerances::default() };
+        let build = |tolerances| {
+            let builder = Adaptive::builder(Swing::declared()).scheme::<S>();
+            builder.tolerances(tolerances).build().expect("a start")
+        };
+        let mut exact = Adaptive::builder(Swing::declared()).scheme::<Dop853>();
+        exact = exact.tolerances(start(1e-13));
+        let mut exact = exact.build().expect("a start");
+        let mut samples = Sampled::new(build(start(rtol)), 0.0173).expect("an interval");
+        let count = samples.ends_at(end).expect("a time ahead");
+        assert_eq!(count, 112);
+        let mut largest = 0.0_f64;
+        for _ in 0..count {
+            samples.step().expect("a regular motion");
+            exact.advance_to(samples.time()).expect("a regular motion");
+            let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+            samples.state(&mut q, &mut v);
+            let at = exact.state();
+            let errors = [q[0] - at.q.x, q[1] - at.q.y, v[0] - at.v.x, v[1] - at.v.y];
+            largest = errors.into_iter().fold(largest, |largest, error| largest.max(error.abs()));
+        }
+        // looked at once, at the end
+        let mut straight = build(start(rtol));
+        straight.advance_to(end).expect("a regular motion");
+        let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+        samples.state(&mut q, &mut v);
+        assert_eq!(
+            (samples.time(), q, v),
+            (end, straight.state().q.into_array(), straight.state().v.into_array())
+        );
+        println!("{} {rtol:e}: {largest:e}", S::TABLEAU.word);
+        assert!(largest < allowed * rtol, "{} {rtol:e}: {largest:e}", S::TABLEAU.word);
+    }
+    for rtol in [1e-6, 1e-9] {
+        compare::<Bs3>(rtol, 100.0);
+        compare::<Dopri5>(rtol, 30.0);
+        compare::<Dop853>(rtol, 30.0);
+    }
+    compare::<Dop853>(1e-12, 30.0);
+}
+
+/// Behind an end that is on no grid samples are an interval apart again, and behind one on the grid they stay on
+/// it.
+#[test]
+fn samples_go_on_behind_an_end() {
+    let mut samples = Sampled::new(swing::<Dopri5>(1e-8), 0.1).expect("an interval");
+    let mut times = Vec::new();
+    for end in [0.25, 0.45, 0.65] {
+        let count = samples.ends_at(end).expect("a time ahead");
+        for _ in 0..count {
+            samples.step().expect("a regular motion");
+            times.push(samples.time());
+        }
+    }
+    samples.step().expect("a regular motion");
+    times.push(samples.time());
+    let expected = [0.1, 0.2, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75];
+    assert!(times.iter().zip(expected).all(|(t, expected)| (t - expected).abs() < 1e-12), "{times:?}");
+    assert!(matches!(samples.ends_at(0.1), Err(Error::EndTime { .. })));
+    assert_eq!(samples.ends_at(samples.time()), Ok(0));
 }
 
 /// Between steps the constraints are met as at their ends, to the rounding of x² + y² − l².

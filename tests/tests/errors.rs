@@ -154,7 +154,7 @@ fn upright() -> (SliderCrank, State<<SliderCrank as Mechanism>::Coordinates>) {
 
 fn assert_singular(error: Error, time: f64) {
     match error {
-        Error::Singular { t, constraint: "guide", coordinate: "theta2", growth } => {
+        Error::Singular { t, constraint: "guide", coordinate: "theta2", growth, .. } => {
             assert!((t - time).abs() < 1e-15 && growth > 1e12, "{error:?}");
         }
         _ => panic!("{error:?}"),
@@ -295,6 +295,7 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         (Error::NoEstimate { scheme: "rk4" }, "dopri5"),
         (Error::Tolerance { name: "rtol", value: 0.0, least: 1e-14 }, "1.0e-14"),
         (Error::StepTooShort { t: 0.25, step: 1e-18 }, "0.25"),
+        (Error::TooManySteps { t: 0.25, steps: 1000 }, "0.25"),
         (Error::Input { name: "torque", value: f64::NAN }, "NaN"),
         (Error::NotAssembled { t: 0.0, constraint: "pin", violation: 0.5 }, "`pin`"),
     ];
@@ -312,7 +313,7 @@ fn times_are_shown_without_their_rounding() {
         (0.072_000_000_000_000_01, "t = 0.072 s"),
         (0.1 + 0.2, "t = 0.3 s"),
         (1.0 / 3.0, "t = 0.333333333333 s"),
-        (-1.234_567_890_12e-300, "0123456789012 s"),
+        (-1.234_567_890_12e-300, "t = -1.23456789012e-300 s"),
         (1e15, "t = 1000000000000000 s"),
         (0.0, "t = 0 s"),
         (f64::NEG_INFINITY, "t = -inf s"),

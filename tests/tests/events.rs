@@ -209,3 +209,107 @@ fn states_that_violate_a_constraint_are_refused() {
     assert!(matches!(run.set_state(state), Err(Error::Inconsistent { constraint: "rod", .. })));
     assert!(matches!(run.advance_until(f64::NAN, [Either], |at| [at.q.x]), Err(Error::EndTime { .. })));
 }
+
+mechanism! {
+    /// A ball over ground that is far from the origin, which a hand may hold.
+    pub Dropped {
+        dof = 1;
+        param ground = 0 [m];
+        input hold [N];
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 1 [kg]; }
+        force hand on y = hold;
+        event hit: y = ground falling;
+        start { y = ground + 1 [m]; }
+    }
+}
+
+/// With restitution e all impacts are over after √(2h/g) (1 + e)/(1 − e), however high the ground: the run comes
+/// near to that, ends with an error that says so, and the ball is never below the ground by more than rounding.
+#[test]
+fn a_ball_is_run_to_where_its_impacts_pile_up() {
+    for ground in [0.0_f64, 0.3, -1000.0] {
+        for restitution in [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95] {
+            let mechanism = Dropped::new(DroppedParameters { ground }).expect("a height");
+            let mut run = Adaptive::builder(mechanism).build().expect("a start");
+            let (mut impacts, mut speed) = (0, f64::INFINITY);
+            let error = loop {
+                match run.advance_to_event(60.0) {
+                    Ok(Some(event)) => {
+                        let mut state = run.state();
+                        let depth = ground - state.q.y;
+                        assert!((0.0..1e-14 + 1e-15 * ground.abs()).contains(&depth), "{event:?} {depth}");
+                        // with what it came up, but for the rounding of heights
+                        assert!(state.v.y < 0.0 && -state.v.y < 1.01 * speed, "{event:?} {state:?} {speed}");
+                        state.v.y *= -restitution;
+                        speed = state.v.y;
+                        run.set_state(state).expect("a free state");
+                        impacts += 1;
+                    }
+                    Ok(None) => panic!("e = {restitution}: it went through the ground"),
+                    Err(error) => break error,
+                }
+            };
+            let Error::EndlessEvents { t, name: "hit", index: 0 } = error else { panic!("{error:?}") };
+            let over = (2.0 / 9.81_f64).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+            assert!((t - over).abs() < 1e-3 && impacts < 1000, "e = {restitution}: {t} {over} {impacts}");
+            assert!(speed < 1e-4, "e = {restitution}: {speed}");
+            // it says so again, and stays where it is
+            let state = run.state();
+            assert_eq!((run.advance_to_event(60.0), run.state()), (Err(error), state));
+            assert_eq!(state.t, t);
+        }
+    }
+}
+
+/// A ball without a velocity on the ground falls through it, unless something holds it.
+#[test]
+fn a_ball_that_is_stopped_at_the_ground_has_to_be_held() {
+    let mut run = Adaptive::builder(Dropped::declared()).build().expect("a start");
+    run.advance_to_event(2.0).expect("a motion").expect("a hit");
+    let mut state = run.state();
+    state.v.y = 0.0;
+    run.set_state(state).expect("a free state");
+    let mut held = run.clone();
+    let error = run.advance_to_event(2.0).expect_err("nothing holds it");
+    assert!(matches!(error, Error::EndlessEvents { name: "hit", .. }), "{error}");
+
+    held.inputs_mut().hold = 9.81;
+    assert_eq!(held.advance_to_event(2.0), Ok(None));
+    assert!(held.state().q.y.abs() < 1e-14, "{:?}", held.state());
+    // and when the hand lets go
+    held.inputs_mut().hold = 0.0;
+    let error = held.advance_to_event(3.0).expect_err("nothing holds it any more");
+    assert!(matches!(error, Error::EndlessEvents { name: "hit", .. }), "{error}");
+    assert!(held.state().q.y.abs() < 1e-14, "{:?}", held.state());
+}
+
+/// A program may set a state at an event without turning its value around: it goes on behind the event.
+#[test]
+fn a_value_that_is_not_turned_goes_on_behind_its_event() {
+    for share in [1.0, 0.3, 1e-3] {
+        let mut run = Adaptive::builder(Dropped::declared()).build().expect("a start");
+        run.advance_to_event(2.0).expect("a motion").expect("a hit");
+        let mut state = run.state();
+        state.v.y *= share;
+        run.set_state(state).expect("a free state");
+        assert_eq!(run.advance_to_event(0.6), Ok(None), "{share}");
+        assert!(run.state().q.y < -0.01, "{share}: {:?}", run.state());
+    }
+}
+
+/// A start on the ground, to rounding, with a bounce far shorter than a step: its end is an event.
+#[test]
+fn a_bounce_from_the_ground_is_seen_however_short_it_is() {
+    for below in [0.0, -1e-17, 1e-17] {
+        for speed in [1.0, 1e-3, 1e-6] {
+            let mut run = Adaptive::builder(Dropped::declared()).build().expect("a start");
+            let mut state = run.state();
+            (state.q.y, state.v.y) = (below, speed);
+            run.set_state(state).expect("a free state");
+            let event = run.advance_to_event(2.0).expect("a motion").expect("a hit");
+            let expected = 2.0 * speed / 9.81;
+            assert!((event.t - expected).abs() < 1e-3 * expected, "{below} {speed}: {event:?} {expected}");
+        }
+    }
+}

@@ -164,9 +164,9 @@ fn equations_of(live: &Live) {
                 });
                 let partials: Vec<f64> = found[which].iter().map(|x| x.partials[at - first]).collect();
                 assert!(found[which].iter().map(|x| x.value).eq(plain[which].iter().copied()), "{what}");
-                // what solves the system is off by the growth of its pivots
+                // what solves the system is off by its own rounding, and by the growth of pivots that can cancel
                 let size = plain.iter().map(|vector| largest(vector)).fold(0.0, f64::max);
-                let rounding = growth * f64::EPSILON * size * 1.5 / (0.25 * step);
+                let rounding = (1.0 + growth) * f64::EPSILON * size * 1.5 / (0.25 * step);
                 let name = format!("{} by number {at} of {}", what, info.name);
                 worst = worst.max(agree(&name, &partials, &slopes, rounding, step));
                 compared += partials.len();
