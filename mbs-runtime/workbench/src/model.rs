@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 
 use mbs_analysis::Trials;
 use mbs_runtime::{
-    Baumgarte, Components, Derivation, Error, HEUN, Info, Mechanism, Method, MethodVisitor, Scheme,
-    Simulation, Sketch, State, SystemClone, Tableau, with_type,
+    Baumgarte, Components, Derivation, Error, HEUN, Held, Info, Mechanism, Method, PerStage, Projected,
+    Scheme, Simulation, Sketch, Stabilization, State, SystemClone, Tableau,
 };
 
 use crate::adaptive::{self, Erased};
@@ -63,7 +63,8 @@ pub trait Model: Send + Sync {
     }
 }
 
-/// The mechanism `M` as a [`Model`].
+/// The mechanism `M` as a [`Model`]. Steps of the scheme that it declares are fused, those of others are
+/// taken stage by stage: the same numbers, and only one scheme to compile.
 pub fn of<M: Mechanism<Real = f64>>() -> Box<dyn Model> {
     with::<M>(Settings::default())
 }
@@ -153,12 +154,17 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::constant(Erased::new(mechanism), method, start);
         }
-        if start.has_signals() {
+        // A fused step of each method that could be chosen would take long to compile.
+        let is_declared = start.method.tableau.is(M::Scheme::TABLEAU);
+        if start.has_signals() || !is_declared {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::in_stages(Erased::new(mechanism), start);
         }
-        let run = with_type(start.method, Started { start, mechanism: PhantomData::<M> });
-        run.unwrap_or(Err(Error::Scheme { name: start.method.tableau.word }))
+        Ok(match start.method.stabilization {
+            Stabilization::Held => Box::new(simulation::<M, Held<M::Scheme>>(start)?),
+            Stabilization::PerStage => Box::new(simulation::<M, PerStage<M::Scheme>>(start)?),
+            Stabilization::Projection => Box::new(simulation::<M, Projected<M::Scheme>>(start)?),
+        })
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + Sync + '_>> {
@@ -167,20 +173,6 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {
         self.lanes.as_deref()
-    }
-}
-
-/// Starts a run of a mechanism with a method that is chosen at run time.
-struct Started<'a, M> {
-    start: &'a Start,
-    mechanism: PhantomData<M>,
-}
-
-impl<M: Mechanism<Real = f64>> MethodVisitor for Started<'_, M> {
-    type Result = Result<Box<dyn SystemClone>, Error>;
-
-    fn visit<X: Method>(self) -> Self::Result {
-        Ok(Box::new(simulation::<M, X>(self.start)?))
     }
 }
 

@@ -89,19 +89,17 @@ type Path<M, X> = (&'static str, Start<M, X>);
 
 type Start<M, X> = fn(&Simulation<M, X>) -> Result<Box<dyn Steps<M>>, Error>;
 
-fn double<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 4] {
+fn double<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 3] {
     [
         ("in stages", |from| Ok(Box::new(InStages(*from)))),
         ("fused", |from| Ok(Box::new(Fused(*from)))),
-        ("in 4 lanes", |from| Ok(Box::new(InLanes::<_, _, 4>::beside_others(from)?))),
         ("in 8 lanes", |from| Ok(Box::new(InLanes::<_, _, 8>::beside_others(from)?))),
     ]
 }
 
-fn narrow<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 3] {
+fn narrow<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 2] {
     [
         ("in single precision", |from| Ok(Box::new(Fused(narrowed(from)?)))),
-        ("in 8 single lanes", |from| Ok(Box::new(InLanes::<_, _, 8>::beside_others(&narrowed(from)?)?))),
         ("in 16 single lanes", |from| Ok(Box::new(InLanes::<_, _, 16>::beside_others(&narrowed(from)?)?))),
     ]
 }
