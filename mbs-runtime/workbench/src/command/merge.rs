@@ -9,14 +9,13 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 use super::options::option;
 use super::sweep::checked::Next;
 use super::sweep::shard::{Head, Shard};
-use crate::table_file::{self, TableFile};
-use crate::{Error, say};
+use crate::files::Output;
+use crate::{Error, say, table_file};
 
 const EXAMPLE: &str = "\
 Example:
   mbs merge part-*.csv --out sweep.csv
 
-Shares and table may also be Parquet files, by the ending .parquet, in a program that is built with it.
 The table is the one that a sweep without --shard writes, to the byte. Shares that are missing, damaged, given twice
 or of another sweep are refused.";
 
@@ -49,7 +48,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     shares.sort_by_key(|share| share.head.heading.shard.number);
     check(&shares)?;
     let Some(out) = matches.get_one::<PathBuf>("out") else { return Ok(()) };
-    let mut output = TableFile::create(out)?;
+    let mut output = table_file::create(out)?;
     let columns = shares.first().map_or("", |share| &share.head.columns);
     output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;
     let mut count = 0;
@@ -70,7 +69,7 @@ impl Share {
     }
 
     /// Writes the rows, each of which has to be the one that the sweep has there.
-    fn copy(self, output: &mut TableFile, out: &Path) -> Result<usize, Error> {
+    fn copy(self, output: &mut Output, out: &Path) -> Result<usize, Error> {
         let mut rows = self.head.rows(self.rows);
         let mut count = 0;
         loop {

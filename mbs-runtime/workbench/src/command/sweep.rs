@@ -70,7 +70,7 @@ pub(crate) fn command() -> Command {
         )
         .args(options::of_a_run())
         .arg(
-            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run; .parquet if that is built in")
+            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run")
                 .value_parser(value_parser!(PathBuf)),
         )
         .arg(

@@ -9,7 +9,8 @@ use super::axis::Grid;
 use super::shard::{Head, Part};
 use crate::csv_file::csv_number;
 use crate::members::Member;
-use crate::table_file::TableFile;
+use crate::files::Output;
+use crate::table_file;
 use crate::{Error, unit};
 
 /// A process that ends at once loses the rows of this time.
@@ -25,7 +26,7 @@ pub struct Rows {
 /// What rows are written to.
 enum Target {
     /// All rows of a sweep,
-    Whole(TableFile),
+    Whole(Output),
     /// or those of a share of it.
     Share(Part),
 }
@@ -50,7 +51,7 @@ impl Rows {
     /// The file with its headings: parameters, three columns per quantity, and why a
     /// run failed.
     pub fn create(path: &Path, grid: &Grid, watched: &[Watched]) -> Result<Self, Error> {
-        let mut rows = Self::to(path, Target::Whole(TableFile::create(path)?));
+        let mut rows = Self::to(path, Target::Whole(table_file::create(path)?));
         rows.write_record(headings(grid, watched))?;
         Ok(rows)
     }

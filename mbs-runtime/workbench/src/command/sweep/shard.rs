@@ -247,7 +247,7 @@ struct Whole {
 impl Part {
     /// Begins the file of a share, or goes on with it. What is whole of a share that was damaged is taken over.
     pub fn open(path: &Path, head: &Head) -> Result<Self, Error> {
-        table_file::is_parquet(path)?;
+        table_file::check(path)?;
         let part = unfinished(path);
         let failed = || Error::file("write", &part);
         let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&part);
@@ -277,15 +277,10 @@ impl Part {
         Ok(Self { path: path.to_owned(), file, rows: whole.rows })
     }
 
-    /// Gives the file its form and its name.
+    /// Gives the file its name.
     pub fn finish(self) -> Result<PathBuf, Error> {
         self.file.sync_all().map_err(Error::file("write", &self.path))?;
-        let rows = unfinished(&self.path);
-        if table_file::is_parquet(&self.path)? {
-            table_file::to_parquet(&rows, &self.path)?;
-        } else {
-            fs::rename(rows, &self.path).map_err(Error::file("write", &self.path))?;
-        }
+        fs::rename(unfinished(&self.path), &self.path).map_err(Error::file("write", &self.path))?;
         Ok(self.path)
     }
 
