@@ -293,7 +293,11 @@ def test_a_step_that_fails_says_why_and_when(driven, version, tmp_path):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_parameter_is_fixed_once_a_run_has_begun(crank, version, tmp_path):
+def test_a_parameter_of_a_constraint_is_fixed_once_a_run_has_begun(crank, version, tmp_path):
+    known = variables(crank.paths[version])
+    assert known["l1"].variability == "fixed" and known["m2"].variability == "tunable"
+    # it has no place after the start
+    assert known["omega"].variability == "fixed"
     said: list[str] = []
     fmu, _, references = instance(crank.paths[version], tmp_path, "CoSimulation", said)
     begin(fmu, version)
@@ -304,6 +308,12 @@ def test_a_parameter_is_fixed_once_a_run_has_begun(crank, version, tmp_path):
     with pytest.raises(Exception):
         put(fmu, version, [references["l1"]], [0.06])
     assert said == ["the parameter l1 is fixed once a run has begun"]
+    # a heavier rod is accelerated less, where it stands
+    put(fmu, version, [references["crank_torque"]], [1.0])
+    before = values(fmu, version, [references["x3"], references["der(theta1,2)"]])
+    put(fmu, version, [references["m2"]], [10.0])
+    after = values(fmu, version, [references["x3"], references["der(theta1,2)"]])
+    assert after[0] == before[0] and 0.0 < after[1] < before[1]
     fmu.freeInstance()
 
 

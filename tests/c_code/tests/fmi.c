@@ -151,9 +151,38 @@ static void misuse(void)
     fmi2FreeInstance(NULL);
 }
 
+/* Parameters of which constraints know are fixed once a run has begun. Another one that changes has from there on the
+   steps of a mechanism that was made with it, and the state stays. */
+static void tune(void)
+{
+    struct instance *it = new_3(1);
+    static struct NAME other;
+    EXPECT(fmi3EnterInitializationMode(it, 0, 0, 0, 0, 0) == fmi3OK && fmi3ExitInitializationMode(it) == fmi3OK);
+    step_3(it, 0, 2);
+    struct NAME_run run = it->now.run;
+    struct NAME_parameters parameters = it->now.parameters;
+    for (uint32_t at = AT_PARAMETERS; at < AT_INPUTS; at++) {
+        double *const parameter = PLACES(parameters) + (at - AT_PARAMETERS);
+        const double value = 1.25 * *parameter;
+        said = 0;
+        const int is_set = fmi3SetFloat64(it, &at, 1, &value, 1) == fmi3OK;
+        EXPECT(is_set == IS_TUNABLE[at - AT_PARAMETERS] && said == !is_set);
+        *parameter = is_set ? value : *parameter;
+    }
+    EXPECT(NAME_init(&other, &parameters) == CAPS_OK);
+    run.mechanism = &other;
+    for (int k = 0; k < 4 * (COMMUNICATION_STEPS - 2); k++) {
+        EXPECT(NAME_step(&run) == CAPS_OK);
+    }
+    step_3(it, 2, COMMUNICATION_STEPS);
+    EXPECT(memcmp(&it->now.run.state, &run.state, sizeof run.state) == 0);
+    fmi3FreeInstance(it);
+}
+
 int main(void)
 {
     misuse();
+    tune();
     for (int k = 0; k < INSTANCES; k++) {
         live_2(k == 0);
         live_3(k == 0);

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use mbs_schemes::Explicit;
 
 use super::Experiment;
+use super::structure::tunable;
 use super::variables::References;
 use crate::compiled::{Compiled, Feedback, GROWTH_LIMIT};
 
@@ -60,6 +61,13 @@ fn numbers(compiled: &Compiled, references: &References, experiment: Experiment)
         text,
         "/* Which coordinates are integrated. */\nstatic const int STATE_PLACES[] = {{{}}};\n",
         places.join(", ")
+    );
+    let tunable = tunable(compiled).into_iter().chain([false]).map(|it| u8::from(it).to_string());
+    let _ = writeln!(
+        text,
+        "/* Which parameters may change while a run goes on: no constraint knows of them. */\n\
+         static const unsigned char IS_TUNABLE[] = {{{}}};\n",
+        tunable.collect::<Vec<_>>().join(", ")
     );
     let step = experiment.step;
     let [alpha, beta] = Explicit::held(compiled.choices.scheme).deadbeat(step);

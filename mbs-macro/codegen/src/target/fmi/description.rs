@@ -142,6 +142,7 @@ fn variable(version: Version, reference: usize, it: &Variable) -> Element {
     let (causality, variability, initial) = match it.role {
         Role::Time => ("independent", "continuous", None),
         Role::Parameter => ("parameter", "fixed", Some("exact")),
+        Role::Tunable => ("parameter", "tunable", Some("exact")),
         // an input is always exact, and says nothing of it
         Role::Input => ("input", "continuous", None),
         Role::Local => ("local", "continuous", Some("calculated")),

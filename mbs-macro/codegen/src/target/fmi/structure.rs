@@ -3,10 +3,38 @@
 
 use std::collections::BTreeSet;
 
-use mbs_symbolic::Symbol;
+use mbs_symbolic::{Operand, Symbol};
 
 use super::variables::{Group, References};
 use crate::compiled::{Compiled, FunctionId, Input};
+
+/// Which parameters may be changed while a run goes on: those that act on accelerations, outputs or events,
+/// and of which no constraint knows. A state stays consistent when they change.
+pub fn tunable(compiled: &Compiled) -> Vec<bool> {
+    let read = |functions: &[FunctionId]| -> BTreeSet<usize> {
+        functions.iter().flat_map(|function| parameters(compiled, *function)).collect()
+    };
+    let held = read(&[FunctionId::Phi, FunctionId::PhiDot, FunctionId::Complete]);
+    let acting = read(&[FunctionId::Reactions, FunctionId::Outputs, FunctionId::Events]);
+    (0..compiled.parameters.len()).map(|at| acting.contains(&at) && !held.contains(&at)).collect()
+}
+
+/// The parameters that a function reads, also by what is computed of parameters once.
+fn parameters(compiled: &Compiled, function: FunctionId) -> BTreeSet<usize> {
+    let hoisted = compiled.program(FunctionId::Hoisted).reads();
+    let program = compiled.program(function);
+    let operands = program.instructions.iter().flat_map(|it| [it.a, it.b]);
+    let symbols = operands.chain(program.outputs.iter().copied()).flat_map(|operand| match operand {
+        Operand::Symbol(symbol) => BTreeSet::from([symbol]),
+        Operand::Hoisted(at) => hoisted.get(at).cloned().unwrap_or_default(),
+        Operand::Number(_) | Operand::Value(_) => BTreeSet::new(),
+    });
+    let parameter = |symbol| match compiled.input(symbol) {
+        Input::Parameter(at) => Some(at),
+        _ => None,
+    };
+    symbols.filter_map(parameter).collect()
+}
 
 /// The value references of the time, inputs and states that some results depend on.
 pub struct Dependencies<'a> {

@@ -1,5 +1,6 @@
 //! The variables that an importer sees, and the numbers by which it asks for them.
 
+use super::structure::tunable;
 use super::units::Unit;
 use crate::compiled::{Comparison, Compiled, FunctionId, Quantity};
 use mbs_symbolic::units::Dimension;
@@ -11,6 +12,8 @@ pub enum Role {
     Time,
     /// Set before a run.
     Parameter,
+    /// Set before a run and between its steps.
+    Tunable,
     /// Set at any time.
     Input,
     /// Calculated, and of interest.
@@ -90,10 +93,11 @@ pub fn all(compiled: &Compiled, references: &References) -> Vec<Variable> {
         description: "simulation time; the mechanism begins at its declared start".into(),
         ..Variable::calculated("time".into(), Role::Time, Unit::si(Dimension::TIME, 0))
     }];
-    all.extend(compiled.parameters.iter().enumerate().map(|(at, it)| Variable {
+    let roles = tunable(compiled).into_iter().map(|it| if it { Role::Tunable } else { Role::Parameter });
+    all.extend(compiled.parameters.iter().zip(roles).enumerate().map(|(at, (it, role))| Variable {
         start: Some(it.value),
         bounds: bounds(compiled, at),
-        ..Variable::of(&it.quantity, Role::Parameter)
+        ..Variable::of(&it.quantity, role)
     }));
     let inputs = compiled.inputs.iter();
     all.extend(inputs.map(|it| Variable { start: Some(0.0), ..Variable::of(it, Role::Input) }));

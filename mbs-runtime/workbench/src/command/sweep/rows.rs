@@ -8,8 +8,8 @@ use super::Watched;
 use super::axis::Grid;
 use super::shard::{Head, Part};
 use crate::csv_file::csv_number;
-use crate::members::Member;
 use crate::files::Output;
+use crate::members::Member;
 use crate::table_file;
 use crate::{Error, unit};
 

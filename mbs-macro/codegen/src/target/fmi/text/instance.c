@@ -15,8 +15,8 @@ enum {
 /* All that changes, which a saved state is a copy of. */
 struct memory {
     int mode;
-    /* whether mechanism and start belong to the parameters; whether results belong to the state */
-    int is_started, is_solved;
+    /* whether the start belongs to the parameters, the mechanism does, and results belong to the state */
+    int is_started, is_tuned, is_solved;
     /* of the importer; that of the mechanism is later by the shift, and begins as it is declared */
     double time, shift;
     struct NAME_parameters parameters;

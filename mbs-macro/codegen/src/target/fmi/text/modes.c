@@ -130,8 +130,8 @@ static int advance(struct instance *it, double point, double length)
     const double count = ceil((span - rounding) / STEP);
     const double steps = count < 1.0 ? 1.0 : count;
     const int is_whole = fabs(span - steps * STEP) <= rounding;
-    int code = CAPS_OK;
-    if (!is_whole || run->step != STEP) {
+    int code = start(it);
+    if (code == CAPS_OK && (!is_whole || run->step != STEP)) {
         code = change_step(now, is_whole ? STEP : span / steps);
     }
     run->inputs = now->inputs;

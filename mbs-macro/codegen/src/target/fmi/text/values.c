@@ -3,15 +3,17 @@
 #define ELEMENTS(vector) ((const double *)&(vector))
 #define PLACES(vector) ((double *)&(vector))
 
-/* Makes mechanism and start anew where parameters have changed. */
+/* Makes mechanism and start anew where parameters have changed. A run that goes on keeps its state, since no
+   constraint knows of the parameters that may change then. */
 static int start(struct instance *it)
 {
     struct memory *const now = &it->now;
-    if (now->is_started) {
-        return CAPS_OK;
+    int code = now->is_tuned ? CAPS_OK : NAME_init(&now->mechanism, &now->parameters);
+    now->is_tuned = code == CAPS_OK;
+    if (code != CAPS_OK || now->is_started) {
+        return code;
     }
-    int code = NAME_init(&now->mechanism, &now->parameters);
-    code = code == CAPS_OK ? NAME_start(&now->run, &now->mechanism, STEP) : code;
+    code = NAME_start(&now->run, &now->mechanism, STEP);
     if (code == CAPS_OK) {
         const struct feedback gains = it->is_co_simulation ? CO_SIMULATION : MODEL_EXCHANGE;
         code = NAME_set_feedback(&now->run, gains.alpha, gains.beta, gains.is_held);
@@ -163,11 +165,16 @@ static int set(struct instance *it, const uint32_t *references, size_t count, co
         const uint32_t reference = references[at];
         if (lies_in(reference, AT_PARAMETERS, AT_INPUTS)) {
             const uint32_t parameter = reference - AT_PARAMETERS;
-            if (!(now->mode & (INSTANTIATED | INITIALIZATION))) {
+            const int is_early = now->mode & (INSTANTIATED | INITIALIZATION);
+            if (!is_early && !IS_TUNABLE[parameter]) {
                 return say(it, WRONG, "the parameter %s is fixed once a run has begun", NAME_parameter_names[parameter]);
             }
+            if (now->mode & CONTINUOUS_TIME) {
+                return say(it, WRONG, "the parameter %s changes at events only", NAME_parameter_names[parameter]);
+            }
             PLACES(now->parameters)[parameter] = values[at];
-            now->is_started = 0;
+            now->is_tuned = now->is_solved = 0;
+            now->is_started = now->is_started && !is_early;
         } else if (lies_in(reference, AT_INPUTS, AT_POSITIONS)) {
             PLACES(now->inputs)[reference - AT_INPUTS] = values[at];
             now->is_solved = 0;
