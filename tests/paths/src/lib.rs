@@ -69,6 +69,23 @@ pub fn through_double_paths<M: Mechanism<Real = f64>, X: Method>(
     compare_along(&double(), name, Widening::NONE, || start(step), &comparison)
 }
 
+/// Makes `comparison` on the fused path alone, from `start` with a step: of mechanisms whose other paths are
+/// known to give the same bits.
+///
+/// # Errors
+/// Those of `start` and `comparison`.
+///
+/// # Panics
+/// If a number deviates.
+pub fn through_fused_path<M: Mechanism<Real = f64>, X: Method>(
+    name: &str,
+    step: f64,
+    start: impl Fn(f64) -> Result<Simulation<M, X>, Error>,
+    comparison: impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    compare_along(&[fused()], name, Widening::NONE, || start(step), &comparison)
+}
+
 fn compare_along<M: Mechanism<Real = f64>, X: Method>(
     paths: &[Path<M, X>],
     name: &str,
@@ -89,10 +106,14 @@ type Path<M, X> = (&'static str, Start<M, X>);
 
 type Start<M, X> = fn(&Simulation<M, X>) -> Result<Box<dyn Steps<M>>, Error>;
 
+fn fused<M: Mechanism<Real = f64>, X: Method>() -> Path<M, X> {
+    ("fused", |from| Ok(Box::new(Fused(*from))))
+}
+
 fn double<M: Mechanism<Real = f64>, X: Method>() -> [Path<M, X>; 3] {
     [
         ("in stages", |from| Ok(Box::new(InStages(*from)))),
-        ("fused", |from| Ok(Box::new(Fused(*from)))),
+        fused(),
         ("in 8 lanes", |from| Ok(Box::new(InLanes::<_, _, 8>::beside_others(from)?))),
     ]
 }

@@ -13,40 +13,30 @@ use mbs_runtime::{
 /// declares it, and a step.
 macro_rules! each {
     ($call:ident) => {
-        $call(models::SliderCrank::declared(), reduced::SliderCrank::declared(), "slider_crank", 0.5e-3);
-        $call(
-            models::SliderCrankFree::declared(),
-            reduced::SliderCrankFree::declared(),
-            "slider_crank_free",
-            0.5e-3,
-        );
-        $call(
-            models::DoublePendulum::declared(),
-            reduced::DoublePendulum::declared(),
-            "double_pendulum",
-            0.5e-3,
-        );
-        $call(models::FourBar::declared(), reduced::FourBar::declared(), "four_bar", 0.5e-3);
-        $call(models::FourBarFree::declared(), reduced::FourBarFree::declared(), "four_bar_free", 0.5e-3);
-        $call(models::CartPendulum::declared(), reduced::CartPendulum::declared(), "cart_pendulum", 0.5e-3);
-        $call(
-            models::BlockOnIncline::declared(),
-            reduced::BlockOnIncline::declared(),
-            "block_on_incline",
-            1e-4,
-        );
-        $call(models::CamFollower::declared(), reduced::CamFollower::declared(), "cam_follower", 0.5e-3);
-        $call(models::GearedMotor::declared(), reduced::GearedMotor::declared(), "geared_motor", 0.5e-3);
-        $call(
-            models::PlanetaryGear::declared(),
-            reduced::PlanetaryGear::declared(),
-            "planetary_gear",
-            0.5e-3,
-        );
-        $call(models::ScotchYoke::declared(), reduced::ScotchYoke::declared(), "scotch_yoke", 0.5e-3);
-        $call(models::VEngine::declared(), reduced::VEngine::declared(), "v_engine", 0.1e-3);
-        $call(models::QuickReturn::declared(), reduced::QuickReturn::declared(), "quick_return", 0.5e-3);
-        $call(models::Metronome::declared(), reduced::Metronome::declared(), "metronome", 0.5e-3);
+        some!($call);
+        each!($call: DoublePendulum, "double_pendulum", 0.5e-3);
+        each!($call: FourBar, "four_bar", 0.5e-3);
+        each!($call: CartPendulum, "cart_pendulum", 0.5e-3);
+        each!($call: BlockOnIncline, "block_on_incline", 1e-4);
+        each!($call: GearedMotor, "geared_motor", 0.5e-3);
+        each!($call: ScotchYoke, "scotch_yoke", 0.5e-3);
+        each!($call: VEngine, "v_engine", 0.1e-3);
+        each!($call: QuickReturn, "quick_return", 0.5e-3);
+        each!($call: Metronome, "metronome", 0.5e-3);
+    };
+    ($call:ident: $Name:ident, $file:literal, $step:literal) => {
+        $call(models::$Name::declared(), reduced::$Name::declared(), $file, $step)
+    };
+}
+
+/// The same for some of them: with a drive, with an input, with a loop, a table and gears.
+macro_rules! some {
+    ($call:ident) => {
+        each!($call: SliderCrank, "slider_crank", 0.5e-3);
+        each!($call: SliderCrankFree, "slider_crank_free", 0.5e-3);
+        each!($call: FourBarFree, "four_bar_free", 0.5e-3);
+        each!($call: CamFollower, "cam_follower", 0.5e-3);
+        each!($call: PlanetaryGear, "planetary_gear", 0.5e-3);
     };
 }
 
@@ -193,7 +183,7 @@ fn texts_compute_the_same_bits() {
             assert_eq!(bits(&told(&*text)), bits(&told(&*typed)), "{file}");
         }
     }
-    each!(check);
+    some!(check);
 }
 
 const TOLERANCES: Tolerances =
