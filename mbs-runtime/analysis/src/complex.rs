@@ -1,6 +1,7 @@
 //! Complex matrices by real ones of twice the size, ⎡Re −Im; Im Re⎤, so that the decompositions of real
 //! matrices, which are compiled once, serve both.
 
+use crate::singular::Singular;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 type Matrix = DMatrix<Complex<f64>>;
@@ -55,17 +56,14 @@ pub fn eigenvalues(matrix: &Matrix) -> Option<Vec<Complex<f64>>> {
 /// Right and left vectors, matrix · z ≈ 0 and yᴴ · matrix ≈ 0: orthonormal ones, at most `most`, of singular values
 /// below `small`, and the best one if there is none.
 pub fn null_vectors(matrix: &Matrix, most: usize, small: f64) -> [Vec<Vector>; 2] {
-    let decomposition = embedded(matrix).svd(true, true);
-    let values = &decomposition.singular_values;
+    let Singular { u: columns, values, v_t } = Singular::new(&embedded(matrix));
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
     // every vector comes with i times it
     order.truncate(2 * most);
     let count = order.iter().filter(|at| values[**at] <= small).count().div_ceil(2).max(1);
     order.truncate(2 * count);
-    let rows = decomposition.v_t.map_or_else(|| DMatrix::zeros(0, 0), |v| v.transpose());
-    let columns = decomposition.u.unwrap_or_else(|| DMatrix::zeros(0, 0));
-    [rows, columns].map(|all| {
+    [v_t.transpose(), columns].map(|all| {
         let candidates = order.iter().filter(|at| **at < all.ncols());
         let candidates = candidates.map(|at| unembedded(all.column(*at).as_slice())).collect();
         independent(candidates, count)

@@ -8,6 +8,7 @@ use crate::derivative::scale;
 use crate::difference::five_point;
 use crate::guided::{Forces, Guided};
 use crate::point::Drives;
+use crate::singular::Singular;
 use crate::{Error, Signal, Variable};
 
 /// What produces a prescribed motion.
@@ -337,7 +338,6 @@ fn least_norm(gains: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     if gains.iter().any(|x| !x.is_finite()) {
         return DVector::from_element(gains.ncols(), f64::NAN);
     }
-    let decomposition = gains.clone().svd(true, true);
-    let least = NOTHING * decomposition.singular_values.amax();
-    decomposition.solve(right, least).unwrap_or_else(|_| DVector::from_element(gains.ncols(), f64::NAN))
+    let decomposition = Singular::new(gains);
+    decomposition.solve(right, NOTHING * decomposition.values.amax())
 }

@@ -1,7 +1,8 @@
 //! The Jacobian of constraints and prescribed coordinates.
 
+use crate::singular::Singular;
 use mbs_runtime::equations::{At, Described};
-use nalgebra::{DMatrix, DVector, Dyn, LU, QR, SVD};
+use nalgebra::{DMatrix, DVector, Dyn, LU, QR};
 
 /// Singular values below this share of the largest are 0.
 const SINGULAR: f64 = 1e-9;
@@ -124,9 +125,8 @@ impl Jacobian {
         if matrix.iter().any(|x| !x.is_finite()) {
             return [DVector::from_element(m, f64::NAN), DVector::from_element(f, f64::NAN)];
         }
-        let decomposition = SVD::new(matrix, true, true);
-        let least = SINGULAR * decomposition.singular_values.amax();
-        let y = decomposition.solve(push, least).unwrap_or_else(|_| DVector::from_element(m + f, f64::NAN));
+        let decomposition = Singular::new(&matrix);
+        let y = decomposition.solve(push, SINGULAR * decomposition.values.amax());
         [y.rows(0, m).clone_owned(), y.rows(m, f).clone_owned()]
     }
 
@@ -153,7 +153,7 @@ impl Jacobian {
 
     /// Whether a coordinate can move while the prescribed ones stand still.
     pub fn is_singular(&self) -> bool {
-        let values = self.decomposed().map(|found| found.singular_values);
+        let values = self.decomposed().map(|found| found.values);
         values.is_none_or(|values| values.min() <= SINGULAR * values.max())
     }
 
@@ -161,18 +161,16 @@ impl Jacobian {
     /// and the coordinate that moves most while the prescribed ones stand still.
     pub fn nearly_singular(&self) -> [usize; 2] {
         let Some(decomposition) = self.decomposed() else { return [0, 0] };
-        let least = decomposition.singular_values.imin();
+        let least = decomposition.values.imin();
         let rows = self.all.nrows();
-        let left = decomposition.u.filter(|_| rows > 0);
-        let row = left.map_or(0, |left| left.column(least).rows(0, rows).icamax());
-        let free = decomposition.v_t.map_or(0, |right| right.row(least).transpose().icamax());
-        [row, free]
+        let row = if rows > 0 { decomposition.u.column(least).rows(0, rows).icamax() } else { 0 };
+        [row, decomposition.v_t.row(least).transpose().icamax()]
     }
 
     /// Nothing of numbers that are not finite, on which the decomposition would not end.
-    fn decomposed(&self) -> Option<SVD<f64, Dyn, Dyn>> {
+    fn decomposed(&self) -> Option<Singular> {
         let is_finite = !self.scaled.is_empty() && self.scaled.iter().all(|x| x.is_finite());
-        is_finite.then(|| self.scaled.clone().svd(true, true))
+        is_finite.then(|| Singular::new(&self.scaled))
     }
 
     /// The largest violation of a constraint, as a share of the scales.

@@ -47,6 +47,7 @@ mod response;
 mod rest;
 mod sensitivity;
 mod signal;
+mod singular;
 mod synthesis;
 #[doc = include_str!("synthesis/linkages.md")]
 #[doc = include_str!("synthesis/linkages.svg")]

@@ -3,6 +3,7 @@
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 use crate::complex::null_vectors;
+use crate::singular::Singular;
 use crate::{Error, Linearization};
 
 /// Differences of coefficients give a stiffness this share of the largest one as well.
@@ -169,10 +170,9 @@ impl Pencil {
     /// Orthonormal directions without stiffness, and those across.
     fn free_and_held(&self, uncertainty: f64) -> (DMatrix<f64>, DMatrix<f64>) {
         let f = self.stiffness.nrows();
-        let decomposition = self.stiffness.clone().svd(false, true);
-        let values = &decomposition.singular_values;
+        let Singular { values, v_t, .. } = Singular::new(&self.stiffness);
         let zero = ZERO.max(10.0 * uncertainty.min(1e-3)) * values.amax();
-        let right = decomposition.v_t.map_or_else(|| DMatrix::identity(f, f), |v| v.transpose());
+        let right = v_t.transpose();
         let (free, held): (Vec<usize>, Vec<usize>) = (0..f).partition(|at| values[*at] <= zero);
         (right.select_columns(&free), right.select_columns(&held))
     }

@@ -4,6 +4,7 @@ use mbs_runtime::equations::{At, Described};
 use nalgebra::{DMatrix, DVector};
 
 use crate::difference::five_point;
+use crate::singular::Singular;
 use crate::{Error, rest};
 
 /// A mechanism at rest, with its inputs and its time held.
@@ -148,10 +149,8 @@ impl<'a> Rest<'a> {
         if rows.iter().any(|x| !x.is_finite()) {
             return DVector::from_element(q.len(), f64::NAN);
         }
-        let decomposition = rows.svd(true, true);
-        let least = DEPENDENT * decomposition.singular_values.amax();
-        let found = decomposition.solve(violation, least);
-        found.map_or_else(|_| DVector::from_element(q.len(), f64::NAN), |y| y.component_mul(&weights))
+        let decomposition = Singular::new(&rows);
+        decomposition.solve(violation, DEPENDENT * decomposition.values.amax()).component_mul(&weights)
     }
 
     /// W, by which coordinates weigh alike; see [`Tangent`].

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::singular::Singular;
 use crate::tangent::Rest;
 
 /// An acceleration is a rounding that is less than this share of what its terms are, in scales per s²,
@@ -35,11 +36,11 @@ impl Correction {
         if !system.iter().chain(&right).all(|x| x.is_finite()) {
             return None;
         }
-        let decomposition = system.clone().svd(true, true);
-        let values = &decomposition.singular_values;
+        let decomposition = Singular::new(&system);
+        let values = &decomposition.values;
         let (stiffest, zero) = (values.amax(), rest.resolution() * values.amax());
         let softest = values.iter().copied().filter(|x| *x > zero).fold(f64::INFINITY, f64::min);
-        let z = decomposition.solve(&right, zero).ok()?;
+        let z = decomposition.solve(&right, zero);
         let left = rest.measure(&(&tangent.directions * (right - system * &z)));
         let step = tangent.directions * z;
         let (length, rounding) = (rest.measure(&step), ROUNDING * stiffest / softest);

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::Experiment;
 use super::least_squares::Minimum;
 use crate::Error;
+use crate::singular::Singular;
 
 /// Columns of the Jacobian whose combination is smaller than this part of them cannot be told from columns
 /// that depend on each other: their derivatives are known to about ten times the tolerance of the runs.
@@ -31,8 +32,7 @@ pub fn covariance(experiment: &Experiment, best: &Minimum, free: &[usize]) -> Re
     if scaled.iter().any(|entry| !entry.is_finite()) {
         return Err(Error::NoPrediction);
     }
-    let decomposed = scaled.qr().r().svd(false, true);
-    let (s, v_t) = (&decomposed.singular_values, decomposed.v_t.unwrap_or_default());
+    let Singular { values: s, v_t, .. } = Singular::new(&scaled.qr().r());
     let (least, smallest) = s
         .iter()
         .enumerate()

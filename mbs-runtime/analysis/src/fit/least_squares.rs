@@ -12,6 +12,7 @@
 //! least squares problems, 2nd ed., DTU 2004, algorithm 3.16, for μ. Steps are cut at the bounds, and
 //! variables at a bound from which the sum falls outwards are held.
 
+use crate::singular::Singular;
 use nalgebra::{DMatrix, DVector};
 
 /// Residuals and their derivatives.
@@ -167,9 +168,8 @@ impl Steps {
         }
         // a triangle instead of all rows: JD⁻¹ = QR, R = U S Vᵀ
         let (q, r) = scaled.qr().unpack();
-        let decomposed = r.svd(true, true);
-        let along = decomposed.u?.tr_mul(&q.tr_mul(residuals));
-        let (singular_values, v_t) = (decomposed.singular_values, decomposed.v_t?);
+        let Singular { u, values: singular_values, v_t } = Singular::new(&r);
+        let along = u.tr_mul(&q.tr_mul(residuals));
         Some(Self { free, scales: of_free, along, singular_values, v_t, count: here.x.len() })
     }
 

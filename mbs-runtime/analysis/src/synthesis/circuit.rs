@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::system::{Guess, System, nearest_turn, seeded, store};
 use super::task::Defect;
+use crate::singular::Singular;
 
 /// Steps along the curve, in rad or in sizes of the mechanism: the longest, the first and the shortest, at which
 /// the curve ends.
@@ -225,8 +226,7 @@ impl Curve<'_> {
         }
         // square, so that all right singular vectors are there
         let rows = jacobian.nrows().max(n);
-        let decomposed = jacobian.resize(rows, n, 0.0).svd(false, true);
-        let (values, v_t) = (decomposed.singular_values, decomposed.v_t?);
+        let Singular { values, v_t, .. } = Singular::new(&jacobian.resize(rows, n, 0.0));
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
         let (least, next) = (order.first()?, order.get(1));
@@ -248,7 +248,7 @@ impl Curve<'_> {
             let change = if m + 1 == n {
                 bordered.lu().solve(&right)?
             } else {
-                bordered.svd(true, true).solve(&right, SINGULAR).ok()?
+                Singular::new(&bordered).solve(&right, SINGULAR)
             };
             place += &change;
             if change.amax() < 1e-12 * (1.0 + place.amax()) {
