@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::fuzzing::{input, seeds};
 
@@ -14,14 +15,16 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// The first inputs of the fuzzer: mutations of valid declarations and made-up ones.
 #[test]
 fn made_up_declarations_do_not_panic() {
-    let seeds = seeds::all();
-    let mut compiled = 0;
-    for index in 0..INPUTS {
-        let text = input(&seeds, 1, index);
+    // tokens stay on their thread
+    let compiles = |seeds: &mut Vec<_>, index: u64| {
+        let text = input(seeds, 1, index);
         let verdict = judge(&text, LIMIT);
         assert!(!verdict.is_failure(), "{verdict:?} of\n{text}");
-        compiled += u64::from(verdict == Verdict::Compiled);
-    }
+        verdict == Verdict::Compiled
+    };
+    let compiled =
+        (0..INPUTS).into_par_iter().map_init(seeds::all, compiles).filter(|compiled| *compiled).count()
+            as u64;
     // so that what lies behind the first stages is reached
     assert!(compiled > INPUTS / 100, "{compiled} of {INPUTS} compile");
 }
