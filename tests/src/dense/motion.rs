@@ -139,7 +139,9 @@ impl Mechanism {
         forces
     }
 
-    /// −(k (d − l) + c ḋ) ∂d/∂q, of a vector where l is 0.
+    /// −(k (d − l) + c ḋ) ∂d/∂q. Where l is 0, −(k r + c w) ∂r/∂q of the vector r between the places: w is the
+    /// rate along r, and all of ṙ where the places coincide. The passage is the one of the language, since what
+    /// rounding leaves of r where they do counts as (|r|/ε)², 3e-11 for 6e-16 m.
     fn pull(&self, spring: &Spring, q: &[f64], v: &[f64], forces: &mut DVector<f64>) {
         let apart = |direction: &dyn Fn(usize) -> f64| -> [Jet; 2] {
             let jets: Vec<Jet> = q.iter().enumerate().map(|(i, q)| line(*q, direction(i))).collect();
@@ -152,9 +154,12 @@ impl Mechanism {
         let along = apart_now.map(|x| x / distance);
         let Spring { stiffness, length, damping, .. } = *spring;
         let parting = along[0] * rate[0] + along[1] * rate[1];
+        let opening = apart_now[0] * rate[0] + apart_now[1] * rate[1];
+        let [squares, near] = [distance, COINCIDENT].map(|length| length * length);
         let force: [f64; 2] = std::array::from_fn(|axis| {
-            if distance < COINCIDENT {
-                stiffness * apart_now[axis] + damping * rate[axis]
+            if length == 0.0 {
+                let rate = (apart_now[axis] * opening + near * rate[axis]) / (squares + near);
+                stiffness * apart_now[axis] + damping * rate
             } else {
                 (stiffness * (distance - length) + damping * parting) * along[axis]
             }
