@@ -189,7 +189,8 @@ pub enum Error {
         /// How much is needed.
         needed: usize,
     },
-    /// A start that was given violates a constraint.
+    /// A start that was given violates a constraint. [`start::project`](crate::start::project) makes one
+    /// consistent that keeps no more coordinates than there are degrees of freedom.
     Inconsistent {
         /// When, in s.
         t: f64,
@@ -384,8 +385,8 @@ impl fmt::Display for Error {
                     f,
                     "the start at t = {t} s is not consistent: the {what} `{constraint}` is violated by \
                      {violation:.3e}{per_second}, and at most {allowed:.1e}{per_second} is kept as it is; \
-                     projecting the start (`start::project`) makes it consistent, if that keeps no more \
-                     coordinates than there are degrees of freedom",
+                     give values for no more coordinates than there are degrees of freedom, so that the others \
+                     can follow",
                     t = Shown(t)
                 )
             }

@@ -134,10 +134,5 @@ pub fn pythonic(message: &str) -> String {
         }
     }
     said.push_str(rest);
-    said.replace(
-        "projecting the start (`start::project`) makes it consistent",
-        "give fewer values: the others follow",
-    )
-    .replace("max-step", "max_step")
-    .replace("allow-unstable", "allow_unstable")
+    said.replace("max-step", "max_step").replace("allow-unstable", "allow_unstable")
 }
