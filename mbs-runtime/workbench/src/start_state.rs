@@ -48,6 +48,11 @@ impl Place {
     }
 }
 
+/// The unit in which a coordinate `x` or a rate `der(x)` is shown.
+pub(crate) fn unit(info: &Info, name: &str) -> Option<Unit> {
+    Place::find(info, name).ok().map(|(_, _, unit)| unit)
+}
+
 impl StartState {
     /// Values in SI units of coordinates `x` and rates `der(x)`, from texts.
     ///

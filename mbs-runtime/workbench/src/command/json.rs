@@ -23,10 +23,8 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
         (column.name.clone(), value(last, &column.unit))
     };
     let given = options::given(request.model.info(), settings);
-    let given: Map<_, _> = given
-        .iter()
-        .map(|(name, x, unit)| ((*name).to_owned(), value(unit.shown(*x), unit.name())))
-        .collect();
+    let given: Map<_, _> =
+        given.iter().map(|(name, x, unit)| (name.clone(), value(unit.shown(*x), unit.name()))).collect();
     json!({
         "mechanism": request.name,
         "given": given,

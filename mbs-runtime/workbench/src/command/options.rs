@@ -6,7 +6,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches};
 use mbs_runtime::{Info, Stabilization};
 
-use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity};
+use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, start_state};
 
 /// An option with a value, which may begin with a minus sign.
 pub(crate) fn option(name: &'static str, value: &'static str, help: &'static str) -> Arg {
@@ -155,13 +155,16 @@ fn is_table(value: &str) -> bool {
 }
 
 /// What was set, in SI units, and the unit in which it is shown.
-pub(super) type Given = (&'static str, f64, Unit);
+pub(super) type Given = (String, f64, Unit);
 
 /// What the settings replace of what was declared.
 pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
     let set = settings.parameters.iter().chain(&settings.inputs);
     let quantity = |name: &str| info.parameters.iter().chain(info.inputs).find(|q| q.name == name);
-    set.filter_map(|(name, value)| quantity(name).map(|q| (q.name, *value, Unit::of(q)))).collect()
+    let set = set.filter_map(|(name, value)| Some((name.clone(), *value, Unit::of(quantity(name)?))));
+    let from = settings.from.iter();
+    set.chain(from.filter_map(|(name, value)| Some((name.clone(), *value, start_state::unit(info, name)?))))
+        .collect()
 }
 
 /// Every file is written once.

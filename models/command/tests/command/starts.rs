@@ -44,6 +44,22 @@ fn given_values_stay_and_others_follow() {
     near(&first("--from der(x1)=50cm/s --from der(x2)=0.5")[4..], &[0.5, 0.0, 0.5, 0.0]);
 }
 
+/// A start that is given is told beside parameters and inputs that are.
+#[test]
+fn what_was_given_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("double.mbs"), DOUBLE).unwrap();
+    let run = |more: &str| {
+        let line = format!("simulate double.mbs --end 1ms --from x1=600mm --from der(x1)=50cm/s {more}");
+        text(mbs(folder.path(), &line).stdout)
+    };
+    let table = run("");
+    assert!(table.contains("x1, as set") && table.contains("der(x1), as set"), "{table}");
+    let told: serde_json::Value = serde_json::from_str(&run("--json")).unwrap();
+    assert_eq!(told["given"]["x1"]["value"], 0.6);
+    assert_eq!(told["given"]["der(x1)"]["unit"], "m/s");
+}
+
 #[test]
 fn what_cannot_be_a_start_is_refused() {
     let refused = |arguments: &str| {
