@@ -1,4 +1,7 @@
 //! Equations over duals, of a mechanism of which only an object is known.
+//!
+//! Compiling the equations over duals takes 0.9 s for a type like the slider-crank. So only `Differentiated`
+//! does it for a type.
 
 use crate::equations::{At, Described, Equations, read};
 use crate::{Derivation, Dual, Error, Gains, Info, Mechanism, Sketch};

@@ -1,4 +1,16 @@
 //! Numbers that carry their partial derivatives.
+//!
+//! # How derivatives get through a run
+//!
+//! A dual is a `Real`, so everything generic differentiates itself. At kinks it has the pieces of
+//! `operators.rs` of `mbs-symbolic`.
+//!
+//! An iteration ends by its value, before its derivatives have converged. `Real::ORDER` more corrections are
+//! made then, in `start/assembly.rs` and `adaptive/attempt.rs`. The conjugate gradients of
+//! `start/projection.rs` are solved for each partial. The time of an event gets its derivatives in
+//! `adaptive/ending.rs`.
+//!
+//! `gradients.rs` makes a run for every N variables of a sum, for any `System` over duals.
 #![allow(
     clippy::needless_range_loop,
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"

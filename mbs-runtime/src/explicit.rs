@@ -1,4 +1,10 @@
 //! An explicit step on the first-order form (q, v)˙ = (v, q̈), for any tableau.
+//!
+//! # One step for every scheme
+//!
+//! A scheme is a table of numbers in `mbs-schemes`. A step is written here once for any table: for scalars,
+//! lanes and columns, on the stack, on slices and on the arrays of long chains. The order of operations
+//! stands here. Fused programs and C code keep it, so that all paths agree to the bit.
 
 mod trial;
 

@@ -1,4 +1,8 @@
 //! What a generated mechanism offers to integrators and tools.
+//!
+//! `Mechanism` is the interface between generated code and integrators. Errors and tools need its constant
+//! `INFO`. `DERIVATION` has the equations and their elimination as text and LaTeX. Pictures are made of
+//! `SKETCH` and `points`. Both constants are apart from `INFO`, so that firmware does not carry them.
 
 use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 

@@ -1,4 +1,7 @@
 //! Methods of integration as types: a scheme, and what keeps the constraints with it.
+//!
+//! A method is a type, so that each becomes a straight line of its own. A new scheme needs a line of
+//! `schemes!` here.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;

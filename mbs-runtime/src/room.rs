@@ -1,4 +1,7 @@
 //! Room for vectors, so that what needs many of them needs no heap.
+//!
+//! Functions with named components copy to arrays and back, and have room on the stack. A mechanism whose
+//! number of coordinates is known at run time only has its room within any slice.
 
 use mbs_schemes::MOST_STAGES;
 

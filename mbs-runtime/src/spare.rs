@@ -1,5 +1,7 @@
 //! Redundant constraints take no part in a step: they are watched, because with parameters
 //! for which they fit at one instant only they would be violated in silence.
+//!
+//! A start is checked by Φ̈, and every step by Φ.
 
 use crate::equations::Equations;
 use crate::reach::out_of_reach;

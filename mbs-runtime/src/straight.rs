@@ -1,4 +1,15 @@
 //! The scalar of a loop over lanes.
+//!
+//! # How a loop over lanes becomes vectors
+//!
+//! A pack computes the scalar's fused step in a loop over lanes. The compiler makes vectors of that loop.
+//! `mbs-ensemble` has it compiled for AVX2 and AVX-512 and chooses at run time. No function may be called in
+//! the loop, or there are no vectors. Closures and iterators are functions where the compiler finds them
+//! long.
+//!
+//! A method without a fused step has a loop over its stages. There every operation is one of all lanes
+//! (`step_together` in `pack`). Long chains, whose programs are loops, take their steps lane after lane
+//! (`pack/long.rs`).
 
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,4 +1,7 @@
 //! A mechanism in motion, whatever it was made from.
+//!
+//! `System` is for runs as `Equations` is for mechanisms: names, parameters, state, steps, reactions,
+//! outputs, energies and points, for a type or for a text.
 
 use crate::equations::{At, Described, Equations, read, write};
 use crate::mechanism::is_fused_for;

@@ -1,6 +1,28 @@
 //! Shared pieces of the cross-checks: the slider-crank and the N-pendulum written
 //! out by hand, chains of any length, numbers that carry derivatives,
 //! derivatives from differences, random states, random declarations.
+//!
+//! # What is tested where
+//!
+//! This crate holds what crosses rooms: golden expansions (one mechanism whole, of others signatures), dense
+//! cross-checks, order, allocation, a freestanding link, operation counts, and published references. Each
+//! test file starts with what it holds.
+//!
+//! * `compile_fail` has compile errors. It is a crate of its own, since every case is compiled with all that
+//!   its crate depends on. `ui/designers` there has whole mechanisms, wrong as designers get them wrong.
+//! * `paths` has the paths of a step: in stages, fused, in single precision, in lanes of four kinds. A
+//!   reference is stated once and held on each of them, and as loops. The references of `models` use it too.
+//! * `mbs-macro/symbolic/tests` tests algebra with random expressions.
+//! * `models/tests/library` holds every mechanism of the library to balances and the order of the method.
+//!   `models/tests/references` holds each to its closed form or to a published result.
+//!
+//! # Random mechanisms
+//!
+//! * `dense` draws mechanisms as numbers. `dense_solutions` compares 3,000 of them in `.ci/run`.
+//! * `linkages` makes mechanisms that are assembled as they are made.
+//! * `fuzzing` makes up, mutates and crosses declarations. `examples/fuzz.rs` compiles them in child
+//!   processes with the Rust compiler's stack and a time limit. A failure is cut down into `corpus`, which a
+//!   test compiles.
 
 pub mod bushing;
 pub mod by_hand;

@@ -1,4 +1,8 @@
 //! Errors for the person who wrote the declaration.
+//!
+//! `Diagnostics` collects the errors of a stage, and its `finish` ends the stage. A stage with errors is the
+//! last one. All of its errors are shown. An error has the span of the token at fault, a `help` that mends
+//! it, and notes with the lines of other places.
 
 use std::fmt;
 

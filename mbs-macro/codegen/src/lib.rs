@@ -12,6 +12,7 @@
 //! | `derive` | `Equations` | what follows computes with expressions; bodies, joints and forces are left for words |
 //! | `independence` | `Rows` | constraints to solve for are chosen; they are independent, and the contract holds |
 //! | `reduction` | `Reduction` | coordinates to integrate are chosen |
+//! | `stiff` | `Stiffness` | an implicit stage has its own masses and forces |
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `validate` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
@@ -22,6 +23,17 @@
 //!
 //! Errors of a stage are collected and shown together; a stage with errors is
 //! the last.
+//!
+//! # Why
+//!
+//! A mechanism is known when its solver is compiled. So the compiler does everything that does not depend on
+//! the state. It checks names, units and consistency. It differentiates constraints, and fixes the order in
+//! which the constrained system is eliminated. A list of floating-point operations is left. The runtime adds
+//! an integrator and nothing else.
+//!
+//! # Imports
+//!
+//! Imports run one way along the stages. A test reads them (`tests/tests/house.rs`).
 #![forbid(unsafe_code)]
 
 pub mod compiled;

@@ -29,6 +29,8 @@
 //! The reactions are those without feedback terms. So the loads are functions
 //! of the state, the same in every generated function, and second order stays
 //! second order: corrections of the violation cause no friction.
+//!
+//! Each response G Dᵢ is one more solution with the factorization of the step.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -16,6 +16,18 @@
 //! h = 1.5 b − 0.5 a, the carrier's angle h may be the small difference of two large ones, and a
 //! spring on the carrier then acts on the rounding of a and b. So coordinates on which no force
 //! depends are given first, and coefficients that would multiply errors are avoided.
+//!
+//! # How it is used
+//!
+//! `StatePosition` and `StateVelocity` are the symbols of a step. `Complete` is the function that leads back
+//! to all coordinates.
+//!
+//! In Rust a step works on `Mechanism::States`, so that types tell both apart. A run completes its state
+//! where somebody looks at it. That takes the sines and cosines that the next step takes too, so a step does
+//! not do it. In C the state of a run always has all coordinates, and a step ends by completing them.
+//!
+//! Without feedback, centripetal accelerations along x and y cancel in right-hand sides. These are
+//! multiplied out where that costs less (`eliminate/sums.rs` in `mbs-symbolic`).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

@@ -19,6 +19,13 @@
 //! symmetric D, and of others (a follower, a force on one body by the position of another) the
 //! antisymmetric part is left out of Newton's matrix. Loads that depend on reactions are taken at
 //! p, too.
+//!
+//! # How it is used
+//!
+//! The elimination of the accelerations solves this system too, in the order that was cheapest there.
+//! `Implicit` is a function of its own. Rust code has it where forces depend on positions or velocities. C
+//! does not print it. The derivatives of the constraints are left out of the matrix, since they are not
+//! stiff.
 
 use std::collections::BTreeMap;
 

@@ -10,6 +10,9 @@
 //! where ȳ = ∂(Σ wₖ resultₖ)/∂y is complete by then. The gradient costs a few times the program,
 //! however many inputs there are. It is a program again, so that nothing is recorded when it runs.
 //!
+//! `Program::with_adjoint` puts these instructions behind a program. Slopes of functions are those of
+//! `operators.rs`.
+//!
 //! # Source
 //! A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, chapter 3.
 

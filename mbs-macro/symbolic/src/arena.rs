@@ -1,4 +1,17 @@
 //! Hash-consed expressions: equal expressions are the same node.
+//!
+//! # Why values are shared
+//!
+//! `Node::Shared` marks a value that is computed once. Sums and products are not opened across it. So the
+//! elimination of a chain stays linear in its length. The entries of a small system stay open to algebra:
+//! sin² + cos² = 1 turns a reduced mass into a constant.
+//!
+//! # Files beside it
+//!
+//! * `construct.rs` has the constructors, which keep sums, products and calls canonical. Each rule states
+//!   its condition there.
+//! * `differentiate.rs` takes derivatives, `substitute.rs` puts expressions in the place of symbols.
+//! * `exact` decides whether an expression vanishes.
 
 use std::rc::Rc;
 

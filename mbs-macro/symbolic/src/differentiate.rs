@@ -1,4 +1,7 @@
 //! Derivatives along a direction.
+//!
+//! A direction gives each symbol its rate. The Jacobian Φ_q uses unit directions. Φ̇ uses q → v and t → 1. γ
+//! is minus the same derivative of Φ̇.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,7 @@
 //! The elementary functions, one row of a table each.
+//!
+//! A row says all that the symbolic engine knows of a function: value, slopes, parity, range, whether it has
+//! pieces, and how it is spelled.
 
 use crate::algebra::Scalar;
 

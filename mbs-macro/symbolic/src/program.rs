@@ -1,4 +1,7 @@
 //! Straight-line programs in static single assignment form.
+//!
+//! One program serves several readers. The closure check and tests evaluate it. Documentation and goldens
+//! count its operations. Targets print it.
 
 use std::collections::BTreeSet;
 use std::fmt;

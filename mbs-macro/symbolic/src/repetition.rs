@@ -3,6 +3,16 @@
 //!
 //! Instructions are compared by what they do and by the kind of their operands;
 //! where the sequence repeats itself with some period, it is cut into copies.
+//!
+//! # Why
+//!
+//! Elimination makes such parts of the links of a chain, because equally cheap pivots are taken in their
+//! order. An operand of a repeated instruction is the same in all copies, a result of its own copy, a result
+//! of the copy before, or another one each time.
+//!
+//! Loops over links are found in programs and not in declarations. So the language needs no rule for them,
+//! and they cover everything that repeats itself. Code and compile time grow with the number of different
+//! parts.
 
 use std::collections::{BTreeMap, BinaryHeap};
 use std::hash::Hash;

@@ -1,4 +1,6 @@
 //! Periodic cubic splines: functions given by a table.
+//!
+//! The compiler solves for the coefficients. Generated code holds them as a constant.
 
 use crate::arena::Expr;
 

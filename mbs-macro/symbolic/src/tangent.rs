@@ -10,6 +10,8 @@
 //! The derivatives along one direction cost about as much as the program twice more, however many
 //! results there are. They are a program again, so that nothing is recorded when it runs.
 //!
+//! `Program::along` gives this program. Tangents and transposes grow by `growing.rs`.
+//!
 //! # Source
 //! A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, chapter 3.
 

@@ -1,4 +1,8 @@
 //! Backward differentiation formulas of variable order and step, by the crate diffsol.
+//!
+//! The solver is the kernel of a run with a constant step. So starts, inputs, projection and errors are
+//! those of other runs. The feature `bdf` is off by default. It takes three minutes of a core to compile,
+//! most of it a library of linear algebra that diffsol names and nobody calls here.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;

@@ -1,4 +1,7 @@
 //! Derivatives of functions of one variable from differences.
+//!
+//! Extrapolation estimates the error of a derivative and shows corners. It shows them also where the
+//! derivative itself comes from duals.
 
 use nalgebra::DVector;
 

@@ -1,4 +1,7 @@
 //! A mechanism whose inputs are functions of time.
+//!
+//! Every stage, output and event sees the inputs of its own time. Runs to a tolerance step onto the corners
+//! of the table.
 
 use std::sync::Arc;
 

@@ -1,4 +1,7 @@
 //! Positions at which nothing moves.
+//!
+//! The search goes along the free directions of `tangent`. `newton` and `relaxation` are two ways, both made
+//! of corrections of a position (`correction`). `stiffness` tells where a mechanism falls away.
 
 mod correction;
 mod newton;

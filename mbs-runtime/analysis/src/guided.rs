@@ -1,5 +1,12 @@
 //! A mechanism whose free coordinates are prescribed: where the others are, how they move, and which
 //! forces that takes.
+//!
+//! `jacobian` factorizes `[Φ_q; 1_I]`. Positions are followed on their branch with it. M is never formed
+//! whole: M w are differences of kinetic energies, which are exact but for rounding. Q is known by the q̈
+//! and λ that it causes.
+//!
+//! `inverse` finds inputs, and `travel` the forces that hold a mechanism along a slow motion. `curve` has
+//! motions over time.
 
 use mbs_runtime::equations::{At, Described};
 use nalgebra::{DMatrix, DVector};

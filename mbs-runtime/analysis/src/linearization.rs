@@ -1,4 +1,7 @@
 //! The linear system of small motions about an operating point.
+//!
+//! A, B, C and D are made of derivatives along directions of positions, velocities, inputs and parameters
+//! (`derivative`). `chart` chooses the declared coordinates that are states.
 
 use mbs_runtime::equations::Described;
 use nalgebra::{DMatrix, DVector};

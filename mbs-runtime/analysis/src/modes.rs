@@ -1,4 +1,8 @@
 //! Natural frequencies, damping ratios and mode shapes.
+//!
+//! The pencil is λ²1 − λG − K in coordinates of unit mass. Directions without stiffness are taken out of it
+//! first. Complex matrices are real ones of twice the size (`complex`), which spares compiling
+//! decompositions twice.
 
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 

@@ -1,4 +1,7 @@
 //! The acceleration of a mechanism at rest, and how it changes with positions.
+//!
+//! Derivatives are those of duals where a mechanism has its equations over them. Elsewhere `tangent` takes
+//! five-point differences.
 
 use mbs_runtime::Real;
 use mbs_runtime::equations::{At, Described, PARTIALS, Partials};

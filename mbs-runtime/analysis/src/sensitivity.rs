@@ -1,4 +1,7 @@
 //! How modes follow parameters.
+//!
+//! It differences the linear systems about equilibria that move with a parameter. A mechanism at other
+//! parameters comes from a `Family`.
 
 use mbs_runtime::equations::Described;
 use nalgebra::{Complex, DMatrix, DVector};

@@ -1,4 +1,7 @@
 //! Motions that the constraints leave free, in minimal coordinates.
+//!
+//! The directions come from a QR decomposition of Φ_qᵀ with pivots, in which masses weigh the coordinates.
+//! Everything here asks the mechanism on slices, so a type and a text are the same to it.
 
 use mbs_runtime::equations::{At, Described};
 use nalgebra::{DMatrix, DVector};

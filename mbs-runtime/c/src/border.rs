@@ -12,6 +12,9 @@
 //! 4. a pointer to a result is NULL, or points to memory that may be written.
 //!
 //! Their lifetime is that of the call: a function is written for every lifetime, so that no reference outlasts it.
+//!
+//! Results are computed in memory of the library and copied out. So arrays of the caller may overlap, need
+//! no alignment, and are never a reference.
 #![allow(
     unsafe_code,
     reason = "pointers from C can be used in no other way; the contract of the header is the proof"

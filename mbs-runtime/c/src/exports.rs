@@ -1,4 +1,7 @@
 //! The functions of the interface, in the order of the header, which says what they do.
+//!
+//! The header is written by hand, since it is the documentation. `tests/header.rs` reads both and holds them
+//! together.
 
 use std::ffi::{CStr, c_char, c_int};
 

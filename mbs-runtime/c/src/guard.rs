@@ -1,4 +1,7 @@
 //! What stands around every function of the interface.
+//!
+//! It writes exported functions around safe bodies, keeps the error for `mbs_error` (`last`), and makes a
+//! status of a panic.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,4 +1,6 @@
 //! A run as C sees it: what is set for it, and the mechanism in motion once it was started.
+//!
+//! A motion is any `System` that can be copied (`motion`). So a state is saved by copying a run.
 
 use mbs_runtime::equations::At;
 use mbs_runtime::{Baumgarte, Error, Held, Info, SystemClone, Tolerances};

@@ -1,4 +1,7 @@
 //! One block: as many members as there are lanes.
+//!
+//! Threads take blocks. A lane whose member has ended copies one that runs. An `Observe` reduces each run
+//! while it goes, so memory does not grow with steps.
 #![allow(clippy::needless_range_loop, reason = "lanes are counted through several arrays")]
 #![allow(clippy::type_complexity, reason = "an outcome per lane, where there is one, unless cancelled")]
 

@@ -1,4 +1,6 @@
 //! Whether code does what its program does.
+//!
+//! The code is followed symbolically once, before anything runs.
 
 use mbs_codegen::compiled::Compiled;
 use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operation, Program, SinCos};

@@ -1,4 +1,7 @@
 //! A program as flat code: operations on numbered slots.
+//!
+//! `slots` makes the code, `grouped` puts instructions of a kind behind each other, `instruction` does them,
+//! and `check` compares the code with its program.
 
 use mbs_codegen::compiled::{Compiled, Input};
 use mbs_runtime::Real;

@@ -1,4 +1,7 @@
 //! What an interpreter does: operations on numbered slots.
+//!
+//! All scalar functions are those of `Real`. So results equal the compiled Rust to the last bit.
+//! `models/tests/library/texts.rs` holds every mechanism of the library to that.
 #![allow(clippy::needless_range_loop, reason = "a column is counted through several slots")]
 
 use mbs_runtime::__private::Spline;

@@ -1,4 +1,7 @@
 //! A mechanism that runs as soon as it is compiled.
+//!
+//! Mechanisms and runs are generic over the scalar, all but `Pack`. The code is the same for each scalar, so
+//! derivatives need no second compilation.
 
 use std::fmt;
 use std::sync::Arc;

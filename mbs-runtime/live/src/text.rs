@@ -1,4 +1,6 @@
 //! A declaration as text.
+//!
+//! A declaration is data. The compiler runs on a thread of its own, with bounds on length, nesting and time.
 
 #[cfg(not(target_family = "wasm"))]
 use std::fmt::Display;

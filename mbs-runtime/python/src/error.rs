@@ -1,4 +1,7 @@
 //! What goes wrong, as the exceptions that the package declares in Python.
+//!
+//! The package declares the exceptions, so that a module of other mechanisms (`module!`) raises the same
+//! ones.
 
 use mbs_live::{Location, Note, Problem};
 use pyo3::prelude::*;

@@ -1,4 +1,6 @@
 //! A compiled mechanism.
+//!
+//! A mechanism is a `Box<dyn Model>`, so that a text and a type are the same to Python.
 
 use std::path::PathBuf;
 

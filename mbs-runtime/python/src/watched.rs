@@ -1,4 +1,6 @@
 //! Work without the interpreter's lock, which tells how far it is and can be interrupted.
+//!
+//! Every computation runs like this, in a thread of its own.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};

@@ -1,4 +1,7 @@
 //! Why there is no step.
+//!
+//! A step of a run fails or is too inaccurate, but does not say why. So steps on slices are taken from the
+//! last good state, from a very short one on. The first that fails names the error.
 
 use mbs_schemes::Explicit;
 

@@ -1,4 +1,11 @@
 //! A mechanism as runs to a tolerance see it.
+//!
+//! Three kinds of mechanisms are `Dynamics`:
+//!
+//! * every `Mechanism`, with arrays for vectors and with inlined functions;
+//! * a text (`Prepared` of `mbs-live`), with vectors on the heap;
+//! * a type whose name is forgotten (`adaptive.rs` of the workbench), so that these runs are compiled once
+//!   for all types.
 
 use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};

@@ -1,4 +1,8 @@
 //! When a value changes its sign on the way.
+//!
+//! Declared events are a function of the mechanism, as its outputs are. Those of a program are a closure. A
+//! step that was taken is looked through on the polynomial between its ends (`crossing`). The first change
+//! of sign is located, and the step ends there (`ending`).
 
 use super::dense::Moment;
 use super::{Adaptive, Dynamics};

@@ -1,4 +1,11 @@
 //! Runs to a tolerance: steps as long as an estimate of their error permits.
+//!
+//! # How it works
+//! * `dynamics` is a mechanism as these runs see it.
+//! * `attempt` takes a step and estimates its error. `control` chooses the next length.
+//! * `dense` has the motion within a step. `crossing` looks through it for events, and `ending` ends a step
+//!   at one.
+//! * `sampled` makes a `System` of a run. `cause` finds the error that ends one.
 
 mod attempt;
 mod beginning;

@@ -1,4 +1,6 @@
 //! Runs to a tolerance as a [`System`].
+//!
+//! Its `step` leads to the next sample, so recording and sweeping know nothing of tolerances.
 
 use core::fmt;
 

@@ -1,4 +1,11 @@
 //! Runs with a constant step of methods that are more than the stages of an explicit scheme.
+//!
+//! # How it works
+//!
+//! A `Kernel` takes the step: RATTLE in `rattle`, TR-BDF2 in `trbdf2`, or one of another crate. This module
+//! makes a run of it. Kernels are generic over `Dynamics`, as runs to a tolerance are. Both kinds of runs
+//! share three things: where they begin (`adaptive/beginning.rs`), why there is no step
+//! (`adaptive/cause.rs`), and a state as a `System` shows it (`view.rs`).
 
 mod builder;
 mod kernel;

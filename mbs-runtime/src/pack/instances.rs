@@ -1,4 +1,10 @@
 //! What the lanes of a pack are, and where.
+//!
+//! Numbers lie per quantity. The loop over steps is inside `Pack::advance`, so that the state stays in
+//! registers.
+//!
+//! A step that one lane cannot make is made by none. Then it is made lane after lane by the scalar code. So
+//! members equal their simulations bit for bit, and a singular one does not spoil its neighbours.
 #![allow(
     clippy::needless_range_loop,
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"

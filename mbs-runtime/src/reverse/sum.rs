@@ -1,4 +1,11 @@
 //! A sum over a run with its derivatives, by going back through the run.
+//!
+//! # How it works
+//!
+//! This file goes forward and back. `kept` has the states that are kept or made again. `step` takes a step
+//! backward. `projection` and `measures` do so with a projection and with outputs. A run of a type or of a
+//! text is `Reversible` (`run`). All of this has a heap and needs `std`. `Transposed`, which generated code
+//! implements, does not.
 
 use core::ops::Range;
 use std::vec;

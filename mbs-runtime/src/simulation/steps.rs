@@ -1,4 +1,14 @@
 //! The steps of a simulation.
+//!
+//! # How it works
+//!
+//! A mechanism names the scheme of its fused step (`Mechanism::Scheme`). The growth of that step and the sum
+//! of its state are tested once. A step that fails the test is made again in stages, which name the error
+//! (`diagnosis.rs`). So is a step on arrays. Another method is computed stage by stage.
+//!
+//! The state is read from a place that a compiler does not see through. It would otherwise load a number
+//! together with the one behind it, which another store wrote. Steps are counted in a float, since the time
+//! of every step is a multiple of the count.
 
 use core::hint::black_box;
 

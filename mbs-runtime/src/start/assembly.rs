@@ -1,4 +1,8 @@
 //! Positions on Φ = 0 and velocities on Φ̇ = 0, near a guess.
+//!
+//! `position_correction` and `velocity_correction` solve a system like that of a step, with the prescribed
+//! coordinates held. So Newton's iteration moves the others least in the norm of the mass matrix. The
+//! compiler has decided which coordinates can be held.
 
 use crate::diagnosis::{Solution, check_solution};
 use crate::equations::{At, Equations};

@@ -1,4 +1,7 @@
 //! Whether a state is consistent.
+//!
+//! A state that a program gives is kept to the bit and checked here. `projection` makes another one
+//! consistent.
 
 use super::assembly::rounding;
 use super::jacobian::Jacobian;

@@ -1,4 +1,7 @@
 //! Runs to a tolerance, and with a constant step of other methods than schemes, of mechanisms whose type is no longer known.
+//!
+//! Such runs are compiled once for all types. A type is behind its equations on slices here, and vectors are
+//! on the heap.
 
 use std::sync::Arc;
 

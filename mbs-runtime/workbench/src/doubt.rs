@@ -1,4 +1,7 @@
 //! Reasons not to trust the numbers of a run that did not fail.
+//!
+//! `energy.rs` and `resolution.rs` find two of them: a changed energy, and steps that are too long for the
+//! forces.
 
 use std::fmt;
 

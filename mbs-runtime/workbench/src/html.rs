@@ -1,4 +1,6 @@
 //! What pages are put together from: places to fill, texts, and the scripts that several of them share.
+//!
+//! A page is filled in one pass.
 
 pub(crate) const DRAWING_SCRIPT: &str = include_str!("html/drawing.js");
 pub(crate) const SHAPES_SCRIPT: &str = include_str!("html/mechanism.js");

@@ -1,5 +1,9 @@
 //! Many runs of one mechanism that differ in parameters, reduced to what each of its
 //! quantities was at least, at most and in the end.
+//!
+//! Members run in lanes where a model has them: every text, and a type that is listed by `model::in_lanes`,
+//! which costs compile time. Otherwise they run one by one on all cores. Ctrl-C ends a sweep and keeps the
+//! finished members.
 
 pub mod lanes;
 

@@ -1,4 +1,7 @@
 //! A mechanism whose type is no longer known: what commands work with.
+//!
+//! A model says how a run of a mechanism starts. Recording (`run.rs`) and sweeping (`members.rs`) are
+//! written once, on `dyn System`. A model is made of a type (`of`) or of a text (`live.rs`).
 
 use std::marker::PhantomData;
 

@@ -1,4 +1,7 @@
 //! The mechanisms that commands know, by name or from files.
+//!
+//! A text of the library is compiled when it is asked for. `models/command/src/library.rs` lists the
+//! mechanisms of the command.
 
 use std::path::Path;
 

@@ -1,4 +1,6 @@
 //! Arrays for NumPy: a `.npz` file, which is a ZIP archive of `.npy` files (NumPy Enhancement Proposal 1).
+//!
+//! The container is that of the crate rawzip.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,6 @@
 //! About what a mechanism is linearized, and where it is at rest.
+//!
+//! The options of an equilibrium and of a linear system are texts, as those of a run are (`run_options.rs`).
 
 use mbs_analysis::{
     Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy,

@@ -1,4 +1,7 @@
 //! What a run is asked to do, as a person writes it: at the command line, or in another language.
+//!
+//! Commands and Python translate their arguments into these texts. So units and messages are the same in
+//! both.
 
 use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 

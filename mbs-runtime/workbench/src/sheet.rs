@@ -1,4 +1,7 @@
 //! Tables of numbers in files: a quantity with its unit in each column, one of which may be the time.
+//!
+//! `dialect` reads tables as instruments write them. `signals.rs` takes inputs from a table, and
+//! `measurements.rs` the values that `mbs fit` compares.
 
 mod dialect;
 #[cfg(test)]

@@ -1,4 +1,6 @@
 //! Constant steps of explicit schemes, whose stages see the inputs of their own times.
+//!
+//! A table gives inputs over time (`signals.rs`). Schemes with constant steps see them by these stages.
 
 use mbs_runtime::equations::{self, At, Room, Watch};
 use mbs_runtime::{Baumgarte, Dynamics, Error, Explicit, Held, Info, Kernel, Moment, Projected};

@@ -1,4 +1,6 @@
 //! In which unit a quantity is shown and read.
+//!
+//! Every command reads, writes and draws a quantity in the unit that is decided here.
 
 use mbs_analysis::{Signal, Variable};
 use mbs_runtime::{Dimension, Info, Quantity};

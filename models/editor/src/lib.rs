@@ -1,4 +1,17 @@
 //! What the page of the editor asks of the compiler of mechanisms, and what it is answered.
+//!
+//! # How it works
+//!
+//! The compiler is the workbench without its feature `desk`, for the target wasm32-wasip1. It is a program
+//! that reads a request and writes the page of a mechanism or the problems of its declaration.
+//!
+//! * `page/worker.js` is the little of WASI that it needs. It starts the program anew for every request, so
+//!   that no memory is left of an earlier one. `page/compiler.js` asks it one thing at a time.
+//! * `page/text.js` is the text field over its coloured copy. Its words come from the compiler's table of
+//!   keywords.
+//! * `page/editor.js` shows the answers. Each page stands in a frame without rights. By
+//!   `interactive/framed.js` of the workbench it tells how the next one goes on.
+//! * `main.rs` puts the editor together.
 
 use mbs_live::{Location, Problem, Text};
 use mbs_workbench::{Error, RunOptions, model};

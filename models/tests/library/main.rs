@@ -1,6 +1,8 @@
 //! What holds for every mechanism of the library, whatever it does: its
 //! reactions balance forces and moments, its energy changes by the power that
 //! goes in, its constraints stay closed.
+//!
+//! Energies are differentiated by dual numbers. Drift falls as the order of the method demands.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 

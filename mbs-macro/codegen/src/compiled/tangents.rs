@@ -1,4 +1,6 @@
 //! Tangents of programs, which exact derivatives along a direction are made of.
+//!
+//! The C target prints them where they are asked for, for functional mock-up units.
 
 use std::collections::BTreeSet;
 

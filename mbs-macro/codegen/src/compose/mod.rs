@@ -5,6 +5,9 @@
 //! Inside an assembly, names mean what it declares, or else what the mechanism
 //! around it declares. From outside, `left.crank.tip` is a place and
 //! `left.theta` a quantity of the instance.
+//!
+//! The copies that an instance makes of a statement share its position in the source. Their errors are
+//! reported once.
 
 mod names;
 

@@ -1,6 +1,8 @@
 //! Where names stand in statements: what a statement declares, and every name
 //! that it uses. The one place that knows, so that copies of an assembly can be
 //! told apart.
+//!
+//! A new kind of statement needs its arms here.
 
 use proc_macro2::Ident;
 

@@ -1,4 +1,7 @@
 //! The shortest correction that removes residuals of sparse rows.
+//!
+//! The Cholesky factorization works within the envelope of the matrix. Rows are in Cuthill and McKee's
+//! order, which makes the envelope narrow.
 
 use std::collections::VecDeque;
 

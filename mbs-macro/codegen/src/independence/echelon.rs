@@ -1,4 +1,6 @@
 //! Rows of numbers brought to echelon form.
+//!
+//! Of rows that repeat each other, those are kept that say most of their own.
 
 use super::sparse::{Pivots, SparseRow, subtract};
 

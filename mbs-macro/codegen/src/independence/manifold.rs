@@ -1,5 +1,9 @@
 //! The rank of Φ_q where the mechanism is assembled at its declared
 //! dimensions: at the start, and at other positions that it can reach.
+//!
+//! The mechanism is followed along its manifold. A row that depends on others in every position on the way
+//! is redundant. One that does so at the start alone makes the mechanism singular there. A row that depends
+//! on others, but is violated where they are met nearby, touches them.
 
 use super::Samples;
 use super::assembly::{Assembly, Closing, Position};

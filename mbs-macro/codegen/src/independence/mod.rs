@@ -1,5 +1,17 @@
 //! Which constraints are solved for: they are independent, in general and at the declared
 //! dimensions, where the mechanism can be assembled.
+//!
+//! # How it works
+//!
+//! * `generic` finds the rank whatever the dimensions are, in exact arithmetic (`exact`). Where functions
+//!   have stand-ins, floating-point samples are asked as well (`samples`).
+//! * `assembly` finds positions numerically. `manifold` finds the rank at the declared dimensions.
+//! * `echelon`, `sparse` and `correction` are the linear algebra behind them, on sparse rows.
+//! * `redundancy` chooses rows under `redundant = minimum_norm;`.
+//! * `words` speaks of rows as joints and bodies.
+//!
+//! Checks on equations, before the plan, stand here. Checks on the programs that are emitted stand in
+//! `validate`.
 
 pub mod assembly;
 mod correction;

@@ -1,4 +1,6 @@
 //! Rows in the words of the declaration: a joint has several, but is one thing.
+//!
+//! Errors about dependence speak of joints and bodies. There is one error for each joint.
 
 use std::fmt;
 

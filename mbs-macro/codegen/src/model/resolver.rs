@@ -1,4 +1,9 @@
 //! From statements to the model, in an order that lets statements stand in any.
+//!
+//! # Order
+//!
+//! Names come first. Values, profiles, places, constraints and forces follow. Outputs come last, since they
+//! may measure all of these.
 
 use std::collections::{BTreeSet, HashMap};
 

@@ -3,6 +3,8 @@
 //! A function of time and parameters alone, as the sine of a crank's prescribed angle, has at the
 //! end of a step the value that it has at the start of the next one. Many steps in a row need it
 //! once for each step.
+//!
+//! Ensembles use this. A single run would not gain, since its sines are computed two at a time anyway.
 
 use std::collections::HashMap;
 

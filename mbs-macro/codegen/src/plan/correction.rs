@@ -1,4 +1,8 @@
 //! How a start is made consistent.
+//!
+//! A correction solves a system of the same kind as a step does, with the prescribed coordinates held. So
+//! Newton's iteration moves the others least in the norm of the mass matrix. The rank of Φ_q at the declared
+//! start decides which coordinates can be held.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -4,6 +4,14 @@
 //! with the C that M u + Bᵀ cᵀ = Dᵀ, B u = 0 gives. The force Bᵀ λ_b is then
 //! shared by all rows: of the multipliers with Bᵀ λ + Dᵀ μ = Bᵀ λ_b, those of
 //! least norm are μ = (1 + C Cᵀ)⁻¹ C λ_b and λ = λ_b − Cᵀ μ.
+//!
+//! The solutions for C come from the factorization of the step. The redundant rows themselves are watched by
+//! the runtime (`spare.rs`).
+//!
+//! # Limits
+//!
+//! The independent rows are fixed at compile time. So a motion ends in a position where they depend on each
+//! other, even if other rows would lead on.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,16 @@
 //! The constrained system, eliminated, and the solutions that functions give.
+//!
+//! # Which order
+//!
+//! The function that runs most is compiled with each `Strategy`. The one with the fewest operations is kept.
+//! One with hardly more operations is preferred if its critical path is shorter by a quarter. The null space
+//! is given up where it changes more than 24 entries per unknown.
+//!
+//! # One elimination
+//!
+//! `factor` treats the matrix, and `Factorization::solve` any right-hand side. So accelerations, reactions
+//! and projections share one elimination. An implicit stage and the corrections of a start have matrices of
+//! their own.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,5 +1,8 @@
 //! The statements of a block, one after the other: loops are unrolled and
 //! conditions decided here, so that what follows sees plain statements.
+//!
+//! The copies that a loop makes of a statement share its position in the source. Their errors are reported
+//! once. Statements are read after indices are resolved, so nothing behind this stage knows of loops.
 
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;

@@ -1,4 +1,11 @@
 //! The assembly at the declared dimensions, from the declared start.
+//!
+//! * Residuals are judged as distances, or against the terms that they are made of (`independence/size.rs`).
+//! * No equation may be met where its derivatives vanish.
+//! * No pivot of the equations of motion may be lost.
+//! * Values that are no guesses are kept.
+//!
+//! Where one of these fails, starts nearby are tried, for the help of the message.
 
 use super::programs::{Closing, Declared, Programs};
 use super::span::check_span;

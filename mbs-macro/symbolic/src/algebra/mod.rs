@@ -2,7 +2,7 @@
 //!
 //! An [`Algebra`] borrows an arena, and hands out [`Scalar`]s and [`Vector`]s. They are
 //! handles and copied freely. Each sign makes the nodes that the constructors of the arena
-//! make, operands first and from left to right.
+//! make, operands first and from left to right. The order of terms in generated code follows from it.
 //!
 //! ```
 //! use mbs_symbolic::{Algebra, Arena, Stage};

@@ -19,6 +19,22 @@
 //! [`factor`] fixes the order and the multipliers for the matrix;
 //! [`Factorization::solve`] then gives the solution for any right-hand side,
 //! as expressions.
+//!
+//! # Why these pivots cannot vanish
+//!
+//! * The coefficient of a pair is a number, or its row touches nothing else. In the second case it vanishes
+//!   exactly where the system is singular. Driven mechanisms become triangular by such pairs.
+//! * A mass is positive by declaration, or by its form: a sum of squares with a constant term.
+//! * A row of the Schur complement is taken when all its coordinates are eliminated.
+//!
+//! The second row of a pin follows the first and is coupled with it. There 1/(k − c²/p) is computed as
+//! p/(kp − c²), so that the two divisions do not wait for each other.
+//!
+//! # Files
+//!
+//! `order` chooses a pivot, `factorization` takes it, and `steps` leads right-hand sides through it. `watch`
+//! measures how much of each pivot has cancelled. `unit` takes a common factor out of the masses. `sums`
+//! multiplies right-hand sides out where that costs less.
 
 mod augmentation;
 mod factorization;

@@ -1,4 +1,12 @@
 //! Which pivot comes next.
+//!
+//! `Strategy` orders the candidates. Constraints come first (null space), or the locally cheapest
+//! (Markowitz), or masses and then, of equally cheap rows, the one that waits for the fewest pivots.
+//! Otherwise equally good candidates are taken in their order, so that the links of a chain are eliminated
+//! alike.
+//!
+//! Candidates wait in a queue. A step has those judged anew that it touched. So the work grows with the
+//! chain.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

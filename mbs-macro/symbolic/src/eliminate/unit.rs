@@ -4,6 +4,11 @@
 //! mechanism of equal parts most masses become 1, and products by them vanish.
 //! Nothing is lost where μ is 0: a mechanism that can move has no accelerations
 //! then anyway.
+//!
+//! Pivots are then numbers more often. With μ = 0 the motion is that of the limit instead of an error.
+//!
+//! The matrix may ask for another unit. Masses beyond 10^±60 are measured in a unit near them, so that their
+//! products stay doubles.
 
 use std::collections::BTreeMap;
 

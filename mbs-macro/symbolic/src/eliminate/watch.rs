@@ -1,4 +1,19 @@
 //! The watch over pivots: how much of the digits of a pivot has cancelled.
+//!
+//! # How it works
+//!
+//! A pivot that may vanish adds a term to the growth, without a branch: its size in a healthy position over
+//! its own size.
+//!
+//! * The healthy size depends on parameters alone where it can, since sines and cosines are bounded by 1. It
+//!   is hoisted then.
+//! * A pivot without such a bound is measured against the entries of its row that are of its kind, angles or
+//!   lengths.
+//! * A pivot that is made of squares adds the root of its ratio. The ratios of all such pivots are added
+//!   first, and one root is taken.
+//!
+//! The first and the second half of the rows have sums of their own. They are the two ends of a chain that
+//! is eliminated from both, so magnitudes and sums become operations on pairs.
 
 use std::collections::BTreeMap;
 

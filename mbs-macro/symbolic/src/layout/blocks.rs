@@ -1,4 +1,6 @@
 //! A program in blocks of bounded size.
+//!
+//! A repetition becomes a loop. The sequences between repetitions become functions of 256 instructions.
 
 use std::hash::Hash;
 use std::ops::Range;

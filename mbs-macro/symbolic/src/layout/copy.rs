@@ -1,4 +1,7 @@
 //! A copy of a loop on pairs.
+//!
+//! The two ends of a chain are mostly the lanes of a vector. So are the variables that a copy hands to the
+//! next one.
 
 use super::{Carried, Kept, Loop, Read};
 use crate::arena::Symbol;

@@ -2,6 +2,8 @@
 //!
 //! The results of one instruction of a loop lie side by side, one per copy, so
 //! that most loops find their operands at a fixed distance from copy to copy.
+//!
+//! The others find them by a table. Slots are taken again when their results are read no more.
 
 use rustc_hash::FxHashMap as HashMap;
 

@@ -6,6 +6,18 @@
 //! 3. `signs` chooses between sums and their negatives;
 //! 4. `schedule` puts binary instructions into order, outputs first asked for
 //!    first computed.
+//!
+//! # Order
+//!
+//! Functions of inputs come first. In a sum or a product, the operands that are there first are combined
+//! first. So chains of dependent operations stay short.
+//!
+//! A program of more values than `unrolled` (1024, unless a declaration says `limit unrolled`) is ordered
+//! for loops instead. Everything that needs a pivot stands right behind its last operand, short branches
+//! first (`order`). So the elimination of a chain with its right-hand sides and its watch is one sequence
+//! that repeats itself from link to link. The way back with the accelerations is another. `fusion` puts the
+//! sequences of both ends of a chain side by side. The same limit decides where repetitions are searched
+//! for, and where results are stored.
 
 mod factoring;
 mod flatten;

@@ -12,6 +12,12 @@
 //! Results are those of the program, bit for bit but for the sign of a zero: lanes
 //! do the same operations on the same operands. Where one lane adds and the other
 //! subtracts, an operand is held with one lane negated, which is exact.
+//!
+//! # Which pairs pay
+//!
+//! A pair waits for the operands of both lanes. It is formed only if the time per step does not grow: the
+//! larger of the critical path from step to step, and of the operations over the throughput (`interval`). No
+//! pair waits for itself.
 
 mod ancestors;
 mod choose;

@@ -11,6 +11,11 @@
 //! Mathematics 630 (1978) 105-116, for D; K. Madsen, H. B. Nielsen, O. Tingleff, Methods for non-linear
 //! least squares problems, 2nd ed., DTU 2004, algorithm 3.16, for μ. Steps are cut at the bounds, and
 //! variables at a bound from which the sum falls outwards are held.
+//!
+//! # Why it is our own
+//!
+//! The crate of that name stands on another nalgebra, which would be compiled beside this one. It knows no
+//! bounds.
 
 use crate::singular::Singular;
 use nalgebra::{DMatrix, DVector};

@@ -1,4 +1,13 @@
 //! Identification: values with which a mechanism moves as measured.
+//!
+//! # How it works
+//!
+//! * `experiment` has the measurements and the question.
+//! * `trials` makes runs over duals of any `Dynamics`. `problem` takes the motion at the instants of the
+//!   samples from them, with its derivatives.
+//! * `search` chooses starts, parts of the data and weights.
+//! * `least_squares` is Levenberg and Marquardt's method. It knows no mechanism.
+//! * `covariance` tells how well the data determine the result.
 
 mod covariance;
 mod experiment;

@@ -1,4 +1,11 @@
 //! Synthesis: parameters with which a mechanism passes given positions.
+//!
+//! # How it works
+//!
+//! * `task` is the question. `system` has the equations of all positions, with their derivatives.
+//! * `blocks` is a damped step that eliminates each position by itself. `descent` iterates it.
+//! * `circuit` follows the curve of a mechanism through its positions and tells defects.
+//! * `search` makes random starts in batches on all cores, so that a seed has one result.
 
 mod blocks;
 mod circuit;

@@ -1,4 +1,7 @@
 //! Runs that are gone back through.
+//!
+//! `transposed.rs` makes code of transposed programs. This module makes a run `Reversible`. Texts that are
+//! not compiled for that carry none of it.
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::equations::At;

@@ -1,5 +1,7 @@
 //! `mbs explain`: the equations of a mechanism, how they are eliminated, what
 //! that costs.
+//!
+//! The command prints `DERIVATION` under the headings of `derivation.rs`, and the start.
 
 use std::fmt::Write;
 

@@ -1,4 +1,8 @@
 //! `mbs export`: a mechanism as a program in another language, for other programs, or as a picture.
+//!
+//! Pictures are made of the shapes of a `Picture`, as figures are. DXF shows them at one instant. An SVG
+//! carries the motion in its elements. A GIF has frames that are drawn as figures are. DXF and SVG need no
+//! library.
 
 mod c;
 mod dxf;

@@ -1,4 +1,8 @@
 //! The commands that every [`App`](crate::App) has, one a file.
+//!
+//! Commands, figures, reports, sweeps with their progress, and files need a terminal or a folder. They stand
+//! behind the feature `desk`. The rest of this crate runs mechanisms and writes the page in which one runs,
+//! on every target of Rust.
 
 pub(crate) mod bode;
 #[cfg(feature = "live")]

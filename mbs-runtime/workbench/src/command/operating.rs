@@ -1,4 +1,7 @@
 //! About what the commands that linearize do so.
+//!
+//! `mbs linearize`, `mbs modes` and `mbs bode` share these options, responses (`responses`) and pictures of
+//! modes (`shapes`).
 
 use clap::{Arg, ArgAction, ArgMatches};
 use mbs_analysis::{Equilibrium, Linearization, Stability};

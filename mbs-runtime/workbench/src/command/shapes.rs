@@ -1,4 +1,6 @@
 //! Mode shapes as pictures: the mechanism swings in a mode about its operating point.
+//!
+//! The mechanism moves along its constraints.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,7 @@
 //! A motion as a GIF file that begins again at its end.
+//!
+//! Frames are drawn as figures are, in the 256 colours that they have most of (`palette`). Each frame holds
+//! the rectangle that differs from the one before it.
 
 use ::gif::{Encoder, EncodingError, Frame, Repeat};
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};

@@ -1,4 +1,7 @@
 //! Functional mock-up units: archives that other simulators import.
+//!
+//! The compiler of mechanisms gives the C code and the descriptions. `binary` compiles the code, and
+//! `archive` packs all of it.
 
 mod archive;
 mod binary;

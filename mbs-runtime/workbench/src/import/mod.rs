@@ -4,6 +4,16 @@
 //! the names and the numbers of the file. [`declaration`] writes it in the language. Files of
 //! [robots](robot), which have masses and stand in space, become declarations by a way of their
 //! own. What was written is compiled before anybody gets to see it.
+//!
+//! # How it works
+//!
+//! * `pylinkage`, `linkage2`, `pyslvs`, `pmks` and `pmks_plus` are the readers, one for each program. Only
+//!   PMKS+ says masses (`masses`).
+//! * `linkage` joins links that share two pins.
+//! * `mobility` counts the degrees of freedom by the rank of the constraints where the linkage is drawn.
+//! * `declaration` writes the text. Each line knows the part of the file that it came from, so an answer of
+//!   the compiler names that part.
+//! * `naming` makes names of the language. Other texts of a file appear in comments only, escaped.
 
 mod address;
 mod declaration;

@@ -1,5 +1,23 @@
 //! A page in which a mechanism runs: one offline HTML file with its WebAssembly module, in which parameters
 //! and inputs can be changed and bodies dragged.
+//!
+//! # How it works
+//!
+//! The page is put together of the module and the script of its runs (`target/wasm` of `mbs-codegen`), the
+//! tables, the picture of a native run, the equations (`equations`, MathML from the LaTeX of `mbs explain`),
+//! and the scripts beside this file. Module and tables are packed. The policy of the page allows these parts
+//! and nothing else. Shapes and axes are drawn by the scripts of reports. `tests/page` drives a page in
+//! Chromium.
+//!
+//! A dragged body needs no second mechanism. Let J say how the held place moves with each coordinate. A force
+//! f there causes the accelerations M⁻¹Jᵀf, which the kernel `projection` projects onto the constraints. At
+//! rest the mechanism goes along them. While it plays they change the velocities every 2 ms, so that steps
+//! stay those of the native run.
+//!
+//! * `session.js` has the run and its rows, `page.js` buttons and keys.
+//! * `scene.js` has picture and pointer, `drag.js` a pull on a body.
+//! * `quantities.js` has sliders, `curves.js` plots, `files.js` downloads.
+//! * `framed.js` tells the frame around the page how the next page goes on.
 
 mod equations;
 

@@ -1,4 +1,6 @@
 //! From a sketch to shapes: which body looks how, and what is drawn at joints.
+//!
+//! The figure (`figure/mechanism.rs`) and the page (`html/mechanism.js`) draw the same ones.
 
 use std::collections::BTreeSet;
 

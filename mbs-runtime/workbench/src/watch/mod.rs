@@ -1,4 +1,10 @@
 //! A page that follows a file: every save shows what became of it.
+//!
+//! # How it works
+//!
+//! The file is followed by its contents. `server` answers this machine alone, by `http`. The page in the
+//! browser is a shell that asks for news. It shows the report, or the page to play, in a frame without
+//! rights of its own. After an error it shows that above the last good page.
 
 mod http;
 mod server;

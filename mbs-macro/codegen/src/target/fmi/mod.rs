@@ -5,6 +5,17 @@
 //! What is to be packed into an FMU stands in [`Fmu`]; one binary serves both versions, since their
 //! functions have different names.
 //!
+//! # How it works
+//!
+//! * `text` has the functions of the standard. Both versions ask for most of them, and these are written
+//!   once. `fmi2.c` and `fmi3.c` translate.
+//! * `variables` is the list of variables. The place of a variable is its value reference in code and
+//!   descriptions.
+//! * `structure` finds dependencies by `Program::reads`.
+//! * The C code of the mechanism has tangents, for directional derivatives.
+//!
+//! `fmu` of the workbench compiles and packs the files.
+//!
 //! # Source
 //! Functional Mock-up Interface for Model Exchange and Co-Simulation, 2.0.4 (2022) and 3.0.2 (2024),
 //! Modelica Association, <https://fmi-standard.org>.

@@ -1,5 +1,8 @@
 //! How a mechanism comes to be: its parameters, checked, and what depends on
 //! them alone.
+//!
+//! Parameters sit behind this constructor, because it computes everything that depends on them alone. So a
+//! mechanism with a negative mass does not exist.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,4 +1,10 @@
 //! Steps on pairs as statements on `Real::Pair`.
+//!
+//! * `Real::Pair` is a two-lane vector for `f64`. A scalar that computes a sine as a whole has sine terms
+//!   that do nothing (`NoTerm`).
+//! * Scalars between pairs stay in vector registers (`Single`). There the compiler finds nothing to take
+//!   apart.
+//! * Sines have no branch. An angle beyond their range gives no number, and the step is made in stages.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,8 @@
 //! Instructions as `let` statements.
+//!
+//! A program that is not a step is written as one scalar instruction after the other. Methods without a
+//! fused step are made of such programs. The sines and cosines of two angles that are known at the same
+//! place are one statement, which `f64` computes in a vector register.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;

@@ -1,4 +1,8 @@
 //! The stages of a mechanism whose programs became loops, on arrays.
+//!
+//! Named components are a detour for loops, so these stages are given arrays and fill arrays. A step
+//! converts its state once, works in room of its own, and writes the state in place (`arrays.rs` of the
+//! runtime).
 
 use mbs_symbolic::{Number, Operand, Program};
 use proc_macro2::{Literal, TokenStream};

@@ -1,4 +1,6 @@
 //! A whole step as one function on pairs of scalars.
+//!
+//! A step in stages gives the same bits. It is taken where this one is not healthy.
 
 use mbs_symbolic::pairs::{Given, Woven};
 use mbs_symbolic::{Inconsistency, Program};

@@ -1,4 +1,8 @@
 //! Steps woven into operations on pairs, for the two-lane vectors of the runtime.
+//!
+//! `pairs` of `mbs-symbolic` finds instructions that do the same on neighbouring data, such as the x and the
+//! y of a body or the sines of two stages. This module tells it which symbols are neighbours. x and y are
+//! read and written in one piece, since a load across two stores waits for both.
 
 use mbs_symbolic::pairs::{Layout, Woven, weave};
 use mbs_symbolic::{Inconsistency, Program, Symbol};

@@ -10,6 +10,8 @@
 //! and cosines up to 10⁹ rad are written with the code, as splines are. Long programs are written as
 //! loops. Tangents, inverse functions, exponentials and powers are those of the host, which need not agree
 //! with Rust's in the last place.
+//!
+//! An interpreter of WebAssembly holds modules of the library to that (`tests/wasm` of `mbs-live`).
 
 mod helpers;
 mod loops;

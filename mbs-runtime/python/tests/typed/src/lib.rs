@@ -1,4 +1,7 @@
 //! A mechanism that rustc compiles, as the Python module `typed`.
+//!
+//! An interpreter links `mbs-python` and this library, so they are no part of the tests of the workspace.
+//! `.ci/run` builds the wheels and runs the tests in Python.
 
 mbs_runtime::mechanism! {
     /// A weight on a massless rod, pushed at its end.

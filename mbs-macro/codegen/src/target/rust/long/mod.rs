@@ -3,6 +3,9 @@
 //! parts of a chain.
 //!
 //! The [layout](mbs_symbolic::layout) says what is written where.
+//!
+//! Every operation is done on the same operands as in straight lines, so results agree to the bit
+//! (`tests/tests/loops.rs`). `paired` writes a copy on pairs where that saves an eighth of its operations.
 
 mod arrays;
 mod columns;
