@@ -38,8 +38,7 @@
 //!
 //! Each file states a reference result, which `tests/references` holds the
 //! mechanism to. `tests/library` holds all of them to the balance of forces and
-//! power, and to the order of the method over a long run; `mbs drift` prints
-//! that run.
+//! power, and to the order of the method over a long run.
 
 pub mod andrews_squeezer;
 pub mod block_on_incline;

@@ -1,6 +1,5 @@
 //! What the `mbs` command knows: the library's mechanisms as texts, and the study of a paper.
 
-pub mod drift;
 pub mod library;
 pub mod paper;
 

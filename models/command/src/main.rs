@@ -2,14 +2,11 @@
 
 use std::process::ExitCode;
 
-use mbs_command::{drift, library, paper};
+use mbs_command::{library, paper};
 
 fn main() -> ExitCode {
     let app = library()
         .iter()
         .fold(mbs_workbench::app(), |app, entry| app.text(entry.name, entry.text(), entry.defaults()));
-    app.command(paper::command(), paper::run)
-        .command(drift::command(), drift::run)
-        .default_command("paper")
-        .run()
+    app.command(paper::command(), paper::run).default_command("paper").run()
 }

@@ -14,17 +14,6 @@ fn the_list_has_names_units_and_values() {
 }
 
 #[test]
-fn drift_has_a_row_per_mechanism() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = mbs(folder.path(), "drift");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let table = String::from_utf8(output.stdout).unwrap();
-    for part in ["max ‖Φ‖", "slider-crank", "andrews-squeezer", "klann"] {
-        assert!(table.contains(part), "{table}");
-    }
-}
-
-#[test]
 fn explain_prints_the_equations() {
     let output = mbs(Path::new("."), "explain slider-crank");
     let text = String::from_utf8(output.stdout).unwrap();
