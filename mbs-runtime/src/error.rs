@@ -332,7 +332,7 @@ impl fmt::Display for Error {
                 f,
                 "the gains alpha = {alpha} 1/s, beta = {beta} 1/s are unstable with {feedback} feedback \
                  and a step of {step} s: the constraint violation would grow; reduce them or the step, \
-                 or take `deadbeat({step})`",
+                 or leave both out, so that they are chosen for the step",
                 alpha = Plain(alpha),
                 beta = Plain(beta),
                 step = Plain(step)

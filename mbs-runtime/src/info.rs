@@ -32,6 +32,9 @@ pub struct Info {
     /// Along which coordinates forces act that depend on velocities or on reactions, as indices:
     /// dampers, friction. All other forces are functions of positions, time, inputs and parameters.
     pub velocity_forces: &'static [usize],
+    /// Which coordinates start at a declared value that is no guess, as indices, and which start with such a
+    /// rate. With other parameters than the declared ones, the constraints may move them.
+    pub kept: [&'static [usize]; 2],
     /// The pivots that can vanish.
     pub pivots: &'static [Pivot],
     /// The pivots of the corrections of a start that can vanish.
@@ -181,6 +184,7 @@ impl Info {
         states: &'static [usize],
         redundant: &'static [usize],
         velocity_forces: &'static [usize],
+        kept: [&'static [usize]; 2],
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
         functions: &'static [Function],
@@ -198,6 +202,7 @@ impl Info {
             states,
             redundant,
             velocity_forces,
+            kept,
             pivots,
             start_pivots,
             functions,

@@ -66,6 +66,7 @@ impl Pendulums {
             states.leak(),
             &[],
             &[],
+            [&[], &[]],
             pivots,
             pivots,
             &[],

@@ -288,7 +288,7 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         (Error::Step { step: -1.0 }, "-1"),
         (Error::EndTime { end: 2.0, now: 3.0 }, "3"),
         (Error::Gain { name: "beta", value: -4.0 }, "-4"),
-        (Error::UnstableGains { alpha: 5.0, beta: 6.0, step: 7.0, feedback: "held" }, "deadbeat(7)"),
+        (Error::UnstableGains { alpha: 5.0, beta: 6.0, step: 7.0, feedback: "held" }, "leave both out"),
         (Error::NonFinite { t: 8.0, coordinate: "x" }, "`x`"),
         (Error::NotDriven { dof: 9 }, "9"),
         (Error::NoUseOfGain { name: "alpha", value: 7.0 }, "7 1/s"),

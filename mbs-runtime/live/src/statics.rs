@@ -92,6 +92,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.states.iter().copied()),
         leak(compiled.redundant.iter().copied()),
         leak(compiled.velocity_forces.iter().copied()),
+        compiled.kept.each_ref().map(|kept| leak(kept.iter().copied())),
         leak(compiled.pivots.iter().map(pivot)),
         leak(compiled.start_pivots.iter().map(pivot)),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),

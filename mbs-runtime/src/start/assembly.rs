@@ -11,6 +11,9 @@ use crate::{Error, Real, vectors};
 
 const NEWTON_ITERATIONS: usize = 50;
 const STEP_HALVINGS: usize = 10;
+/// An iteration that leads so many times as far as it began has lost its way: of an angle of 10⁹ rad no digits
+/// are left that matter, and its rounding would pass for a small correction.
+const FAR: f64 = 1e9;
 
 /// Makes (q, v) the nearest state that satisfies Φ = 0 and Φ̇ = 0; see
 /// [`start::consistent`](crate::start::consistent).
@@ -68,7 +71,11 @@ pub(super) fn newton<T: Real>(
 ) -> Result<(), Error> {
     let Iterate { delta, next, phi, residual } = room;
     equations.phi(t, q, phi);
+    let far = T::from_f64(FAR) * (T::from_f64(1.0) + vectors::largest(q).1);
     for _ in 0..NEWTON_ITERATIONS {
+        if vectors::largest(q).1 > far {
+            break;
+        }
         vectors::copy(residual, phi);
         vectors::negate(residual);
         correct(q, residual, delta)?;
@@ -82,7 +89,7 @@ pub(super) fn newton<T: Real>(
     }
     let (row, violation) = vectors::largest(phi);
     // Newton may circle at rounding level, where Φ itself is at rounding.
-    if violation <= rounding(q) {
+    if violation <= rounding(q) && vectors::largest(q).1 <= far {
         converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }

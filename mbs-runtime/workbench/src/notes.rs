@@ -1,6 +1,9 @@
 //! Notes on how a run differs from what one may expect. They are no reason to doubt it.
 
-use crate::{Model, Settings, Signals};
+use mbs_runtime::System;
+
+use crate::number::significant;
+use crate::{Model, Settings, Signals, StartKind, StartValue};
 
 /// Declared events that are not looked for, a declared method in whose place another one is taken, and what is made
 /// of a table of inputs.
@@ -24,5 +27,43 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
         ));
     }
     notes.extend(settings.signals.iter().flat_map(Signals::notes));
+    notes.extend(lost_start_values(model, settings));
+    notes
+}
+
+/// A run with a constant step that ends beside the time that was asked for.
+pub(crate) fn end_note(run: &dyn System, steps: u64, end: f64) -> Option<String> {
+    let step = run.step_size();
+    let reached = run.time() + steps as f64 * step;
+    let is_there = run.effort().is_some() || (reached - end).abs() <= 1e-6 * step;
+    let [reached, end, step] = [reached, end, step].map(|x| significant(x, 7));
+    (!is_there).then(|| format!("steps of {step} s do not end at {end} s: the run ends at {reached} s"))
+}
+
+/// Start values that are declared, and no guesses, but do not hold with the parameters that are set: the
+/// constraints move them. It says so of those that move by more than a thousandth of the largest of their kind.
+pub(crate) fn lost_start_values(model: &dyn Model, settings: &Settings) -> Vec<String> {
+    let is_declared = settings.parameters.is_empty() || settings.start != StartKind::Consistent;
+    if is_declared || !settings.from.is_empty() {
+        return Vec::new();
+    }
+    let info = model.info();
+    let mut notes = Vec::new();
+    let values = model.start_values_with(settings).unwrap_or_default();
+    let (positions, rates) = values.split_at(info.coordinates.len().min(values.len()));
+    for (values, kept) in [positions, rates].into_iter().zip(info.kept) {
+        let largest = values.iter().flat_map(|value| [value.declared.abs(), value.kept.abs()]);
+        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
+        let kept = kept.iter().filter_map(|&at| values.get(at));
+        let lost = kept.filter(|value| !((value.kept - value.declared).abs() <= 1e-3 * largest));
+        notes.extend(lost.map(|StartValue { name, declared, kept, unit }| {
+            let [declared, kept] = [declared, kept].map(|x| significant(*x, 6));
+            let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+            format!(
+                "`{name}` does not start at {declared}{unit} with these parameters: the constraints make it \
+                 {kept}{unit}"
+            )
+        }));
+    }
     notes
 }

@@ -67,7 +67,9 @@ pub fn parse_as(quantity: &Quantity, text: &str) -> Result<f64, Error> {
 /// As [`parse`].
 pub fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> Result<f64, Error> {
     let wrong = |reason: String| Error::Value { what: what.into(), text: text.into(), reason };
-    let (number, unit) = split_number(text.trim())
+    // the sign as this program prints it
+    let signed = text.trim().replacen('\u{2212}', "-", 1);
+    let (number, unit) = split_number(&signed)
         .ok_or_else(|| wrong("that is not a number, or a number with a unit such as 300rpm".into()))?;
     if !number.is_finite() {
         return Err(wrong("it has to be finite".into()));

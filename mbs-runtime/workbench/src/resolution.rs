@@ -73,6 +73,8 @@ impl Resolution {
     /// Of a run of so many steps of a mechanism of this size; nothing where its steps follow from a tolerance.
     pub fn new(info: &'static Info, start: &Start, size: f64, steps: u64) -> Option<Self> {
         let stepping = match (start.constant, start.tolerances) {
+            // a run without a step has no error
+            _ if steps == 0 => return None,
             (None, None) => Stepping::Explicit(start.method.tableau),
             (Some(ConstantMethod::Rattle(composition)), _) => Stepping::Composed(composition),
             (Some(ConstantMethod::TrBdf2), _) => Stepping::Implicit,

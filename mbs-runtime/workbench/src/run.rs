@@ -6,7 +6,7 @@ use mbs_runtime::{Info, System};
 use crate::digits::Reactions;
 use crate::doubt::{Watch, few_digits, size};
 use crate::model::Model;
-use crate::notes::notes;
+use crate::notes::{end_note, notes};
 use crate::recording::{Column, MOST_OCCURRENCES, Recording, Summary, columns};
 use crate::resolution::Resolution;
 use crate::settings::{Settings, Start, StartKind};
@@ -37,8 +37,16 @@ impl dyn Model + '_ {
     /// # Errors
     /// A start that cannot be made consistent.
     pub fn start_values(&self) -> Result<Vec<StartValue>, Error> {
+        self.start_values_with(&self.defaults())
+    }
+
+    /// The same with other parameters. Values are in SI units.
+    ///
+    /// # Errors
+    /// As [`start_values`](Model#method.start_values).
+    pub(crate) fn start_values_with(&self, settings: &Settings) -> Result<Vec<StartValue>, Error> {
         let info = self.info();
-        let declared = Start { kind: StartKind::Declared, ..Start::of(self, &self.defaults())? };
+        let declared = Start { kind: StartKind::Declared, ..Start::of(self, settings)? };
         let kept = Start { kind: StartKind::Consistent, ..declared.clone() };
         let n = info.coordinates.len();
         let state = |start: &Start| -> Result<Vec<f64>, Error> {
@@ -101,8 +109,9 @@ impl dyn Model + '_ {
         }
         let mut recorder = Recorder::new(self, &*run, settings.until.as_ref());
         recorder.resolution = Resolution::new(info, &start, recorder.size, steps);
+        let notes = notes(self, settings).into_iter().chain(end_note(&*run, steps, settings.end)).collect();
         let ended = recorder.follow(&mut *run, [steps, every], goes_on).err();
-        Ok(Recording { notes: notes(self, settings), ..recorder.finish(&*run, ended) })
+        Ok(Recording { notes, ..recorder.finish(&*run, ended) })
     }
 
     /// Where the points of the mechanism were during a run with these settings,

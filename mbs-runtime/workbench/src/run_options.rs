@@ -6,7 +6,7 @@
 use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{ConstantMethod, Error, Model, Settings, Signals, StartKind, StartState, Until, quantity};
+use crate::{ConstantMethod, Error, Model, Settings, Signals, Start, StartKind, StartState, Until, quantity};
 
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -144,9 +144,10 @@ impl RunOptions {
         let stabilization = feedback.or(declared);
         let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
         let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
-        Ok(Settings {
+        let end = self.value("end", TIME)?.or(end_of_clock);
+        let settings = Settings {
             step: self.value("step", TIME)?.unwrap_or(defaults.step),
-            end: self.value("end", TIME)?.or(end_of_clock).unwrap_or(defaults.end),
+            end: end.unwrap_or(defaults.end),
             every: self.every.unwrap_or(defaults.every),
             alpha: self.value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
             beta: self.value("beta", RATE)?.or(declared_gain(defaults.beta)),
@@ -159,7 +160,15 @@ impl RunOptions {
             from: StartState::values(info, &self.from)?,
             allow_unstable: self.allow_unstable,
             ..self.values(model)?
-        })
+        };
+        // a run takes as long as it does by default, whenever it starts; what is wrong is told by the run
+        let start_time = match end {
+            Some(_) => 0.0,
+            None => Start::of(model, &settings)
+                .and_then(|start| Ok(model.start(&Start { kind: StartKind::Declared, ..start })?.time()))
+                .unwrap_or(0.0),
+        };
+        Ok(Settings { end: settings.end + start_time, ..settings })
     }
 
     fn method(&self) -> Result<(Option<&'static Tableau>, Option<ConstantMethod>), Error> {

@@ -225,7 +225,7 @@ fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error
         (stabilization.is_some(), "feedback"),
         (alpha.is_some(), "alpha"),
         (beta.is_some(), "beta"),
-        (tolerances.is_some() && method != ConstantMethod::Bdf, "tolerance"),
+        (tolerances.is_some() && method != ConstantMethod::Bdf, "rtol"),
         (until.is_some(), "until"),
     ];
     match refused.into_iter().find(|(is_given, _)| *is_given) {

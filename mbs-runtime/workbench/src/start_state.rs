@@ -1,6 +1,6 @@
 //! Starts that are given in place of the declared one.
 
-use mbs_runtime::equations::{Room, assemble, project, project_velocities};
+use mbs_runtime::equations::{At, Room, assemble, check, project, project_velocities};
 use mbs_runtime::{Dimension, Info, System};
 
 use crate::settings::{Start, StartKind};
@@ -99,6 +99,10 @@ pub(crate) fn with_values(
     // all of them are a state, which is as consistent as it is
     if places.len() < 2 * n && start.kind == StartKind::Consistent {
         make_consistent(&*run, &places, &mut q, &mut v)?;
+        // reduced states would be completed by other values than those that are given
+        let mut numbers = vec![0.0; Room::<f64>::len(info, 0)];
+        let at = At { t: run.time(), q: &q, v: &v };
+        check(run.equations(), at, start.step, &mut Room::within(&mut numbers, info))?;
     }
     Ok(StartState { start_time: run.time(), steps_taken: 0, q, v })
 }

@@ -33,6 +33,7 @@ impl Compiled {
             redundant: plan.rows.redundant.to_vec(),
             has_stiffness: plan.has_stiffness,
             velocity_forces: velocity_forces(&model, equations, &plan),
+            kept: [false, true].map(|is_rate| kept(&model, is_rate)),
             start,
             splines: model.arena.splines().to_vec(),
             jacobian: plan.phi_q_places.clone(),
@@ -84,6 +85,12 @@ fn program(plan: &Plan, function: FunctionId) -> &Program {
         FunctionId::Complete => &plan.complete,
         FunctionId::Implicit => &plan.implicit,
     }
+}
+
+/// The coordinates whose value, or rate, at the start is declared and no guess.
+fn kept(model: &Model, is_rate: bool) -> Vec<usize> {
+    let values = model.start.iter().filter(|start| start.is_rate == is_rate && !start.is_guess);
+    values.map(|start| start.coordinate).collect()
 }
 
 /// The coordinates along which Q has terms in v or λ.

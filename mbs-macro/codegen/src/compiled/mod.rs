@@ -105,6 +105,9 @@ pub struct Compiled {
     /// The coordinates, by position, along which forces act that depend on velocities or on
     /// reactions.
     pub velocity_forces: Vec<usize>,
+    /// The coordinates, by position, whose value at the start is declared and no guess, and those whose rate
+    /// is.
+    pub kept: [Vec<usize>; 2],
     /// q, v and t of the start with declared parameters, before guesses are corrected.
     pub start: Vec<f64>,
     /// Functions given by a table, in the order of their handles.

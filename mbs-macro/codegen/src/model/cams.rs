@@ -98,7 +98,7 @@ impl Resolver<'_> {
         let [to, from] = [to, from].map(|radius| algebra.scalar(radius));
         let jump = to - from;
         let allowed = Number::from(JUMP) * to;
-        self.requirements.push(Requirement {
+        self.scope.requirements.push(Requirement {
             name: format!("jump of the radius of {}", joint.name),
             value: jump.expr(),
             difference: (jump.squared() - allowed.squared()).expr(),

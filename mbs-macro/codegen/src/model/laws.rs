@@ -4,9 +4,11 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Number};
 use proc_macro2::Ident;
 
+use super::Requirement;
 use super::names::{Place, Scope, Typed};
 use crate::diagnostics::{Diagnostic, Diagnostics, described};
 use crate::mechanics::laws::{Law, LawKind, clamped};
+use crate::quantity::Comparison;
 use crate::syntax::Formula;
 
 impl Scope<'_> {
@@ -75,6 +77,20 @@ impl Scope<'_> {
                     .help("write a number above 0, at most 1/2: it decelerates in an equal share"),
             );
             return None;
+        }
+        if value.is_none() {
+            let half = self.arena.number(Number::ratio(1, 2));
+            let algebra = Algebra::new(&mut self.arena);
+            let above_half = (algebra.scalar(share) - algebra.scalar(half)).expr();
+            let ends = [(share, Comparison::Greater), (above_half, Comparison::LessOrEqual)];
+            self.requirements.extend(ends.map(|(difference, comparison)| Requirement {
+                name: "the share of a trapezoid".to_owned(),
+                value: share,
+                difference,
+                comparison,
+                text: "a trapezoid accelerates in a share of its time above 0, at most 1/2".to_owned(),
+                span: formula.span,
+            }));
         }
         Some(share)
     }

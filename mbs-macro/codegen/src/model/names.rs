@@ -7,6 +7,7 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
+use super::Requirement;
 use super::measures::{Energies, Source};
 use super::places::{Frame, GROUND};
 use super::profiles::Profile;
@@ -126,6 +127,8 @@ pub struct Scope<'a> {
     /// Definitions that are being resolved, one in the other.
     pub depth: usize,
     pub profiles: BTreeMap<String, Profile>,
+    /// Conditions on parameters, those of statements and those of laws in formulas.
+    pub requirements: Vec<Requirement>,
 }
 
 pub struct Row {
@@ -160,6 +163,7 @@ impl<'a> Scope<'a> {
             time,
             local: None,
             depth: 0,
+            requirements: Vec::new(),
             profiles: BTreeMap::new(),
         }
     }

@@ -15,7 +15,7 @@ use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
     Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
-    ReactiveLoad, Requirement, Solver, Start,
+    ReactiveLoad, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load};
@@ -58,7 +58,6 @@ pub(super) struct Resolver<'a> {
     pub parameters: Vec<Parameter>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
-    pub requirements: Vec<Requirement>,
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
@@ -96,7 +95,6 @@ impl<'a> Resolver<'a> {
             solver: Solver::default(),
             parameters: Vec::new(),
             resolved_parameters: 0,
-            requirements: Vec::new(),
             inputs: Vec::new(),
             coordinates: Vec::new(),
             bodies: Vec::new(),
@@ -215,7 +213,7 @@ impl<'a> Resolver<'a> {
             minimum_norm: self.minimum_norm,
             solver: self.solver,
             parameters: self.parameters,
-            requirements: self.requirements,
+            requirements: self.scope.requirements,
             inputs: self.inputs,
             coordinates: self.coordinates,
             bodies: self.bodies,

@@ -236,7 +236,7 @@ impl<'a> Resolver<'a> {
             Some((name, Some(value))) => (name.to_string(), value.expr),
             _ => (condition.left_text.clone(), left.expr),
         };
-        self.requirements.push(Requirement {
+        self.scope.requirements.push(Requirement {
             name,
             value,
             difference: self.scope.arena.sub(left.expr, right.expr),

@@ -17,7 +17,7 @@ use crate::{Error, quantity, say, write_csv};
 const EXAMPLES: &str = "\
 Examples:
   mbs bode spring-mass-damper --plot bode.svg
-  mbs bode cart-pendulum --outputs angle --range 0.1Hz..20Hz --out response.csv
+  mbs bode cart-pendulum --outputs theta --range 0.1Hz..20Hz --out response.csv
   mbs bode my.mbs --inputs force --parameters k --from x=10mm";
 
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };

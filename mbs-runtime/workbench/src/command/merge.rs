@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 
-use super::options::option;
+use super::options::{self, option};
 use super::sweep::checked::Next;
 use super::sweep::shard::{Head, Shard};
 use crate::files::Output;
@@ -48,6 +48,9 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     shares.sort_by_key(|share| share.head.heading.shard.number);
     check(&shares)?;
     let Some(out) = matches.get_one::<PathBuf>("out") else { return Ok(()) };
+    if shares.iter().any(|share| options::is_same(&share.path, out)) {
+        return Err(refused(out, "it is one of the shares; give the table another name"));
+    }
     let mut output = table_file::create(out)?;
     let columns = shares.first().map_or("", |share| &share.head.columns);
     output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;

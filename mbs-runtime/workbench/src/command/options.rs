@@ -181,7 +181,7 @@ pub(super) fn check_files<'a>(files: impl IntoIterator<Item = &'a Path>) -> Resu
 }
 
 /// Whether two names are those of one plain file.
-fn is_same(a: &Path, b: &Path) -> bool {
+pub(super) fn is_same(a: &Path, b: &Path) -> bool {
     let real = |path: &Path| path.canonicalize().ok().filter(|path| path.is_file());
     (a == b && !a.starts_with("/dev")) || real(a).is_some_and(|a| Some(a) == real(b))
 }

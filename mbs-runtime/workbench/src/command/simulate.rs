@@ -63,9 +63,9 @@ pub(crate) fn command() -> Command {
 
 const EXAMPLES: &str = "\
 Examples:
-  mbs simulate four-bar --columns 'coupler*' --plot run.svg
+  mbs simulate four-bar --columns 'theta*' --plot run.svg
   mbs simulate slider-crank-free --rtol 1e-8 --until 'x3 < 200mm'
-  mbs simulate jansen --columns foot_y --x foot_x --plot path.svg
+  mbs simulate jansen --columns yf --x xf --plot path.svg
   mbs simulate slider-crank --compare omega=100rpm,200rpm --columns drive_torque --plot both.svg
 
 A run whose numbers are in doubt is written as any other, with a warning and exit code 3.";

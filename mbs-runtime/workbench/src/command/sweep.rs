@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 
-use self::axis::{Grid, GridAxis};
+use self::axis::{Evenly, Grid, GridAxis};
 use self::rows::Rows;
 use self::shard::{Head, Heading, Shard, There};
 use super::options::{self, option, settings};
@@ -22,8 +22,9 @@ use crate::console::complain;
 use crate::figure::Figure;
 use crate::members::{Extent, Member, Members, quantities};
 use crate::models::Models;
+use crate::notes::{end_note, lost_start_values};
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Signals, Unit, interrupt, say};
+use crate::{Error, Model, Settings, Signals, Start, Unit, interrupt, say};
 
 const EXAMPLE: &str = "\
 Example:
@@ -145,6 +146,24 @@ impl fmt::Display for Failure {
     }
 }
 
+/// Start values that the constraints move at an end of what is swept, and a run that ends beside `--end`.
+fn start_notes(model: &dyn Model, settings: &Settings, grid: &Grid) -> Vec<String> {
+    let at_end = |value: fn(&Evenly) -> f64| {
+        let mut settings = settings.clone();
+        let values = grid.axes.iter().map(|axis| (axis.name.to_owned(), value(&axis.values)));
+        settings.parameters.extend(values);
+        settings
+    };
+    let ends = [("smallest", at_end(|values| values.low)), ("largest", at_end(|values| values.high))];
+    let lost = ends.iter().flat_map(|(which, settings)| {
+        let lost = lost_start_values(model, settings).into_iter();
+        lost.map(move |note| format!("with the {which} values of what is swept, {note}"))
+    });
+    let run = ends.iter().find_map(|(_, settings)| model.start(&Start::of(model, settings).ok()?).ok());
+    let steps = run.and_then(|mut run| Some((run.ends_at(settings.end).ok()?, run)));
+    lost.chain(steps.and_then(|(steps, run)| end_note(&*run, steps, settings.end))).collect()
+}
+
 pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
     let text = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
     let name = text("model");
@@ -155,6 +174,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;
     grid.check_against(&settings)?;
     let notes = settings.signals.iter().flat_map(Signals::notes);
+    let notes = notes.chain(start_notes(model, &settings, &grid));
     notes.for_each(|note| complain(format_args!("note: {note}")));
     let named: Vec<&String> = matches.get_many("output").unwrap_or_default().collect();
     let watched = watched(model, &named)?;

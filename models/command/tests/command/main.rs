@@ -4,6 +4,7 @@
 
 mod answers;
 mod drawings;
+mod ends;
 mod files;
 mod fits;
 mod imports;

@@ -37,6 +37,22 @@ fn a_mass_on_an_axis_stays_on_it() {
     assert!(rows.iter().all(|row| row[0].abs() < 1e-12), "{rows:?}");
 }
 
+/// The angle of a joint that another one follows with an offset was a guess, and moved half of the way.
+#[test]
+fn a_joint_that_others_follow_starts_where_it_is_drawn() {
+    let robot = format!(
+        "<robot name='g'><link name='base'/><link name='l'><inertial><origin xyz='0.1 0 0'/>{INERTIA}</inertial></link>\
+         <link name='r'><inertial><origin xyz='0.1 0 0'/>{INERTIA}</inertial></link>\
+         <joint name='jl' type='continuous'><parent link='base'/><child link='l'/><axis xyz='0 0 1'/></joint>\
+         <joint name='jr' type='prismatic'><parent link='base'/><child link='r'/><axis xyz='1 0 0'/>\
+         <limit effort='1' velocity='1' lower='-1' upper='1'/>\
+         <mimic joint='jl' multiplier='-0.5' offset='0.02'/></joint></robot>"
+    );
+    let (declared, rows) = moved("g.urdf", &robot, &["jl", "jr"]);
+    let off = (rows[0][0].abs()).max((rows[0][1] - 0.02).abs());
+    assert!(off < 1e-12, "{:?}\n{declared}", rows[0]);
+}
+
 /// Each joint of a chain is compared with the one before it: four turns by 1.57 are off by 3 mrad together.
 #[test]
 fn small_errors_of_axes_do_not_add_up() {

@@ -378,7 +378,7 @@ fn events_and_conditions_that_end_a_run() {
     for (options, part) in [
         ("--until self", "or a declared event (`top`, `shelf`)"),
         ("--until shelf --method trbdf2", "`until` cannot be used"),
-        ("--rtol 1e-6 --method trbdf2", "`tolerance` cannot be used"),
+        ("--rtol 1e-6 --method trbdf2", "`rtol` cannot be used"),
         ("--rtol 0", "rtol is 0.0"),
     ] {
         let output = mbs(folder.path(), &format!("simulate ball.mbs --end 0.5s {options}"));

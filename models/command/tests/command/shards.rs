@@ -85,6 +85,8 @@ fn shares_that_do_not_belong_together_are_refused() {
         assert!(!output.status.success() && message.contains(part), "{arguments}: {message}");
     };
     refused("merge a.csv --out all.csv", "missing: 2/2");
+    // Regression: the table took the place of the share.
+    refused("merge a.csv b.csv --out a.csv", "it is one of the shares");
     refused("merge a.csv b.csv a.csv --out all.csv", "the same share");
     refused("merge a.csv other.csv --out all.csv", "another sweep");
     refused("merge a.csv third.csv --out all.csv", "another sweep");

@@ -60,8 +60,34 @@ fn what_was_given_is_told() {
     assert_eq!(told["given"]["der(x1)"]["unit"], "m/s");
 }
 
+const PIN: &str = "Pin {
+    dof = 1;
+    param l = 0.5 [m];
+    param x0 = 0.125 [m];
+    gravity = (0, -9.81) [m/s^2];
+    body rod (x, y, phi) { mass = 1 [kg]; inertia = 1 [kg]*l^2/12; }
+    point top on rod = (0, l/2);
+    revolute pin (rod.top, ground);
+    start { phi = 30 [deg]; x = x0; guess y = -l/2; }
+}
+";
+
+/// A parameter that contradicts other values of the start is told; the constraints move what was declared last.
+#[test]
+fn a_start_value_that_does_not_hold_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("pin.mbs"), PIN).unwrap();
+    let said = |line: &str| text(mbs(folder.path(), line).stderr);
+    let note = "`x` does not start at 0.2 m with these parameters: the constraints make it 0.125 m";
+    assert!(said("simulate pin.mbs --end 1ms --set x0=0.2").contains(note));
+    assert!(!said("simulate pin.mbs --end 1ms --set l=0.5").contains("does not start"));
+    let swept = said("sweep pin.mbs --end 1ms --param x0=0.125..0.2:2 --output phi");
+    assert!(swept.contains(&format!("with the largest values of what is swept, {note}")), "{swept}");
+}
+
 #[test]
 fn what_cannot_be_a_start_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
     let refused = |arguments: &str| {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("double.mbs"), DOUBLE).unwrap();
@@ -70,6 +96,18 @@ fn what_cannot_be_a_start_is_refused() {
         text(output.stderr)
     };
     assert!(refused("--from x1=2").contains("upper"));
+    // Regression: values that contradict each other led an angle to 1e36 rad, where everything is rounding.
+    fs::write(folder.path().join("pin.mbs"), PIN).unwrap();
+    for states in ["", "states = reduced;"] {
+        fs::write(folder.path().join("pin.mbs"), PIN.replace("dof = 1;", &format!("dof = 1; {states}")))
+            .unwrap();
+        for values in
+            ["--from x=0.2 --from y=-0.2", "--from x=0.1 --from y=0.1", "--from x=0.2 --from phi=0.3"]
+        {
+            let output = mbs(folder.path(), &format!("simulate pin.mbs --end 1ms {values}"));
+            assert_eq!(output.status.code(), Some(1), "{states} {values}: {}", text(output.stdout));
+        }
+    }
     assert!(refused("--from x3=2").contains("did you mean `x"));
     assert!(refused("--from der(x3)=2").contains("did you mean `der(x"));
     assert!(refused("--from x1=2kg").contains("length"));

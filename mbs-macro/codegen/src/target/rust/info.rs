@@ -14,6 +14,10 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let dof = Literal::i32_unsuffixed(compiled.degrees_of_freedom);
     let states = compiled.states.iter().map(|&at| Literal::usize_unsuffixed(at));
     let redundant = compiled.redundant.iter().map(|&row| Literal::usize_unsuffixed(row));
+    let kept = compiled.kept.each_ref().map(|kept| {
+        let kept = kept.iter().map(|&at| Literal::usize_unsuffixed(at));
+        quote!(&[#(#kept),*])
+    });
     let velocity_forces = compiled.velocity_forces.iter().map(|&at| Literal::usize_unsuffixed(at));
     let parameters = compiled.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
     let inputs = compiled.inputs.iter().map(|input| quantity(input, 0.0, runtime));
@@ -64,7 +68,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
-            &[#(#velocity_forces),*], #pivots, #start_pivots, &[#(#functions),*],
+            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, &[#(#functions),*],
         )
     }
 }

@@ -296,24 +296,23 @@ impl<'a> Writer<'a> {
     }
 
     /// Where the file draws it. Angles of a tree are kept, so that others can be put in their
-    /// place; all the rest follows.
+    /// place, unless they follow those of other joints; all the rest follows.
     fn start(&mut self) {
         self.line("", "");
         self.line("", "    start {");
         // A tree has one joint for each part that moves.
         let closes_no_loop = self.flat.closings.is_empty() && self.flat.joints.len() < self.flat.parts.len();
-        let is_tree = closes_no_loop && self.flat.couplings.is_empty();
-        let turns: Vec<usize> = self
-            .flat
-            .coordinates
-            .iter()
-            .filter(|coordinate| coordinate.joint.kind == Kind::Hinge)
-            .map(|coordinate| self.flat.joints[coordinate.held].parts[0])
+        let followers: Vec<usize> = self.flat.couplings.iter().map(|coupled| coupled.follower).collect();
+        let hinges = self.flat.coordinates.iter().enumerate();
+        let turns: Vec<usize> = hinges
+            .filter(|(at, hinge)| hinge.joint.kind == Kind::Hinge && !followers.contains(at))
+            .map(|(_, hinge)| self.flat.joints[hinge.held].parts[0])
+            .filter(|part| !self.follows(*part, &followers))
             .collect();
         for (at, part) in self.flat.parts.iter().enumerate().skip(1) {
             let [x, y, turned] = &self.parts[at].1;
             let [cx, cy] = part.start(part.centre).map(|entry| tidy(entry, self.flat.size));
-            let guess = if is_tree && turns.contains(&at) { "" } else { "guess " };
+            let guess = if closes_no_loop && turns.contains(&at) { "" } else { "guess " };
             let value = angle(part.angle);
             let text =
                 format!("        {guess}{turned} = {value}; guess {x} = {cx} [m]; guess {y} = {cy} [m];");
@@ -323,6 +322,23 @@ impl<'a> Writer<'a> {
             self.line("", format!("        guess {turned} = {} [rad];", tidy(begin, 1.0)));
         }
         self.line("", "    }");
+    }
+
+    /// Whether a part hangs on a joint that follows another one, so that it may be elsewhere than it is drawn.
+    fn follows(&self, part: usize, followers: &[usize]) -> bool {
+        let held = |at: &usize| self.flat.coordinates.get(*at).map(|coordinate| coordinate.held);
+        let mut part = part;
+        // of a tree, the way to the ground has fewer joints than there are parts
+        for _ in 0..self.flat.parts.len() {
+            let Some(joint) = self.flat.joints.iter().position(|joint| joint.parts[0] == part) else {
+                return false;
+            };
+            if followers.iter().filter_map(held).any(|of| of == joint) {
+                return true;
+            }
+            part = self.flat.joints[joint].parts[1];
+        }
+        false
     }
 
     /// An output for each joint's coordinate.
