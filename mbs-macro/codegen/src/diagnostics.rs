@@ -10,7 +10,7 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
-/// What stands between an error and how to mend it.
+/// The text between an error and how to mend it.
 pub const HELP: &str = "\n\nhelp: ";
 
 /// End of the message about a name that is a word of Rust. Each such name is reported once, where it stands first.
@@ -28,7 +28,7 @@ pub fn counted(count: impl fmt::Display, one: &str) -> String {
 pub struct Diagnostic {
     /// The token at fault.
     pub span: Span,
-    /// What is wrong, in the words of the declaration.
+    /// The fault, in the words of the declaration.
     pub message: String,
     /// How to mend it.
     pub help: Option<String>,
@@ -83,7 +83,7 @@ impl Diagnostic {
     }
 }
 
-/// What is said of a place with its line: macros have no other way to show a
+/// A note with the line of its place. Macros have no other way to show a
 /// second place than a second error.
 fn located(note: &str, place: Span) -> String {
     match (place.start().line, note.strip_suffix("here")) {

@@ -1,11 +1,11 @@
-//! What the symbols of programs stand for: those of a declaration, and those that a method of
+//! The meanings of the symbols of programs: those of a declaration, and those that a method of
 //! integration adds, which no declaration names.
 
 use mbs_symbolic::{Stage, Symbol};
 
 use crate::model::{Meaning, Model};
 
-/// What a symbol of a program stands for: a number, or a component of a vector.
+/// The meaning of a symbol of a program: a number, or a component of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// t in s
@@ -14,33 +14,33 @@ pub enum Input {
     Parameter(usize),
     /// An input.
     Input(usize),
-    /// A component of q,
+    /// A component of q.
     Position(usize),
-    /// of v,
+    /// A component of v.
     Velocity(usize),
-    /// of the positions that are integrated, where those are not all,
+    /// A component of the positions that are integrated, where those are not all.
     StatePosition(usize),
-    /// of their velocities,
+    /// A component of the velocities that are integrated, where those are not all.
     StateVelocity(usize),
-    /// of q̈,
+    /// A component of q̈.
     Acceleration(usize),
-    /// or of λ.
+    /// A component of λ.
     Multiplier(usize),
     /// An amount added to γ of a constraint; of corrections, its residual.
     Feedback(usize),
-    /// The predicted acceleration of a coordinate that is integrated,
+    /// The predicted acceleration of a coordinate that is integrated.
     Predicted(usize),
-    /// and the share s of a step that an implicit stage has of its own slope.
+    /// The share s of a step that an implicit stage has of its own slope.
     Shift,
     /// −2α
     MinusTwoAlpha,
     /// −β²
     MinusBetaSquared,
-    /// h of a step,
+    /// h of a step.
     Step,
-    /// h/2,
+    /// h/2
     HalfStep,
-    /// and t + h.
+    /// t + h
     NextTime,
     /// A function of time that a step is given: first those at its start, then those at its end.
     Clock(usize),
@@ -144,7 +144,7 @@ impl Inputs {
         (0..2 * functions).map(add).collect()
     }
 
-    /// What a symbol stands for.
+    /// The meaning of a symbol.
     pub fn of(&self, symbol: Symbol) -> Option<Input> {
         self.all.get(symbol.index()).copied()
     }

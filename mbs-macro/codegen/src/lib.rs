@@ -59,7 +59,7 @@ pub use compiled::{Compiled, FunctionId};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use syntax::{Keyword, KeywordKind, keywords};
 
-/// What `mechanism! { … }` expands to; errors become `compile_error!`.
+/// The expansion of `mechanism! { … }`; errors become `compile_error!`.
 #[cfg(feature = "rust")]
 pub fn expand(declaration: TokenStream) -> TokenStream {
     compile(declaration).unwrap_or_else(|errors| errors.to_compile_errors())

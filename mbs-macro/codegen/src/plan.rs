@@ -28,7 +28,7 @@ use system::{Problem, cheapest};
 
 /// The programs of all generated functions.
 pub struct Plan {
-    /// What the symbols of its programs stand for.
+    /// The meanings of the symbols of its programs.
     pub inputs: Inputs,
     pub strategy: Strategy,
     /// The steps of the elimination, in order.
@@ -36,7 +36,7 @@ pub struct Plan {
     pub rows: Rows,
     /// The coordinates that rows give, which are not integrated.
     pub reduction: Reduction,
-    /// What depends on parameters alone, as formulas.
+    /// The formulas that depend on parameters alone.
     pub hoisted: Vec<Expr>,
     /// Computes the hoisted values.
     pub prepare: Program,
@@ -67,7 +67,7 @@ pub struct Plan {
     pub constrained: Program,
     /// q̈ of the states in an implicit stage, growth
     pub implicit: Program,
-    /// Whether that is another system than that of an explicit stage.
+    /// True if a force depends on positions or velocities.
     pub has_stiffness: bool,
     /// q̈, λ, growth
     pub reactions: Program,
@@ -94,7 +94,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What one evaluation of a step's right-hand side takes, the watch over the
+    /// The operations of one evaluation of a step's right-hand side, the watch over the
     /// pivots included.
     pub fn operations(&self) -> u32 {
         self.stabilized.operations().total()
@@ -138,7 +138,7 @@ impl From<Circular> for Unsolvable {
 /// multipliers.
 ///
 /// # Errors
-/// What the equations of motion leave open.
+/// Unknowns or loads that the equations of motion leave open, and mistakes of the compiler.
 pub fn plan(
     model: &mut Model,
     equations: &Equations,

@@ -50,7 +50,7 @@ const TOLERANCE: (i64, i64) = (1, 1_000_000);
 /// Q as a function of the state.
 pub struct Forces {
     pub values: Vec<Expr>,
-    /// What a jam adds to the growth of the solution; 0 without such loads.
+    /// The term that a jam adds to the growth of the solution; 0 without such loads.
     pub growth: Expr,
 }
 

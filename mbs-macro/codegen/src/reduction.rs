@@ -7,9 +7,9 @@
 //! reduction. The elimination stays what it is: its solution is written in the coordinates
 //! that are left.
 //!
-//! Rows are taken in their order, and each gives a coordinate that no other row has given. What
-//! depends linearly on which coordinates, and what in another way, is counted in numbers; so a
-//! coordinate is given only where the choices before have left it linear. Each choice uses up
+//! Rows are taken in their order, and each gives a coordinate that no other row has given. The
+//! dependences on coordinates, linear ones with their coefficients and others, are kept in numbers;
+//! so a coordinate is given only where the choices before have left it linear. Each choice uses up
 //! a row, which bounds their number.
 //!
 //! A coordinate that is given has the errors of those that it is made of. Of a differential gear,
@@ -49,10 +49,10 @@ const SMALLEST_SHARE: f64 = 0.1;
 
 /// Coordinates that constraints give.
 pub struct Reduction {
-    /// What each coordinate that is not integrated is, and its velocity, by the symbols of the
-    /// states.
+    /// Position and velocity of every coordinate, by the symbols of the states; empty if all
+    /// coordinates are integrated.
     values: HashMap<Symbol, Expr>,
-    /// Those that are not integrated.
+    /// The coordinates that are not integrated.
     given: BTreeSet<usize>,
     /// The rows that give them.
     pub rows: BTreeSet<usize>,
@@ -132,7 +132,7 @@ impl Reduction {
     }
 }
 
-/// What rows give.
+/// The coordinates that rows give.
 #[derive(Default)]
 struct Given {
     /// The row of each coordinate.
@@ -141,7 +141,7 @@ struct Given {
     values: HashMap<Symbol, Expr>,
 }
 
-/// What depends on coordinates: linearly with these coefficients, or otherwise.
+/// A dependence on coordinates: linear with these coefficients, or otherwise.
 #[derive(Clone, Default)]
 struct Dependence {
     linear: BTreeMap<usize, Number>,
@@ -190,7 +190,7 @@ impl Dependence {
         self.linear.iter().filter(is_given).map(|(&column, &coefficient)| (column, coefficient))
     }
 
-    /// What the coordinate depends on that is given by 0 = this.
+    /// The dependence of the coordinate that is given by 0 = this.
     fn solved(mut self, coordinate: usize, coefficient: Number) -> Self {
         self.linear.remove(&coordinate);
         let factor = -coefficient.recip();

@@ -36,7 +36,7 @@ use crate::inputs::{Input, Inputs};
 use crate::model::Model;
 use crate::reduction::Reduction;
 
-/// What an implicit stage adds to the equations of motion.
+/// The terms that an implicit stage adds to the equations of motion.
 pub struct Stiffness {
     /// D over pairs of coordinates, the first one not behind the second.
     entries: BTreeMap<(usize, usize), Expr>,

@@ -1,9 +1,9 @@
-//! What follows from a tableau for the feedback of the constraint violation.
+//! Explicit methods: a scheme, the way in which constraints are kept, and the gains that follow.
 
 use crate::roots::sqrt;
 use crate::{HEUN, Tableau};
 
-/// What keeps the constraints.
+/// The way in which the constraints are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Stabilization {
     /// Baumgarte's feedback −2αΦ̇ − β²Φ of the constraint violation, evaluated in the first
@@ -40,7 +40,7 @@ impl Stabilization {
 pub struct Explicit {
     /// The scheme.
     pub tableau: &'static Tableau,
-    /// What keeps the constraints.
+    /// The way in which the constraints are kept.
     pub stabilization: Stabilization,
 }
 

@@ -1,4 +1,4 @@
-//! What follows from the coefficients of a scheme, computed when it is compiled.
+//! The response of a scheme to linear problems, computed from its coefficients when it is compiled.
 
 use crate::roots::quadratic_factor;
 use crate::{MOST_STAGES, Row};

@@ -37,7 +37,7 @@ pub const COSINE: [f64; 6] = [
     -1.038_875_794_729_804_2e-9,
 ];
 
-/// What is left of an angle without its quarter turns.
+/// The quarter turns of an angle, with sine and cosine of the rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Octant<T> {
     /// The number n of quarter turns, in the low bits of the mantissa.

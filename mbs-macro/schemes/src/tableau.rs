@@ -1,4 +1,4 @@
-//! What a scheme is.
+//! The table of a scheme.
 
 use crate::SCHEMES;
 use crate::interpolant::Interpolant;
@@ -38,18 +38,18 @@ pub struct Tableau {
     pub title: &'static str,
     /// The error of a step is O(h^(order + 1)).
     pub order: u32,
-    /// What leads to the second stage and to those behind it.
+    /// The rows that lead to the second stage and to those behind it.
     pub stages: &'static [Row],
-    /// What leads to the end of the step.
+    /// The row that leads to the end of the step.
     pub update: Row,
-    /// What tells the error of a step, of a scheme that can.
+    /// The estimate of the error of a step; `None` if the scheme has none.
     pub estimate: Option<Estimate>,
     /// The interpolant of a step. `None` if the polynomial of fifth degree through positions, velocities and
     /// accelerations of both ends is as accurate as the step.
     pub interpolant: Option<Interpolant>,
     /// Where it was published.
     pub source: &'static str,
-    /// What follows from the coefficients.
+    /// The response to linear problems, which follows from the coefficients.
     pub response: Response,
 }
 

@@ -14,7 +14,7 @@ const MOST_PARTS: usize = 150;
 /// Shorter parts get no names.
 const SHORTEST_NAMED: usize = 4;
 
-/// What parts are called.
+/// The names of parts.
 pub(crate) type Names = FxHashMap<Expr, String>;
 
 impl Arena {
@@ -45,7 +45,7 @@ impl Arena {
     }
 
     /// Whether the expression has at most `limit` nodes as it would be written.
-    /// What is computed once is written out wherever it is used, so the text of
+    /// A value that is computed once is written out wherever it is used, so the text of
     /// an eliminated matrix can be longer than any memory.
     pub fn is_shorter(&self, expr: Expr, limit: usize) -> bool {
         let mut open = vec![expr];

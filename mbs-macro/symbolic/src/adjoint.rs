@@ -72,7 +72,7 @@ impl Program {
         Ok(Self { instructions, outputs, splines: self.splines.clone() }.without_dead_code())
     }
 
-    /// What depends on these inputs, they themselves included.
+    /// The operands that depend on these inputs, they themselves included.
     pub(crate) fn active(&self, by: &[Operand]) -> FxHashSet<Operand> {
         let mut active: FxHashSet<Operand> = by.iter().copied().collect();
         for (at, instruction) in self.instructions.iter().enumerate() {

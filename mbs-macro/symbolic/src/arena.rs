@@ -94,11 +94,12 @@ pub struct Arena {
     stages: Vec<Stage>,
     symbols: Vec<SymbolEntry>,
     labels: HashMap<Expr, String>,
-    /// What is known of values whatever the position, so that a part in several places is
-    /// looked at once: bounds, and whether they are never negative.
+    /// The bounds of values at any position. They are kept, so that a part in several places is
+    /// looked at once.
     pub(crate) bounds: HashMap<Expr, Option<Expr>>,
+    /// Whether values are never negative at any position; likewise.
     pub(crate) never_negative: HashMap<Expr, bool>,
-    /// Their exact values at a random point.
+    /// The exact values of expressions at a random point.
     point: Point,
     pub(crate) splines: Vec<Rc<Spline>>,
 }

@@ -15,7 +15,7 @@ impl<T: Copy> Collected<T> {
         self.position(expr).ok().map(|at| self.0[at].1)
     }
 
-    /// What stands under an expression, after `first` was put there if nothing did.
+    /// The value of an expression, after `first` was put there if it had none.
     pub fn entry(&mut self, expr: Expr, first: T) -> &mut T {
         let at = self.position(expr).unwrap_or_else(|at| {
             self.0.insert(at, (expr, first));

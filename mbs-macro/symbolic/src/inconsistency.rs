@@ -1,4 +1,4 @@
-//! What ends a pass that breaks its own rule.
+//! The error that ends a pass which breaks its own rule.
 
 use std::fmt;
 

@@ -44,7 +44,7 @@ pub enum Function {
     Greater,
 }
 
-/// What the engine knows of a function.
+/// The properties of a function that the engine knows.
 pub struct Row {
     /// The function itself.
     pub function: Function,

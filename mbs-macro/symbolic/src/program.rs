@@ -25,7 +25,7 @@ pub enum Operand {
     Value(usize),
 }
 
-/// What an instruction does with its operands.
+/// The operation of an instruction on its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operation {
     /// a + b
@@ -61,7 +61,7 @@ impl Operation {
 /// One assignment. `b` equals `a` where the operation has one operand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instruction {
-    /// What to do.
+    /// The operation.
     pub operation: Operation,
     /// The first operand.
     pub a: Operand,

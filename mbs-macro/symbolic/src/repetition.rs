@@ -305,7 +305,7 @@ fn runs(kinds: &[usize], period: usize) -> Vec<Run> {
     found
 }
 
-/// What is left of a range.
+/// The parts of a range that no run has taken.
 fn gaps(taken: &BTreeMap<usize, Run>, range: Range<usize>) -> Vec<Range<usize>> {
     let before = taken.range(..range.start).next_back();
     let mut gaps = Vec::new();

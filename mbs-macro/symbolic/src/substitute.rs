@@ -23,7 +23,7 @@ impl Arena {
         exprs.iter().map(|expr| known[expr]).collect()
     }
 
-    /// What every expression becomes that these are made of.
+    /// The substitute of every expression that these are made of.
     fn substituted(&mut self, exprs: &[Expr], values: &HashMap<Symbol, Expr>) -> FxHashMap<Expr, Expr> {
         let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
         for operand in self.reachable(exprs) {

@@ -86,7 +86,7 @@ impl Dimension {
         under.iter().fold(over, |text, factor| format!("{text}/{factor}"))
     }
 
-    /// What engineers call it.
+    /// Its row among the dimensions that engineers have a name for.
     fn named(self) -> Option<&'static (Self, &'static str, &'static str)> {
         QUANTITIES.iter().find(|(dimension, ..)| *dimension == self)
     }
@@ -276,7 +276,7 @@ pub fn meant(name: &str) -> Option<String> {
 /// A unit that could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
-    /// What is wrong with it.
+    /// The fault in words.
     pub message: String,
     /// The name that is no unit, if that is it.
     unknown: Option<String>,

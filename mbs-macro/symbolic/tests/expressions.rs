@@ -85,7 +85,7 @@ fn check_derivatives(tree: &Tree, x: [f64; VARIABLES], v: [f64; VARIABLES]) -> R
     Ok(())
 }
 
-/// What `Program` promises of itself.
+/// Checks the form that `Program` promises.
 fn check_form(program: &Program) -> Result<(), TestCaseError> {
     let mut needed: BTreeSet<usize> = BTreeSet::new();
     let mut mark = |operand: Operand| {
@@ -148,7 +148,7 @@ fn check_programs(
     for (expected, found) in expected.iter().zip(rest.evaluate(&symbol, &prepared)) {
         assert_agrees("hoisted program", *expected, found)?;
     }
-    // What depends on parameters alone has left the program, but for signs.
+    // Instructions that depend on parameters alone have left the program, but for signs.
     let late = |operand: Operand| match operand {
         Operand::Number(_) | Operand::Hoisted(_) => false,
         Operand::Symbol(symbol) => symbol.index() >= parameters,

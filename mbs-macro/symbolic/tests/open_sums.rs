@@ -25,7 +25,7 @@ fn coordinates<const N: usize>(arena: &Arena, masses: [Expr; N]) -> Kkt {
     kkt
 }
 
-/// What an acceleration takes with closed sums, and with open ones.
+/// The cost of an acceleration with closed sums, and with open ones.
 fn costs(
     arena: &mut Arena,
     kkt: &Kkt,

@@ -202,7 +202,7 @@ fn functions_of_constants_are_constants() {
     assert_eq!(a.call2(Function::Greater, two, three), zero);
 }
 
-/// What has no finite value stays as it was written instead of becoming a
+/// A function without a finite value stays as it was written instead of becoming a
 /// constant that is not a number.
 #[test]
 fn functions_without_a_value_stay() {

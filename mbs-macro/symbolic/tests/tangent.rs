@@ -85,7 +85,7 @@ fn tangent_and_transpose_agree() {
     assert!(forward.abs() > 1.0);
 }
 
-/// What does not depend on the direction has the derivative 0, without an instruction.
+/// A result that does not depend on the direction has the derivative 0, without an instruction.
 #[test]
 fn what_does_not_change_costs_nothing() {
     let mut arena = Arena::new();

@@ -123,7 +123,7 @@ impl From<model::Event> for Event {
     }
 }
 
-/// What judges the results of [`Plan::requirements`], in their order.
+/// The conditions on the results of [`Plan::requirements`], in their order.
 fn conditions(model: &Model) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for (at, requirement) in model.requirements.iter().enumerate() {

@@ -34,7 +34,7 @@ pub struct Derivation {
     pub kinetic_energy: Formula,
     /// That of gravity and springs.
     pub potential_energy: Formula,
-    /// What depends on parameters alone, as text.
+    /// The values that depend on parameters alone, as text.
     pub hoisted: Vec<String>,
     /// In which order pivots are taken, in words.
     pub strategy: &'static str,
@@ -48,7 +48,7 @@ pub struct Formula {
     pub of: String,
     /// The same in LaTeX.
     pub of_latex: String,
-    /// What it is a derivative by; empty where it is none.
+    /// The name of the variable that it is a derivative by; empty where it is none.
     pub by: String,
     /// The same in LaTeX.
     pub by_latex: String,
@@ -62,13 +62,13 @@ pub struct Formula {
 
 /// A step of the elimination.
 pub struct Elimination {
-    /// What is eliminated: coordinates, and multipliers as `lambda(row)`.
+    /// The eliminated unknowns: coordinates, and multipliers as `lambda(row)`.
     pub unknowns: Vec<String>,
-    /// What is divided by, as text,
+    /// The divisor as text.
     pub pivot: String,
-    /// as LaTeX,
+    /// The divisor as LaTeX.
     pub latex: String,
-    /// and as text, if it is short.
+    /// The divisor as text, or `…` if it is too long for a line.
     pub short: String,
     /// Whether this pivot may vanish and is watched.
     pub is_watched: bool,

@@ -7,7 +7,7 @@ use super::Compiled;
 /// A function of a compiled mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FunctionId {
-    /// What depends on parameters alone.
+    /// The values that depend on parameters alone.
     Hoisted,
     /// Φ
     Phi,
@@ -41,17 +41,17 @@ pub enum FunctionId {
     VelocityCorrection,
     /// The same Δ with no coordinate held: what leads back to the constraints within a run.
     Projection,
-    /// What the declaration measures.
+    /// The declared outputs.
     Outputs,
     /// The values whose changes of sign are events.
     Events,
-    /// What [`Compiled::conditions`] judge.
+    /// The values that [`Compiled::conditions`] judge.
     Conditions,
     /// Declared q, v and t of the start.
     Start,
-    /// The growth of every watched pivot,
+    /// The growth of every watched pivot.
     Pivots,
-    /// and of those of the corrections.
+    /// The growth of every watched pivot of the corrections.
     StartPivots,
     /// x and y of every point of the sketch.
     Points,
@@ -61,7 +61,7 @@ pub enum FunctionId {
     Implicit,
 }
 
-/// What a function is given. All are given the parameters and what depends on them alone.
+/// An argument of a function. All functions are given the parameters and what depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// t
@@ -70,9 +70,9 @@ pub enum Argument {
     Positions,
     /// v
     Velocities,
-    /// The positions of the coordinates that are integrated,
+    /// The positions of the coordinates that are integrated.
     StatePositions,
-    /// and their velocities.
+    /// The velocities of the coordinates that are integrated.
     StateVelocities,
     /// The inputs.
     Inputs,
@@ -82,13 +82,13 @@ pub enum Argument {
     Feedback,
     /// q̈ and λ
     Reactions,
-    /// s of an implicit stage,
+    /// s of an implicit stage.
     Shift,
-    /// and its predicted q̈ of the states.
+    /// The predicted q̈ of the states in an implicit stage.
     Predicted,
 }
 
-/// What some of the outputs of a function are.
+/// The kind of some of the outputs of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Results {
     /// Values that depend on parameters alone.
@@ -211,12 +211,12 @@ impl FunctionId {
         TABLE[self as usize].1
     }
 
-    /// What it is given.
+    /// Its arguments.
     pub fn arguments(self) -> &'static [Argument] {
         TABLE[self as usize].2
     }
 
-    /// What it gives, one kind after the other.
+    /// Its results, one kind after the other.
     pub fn results(self) -> &'static [Results] {
         TABLE[self as usize].3
     }
@@ -227,24 +227,24 @@ impl FunctionId {
     }
 }
 
-/// What a call of a function takes.
+/// The cost of a call of a function.
 pub struct Count {
     /// The function.
     pub function: FunctionId,
-    /// Its operations,
+    /// Its operations, without those that watch pivots.
     pub operations: Operations,
-    /// and those that watch pivots, counted in none of the others.
+    /// The operations that watch pivots.
     pub watch: u32,
 }
 
 impl Compiled {
-    /// What the functions take that people ask for.
+    /// The costs of the functions that people ask for.
     pub fn counts(&self) -> Vec<Count> {
         let implicit = self.has_stiffness.then_some(FunctionId::Implicit);
         FunctionId::all().take(COUNTED).chain(implicit).map(|function| self.count(function)).collect()
     }
 
-    /// What a function takes.
+    /// The cost of a function.
     pub fn count(&self, function: FunctionId) -> Count {
         let program = self.program(function);
         let outputs = program.outputs.len();

@@ -77,7 +77,7 @@ pub struct Compiled {
     pub doc: String,
     /// Numbers that are set once, with their declared values.
     pub parameters: Vec<Parameter>,
-    /// What parameters have to satisfy.
+    /// The conditions on parameters.
     pub conditions: Vec<Condition>,
     /// Numbers that the embedding program may change from step to step.
     pub inputs: Vec<Quantity>,
@@ -90,7 +90,7 @@ pub struct Compiled {
     pub places: Vec<usize>,
     /// The constraints Φ(q, t) = 0, one multiplier each.
     pub constraints: Vec<Constraint>,
-    /// What the declaration measures.
+    /// The declared outputs.
     pub outputs: Vec<Quantity>,
     /// Moments that runs find.
     pub events: Vec<Event>,
@@ -114,22 +114,22 @@ pub struct Compiled {
     pub splines: Vec<Rc<Spline>>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
-    /// What the results of [`FunctionId::Pivots`] belong to,
+    /// The pivot of each result of [`FunctionId::Pivots`].
     pub pivots: Vec<Pivot>,
-    /// and those of [`FunctionId::StartPivots`].
+    /// The pivot of each result of [`FunctionId::StartPivots`].
     pub start_pivots: Vec<Pivot>,
     /// A whole step as one program, where the mechanism is small enough for that to pay.
     pub fused_step: Option<FusedStep>,
     /// The equations and their elimination, for people to read.
     pub derivation: Derivation,
-    /// What a picture needs.
+    /// The points, bodies and links of a picture.
     pub sketch: Sketch,
-    /// What the declaration says of its integration.
+    /// The declared choices for the integration.
     pub choices: Choices,
     /// Warnings about parts that compile and are likely mistakes: parameters, inputs, definitions and profiles that
     /// nothing uses, and profiles that leave their dwells.
     pub warnings: Vec<Diagnostic>,
-    /// What the Rust target takes over as it was written.
+    /// The parts that the Rust target takes over as they were written.
     pub written: Written,
     symbols: Vec<(String, Input)>,
     programs: Vec<Program>,
@@ -143,18 +143,18 @@ pub struct Parameter {
     pub value: f64,
 }
 
-/// What parameters have to satisfy: a result of [`FunctionId::Conditions`] compares so
+/// A condition on parameters: how a result of [`FunctionId::Conditions`] has to compare
 /// with 0.
 pub struct Condition {
-    /// What is judged: a parameter, a formula or a property, as people call it.
+    /// The name of the parameter, formula or property that is judged, as people call it.
     pub name: String,
     /// Its value, a result of [`FunctionId::Conditions`].
     pub value: usize,
-    /// What compares with 0, another one or the same.
+    /// The result that is compared with 0, another one or the same.
     pub difference: usize,
-    /// How it has to.
+    /// The comparison that has to hold.
     pub comparison: Comparison,
-    /// The same in words.
+    /// The condition in words.
     pub requirement: String,
 }
 
@@ -189,7 +189,7 @@ pub struct Pivot {
     pub coordinate: String,
 }
 
-/// What a picture needs: [`FunctionId::Points`] gives x and y of every point.
+/// The names and links of a picture; [`FunctionId::Points`] gives x and y of every point.
 #[derive(Default)]
 pub struct Sketch {
     /// Names of the points.
@@ -198,9 +198,9 @@ pub struct Sketch {
     pub bodies: Vec<(String, Vec<usize>)>,
     /// The points of the ground, the origin first.
     pub ground: Vec<usize>,
-    /// What joins them,
+    /// The joints between points.
     pub joints: Vec<Link>,
-    /// and pushes them.
+    /// The springs and other elements between two points.
     pub springs: Vec<Link>,
 }
 
@@ -219,7 +219,7 @@ pub struct Link {
     pub ahead: Option<usize>,
 }
 
-/// What the declaration says of its integration.
+/// The choices of a declaration for its integration.
 pub struct Choices {
     /// Instructions that a program may have before its repeated parts become loops.
     pub unrolled: usize,
@@ -249,7 +249,7 @@ pub struct Feedback {
 }
 
 impl Feedback {
-    /// What there is to say where it is unstable with steps of `step` seconds.
+    /// The message of the error for feedback that is unstable with steps of `step` seconds.
     pub fn refusal(&self, step: f64) -> String {
         let Self { is_held, alpha, beta } = self;
         let word = if *is_held { "held" } else { "per-stage" };
@@ -260,7 +260,7 @@ impl Feedback {
     }
 }
 
-/// What the Rust target takes over from the declaration as it was written there.
+/// The parts of the declaration that the Rust target takes over as they were written.
 pub struct Written {
     /// The name with its place.
     pub name: Ident,
@@ -268,9 +268,9 @@ pub struct Written {
     pub visibility: TokenStream,
     /// The path of the runtime.
     pub runtime: TokenStream,
-    /// Where the limit of the stack stands,
+    /// The place of the limit of the stack.
     pub stack: Option<Span>,
-    /// and the feedback.
+    /// The place of the feedback.
     pub feedback: Option<Span>,
 }
 
@@ -285,7 +285,7 @@ impl Compiled {
         self.fused_step.as_ref()?.clocked.as_ref().map(|clocked| &clocked.clock)
     }
 
-    /// What a symbol of the programs stands for. Those behind the symbols of the mechanism are the weights
+    /// The meaning of a symbol of the programs. The symbols behind those of the mechanism are the weights
     /// of a transposed program.
     pub fn input(&self, symbol: Symbol) -> Input {
         let weight = || Input::Weight(symbol.index() - self.symbols.len());
@@ -302,7 +302,7 @@ impl Compiled {
         self.symbols.get(symbol.index()).map_or("weight", |(name, _)| name)
     }
 
-    /// What an operand stands for that is a symbol.
+    /// The meaning of an operand, if it is a symbol.
     pub fn input_of(&self, operand: Operand) -> Option<Input> {
         match operand {
             Operand::Symbol(symbol) => Some(self.input(symbol)),

@@ -80,7 +80,8 @@ impl Compiled {
         None
     }
 
-    /// What of an argument a direction has numbers for: the time, which is no vector, or vectors.
+    /// The parts of an argument that a direction has numbers for, with their lengths: the time, which is no
+    /// vector, or vectors.
     fn parts(&self, argument: Argument) -> Vec<(Option<Vector>, usize)> {
         let vectors: &[Vector] = match argument {
             Argument::Time => return vec![(None, 1)],

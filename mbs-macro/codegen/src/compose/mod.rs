@@ -214,7 +214,7 @@ fn unknown_parameter(name: &Ident, instance: &Ident, assembly: &Ident, items: &[
     }
 }
 
-/// What the statements of an assembly declare.
+/// The names and points that the statements of an assembly declare.
 struct Declared {
     names: BTreeSet<String>,
     /// Points on bodies around the assembly: body and point. Other points go
@@ -329,7 +329,7 @@ fn bodies(items: &[Item]) -> BTreeMap<String, Vec<String>> {
     items.iter().filter_map(of_item).collect()
 }
 
-/// What still has a way that leads nowhere.
+/// Reports a path that is left in a mention: it leads nowhere.
 fn check(mention: &Mention<'_>, bodies: &BTreeMap<String, Vec<String>>, errors: &mut Diagnostics) {
     let first = match mention {
         Mention::Place(place) => place.prefix.first(),

@@ -14,7 +14,7 @@ const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
 /// A name, or a path such as `leg.crank.tip`, in a statement.
 pub enum Mention<'a> {
     Name(&'a mut Ident),
-    /// What is called: a function of the language, or a profile.
+    /// The name in a call: a function of the language, or a profile.
     Function(&'a mut Ident),
     /// The body that a point is declared on, and the point.
     Point(&'a mut Ident, &'a mut Ident),

@@ -68,7 +68,7 @@ pub struct Assembly<'a> {
     pattern: Vec<Vec<usize>>,
     phi_t: Tape,
     depends_on_time: bool,
-    /// What counts as 1 in each coordinate: a typical length, a radian.
+    /// The size that counts as 1 in each coordinate: a typical length, a radian.
     pub units: Vec<f64>,
 }
 

@@ -14,7 +14,7 @@ pub const RANK_TOLERANCE: f64 = 1e-9;
 /// nearly in line would hold a node across their line, where a third one holds it well.
 const LEVELS: [f64; 3] = [0.1, 0.01, 1e-4];
 
-/// What elimination found.
+/// The result of an elimination.
 #[derive(Clone)]
 pub struct Echelon {
     rank: usize,
@@ -80,7 +80,7 @@ struct Basis {
 }
 
 impl Basis {
-    /// What is left of a row.
+    /// The part of a row that the rows of the basis do not explain.
     fn rest(&self, at: usize, row: &SparseRow<f64>) -> Reduced {
         let mut rest = Reduced { at, entries: row.clone(), history: vec![(at, 1.0)] };
         let mut next = 0;

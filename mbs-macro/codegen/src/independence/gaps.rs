@@ -9,9 +9,9 @@ use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::{Meaning, Model};
 
-/// Places that are closer than this share of the free length coincide,
+/// Places that are closer than this share of the free length coincide.
 const COINCIDENT: f64 = 1e-9;
-/// or of the positions, which are rounded.
+/// Places also coincide within this share of the largest position, because positions are rounded.
 const ROUNDED: f64 = 1e-13;
 
 /// A spring with a free length has a direction at the start.

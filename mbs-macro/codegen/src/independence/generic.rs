@@ -2,7 +2,7 @@
 //!
 //! Symbols are random numbers of a finite field, and angles are random turns, so that
 //! sin² + cos² = 1 and sums and fractions of angles are what they are. A float constant and a
-//! function such as √ or exp stands for itself. What depends on others with such stand-ins free
+//! function such as √ or exp stands for itself. A row that depends on others with such stand-ins free
 //! depends on them with their true values: a verdict "redundant" is always right, but for a
 //! chance below 1e-12. A verdict "independent" may miss a relation between stand-ins; where
 //! there are any, floating-point samples are asked as well.
@@ -14,7 +14,7 @@ use super::rank::Dependent;
 use super::sparse::SparseRow;
 use crate::derive::Equations;
 
-/// What exact arithmetic says about the rows.
+/// The verdict of exact arithmetic about the rows.
 pub struct Verdict {
     pub dependent: Vec<Dependent>,
     /// Whether nothing was replaced by a stand-in.

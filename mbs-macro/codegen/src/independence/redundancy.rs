@@ -51,8 +51,8 @@ pub fn choose(
     let closing = assembly.close(&rows.basis, &samples.start_position(model));
     match largest_violation(assembly, &rows.redundant, &closing) {
         Some((row, violation)) => Err(does_not_fit(model, row, violation, 0.0)),
-        // What does not close even so is found with the programs themselves;
-        // what closes is told by the contract.
+        // If the mechanism does not close even so, the programs themselves find that.
+        // If it closes, the contract tells of it.
         _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
         _ => Ok(rows),
     }

@@ -22,7 +22,7 @@ pub struct Samples {
     values: Vec<Vec<f64>>,
     /// The declared start: coordinates that it leaves out at 0.
     start: Vec<f64>,
-    /// What counts as 1 in each coordinate.
+    /// The size that counts as 1 in each coordinate.
     units: Vec<f64>,
 }
 
@@ -208,7 +208,7 @@ pub fn typical_length(model: &Model) -> f64 {
     compared.reduce(f64::max).or_else(|| parameters.reduce(f64::max)).unwrap_or(1.0)
 }
 
-/// What counts as 1 in each coordinate: a typical length, a radian.
+/// The size that counts as 1 in each coordinate: a typical length, a radian.
 pub fn units(model: &Model) -> Vec<f64> {
     let length = typical_length(model);
     (0..model.coordinates.len()).map(|at| if is_angle(model, at) { 1.0 } else { length }).collect()

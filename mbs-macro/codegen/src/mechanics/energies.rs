@@ -2,7 +2,7 @@
 
 use mbs_symbolic::{Algebra, Expr, Scalar, Symbol};
 
-/// What a coordinate moves.
+/// The mass that a coordinate moves, and gravity along it.
 #[derive(Clone)]
 pub struct Inertia {
     pub position: Symbol,

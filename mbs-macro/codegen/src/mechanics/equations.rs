@@ -7,7 +7,7 @@ use mbs_symbolic::{Algebra, Arena, Expr, Scalar, Symbol};
 
 use super::{Inertia, Load, Motion, Work, energies};
 
-/// What moves, what holds it and what drives it.
+/// The inertias, constraints and loads of a mechanism.
 pub struct Mechanism<'m> {
     /// Of every coordinate.
     pub inertias: &'m [Inertia],

@@ -15,7 +15,7 @@ pub struct Law {
     pub kind: LawKind,
 }
 
-/// What a law is a function of.
+/// The function of a law, by its arguments.
 pub enum LawKind {
     /// The progress.
     Plain(for<'a> fn(Scalar<'a>) -> Scalar<'a>),

@@ -66,7 +66,7 @@ impl Motion {
         algebra.variable(self.velocities[coordinate])
     }
 
-    /// What the symbols of x change at.
+    /// The rates of the symbols of x; that of time only if `has_time`.
     fn direction(&self, x: Scalar<'_>, has_time: bool) -> HashMap<Symbol, Expr> {
         let mut direction = HashMap::new();
         for symbol in x.symbols() {

@@ -1,4 +1,4 @@
-//! What a joint says behind its places, as expressions.
+//! The clauses of joints, as expressions.
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr};
@@ -130,7 +130,7 @@ impl Resolver<'_> {
         Some(length)
     }
 
-    /// What a joint cannot have otherwise, at compile time and at run time.
+    /// Requires that a value is positive, at compile time and at run time.
     fn is_positive(&mut self, joint: &Joint, property: &'static str, value: Expr, span: Span) {
         let zero_help = (property == "distance").then_some(COINCIDENT);
         let owner = joint.name.to_string();
@@ -169,7 +169,7 @@ impl Resolver<'_> {
         self.errors.take(frame)
     }
 
-    /// What a joint turns has to be able to.
+    /// Returns true if all parts that a joint turns can turn; reports the others.
     fn turns(&mut self, joint: &Joint, connection: &Connection) -> bool {
         let mut all = true;
         for &(part, against) in joint.kind.turns {

@@ -107,7 +107,7 @@ impl Resolver<'_> {
         Diagnostic::new(name.span(), message).help(help)
     }
 
-    /// What to write for a position that a body lacks.
+    /// The help for a position that a body lacks; `None` for the ground and for a body that lacks none.
     fn missing_coordinate(&self, body: &Ident) -> Option<String> {
         let frame = self.scope.bodies.get(&body.to_string()).filter(|_| body != GROUND)?;
         let fixed = frame.origin.map(|component| self.scope.arena.as_number(component).is_some());

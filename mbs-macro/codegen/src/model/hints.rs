@@ -1,4 +1,4 @@
-//! What a formula looks like that was meant otherwise.
+//! Hints at formulas that were meant otherwise.
 
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Formula, FormulaKind, Operator};

@@ -42,7 +42,7 @@ pub struct Source {
     pub exerts: Option<Exerts>,
 }
 
-/// What the energies are made of.
+/// The parts of the energies: inertias, and the energies of springs.
 pub struct Energies {
     pub inertias: Vec<Inertia>,
     pub springs: Vec<Expr>,

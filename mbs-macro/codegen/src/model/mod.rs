@@ -42,7 +42,7 @@ use crate::quantity::{Comparison, Crossing, Quantity};
 /// A resolved mechanism.
 pub struct Model {
     pub arena: Arena,
-    /// What each symbol of the arena stands for, by its index.
+    /// The meaning of each symbol of the arena, by its index.
     pub meanings: Vec<Meaning>,
     pub time: Symbol,
     pub doc: String,
@@ -59,7 +59,7 @@ pub struct Model {
     pub inputs: Vec<Quantity>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
-    /// What each coordinate moves.
+    /// The inertia of each coordinate.
     pub inertias: Vec<Inertia>,
     pub motion: Motion,
     pub constraints: Vec<Constraint>,
@@ -67,7 +67,7 @@ pub struct Model {
     pub loads: Vec<Load>,
     /// Loads that depend on multipliers.
     pub reactive_loads: Vec<ReactiveLoad>,
-    /// What properties of joints and elements have to satisfy.
+    /// The checks on properties of joints and elements.
     pub checks: Vec<Check>,
     /// Places of springs that must not coincide.
     pub gaps: Vec<Gap>,
@@ -84,7 +84,7 @@ pub struct Model {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// What a symbol stands for.
+/// The meaning of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Time,
@@ -106,7 +106,7 @@ pub struct Parameter {
 pub struct Requirement {
     /// The parameter whose condition it is, or the left side as it was written.
     pub name: String,
-    /// What that is.
+    /// The value of the parameter or of the left side.
     pub value: Expr,
     /// left − right
     pub difference: Expr,
@@ -172,7 +172,7 @@ pub struct Check {
     pub value: Expr,
     pub is_strict: bool,
     pub property: &'static str,
-    /// What has it.
+    /// The name of the joint or element.
     pub owner: String,
     pub span: Span,
     /// How to mend a declared value that is 0, where 0 is not allowed.
@@ -180,7 +180,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// What has to hold.
+    /// The condition in words.
     pub fn rule(&self) -> &'static str {
         if self.is_strict { "it has to be positive" } else { "it must not be negative" }
     }

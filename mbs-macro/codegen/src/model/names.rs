@@ -26,7 +26,7 @@ pub struct Typed {
     pub dimension: Option<Dimension>,
 }
 
-/// What a name in a formula stands for.
+/// The meaning of a name in a formula.
 pub enum Value<'a> {
     Symbol {
         symbol: Symbol,

@@ -11,7 +11,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::Placed;
 use crate::syntax::{Attachment, Vector};
 
-/// What a body without coordinates, at the origin, is called.
+/// The name of the body without coordinates, at the origin.
 pub const GROUND: &str = "ground";
 
 /// Words behind a dot that are no points.

@@ -137,7 +137,7 @@ impl<'a> Resolver<'a> {
         self.scope.energies = Some(Energies { inertias: self.inertias(), springs });
     }
 
-    /// What each coordinate moves.
+    /// The inertia of each coordinate.
     fn inertias(&self) -> Vec<Inertia> {
         let gravity = self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity);
         let inertia = |coordinate: &Coordinate| {
@@ -152,7 +152,7 @@ impl<'a> Resolver<'a> {
         self.coordinates.iter().map(inertia).collect()
     }
 
-    /// What nothing else has asked for still has to be right.
+    /// Resolves the definitions that nothing else has asked for, so that their errors are found.
     fn resolve_rest(&mut self) {
         let untouched: Vec<String> = self
             .scope

@@ -1,5 +1,5 @@
-//! What a picture of the mechanism needs: the points of bodies, and what joins
-//! them. Read once everything else is, so that it cannot change the equations.
+//! The sketch of the mechanism: the points of bodies, and the links between
+//! them. It is read once everything else is, so that it cannot change the equations.
 
 use std::collections::BTreeMap;
 
@@ -155,7 +155,7 @@ impl Resolver<'_> {
             known.get(&(place.body.to_string(), point)).copied()
         };
         let (Some(first), Some(second)) = (position(first), position(second)) else { return };
-        // What is wrong with a direction has been said already.
+        // Errors of a direction have been reported already.
         let errors = &mut Diagnostics::default();
         let along = along.and_then(|vector| {
             let x = self.scope.formula(&vector.x, Place::Property, errors)?;

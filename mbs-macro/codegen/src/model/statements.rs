@@ -246,7 +246,7 @@ impl<'a> Resolver<'a> {
         });
     }
 
-    /// What binds a parameter of an assembly has the parameter's dimension.
+    /// Checks that a value bound to a parameter of an assembly has the parameter's dimension.
     fn check_binding(&mut self, name: &Ident, value: &Formula, default: &Formula) {
         let default = self.scope.formula(default, Place::Constant, &mut self.errors);
         let Some(dimension) = default.and_then(|default| default.dimension) else { return };

@@ -93,7 +93,7 @@ fn kinds(
 }
 
 /// A step gives what its stages give one after the other, with numbers without any relation
-/// for all that it depends on: bit for bit but for the sign of a zero. What is not finite
+/// for all that it depends on: bit for bit but for the sign of a zero. A result that is not finite
 /// tells nothing: there a step is made again in stages.
 fn check(
     model: &Model,
@@ -257,9 +257,9 @@ impl Fusion {
         })
     }
 
-    /// What is left of an operation on the zero that stands for feedback: the same up
-    /// to the sign of a zero where all is finite, and what is not finite shows in the
-    /// first stage, which has the feedback in this place.
+    /// The rest of an operation on the zero that stands for feedback. Where all is finite, the result
+    /// is the same up to the sign of a zero. A number that is not finite shows in the first stage, which
+    /// has the feedback in this place.
     fn without_zero(&mut self, operation: Operation, a: Operand, b: Operand) -> Option<Operand> {
         let is_zero = |operand| matches!(operand, Operand::Number(number) if number == Number::ZERO);
         match (operation, is_zero(a), is_zero(b)) {

@@ -70,7 +70,7 @@ fn extreme_mass(model: &Model, equations: &Equations) -> Option<f64> {
     (mean.abs() > LARGEST_MASS_EXPONENT).then(|| (mean / 2_f64.log10()).round().exp2())
 }
 
-/// What is to be solved, and for which states.
+/// The equations to be solved, and the states that they are solved for.
 #[derive(Clone, Copy)]
 pub struct Problem<'a> {
     pub equations: &'a Equations,
@@ -92,7 +92,7 @@ pub struct Solver {
 /// chain, and is given up.
 const LARGEST_FILL: usize = 24;
 
-/// What the function that runs most costs with an elimination.
+/// The cost of the function that runs most, with an elimination.
 #[derive(Clone, Copy)]
 struct Cost {
     operations: u32,
@@ -179,7 +179,7 @@ impl Solver {
         Ok(open)
     }
 
-    /// What the function that runs most costs.
+    /// The cost of the function that runs most.
     fn cost(&self, model: &mut Model, problem: Problem<'_>) -> Result<Cost, Unsolvable> {
         let roots = self.stabilized(model, problem);
         let program = lower(&mut model.arena, &roots, &mut Hoisted::default(), model.solver.unrolled())?;

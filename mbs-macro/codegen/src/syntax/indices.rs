@@ -72,7 +72,7 @@ impl Indices {
     /// The value of a whole expression.
     ///
     /// # Errors
-    /// What is not whole, or not known.
+    /// A value that is not whole, or a name that is not known.
     pub fn evaluate(&self, tokens: TokenStream) -> Result<i64> {
         let parser = |input: ParseStream<'_>| {
             let value = self.sum(input)?;
@@ -207,7 +207,7 @@ pub fn regrouped(group: &Group, content: TokenStream) -> Group {
     regrouped
 }
 
-/// What stands behind the name of an input or output ends with its unit:
+/// The brackets behind the name of an input or output, without the unit at their end:
 /// `[N]` there is newton, whatever `N` is.
 fn without_unit(brackets: &[TokenTree]) -> &[TokenTree] {
     match brackets.split_last() {

@@ -13,7 +13,7 @@ use super::{Attachment, Clause, ItemKind, Joint};
 use crate::diagnostics::nearest;
 use crate::mechanics::joints::{ClauseKind, JOINTS, JointKind};
 
-/// What stands for the word of a clause that begins with `=`.
+/// Stands for the word of a clause that begins with `=`.
 const EQUALS: &str = ClauseKind::EQUALS;
 
 /// A kind of joint by a word that declares it.

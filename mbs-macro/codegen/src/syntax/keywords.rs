@@ -15,16 +15,16 @@ use crate::mechanics::joints::JOINTS;
 pub struct Keyword {
     /// The word.
     pub word: &'static str,
-    /// What it declares.
+    /// The kind of statement.
     pub kind: KeywordKind,
     /// How the statement is written; of a joint or an element, what stands
     /// behind its name.
     pub form: &'static str,
-    /// What it does, in a few words.
+    /// Its effect, in a few words.
     pub meaning: &'static str,
 }
 
-/// What a statement declares.
+/// A kind of statement, by what it declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeywordKind {
     /// Quantities, bodies, equations, loads, settings.
@@ -129,7 +129,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["component", "subsystem", "module", "submodel"], "a part that is used more than once is an `assembly`"),
 ];
 
-/// What to write for a word that other programs know.
+/// The help for a word that other programs know.
 pub fn neighbour(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase();
     NEIGHBOURS.iter().find(|(words, _)| words.contains(&word.as_str())).map(|(_, help)| *help)

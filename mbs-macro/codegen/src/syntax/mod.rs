@@ -104,7 +104,7 @@ pub enum ItemKind {
     Output { name: Ident, unit: Option<UnitText>, value: Formula },
 }
 
-/// What an equation is to the mechanism.
+/// The role of an equation in the mechanism.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     Constraint,
@@ -126,7 +126,7 @@ pub struct Condition {
     pub left_text: String,
 }
 
-/// What `limit` bounds.
+/// A quantity that `limit` bounds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Limited {
     /// Operations that one evaluation of the right-hand side may take.
@@ -165,7 +165,7 @@ pub struct Joint {
     pub clauses: Vec<Clause>,
 }
 
-/// What a joint says behind its two places.
+/// A clause of a joint, behind its two places.
 #[derive(Clone)]
 pub enum Clause {
     /// `along (1, 0)`: a direction in the frame of the second body.

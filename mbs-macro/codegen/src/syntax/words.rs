@@ -1,4 +1,4 @@
-//! What all statements are made of: names, paths, signs and blocks.
+//! The parts of all statements: names, paths, signs and blocks.
 
 use mbs_symbolic::units;
 use proc_macro2::{Ident, Span};
@@ -95,7 +95,7 @@ fn unexpected(input: ParseStream<'_>, span: Span) -> Error {
     }
 }
 
-/// What follows has to be this word.
+/// Reads a word, which has to be the expected one.
 pub(super) fn expect_word(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {
     let span = input.span();
     if Ident::parse_any(input).is_ok_and(|word| word == expected) {
@@ -104,7 +104,7 @@ pub(super) fn expect_word(input: ParseStream<'_>, expected: &str, example: &str)
     Err(Error::new(span, format!("`{expected}` is expected before this, as in `{example}`")))
 }
 
-/// What follows has to be `{ … }`.
+/// Checks that `{ … }` follows.
 pub(super) fn block(input: ParseStream<'_>, example: &str) -> Result<()> {
     if input.peek(token::Brace) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What a compiled mechanism is printed as. A target sees [`Compiled`](crate::Compiled)
+//! Targets: the forms in which a compiled mechanism is printed. A target sees [`Compiled`](crate::Compiled)
 //! alone.
 
 mod c;

@@ -1,4 +1,4 @@
-//! What targets say of quantities, of pivots and of errors of runs.
+//! The words of targets for quantities, pivots and errors of runs.
 
 use std::fmt::Write;
 
@@ -34,7 +34,7 @@ pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
     text
 }
 
-/// What a quantity is, with its article: `a length [m]`, `an angle [rad]`.
+/// The kind of a quantity, with its article: `a length [m]`, `an angle [rad]`.
 fn kind(quantity: &Quantity) -> String {
     let is_angle = |unit| units::lookup(unit).is_some_and(|unit| unit.dimension == Dimension::NONE);
     match quantity.dimension == Dimension::NONE {

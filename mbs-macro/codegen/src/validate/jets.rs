@@ -61,7 +61,7 @@ impl Jet {
         [self.first, self.second].iter().all(|x| x.value == 0.0 && x.error == 0.0)
     }
 
-    /// f(x) from f, f′ and f″ at x: (f∘x)″ = f″ x′² + f′ x″. What does not move
+    /// f(x) from f, f′ and f″ at x: (f∘x)″ = f″ x′² + f′ x″. A value that does not move
     /// may stand where f has no derivative.
     fn chain(self, f: Rounded, df: Rounded, ddf: Rounded) -> Self {
         if self.is_still() {

@@ -1,4 +1,4 @@
-//! What must hold before a target sees a mechanism: it closes from its start and is regular
+//! Checks of a mechanism before a target sees it: it closes from its start and is regular
 //! there, keeps its promises, and its programs compute what was declared.
 //!
 //! # How it works

@@ -7,8 +7,8 @@ use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::independence::assembly::Position;
 use crate::model::{Model, Start};
 
-/// What a declared value may be off by, as a share of the size of the mechanism, or
-/// in radians; a rate as a share of the fastest one. Published starts are printed to
+/// The deviation that a declared value may have, as a share of the size of the mechanism, or
+/// in radians; that of a rate is a share of the fastest one. Published starts are printed to
 /// four digits and are corrected by less.
 const SHARE: f64 = 1e-3;
 

@@ -1,7 +1,7 @@
-//! What is about to be emitted, against an independent evaluation of what was
-//! declared: functions (`functions`) against Φ along curves and forces and energies
-//! from their definitions, the solved equations (`solutions`) put back into
-//! themselves.
+//! Checks of the programs that are about to be emitted, against an independent
+//! evaluation of the declaration. `functions` compares programs with Φ along curves,
+//! and with forces and energies from their definitions. `solutions` puts solutions back
+//! into the equations.
 
 mod bodies;
 mod functions;
@@ -94,7 +94,7 @@ fn has_extreme_numbers(model: &Model, plan: &Plan) -> bool {
     in_code || model.parameters.iter().any(|parameter| is_extreme(parameter.value))
 }
 
-/// What is wrong, in words.
+/// The result of a check; its error is the fault in words.
 type Check = Result<(), String>;
 
 #[derive(Clone, Copy)]

@@ -72,7 +72,7 @@ impl<'a> Algebra<'a> {
         self.make(terms, |arena, terms| arena.sum(&terms))
     }
 
-    /// The one place where the arena is changed. What changes it captures nothing, so it
+    /// The one place where the arena is changed. The given function captures nothing, so it
     /// cannot come back here.
     fn make<T>(&'a self, operands: T, make: fn(&mut Arena, T) -> Expr) -> Scalar<'a> {
         let expr = make(&mut self.arena.borrow_mut(), operands);

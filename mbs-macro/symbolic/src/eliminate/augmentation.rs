@@ -70,7 +70,7 @@ impl Work<'_> {
         self.arena.product(&[(mass, 1), (size, -1)])
     }
 
-    /// What a coordinate with a mass of its own weighs at least.
+    /// A lower bound of the mass of a coordinate; `None` for one without a mass of its own.
     fn mass_of(&mut self, unknown: Unknown) -> Option<Expr> {
         let mass = self.matrix.get(unknown, unknown).filter(|_| self.matrix.is_massive(unknown))?;
         self.arena.anchor(mass)

@@ -14,9 +14,9 @@ use crate::number::Number;
 /// One step of the elimination, for people to read.
 #[derive(Clone, Debug)]
 pub struct Elimination {
-    /// What is eliminated: one unknown, a row with its coordinate, or a row with two.
+    /// The eliminated unknowns: one alone, a row with its coordinate, or a row with two.
     pub unknowns: Vec<Unknown>,
-    /// What the step divides by.
+    /// The divisor of the step.
     pub pivot: Expr,
 }
 
@@ -50,10 +50,10 @@ pub(super) struct Work<'a> {
     pub(super) gross: BTreeMap<Unknown, Expr>,
     /// Entries that were reduced by a later pivot of their own kind.
     pub(super) reduced: BTreeSet<Unknown>,
-    /// What a diagonal entry is measured against, in parameters alone; filled
+    /// The sizes that diagonal entries are measured against, in parameters alone; filled
     /// when the first diagonal pivot is taken.
     pub(super) scales: Option<BTreeMap<Unknown, Expr>>,
-    /// What the pivot of the step before left of rows.
+    /// The diagonal entries of rows that the pivot of the step before reduced.
     reductions: BTreeMap<Unknown, Reduction>,
     pub(super) is_open: bool,
     pub(super) steps: Vec<Step>,

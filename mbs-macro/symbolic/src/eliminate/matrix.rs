@@ -23,7 +23,7 @@ pub struct Kkt {
     massive: BTreeSet<Unknown>,
     /// Coordinates that are angles: entries of theirs are not compared with those of lengths.
     angles: BTreeSet<Unknown>,
-    /// What masses are measured in, beside the factor that they share.
+    /// The unit in which masses are measured, beside the factor that they share.
     mass_unit: Option<Number>,
 }
 

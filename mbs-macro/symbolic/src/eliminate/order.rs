@@ -43,7 +43,7 @@ pub(super) enum Pivot {
     Loop { row: Unknown, coordinates: [Unknown; 2] },
 }
 
-/// What is done next.
+/// The next step of the elimination.
 pub(super) enum Next {
     Pivot(Pivot),
     /// These rows are added to the mass block, see [`super::augmentation`].
@@ -51,7 +51,7 @@ pub(super) enum Next {
 }
 
 impl Pivot {
-    /// What it takes out.
+    /// The unknowns that it takes out.
     pub fn unknowns(self) -> Vec<Unknown> {
         match self {
             Self::Pair { row, coordinate } => vec![row, coordinate],
@@ -77,7 +77,7 @@ impl fmt::Display for Undetermined {
 
 impl std::error::Error for Undetermined {}
 
-/// What makes a pivot safe, best first.
+/// The reasons for which a pivot is safe, best first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Class {
     /// A pair with a coefficient that is a number.
@@ -94,7 +94,7 @@ enum Class {
 /// How much larger another constant of a row may be than its pivot.
 const LARGEST_WEIGHT: f64 = 1e3;
 
-/// What speaks for a pivot, the best one least: whether it is not urgent, its
+/// The key by which pivots are compared, the best one least: whether it is not urgent, its
 /// cost, class and depth as the strategy weighs them, and its place in the mechanism.
 type Key = (bool, [usize; 3], Unknown);
 
@@ -187,7 +187,7 @@ impl Order {
         }
     }
 
-    /// What is done next; `None` when nothing is left.
+    /// Chooses the next step; `None` when nothing is left.
     ///
     /// Pairs come first as long as a mass is uncertain: a mass that is eliminated
     /// leaves no 0 on the diagonal of its rows.

@@ -1,4 +1,4 @@
-//! What is known of a value whatever the position: a bound, a sign.
+//! Bounds and signs of values at any position.
 
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;

@@ -1,4 +1,4 @@
-//! What each elimination step does to a right-hand side, there and back.
+//! The effect of each elimination step on a right-hand side, there and back.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::sums::Sums;
 use crate::arena::{Arena, Expr};
 use crate::number::Number;
 
-/// What a step keeps of a right-hand side for the way back: (g, f) of a pair,
+/// The numbers that a step keeps of a right-hand side for the way back: (g, f) of a pair,
 /// b/d of a diagonal pivot, (y, h/s, f, g) of a loop; the rest is 0.
 pub(super) type Half = [Expr; 4];
 

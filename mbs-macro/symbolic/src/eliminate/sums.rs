@@ -7,7 +7,7 @@ use crate::number::Number;
 /// are used.
 pub(super) const LONGEST_OPEN: usize = 12;
 
-/// What becomes of the sums that a right-hand side goes through in the steps of an elimination.
+/// The form of the sums that a right-hand side goes through in the steps of an elimination.
 /// The solution is the same; which form is cheaper depends on the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sums {

@@ -33,7 +33,7 @@ pub struct WatchedPivot {
     pub coordinate: Option<usize>,
     /// Its growth.
     pub growth: Expr,
-    /// What of it is linear in 1/pivot, and the square of the rest.
+    /// The part of the growth that is linear in 1/pivot, and the square of the rest.
     parts: [Option<Expr>; 2],
     /// Whether the growth can signal a lost pivot before it is exactly 0.
     pub can_cancel: bool,
@@ -70,7 +70,7 @@ impl Work<'_> {
         self.watch(Some(row), Some(coordinate), [Some(growth), None], can_cancel);
     }
 
-    /// What a pivot without a bound is measured against: Σ |Φ_q| over the coordinates of its
+    /// The size that a pivot without a bound is measured against: Σ |Φ_q| over the coordinates of its
     /// row that are of its own kind, itself included. Left out where it is the only one.
     ///
     /// Of x² + y² = l² with a driven x the pivot is 2y, of one term that cannot cancel; it

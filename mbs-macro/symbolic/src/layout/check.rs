@@ -14,7 +14,7 @@ use crate::inconsistency::Inconsistency;
 use crate::probe;
 use crate::program::{Operand, Program};
 
-/// What a layout promises.
+/// The error of a layout that breaks its promise.
 const PROMISE: Inconsistency =
     Inconsistency { pass: "layout", rule: "loops and slots compute what the program does" };
 
@@ -30,7 +30,7 @@ pub(super) fn check<V: Copy + Eq + Hash>(
     compare(program, program, layout, components)
 }
 
-/// What is laid out gives what is expected.
+/// Checks that the program that is laid out gives the results of the expected one.
 fn compare<V: Copy + Eq + Hash>(
     expected: &Program,
     laid_out: &Program,
@@ -69,7 +69,7 @@ fn vectors<V: Copy + Eq + Hash>(
     operands.filter_map(component).collect()
 }
 
-/// What is there before the first part.
+/// The numbers that are there before the first part.
 struct Given<'a, V> {
     symbol: &'a dyn Fn(Symbol) -> f64,
     hoisted: &'a dyn Fn(usize) -> f64,
@@ -80,7 +80,7 @@ struct Run<'a, V> {
     program: &'a Program,
     layout: &'a Layout<V>,
     given: Given<'a, V>,
-    /// What the arrays hold.
+    /// The contents of the arrays.
     kept: HashMap<Place, f64>,
 }
 
@@ -178,7 +178,7 @@ impl<V: Copy + Eq + Hash> Run<'_, V> {
         frame.results.into_iter().collect()
     }
 
-    /// What a column has for a copy.
+    /// The number that a column has for a copy.
     fn element(&self, repeated: &Loop<V>, column: &Column<V>, copy: usize) -> Option<f64> {
         let place = |rule: &Rule| rule.at(copy, &repeated.tables);
         match column {

@@ -14,11 +14,11 @@ use crate::program::{Instruction, Operand, Program};
 /// long on pairs, with 32 operations in place of 34.
 const OF_EIGHT: usize = 7;
 
-/// What a copy of a loop does, on pairs.
+/// A copy of a loop as steps on pairs.
 ///
 /// A copy reads all of its columns before it stores anything.
 pub struct WovenCopy {
-    /// What the copy is given: the symbols of its steps are positions in this list.
+    /// The operands that the copy is given: the symbols of its steps are positions in this list.
     pub given: Vec<Read>,
     /// The steps. The first outputs are what the [carried](Loop::carried) variables take for the
     /// next copy, in their order; then come the results of `kept`.
@@ -30,7 +30,7 @@ pub struct WovenCopy {
 }
 
 impl<V> Loop<V> {
-    /// What a copy does, on pairs. Nothing is returned if pairs save less than an eighth of its
+    /// A copy as steps on pairs. Nothing is returned if pairs save less than an eighth of its
     /// operations, if it takes sines, because those of pairs have a bounded range, or if it reads
     /// from a column what it has stored itself.
     ///
@@ -41,7 +41,7 @@ impl<V> Loop<V> {
         if copy.program.instructions.iter().any(is_sine_or_cosine) || self.reads_what_it_stores(program) {
             return Ok(None);
         }
-        // What a pair gains depends on which carried variables are lanes of a vector, and that shows
+        // The gain of a pair depends on which carried variables are lanes of a vector, and that shows
         // only when the pairs are chosen. So the first try takes all that could be lanes for such, and
         // every later one those that became lanes in the try before.
         let mut best = copy.weave(&|a, b| copy.are_alike(a, b));

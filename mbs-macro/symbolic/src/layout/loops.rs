@@ -9,7 +9,7 @@ use crate::program::Operand;
 pub struct Loop<V> {
     /// The instructions.
     pub repetition: Repetition,
-    /// What a copy does, one step per instruction.
+    /// The steps of a copy, one per instruction.
     pub steps: Vec<Step>,
     /// Variables that hold a result of the copy before.
     pub carried: Vec<Carried>,
@@ -40,7 +40,7 @@ pub enum Read {
     Own(usize),
     /// One of the [carried](Loop::carried) variables, by position.
     Carried(usize),
-    /// What one of the [columns](Loop::columns) has for the copy, by position.
+    /// The operand that one of the [columns](Loop::columns) has for the copy, by position.
     Each(usize),
 }
 

@@ -12,7 +12,7 @@ use crate::inconsistency::Inconsistency;
 use crate::program::Operand;
 use crate::repetition::Source;
 
-/// What ends a plan.
+/// The error that ends a plan.
 const ONE_ARRAY: Inconsistency =
     Inconsistency { pass: "layout", rule: "the copies of a loop read an operand from one array" };
 
@@ -52,7 +52,7 @@ impl<V: Copy + Eq + Hash> Loop<V> {
     }
 }
 
-/// What is known of a loop so far.
+/// The parts of a loop that are known so far.
 struct Planner<'a, V> {
     repetition: Repetition,
     places: &'a Slots,
@@ -129,7 +129,7 @@ impl<'a, V: Copy + Eq> Planner<'a, V> {
         }
     }
 
-    /// What is stored of the results of a step.
+    /// The results of a step that are stored.
     fn keep(&mut self, at: usize) -> Kept {
         let Repetition { start, length, count } = self.repetition;
         let copies = (0..count).map(|copy| self.places.of(start + at + copy * length));

@@ -70,7 +70,7 @@ struct Work {
     holders: HashMap<Pair, Holders>,
     /// Pairs in two rows or more, by their rank; entries may be out of date.
     queue: BinaryHeap<(Rank, Reverse<Pair>)>,
-    /// What the rows take: one less than they have members.
+    /// The operations of the rows. A row takes one operation less than it has members.
     operations: usize,
 }
 

@@ -84,7 +84,7 @@ fn sinks(flat: &Flat, order: &[Value]) -> Vec<Vec<Sink>> {
     sinks
 }
 
-/// What occurs an odd number of times: a sign that enters twice cancels. Once is
+/// The sinks that occur an odd number of times: a sign that enters twice cancels. Once is
 /// enough to keep a value fixed.
 fn odd(mut sinks: Vec<Sink>) -> Vec<Sink> {
     sinks.sort_unstable();

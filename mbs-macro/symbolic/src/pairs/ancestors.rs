@@ -1,4 +1,4 @@
-//! What waits for what.
+//! The dependencies between the instructions of a program, direct and indirect.
 
 use crate::program::{Operand, Program};
 

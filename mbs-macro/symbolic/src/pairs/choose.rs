@@ -15,8 +15,8 @@ use super::trial::Trial;
 use super::{Angles, Kind, Lane, Layout, Partner, is_sine_or_cosine, kind, matchings};
 use crate::program::{Instruction, Operand, Program};
 
-/// What moves cost, in operations: those into both lanes are used again and again,
-/// and those of constants are done before a loop.
+/// The costs of moves, in operations. Moves into both lanes are used again and again,
+/// and moves of constants are done before a loop.
 const JOIN: f32 = 1.0;
 const JOIN_CONSTANTS: f32 = 0.5;
 const SPLAT: f32 = 0.4;
@@ -36,7 +36,7 @@ const DEPTH: usize = 8;
 
 pub(super) fn choose(program: &Program, angles: &Angles, layout: &Layout<'_>) -> Vec<Option<Partner>> {
     let mut chooser = Chooser::new(program, angles, layout);
-    // What was not worth it alone may be once its users are pairs. Every pass but the last
+    // A pair that was not worth it alone may be once its users are pairs. Every pass but the last
     // takes a pair, and none is given up.
     while chooser.pass() {}
     chooser.partners
@@ -167,7 +167,7 @@ impl<'a> Chooser<'a> {
         format!("{name}({}{})", operands[0], operands[1])
     }
 
-    /// What a seed gains; the trial is then what grows from it.
+    /// A seed with its gain. The trial then has the pairs that grow from it.
     fn judge(&self, x: usize, y: usize, trial: &mut Trial) -> Seed {
         trial.truncate(0);
         let gain = if self.can_pair(x, y, trial) { self.grow(x, y, trial, 0) } else { 0.0 };
@@ -193,7 +193,7 @@ impl<'a> Chooser<'a> {
         self.partners[x].is_some() || trial.partner(x).is_some()
     }
 
-    /// What the pair gains with the best of what its operands can do.
+    /// The gain of the pair and of all that grows from its operands, in their most likely matching.
     fn grow(&self, x: usize, y: usize, trial: &mut Trial, depth: usize) -> f32 {
         trial.push(x, y);
         let [left, right] = [x, y].map(|at| &self.program.instructions[at]);
@@ -218,7 +218,7 @@ impl<'a> Chooser<'a> {
         gain
     }
 
-    /// What using these two as a pair costs, or gains if they become one.
+    /// The gain of using these two as a pair: that of pairing them, or minus the cost of moves.
     fn of_operands(&self, a: &Operand, b: &Operand, trial: &mut Trial, depth: usize) -> f32 {
         let (&Operand::Value(x), &Operand::Value(y)) = (a, b) else {
             return -self.cost_of_given(a, b);
@@ -357,7 +357,7 @@ fn turns(program: &Program, angles: &Angles) -> Vec<usize> {
     program.instructions.iter().enumerate().map(of_pair).collect()
 }
 
-/// What a pair and all that grows from it gain.
+/// A pair, and the gain of it and of all that grows from it.
 #[derive(Clone, Copy, PartialEq)]
 struct Seed {
     gain: f32,

@@ -116,7 +116,7 @@ struct Partner {
     lane: Lane,
 }
 
-/// What instructions have in common that can share a vector.
+/// The kind of operation that the instructions of a vector have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Kind {
     Sum,

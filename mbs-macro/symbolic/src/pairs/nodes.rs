@@ -1,4 +1,4 @@
-//! What is computed at once, in an order in which it can be.
+//! Groups of instructions that are computed at once, in an order in which they can be.
 
 use crate::program::{Operand, Program};
 

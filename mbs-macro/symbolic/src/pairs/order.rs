@@ -36,7 +36,7 @@ pub(super) fn in_order(woven: &Woven, layout: &Layout<'_>) -> Woven {
     }
 }
 
-/// What waits for what, by steps. Cosines come with their sines: they wait for the same, and what
+/// The steps that each step waits for. Cosines come with their sines: they wait for the same, and what
 /// waits for them waits for the sines.
 struct Graph {
     /// The steps of the same run that a step waits for.
@@ -65,8 +65,8 @@ impl Graph {
         }
     }
 
-    /// The steps in the order of their times. What a step waits for has an earlier time, or the same
-    /// one and stands before it as it did.
+    /// The steps in the order of their times. A step that another one waits for has an earlier time, or
+    /// the same one and stands before it as it did.
     fn order(&self, steps: &[Step]) -> Vec<usize> {
         let heights = self.heights();
         let mut order: Vec<usize> = (0..steps.len()).collect();

@@ -15,7 +15,7 @@ pub enum Lane {
     Second,
 }
 
-/// What is there before the first step.
+/// A scalar that is there before the first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// A constant.
@@ -82,7 +82,7 @@ impl Term {
     }
 }
 
-/// What a step computes; pairs are named by the position of their steps.
+/// A step of a program on pairs; pairs are named by the position of their steps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// A scalar, by an operation on scalars (the second is the first again where

@@ -40,7 +40,7 @@ impl<'a> Element<'a> {
     }
 }
 
-/// What comes of an element.
+/// The forces, energies and other effects of an element.
 pub struct Effects<'m> {
     motion: &'m Motion,
     pub applied: Vec<Applied>,

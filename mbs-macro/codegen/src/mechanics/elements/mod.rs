@@ -29,21 +29,21 @@ pub const ELEMENTS: &[&ElementKind] = &[
 pub struct ElementKind {
     /// The word that declares it.
     pub word: &'static str,
-    /// What it does.
+    /// Its effect in words.
     pub meaning: &'static str,
-    /// What follows its name.
+    /// An example of the text behind its name.
     pub example: &'static str,
     pub places: Places,
     pub properties: &'static [Property],
     /// Whether the properties that are given say what it does.
     pub said: fn(&Given<'_>) -> Result<(), Unsaid>,
-    /// What has to move, at least one of these.
+    /// The lengths or angles of which at least one has to depend on coordinates.
     pub moved: for<'a> fn(&Element<'a>) -> Vec<Scalar<'a>>,
     /// How to mend one of which nothing moves.
     pub mend: &'static str,
-    /// What joints must leave free between its places.
+    /// The motion that joints must leave free between its places.
     pub needs: Option<Freedom>,
-    /// What comes of it; nothing where a property is missing, which has its error.
+    /// Adds its effects; `None` where a property is missing, which has its error.
     pub forces: for<'a> fn(&Element<'a>, &mut Effects<'_>) -> Option<()>,
 }
 
@@ -61,9 +61,9 @@ pub enum Places {
 /// A motion that an element needs.
 #[derive(Clone, Copy)]
 pub struct Freedom {
-    /// What would take it away.
+    /// The kind of row that takes it away.
     pub from: Holds,
-    /// What something does that has it.
+    /// The verb for it, such as `slides`.
     pub verb: &'static str,
     /// How to mend an element without it.
     pub mend: &'static str,

@@ -7,7 +7,7 @@ pub const TORQUE: Dimension = Dimension::of(1, 2, -2);
 pub const RATE: Dimension = Dimension::of(0, 0, -1);
 pub const SPEED: Dimension = Dimension::of(0, 1, -1);
 
-/// What is known of a property.
+/// A property of an element, and the values that it takes.
 pub struct Property {
     pub name: &'static str,
     pub dimension: Dimension,

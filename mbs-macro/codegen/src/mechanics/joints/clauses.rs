@@ -1,4 +1,4 @@
-//! What joints can say behind their places.
+//! The clauses that joints can have behind their places.
 
 use std::fmt;
 
@@ -39,7 +39,7 @@ impl ClauseKind {
         Self::Profile,
     ];
 
-    /// What stands for the word of a clause that begins with `=`.
+    /// Stands for the word of a clause that begins with `=`.
     pub const EQUALS: &'static str = "= …";
 
     /// The word with which it begins. A joint takes one kind of each word.

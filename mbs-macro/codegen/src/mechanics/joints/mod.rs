@@ -44,7 +44,7 @@ pub const JOINTS: &[&JointKind] = &[
 pub struct JointKind {
     /// The word that declares it.
     pub word: &'static str,
-    /// What it does.
+    /// Its effect in words.
     pub meaning: &'static str,
     /// Another word for it, and what that says it does.
     pub also: Option<(&'static str, &'static str)>,
@@ -56,27 +56,27 @@ pub struct JointKind {
     pub takes: &'static [ClauseKind],
     /// Its equations, in the order of their names.
     pub rows: &'static [Row],
-    /// What has to be able to turn against what.
+    /// The parts that have to be able to turn, each with the part against which it turns.
     pub turns: &'static [(Part, Part)],
-    /// What to do about a row in which nothing can move.
+    /// The remedy for a row in which nothing can move.
     pub mend: Mend,
 }
 
 /// An equation Φ = 0 of a joint.
 #[derive(Clone, Copy)]
 pub struct Row {
-    /// What stands behind the name of the joint in that of the row, as in `pin_x`.
+    /// The end of the name of the row behind that of the joint, as in `pin_x`.
     pub suffix: &'static str,
-    /// What it restricts, of a joint with several.
+    /// The restricted direction in words, such as ` along x`; it may be empty.
     pub restricts: &'static str,
     pub holds: Holds,
     pub phi: for<'a> fn(&Joint<'a>) -> Scalar<'a>,
-    /// What it exerts for λ = 1, where that is the opposite on both bodies and at a place
-    /// that is known.
+    /// The wrench on the second body for λ = 1. `None` unless the first body feels the opposite at a
+    /// known place.
     pub wrench: Option<for<'a> fn(&Joint<'a>) -> Wrench<'a>>,
 }
 
-/// What a row holds.
+/// The kind of quantity that a row holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Holds {
     /// A component of the place that both bodies have in common.
@@ -89,7 +89,7 @@ pub enum Holds {
     Turns,
 }
 
-/// What is exerted on the second body; the first feels the opposite.
+/// A force or a torque on the second body; the first feels the opposite.
 #[derive(Clone, Copy)]
 pub enum Wrench<'a> {
     /// In the ground frame.
@@ -97,7 +97,7 @@ pub enum Wrench<'a> {
     Torque(Scalar<'a>),
 }
 
-/// What to do about a row in which nothing can move.
+/// A remedy for a row in which nothing can move.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Mend {
     /// Remove the joint.
@@ -160,7 +160,7 @@ mod tests {
         all.all(|one| known.insert(one))
     }
 
-    /// What `PLAIN` leaves empty is said, and nothing is said twice.
+    /// Every kind has words, an example and rows, and nothing is named twice.
     #[test]
     fn every_kind_is_whole() {
         assert!(differ(JOINTS.iter().flat_map(|kind| kind.words().map(|(word, _)| word))));

@@ -20,12 +20,12 @@ pub fn entries(text: &'static str) -> impl Iterator<Item = (&'static str, &'stat
     text.lines().filter_map(|line| line.split_once(": "))
 }
 
-/// What a constraint says.
+/// The documentation of a constraint: its doc comment and its equation.
 pub fn constraint(constraint: &Constraint) -> String {
     format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
 }
 
-/// What builds the files; versions are those of the compiler of mechanisms.
+/// Fills in a file that builds the code; its version is that of the compiler of mechanisms.
 pub fn build(target: &Target<'_>, text: &str) -> String {
     text.replace("{name}", &target.names.prefix)
         .replace("{mechanism}", &target.compiled.name)

@@ -11,7 +11,7 @@ use super::Target;
 use super::names::plain;
 use crate::compiled::{Input, Vector};
 
-/// What stands before a member of a vector.
+/// The text before a member of a vector.
 fn before(vector: Vector) -> &'static str {
     match vector {
         Vector::Parameters => "m->parameters.",
@@ -66,7 +66,7 @@ pub struct Printer<'a> {
     target: &'a Target<'a>,
     program: &'a Program,
     pairs: SinCos,
-    /// What is printed here; results of other instructions are where they are kept.
+    /// The instructions that are printed here; results of others are where they are kept.
     range: Range<usize>,
     kept: Option<Kept<'a>>,
     printed: HashSet<usize>,

@@ -10,7 +10,7 @@ use crate::compiled::{Argument, Count, FunctionId, Kinds, Results};
 
 /// A function of C.
 pub struct Kernel {
-    /// What it does, as a comment.
+    /// Its documentation, as a comment.
     doc: String,
     /// Its head, without a semicolon.
     head: String,
@@ -20,7 +20,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// What the header says of it.
+    /// Its declaration in the header; empty if it is not public.
     pub fn declaration(&self) -> String {
         if self.is_public { format!("{}{};\n\n", self.doc, self.head) } else { String::new() }
     }
@@ -230,7 +230,7 @@ impl Output {
     }
 }
 
-/// What a function computes, and what that costs.
+/// The comment of a function: its results and its cost.
 fn documented(doc: &str, operations: &Operations, watch: u32, solves: bool) -> String {
     let returns = if solves { "\nReturns the pivot growth." } else { "" };
     let watch = if watch > 0 { format!(", and {watch} to watch pivots") } else { String::new() };

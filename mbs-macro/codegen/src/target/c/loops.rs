@@ -105,7 +105,7 @@ fn repeated(target: &Target<'_>, program: &Program, kept: Kept<'_>, part: &Loop<
     )
 }
 
-/// What differs from copy to copy of a loop.
+/// The operands that differ from copy to copy of a loop.
 struct Columns<'a> {
     target: &'a Target<'a>,
     kept: Kept<'a>,
@@ -133,7 +133,7 @@ impl Columns<'_> {
         })
     }
 
-    /// What a column has for a copy.
+    /// The element of a column for a copy.
     fn element(&mut self, at: usize) -> String {
         let (home, rule) = match &self.part.columns[at] {
             Column::Numbers(numbers) => {

@@ -3,8 +3,8 @@
 //! nothing, has no variables at file level, and needs `math.h` alone.
 //!
 //! Structs have a member per name of the declaration. Kernels, the functions that one
-//! program each computes, are printed by `kernels`; long ones as `loops`. What a run does
-//! with them is C text in `text`, the same for every mechanism.
+//! program each computes, are printed by `kernels`; long ones as `loops`. The C text in `text`
+//! makes a run of them. It is the same for every mechanism.
 //!
 //! In double precision the results are those of the Rust target to the bit, where a
 //! compiler neither contracts products and sums (`-ffp-contract=off`) nor uses registers that
@@ -48,7 +48,7 @@ pub struct File {
 /// A mechanism in C.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CSources {
-    /// What every name at file level begins with.
+    /// The beginning of every name at file level.
     pub prefix: String,
     /// The types and functions.
     pub header: File,
@@ -75,7 +75,7 @@ impl CSources {
     }
 }
 
-/// What is printed, and how.
+/// A mechanism to be printed, with its names and its type of numbers.
 struct Target<'a> {
     compiled: &'a Compiled,
     names: &'a Names,

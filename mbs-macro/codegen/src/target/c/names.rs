@@ -8,9 +8,9 @@ use crate::target::words::quantity;
 
 /// The names of a printed mechanism.
 pub struct Names {
-    /// What every name at file level begins with: `slider_crank`.
+    /// The beginning of every name at file level: `slider_crank`.
     pub prefix: String,
-    /// What every constant begins with: `SLIDER_CRANK`.
+    /// The beginning of every constant: `SLIDER_CRANK`.
     pub capitals: String,
     /// Those of parameters, inputs, coordinates, constraints and outputs, and of the coordinates
     /// that are integrated where these are not all.
@@ -19,7 +19,7 @@ pub struct Names {
 
 /// A struct of numbers.
 pub struct Struct {
-    /// What the numbers are, in the plural.
+    /// The kind of its numbers, in the plural.
     pub name: &'static str,
     pub doc: &'static str,
     pub members: Vec<Member>,

@@ -43,7 +43,7 @@ fn states(target: &Target<'_>) -> &'static str {
     }
 }
 
-/// What stands before everything else.
+/// The head of the source, before everything else.
 fn head(target: &Target<'_>) -> String {
     let [limit, epsilon] = match target.scalar {
         Scalar::Double => [GROWTH_LIMIT, f64::EPSILON],
@@ -61,7 +61,7 @@ fn head(target: &Target<'_>) -> String {
     text + "\n"
 }
 
-/// What leads from the stages of a step to the one behind them, or to its end.
+/// The table of the scheme, with its rows for the stages and for the end of a step, and its gains.
 fn scheme(target: &Target<'_>) -> String {
     let tableau = target.compiled.choices.scheme;
     let rows: Vec<&Row> = tableau.stages.iter().chain([&tableau.update]).collect();

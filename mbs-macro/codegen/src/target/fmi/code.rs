@@ -45,7 +45,7 @@ pub fn source(compiled: &Compiled, prefix: &str, references: &References, experi
         .replace("{mechanism}", &compiled.name)
 }
 
-/// What differs from mechanism to mechanism.
+/// The constants that differ from mechanism to mechanism.
 fn numbers(compiled: &Compiled, references: &References, experiment: Experiment) -> String {
     let mut text = String::from(
         "/* This mechanism. */\n\n/* Where the value references of each kind begin. */\nenum {\n",
@@ -97,5 +97,5 @@ fn numbers(compiled: &Compiled, references: &References, experiment: Experiment)
     text
 }
 
-/// What stands in the text in the place of the token.
+/// The placeholder of the token in the text.
 pub const TOKEN: &str = "{instantiation token}";

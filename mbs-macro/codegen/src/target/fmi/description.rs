@@ -9,14 +9,14 @@ use super::xml::Element;
 use super::{Experiment, Version};
 use crate::compiled::Compiled;
 
-/// What a description is written from.
+/// The data from which a description is written.
 pub struct Description<'a> {
     pub compiled: &'a Compiled,
     pub references: &'a References,
     pub variables: &'a [Variable],
-    /// What the files of code and the binary are called.
+    /// The name of the files of code and of the binary.
     pub identifier: &'a str,
-    /// What ties the description to the binary.
+    /// The token that ties the description to the binary.
     pub token: &'a str,
     pub experiment: Experiment,
     /// The files of code.

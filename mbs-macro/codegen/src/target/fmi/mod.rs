@@ -2,7 +2,7 @@
 //! importers, and the functions of the standard around its C code, for model exchange and for
 //! co-simulation.
 //!
-//! What is to be packed into an FMU stands in [`Fmu`]; one binary serves both versions, since their
+//! [`Fmu`] has the files that are packed into an FMU. One binary serves both versions, since their
 //! functions have different names.
 //!
 //! # How it works
@@ -53,7 +53,7 @@ impl Version {
     }
 }
 
-/// What an importer is proposed to do.
+/// The experiment that is proposed to an importer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Experiment {
     /// The step of co-simulation in s: a communication step is divided into steps of this length, or a
@@ -66,7 +66,7 @@ pub struct Experiment {
 /// The files of a functional mock-up unit, without binaries and pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fmu {
-    /// What the binary is called, without its ending.
+    /// The name of the binary, without its ending.
     pub identifier: String,
     /// `modelDescription.xml` of each version.
     pub descriptions: [(Version, String); 2],

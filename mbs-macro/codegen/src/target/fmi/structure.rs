@@ -1,5 +1,5 @@
-//! What depends on what: which results a given number reaches at once, and not only through an
-//! integrator. Importers order their calls by it, and look for loops.
+//! Dependencies: which results a given number reaches at once, and not only through an
+//! integrator. Importers order their calls by them, and look for loops.
 
 use std::collections::BTreeSet;
 
@@ -43,7 +43,7 @@ pub struct Dependencies<'a> {
     /// Of every coordinate, what its position depends on, and its velocity: themselves, if they are
     /// integrated.
     places: [Vec<BTreeSet<usize>>; 2],
-    /// What accelerations and multipliers depend on, which are solved for together.
+    /// The dependencies of accelerations and multipliers, which are solved for together.
     reactions: BTreeSet<usize>,
 }
 
@@ -59,23 +59,23 @@ impl<'a> Dependencies<'a> {
         Self { reactions, ..placed }
     }
 
-    /// Those of the accelerations of what is integrated, one after the other.
+    /// The dependencies of the accelerations of the states, one after the other.
     pub fn accelerations(&self) -> Vec<BTreeSet<usize>> {
         let reads = self.compiled.program(FunctionId::Stabilized).reads();
         reads.iter().take(self.compiled.states.len()).map(|read| self.of(read)).collect()
     }
 
-    /// Those of the outputs,
+    /// The dependencies of the outputs.
     pub fn outputs(&self) -> Vec<BTreeSet<usize>> {
         self.compiled.program(FunctionId::Outputs).reads().iter().map(|read| self.of(read)).collect()
     }
 
-    /// and of the events.
+    /// The dependencies of the events.
     pub fn events(&self) -> Vec<BTreeSet<usize>> {
         self.compiled.program(FunctionId::Events).reads().iter().map(|read| self.of(read)).collect()
     }
 
-    /// What symbols stand for.
+    /// The dependencies of a result that reads these symbols.
     fn of(&self, read: &BTreeSet<Symbol>) -> BTreeSet<usize> {
         let at = |group, place: usize| BTreeSet::from([self.references.of(group) + place]);
         let state = |group, place: usize| at(group, self.compiled.states[place]);

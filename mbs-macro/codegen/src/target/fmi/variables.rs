@@ -5,7 +5,7 @@ use super::units::Unit;
 use crate::compiled::{Comparison, Compiled, FunctionId, Quantity};
 use mbs_symbolic::units::Dimension;
 
-/// What a variable is to an importer.
+/// The role of a variable for an importer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The independent variable.

@@ -126,7 +126,7 @@ impl Access {
         Self { this: quote!(this), mechanism, parameters, time, positions, velocities, is_of_step, kind }
     }
 
-    /// What a function needs that reads these operands.
+    /// The arguments of a function that reads these operands.
     pub fn arguments(&self, compiled: &Compiled, names: &Names, operands: &[Operand]) -> Vec<Argument> {
         let Names { mechanism, parameters, runtime, state, stepped, reactions, .. } = names;
         let state = if self.is_of_step { stepped } else { state };

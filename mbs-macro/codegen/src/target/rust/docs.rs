@@ -57,7 +57,7 @@ fn elimination(step: &Elimination) -> String {
     format!("{}: divided by {}", step.unknowns.join(", "), step.short)
 }
 
-/// What the hoisted values are.
+/// The documentation of the hoisted values: their formulas.
 pub fn hoisted(compiled: &Compiled) -> String {
     let lines =
         compiled.derivation.hoisted.iter().enumerate().map(|(at, formula)| format!("{at}: {formula}"));
@@ -75,7 +75,7 @@ impl<'a> Functions<'a> {
         Self { derivation: &compiled.derivation, counts: compiled.counts() }
     }
 
-    /// What a function computes, its formulas and its cost.
+    /// The documentation of a function: its results, its formulas and its cost.
     pub fn of(&self, function: FunctionId) -> String {
         let Derivation { phi, phi_q, phi_t, gamma, mass, forces, .. } = self.derivation;
         let (text, formulas): (_, &[Formula]) = match function {

@@ -18,7 +18,7 @@ pub struct Names {
     /// Type of the inputs, with its argument `T`.
     pub inputs: Group,
     pub coordinates: Group,
-    /// What is integrated: the coordinates, unless some are left out.
+    /// The coordinates that are integrated: all, unless some are left out.
     pub states: Group,
     pub constraints: Group,
     pub outputs: Group,

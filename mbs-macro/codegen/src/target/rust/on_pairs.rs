@@ -33,7 +33,7 @@ impl<'a> Writer<'a> {
         Self { mechanism, names: Vec::new(), taken: BTreeSet::new() }
     }
 
-    /// What the statements need around them.
+    /// The imports and types that the statements need around them.
     pub fn prelude(runtime: &TokenStream) -> TokenStream {
         quote! {
             use #runtime::{Octant, Pair as _, Single as _, Term as _};

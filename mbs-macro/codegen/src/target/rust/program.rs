@@ -31,7 +31,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// What stands for a program that cannot be written; nobody gets to see it.
+    /// A stand-in for a program that cannot be written; nobody gets to see it.
     fn none(program: &Program, names: &Names) -> Self {
         let outputs = vec![tokens::internal("a program has no layout"); program.outputs.len()];
         let runtime = names.runtime.clone();
@@ -153,7 +153,7 @@ pub(super) struct Writer<'a> {
     program: &'a Program,
     access: &'a Access,
     pairs: &'a SinCos,
-    /// What is written; results of other instructions are where the layout keeps them.
+    /// The instructions that are written; results of others are where the layout keeps them.
     range: Range<usize>,
     layout: Option<&'a Layout<Vector>>,
     /// Sines and cosines that are not of one angle in every copy.

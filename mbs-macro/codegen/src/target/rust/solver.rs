@@ -1,5 +1,5 @@
-//! What a step costs, and the declared step and feedback, as constants; whether
-//! these are stable is decided by the runtime's own condition.
+//! The cost of a step, and the declared step and feedback, as constants. The
+//! runtime's own condition decides whether these are stable.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};

@@ -48,7 +48,7 @@ fn variants(compiled: &Compiled) -> Vec<Variant<'_>> {
 }
 
 impl Variant<'_> {
-    /// What its functions give.
+    /// The type that its functions return.
     fn result(&self, names: &Names) -> TokenStream {
         let Names { runtime, reactions, .. } = names;
         let states = &names.states.of_t;
@@ -153,7 +153,7 @@ pub fn clock(compiled: &Compiled, names: &Names) -> TokenStream {
     }
 }
 
-/// What a step's function does, and the values that it ends with.
+/// The statements of a step's function, and the values that it ends with.
 struct Body {
     statements: TokenStream,
     stepped: TokenStream,

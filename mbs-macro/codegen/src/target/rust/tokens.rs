@@ -11,7 +11,7 @@ use super::splines::spline_name;
 use crate::compiled::{Compiled, Input};
 use crate::diagnostics::Diagnostic;
 
-/// What stands where there is nothing right to write: the compiler refuses it with these words.
+/// Tokens for a place where nothing right can be written: the compiler refuses them with these words.
 pub fn internal(what: &str) -> TokenStream {
     let text = Diagnostic::internal(Span::call_site(), what).text();
     quote!(::core::compile_error!(#text))

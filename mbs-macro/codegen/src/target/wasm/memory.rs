@@ -1,12 +1,12 @@
-//! What lies in memory below the heap: splines, slots of long programs, and the tables of their loops.
+//! The memory below the heap: splines, slots of long programs, and the tables of their loops.
 
 use std::rc::Rc;
 
 use mbs_symbolic::Spline;
 
-/// Numbers before the segments of a spline,
+/// How many numbers stand before the segments of a spline.
 pub const HEAD: usize = 3;
-/// and numbers of a segment.
+/// How many numbers a segment of a spline has.
 pub const SEGMENT: usize = 5;
 
 /// The memory of a module.
@@ -69,7 +69,7 @@ impl Memory {
         self.tables_at() + self.tables.len()
     }
 
-    /// What memory has at the start, with addresses.
+    /// The contents of memory at the start, with addresses.
     pub fn data(&self) -> [(usize, &[u8]); 2] {
         [(0, &self.splines), (self.tables_at(), &self.tables)]
     }

@@ -4,7 +4,7 @@
 //! A function is given addresses of vectors of `f64` and, where it needs them, t and s as numbers. The
 //! first address is that of the mechanism: its parameters, and behind them what depends on them alone.
 //! Results are written to addresses; they must not lie over arguments. A last single number, the growth or
-//! an energy, is returned. What lies in memory below the exported `heap` belongs to the module.
+//! an energy, is returned. The memory below the exported `heap` belongs to the module.
 //!
 //! Results are those of the other targets to the bit: WebAssembly rounds each operation by itself, sines
 //! and cosines up to 10⁹ rad are written with the code, as splines are. Long programs are written as
@@ -89,10 +89,10 @@ struct Planned<'a> {
     layout: Option<Layout<Vector>>,
 }
 
-/// What a function is given and gives.
+/// The parameters and results of a function.
 struct Signature {
     name: &'static str,
-    /// What its parameters are, in their order.
+    /// Its parameters, in their order.
     slots: Vec<Slot>,
     /// How many numbers it writes to each address of results.
     lengths: Vec<usize>,

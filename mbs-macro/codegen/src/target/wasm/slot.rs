@@ -1,10 +1,10 @@
-//! What functions are given.
+//! The parameters of functions.
 
 use wasm_encoder::ValType;
 
 use crate::compiled::Argument;
 
-/// What a parameter of a function is.
+/// A parameter of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// The address of the parameters, and of what depends on them alone behind them.
@@ -20,11 +20,11 @@ pub enum Slot {
     Reactions,
     Shift,
     Predicted,
-    /// h,
+    /// h
     Step,
-    /// h/2,
+    /// h/2
     HalfStep,
-    /// and t + h of a whole step.
+    /// t + h of a whole step.
     NextTime,
 }
 

@@ -1,4 +1,4 @@
-//! What the script of a run has to know of a mechanism, as JSON.
+//! The tables of a mechanism that the script of a run reads, as JSON.
 
 use mbs_schemes::{Explicit, Row};
 use mbs_symbolic::units::Dimension;

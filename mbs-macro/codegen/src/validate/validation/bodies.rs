@@ -1,4 +1,4 @@
-//! What the declaration says of the bodies, in numbers.
+//! The declared masses, inertias and gravity, in numbers.
 
 use mbs_symbolic::{Expr, Symbol, Tape};
 

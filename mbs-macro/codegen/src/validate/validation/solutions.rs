@@ -225,8 +225,8 @@ impl Point<'_> {
 }
 
 impl Point<'_> {
-    /// What rows add to the mass block where some coordinate has no mass: terms of the
-    /// size of the other masses, which cancel, also where all forces are 0.
+    /// The size of the terms that rows add to the mass block where some coordinate has no mass.
+    /// They are as large as the other masses, and cancel, also where all forces are 0.
     fn augmented(&self, accelerations: &[Rounded]) -> f64 {
         let masses = || (0..accelerations.len()).map(|at| self.mass(at).value);
         let fastest = largest(accelerations, |x| x.value);

@@ -26,7 +26,7 @@ pub(crate) const DECLARATION: &str = "FourBar {
     output power [W] = der(theta1)*lambda(loop_x)*l1;
 }";
 
-/// What the checks say of a plan, again and again.
+/// A plan that the checks judge again and again.
 pub(crate) struct Planned {
     pub model: model::Model,
     equations: derive::Equations,

@@ -1,4 +1,4 @@
-//! What differs between the copies of a loop, as the loop reads it.
+//! The operands that differ between the copies of a loop, as the loop reads them.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,7 +11,7 @@ use crate::compiled::Vector;
 use crate::target::rust::program::Writer;
 use crate::target::rust::tokens;
 
-/// What differs from copy to copy, and what is named of it so far.
+/// The operands that differ from copy to copy, and the names that they have so far.
 pub struct Columns<'a> {
     context: &'a Context<'a>,
     repeated: &'a Loop<Vector>,

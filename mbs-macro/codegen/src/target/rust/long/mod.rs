@@ -26,7 +26,7 @@ use super::names::Names;
 use super::program::{Body, Writer};
 use crate::compiled::{Compiled, Vector};
 
-/// What the functions of a program share.
+/// The data that the functions of a program share.
 struct Context<'a> {
     compiled: &'a Compiled,
     names: &'a Names,

@@ -4,10 +4,10 @@ use mbs_symbolic::layout::{Array, Place};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// The array of the result q̈ itself,
+/// The array of the result q̈ itself.
 pub const ACCELERATION: Array = Array::Result(0);
 
-/// and that of the feedback.
+/// The array of the feedback.
 pub const FEEDBACK: Array = Array::Result(1);
 
 /// The variable that holds an array.

@@ -116,7 +116,7 @@ fn angles(context: &Context<'_>, repeated: &Loop<Vector>, angles: &[Angle]) -> T
     statements.collect()
 }
 
-/// What the function of a loop has to reach besides slots and arrays.
+/// The operands that the function of a loop has to reach besides slots and arrays.
 fn operands(repeated: &Loop<Vector>) -> Vec<Operand> {
     let same = repeated.steps.iter().flat_map(|step| step.operands).filter_map(|read| match read {
         Read::Same(operand) => Some(operand),
