@@ -1,4 +1,4 @@
-//! What generated code calls. Not part of the public interface.
+//! The interface that generated code calls. Not part of the public interface.
 
 #[cfg(feature = "macro")]
 pub use nalgebra;
@@ -69,7 +69,7 @@ pub fn add<T: Real>(from: &[T], to: &mut [T], places: &[[u32; 2]]) {
     }
 }
 
-/// What a function gives at every place.
+/// Returns the values of a function at all places of an array.
 ///
 /// `core::array::from_fn` is a function that is called if the array is long. In a loop over lanes
 /// no function may be called, or there are no vectors.

@@ -14,7 +14,7 @@ pub type States<M> = <<M as Mechanism>::States as Components>::Array;
 /// One number per constraint as an array.
 pub type Constraints<M> = <<M as Mechanism>::Constraints as Components>::Array;
 
-/// What a step on arrays works with, all 0.
+/// Room for a step on arrays.
 pub struct Room<M: OnArrays> {
     /// One vector of states.
     pub states: States<M>,
@@ -29,7 +29,7 @@ pub trait OnArrays: Mechanism {
     /// An array for what loops hand to each other.
     type Slots;
 
-    /// Zeros.
+    /// Room that is filled with zeros.
     fn room() -> Room<Self>;
 
     /// [`stabilized`](Mechanism::stabilized): q̈, the feedback, and as its value the growth.

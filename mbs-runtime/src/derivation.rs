@@ -55,10 +55,10 @@ pub struct Elimination {
     /// The unknowns that it eliminates: coordinates (their accelerations) and
     /// multipliers, `lambda(row)`.
     pub unknowns: &'static [&'static str],
-    /// What it divides by.
+    /// The pivot that the step divides by.
     pub pivot: &'static str,
-    /// The same as LaTeX.
+    /// The pivot as LaTeX.
     pub latex: &'static str,
-    /// Whether that may vanish, and is watched.
+    /// Whether the pivot may vanish, and is watched.
     pub is_watched: bool,
 }

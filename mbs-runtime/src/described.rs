@@ -1,16 +1,16 @@
-//! What there is to know of a mechanism beside its equations.
+//! The outputs, energies, texts and pictures of a mechanism, apart from its equations.
 
 use crate::differentiable::Differentiable;
 use crate::equations::{At, Equations, read, write};
 use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
 
-/// What a mechanism measures and shows, on slices as [`Equations`]. It is apart from them, so
-/// that a program that only integrates does not carry texts and pictures.
+/// The outputs, energies, texts and pictures of a mechanism, on slices as [`Equations`]. They are
+/// apart from these, so that a program that only integrates does not carry texts and pictures.
 pub trait Described<T: Real>: Equations<T> {
     /// q̈ and λ without feedback terms; their pivot growth.
     fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T;
 
-    /// What the declaration measures, given q̈ and λ.
+    /// Writes the declared outputs, given q̈ and λ.
     fn outputs(&self, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2], outputs: &mut [T]);
 
     /// Writes the values whose changes of sign are the declared events.
@@ -28,7 +28,7 @@ pub trait Described<T: Real>: Equations<T> {
     /// The equations and their elimination, for people to read.
     fn derivation(&self) -> &Derivation;
 
-    /// What a picture of it shows.
+    /// The picture of the mechanism.
     fn sketch(&self) -> &Sketch;
 
     /// The same with equations that can be had over duals, if it has them.

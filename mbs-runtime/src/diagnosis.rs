@@ -1,10 +1,10 @@
-//! What is wrong with a solution or a state, in the names of the declaration.
+//! Errors of a solution or a state, in the names of the declaration.
 
 use crate::equations::{At, Equations};
 use crate::mechanism::growth_limit;
 use crate::{Error, Info, Pivot, Real, vectors};
 
-/// What [`check_solution`] looks at.
+/// A solution that [`check_solution`] examines.
 pub(crate) struct Solution<'a, T> {
     pub t: T,
     pub q: &'a [T],
@@ -29,8 +29,8 @@ pub(crate) fn check_solution<T: Real>(
     Err(solution.cause(growth_limit(), worst(), |at| info.coordinate_name(at)))
 }
 
-/// What went wrong in a stage with this q̈ and growth, if anything did: what is not finite,
-/// or a pivot whose growth is over `limit`. q and v are room for all coordinates.
+/// The error of a stage with this q̈ and growth, if it has one: something is not finite, or the growth
+/// of a pivot is over `limit`. q and v are room for all coordinates.
 pub(crate) fn stage_error<T: Real>(
     equations: &dyn Equations<T>,
     states: At<'_, T>,

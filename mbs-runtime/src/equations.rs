@@ -1,11 +1,11 @@
-//! The equations of a mechanism on slices. What is rarely done with a mechanism (making
-//! starts consistent and checking them, finding out why a step failed) is written once,
-//! behind this interface, and not compiled again for each mechanism. It also holds
-//! mechanisms whose number of coordinates is known at run time only.
+//! The equations of a mechanism on slices. Rare work on a mechanism (making starts consistent
+//! and checking them, finding out why a step failed) is written once, behind this interface,
+//! and not compiled again for each mechanism. It also holds mechanisms whose number of
+//! coordinates is known at run time only.
 //!
 //! Vectors have a component per coordinate (`q`, `v`, `acceleration`, `correction`), per
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
-//! [`Info`]. What a step is made of has a component per coordinate that is integrated
+//! [`Info`]. The vectors of a step have a component per coordinate that is integrated
 //! ([`Info::states`]). SI units, angles in rad.
 
 pub use crate::adaptive::cause;

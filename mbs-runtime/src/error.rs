@@ -1,4 +1,4 @@
-//! What can go wrong at run time.
+//! Errors at run time.
 
 mod shown;
 
@@ -18,7 +18,7 @@ pub enum Error {
         name: &'static str,
         /// Its value, in SI units.
         value: f64,
-        /// What has to hold.
+        /// The condition on the value, in words.
         requirement: &'static str,
     },
     /// An input is not finite.
@@ -170,7 +170,7 @@ pub enum Error {
     Undefined {
         /// When, in s.
         t: f64,
-        /// What it is: `the output`, `the multiplier of constraint`, …
+        /// The kind of result: `the output`, `the multiplier of constraint`, …
         what: &'static str,
         /// Its name.
         name: &'static str,
@@ -217,7 +217,7 @@ pub enum Error {
     },
     /// A vector of the wrong length.
     Length {
-        /// What it is.
+        /// The vector, in words.
         what: &'static str,
         /// How many numbers were given.
         found: usize,

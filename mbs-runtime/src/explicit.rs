@@ -13,7 +13,7 @@ use mbs_schemes::{Row, Tableau};
 use crate::Real;
 pub(crate) use trial::{Trial, correct, trial, trial_in_place};
 
-/// What vectors of a step are made of: a scalar, or a column of them.
+/// A component of the vectors of a step: a scalar, or a column of them.
 pub trait Element: Copy {
     /// The same in every lane.
     fn constant(value: f64) -> Self;
@@ -101,7 +101,7 @@ pub struct Slopes<'a, V> {
     pub accelerations: &'a mut [V],
 }
 
-/// What computes the accelerations of stages.
+/// A solver for the accelerations of stages.
 ///
 /// A closure is one. It is a function of its own where the compiler finds it long, which costs
 /// nothing but in lanes: a function that is called there has no vectors.
@@ -172,13 +172,12 @@ fn checked<E: Element, V: AsRef<[E]> + AsMut<[E]>>(
     Some(growth)
 }
 
-/// What [`project`] wants to know of a state: the correction of its positions, or of the
-/// velocities `v`.
+/// A state at which [`project`] asks for a correction: of its positions, or of the velocities `v`.
 #[derive(Debug)]
 pub struct Beside<'a, V> {
     /// q
     pub q: &'a V,
-    /// v, where it is their correction that is asked for.
+    /// v, if the correction is that of the velocities.
     pub v: Option<&'a V>,
 }
 

@@ -3,7 +3,7 @@
 
 use crate::{Dual, Error, Info, Real, System};
 
-/// What a sum over a run is differentiated by, by its name in the declaration.
+/// A quantity that a sum over a run is differentiated by, with its name in the declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
     /// A parameter, which changes the mechanism and its start.
@@ -17,9 +17,9 @@ pub enum Variable {
     Input {
         /// Its name.
         name: &'static str,
-        /// The first step on which it acts,
+        /// The first step on which it acts.
         from: u64,
-        /// and the first one on which it does not.
+        /// The first step on which it no longer acts.
         until: u64,
     },
 }
@@ -91,7 +91,7 @@ impl<'a> Sum<'a> {
         self.variables
     }
 
-    /// What the input at this place is over a step, if a signal says that.
+    /// The value of the input at this place over a step; `None` without a signal.
     pub fn input(&self, step: u64, place: usize) -> Option<f64> {
         self.signal.map(|signal| signal(step, place))
     }

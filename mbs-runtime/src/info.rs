@@ -1,4 +1,4 @@
-//! What tools need to know about a mechanism: names, units, equations, counts.
+//! The description of a mechanism for tools: names, units, equations, counts.
 
 use crate::Direction;
 
@@ -76,11 +76,11 @@ pub struct DeclaredEvent {
 /// Exponents of the base units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension {
-    /// of kg
+    /// The exponent of kg.
     pub mass: i8,
-    /// of m
+    /// The exponent of m.
     pub length: i8,
-    /// of s
+    /// The exponent of s.
     pub time: i8,
 }
 
@@ -99,7 +99,7 @@ pub struct Constraint {
     pub dimension: Dimension,
 }
 
-/// What a pivot of the elimination pairs; empty names where it has none.
+/// The constraint and the coordinate that a pivot of the elimination pairs; a missing one has no name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pivot {
     /// The constraint.

@@ -136,7 +136,7 @@ impl<M: Mechanism> Kinematics<M> {
         Ok(solved)
     }
 
-    /// What the declaration measures of a motion that [`at`](Self::at) gave.
+    /// The declared outputs of a motion that [`at`](Self::at) gave.
     ///
     /// # Errors
     /// As [`reactions`](Self::reactions); [`Error::Undefined`] if an output is not finite.

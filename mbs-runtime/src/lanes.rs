@@ -43,8 +43,8 @@ pub trait Lane: Real + sealed::Sealed {
     /// Sine and cosine without a branch; NaN beyond 10⁹ rad.
     #[doc(hidden)]
     fn straight_sin_cos(self) -> (Self, Self);
-    /// The larger of two magnitudes; NaN if one is. What has a minus sign is larger than
-    /// what has none, even a zero.
+    /// The larger of two magnitudes; NaN if one is. A number with a minus sign is larger than
+    /// one without, even a zero.
     #[doc(hidden)]
     #[must_use]
     fn worse(self, other: Self) -> Self;

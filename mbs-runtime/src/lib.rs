@@ -192,6 +192,6 @@ pub use system::System;
 pub use system::SystemClone;
 pub use watch::WorstPlace;
 
-/// What generated code calls. Not part of the public interface.
+/// The interface that generated code calls. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private;

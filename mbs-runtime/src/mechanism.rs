@@ -1,4 +1,4 @@
-//! What a generated mechanism offers to integrators and tools.
+//! A generated mechanism as integrators and tools see it.
 //!
 //! `Mechanism` is the interface between generated code and integrators. Errors and tools need its constant
 //! `INFO`. `DERIVATION` has the equations and their elimination as text and LaTeX. Pictures are made of
@@ -95,7 +95,7 @@ pub struct Stepped<C: Components> {
 /// **States.** A step integrates the [`States`](Self::States): all coordinates, or with
 /// `states = reduced;` those that no constraint gives explicitly. The others and their
 /// velocities are functions of the states, which [`complete`](Self::complete) evaluates; they
-/// meet their constraints exactly. What is not part of a step is given all coordinates.
+/// meet their constraints exactly. A function that is not part of a step is given all coordinates.
 pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The scalar of the computation.
     type Real: Real;
@@ -131,7 +131,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The equations and their elimination, for people to read.
     const DERIVATION: &'static Derivation;
 
-    /// What a picture of it shows. Apart from [`INFO`](Self::INFO), so that a
+    /// The picture of the mechanism. It is apart from [`INFO`](Self::INFO), so that a
     /// program without pictures does not carry it.
     const SKETCH: &'static Sketch;
 
@@ -145,7 +145,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The parameters it was made with.
     fn parameters(&self) -> &Self::Parameters;
 
-    /// What [`new`](Self::new) computed from the parameters.
+    /// The values that [`new`](Self::new) computed from the parameters.
     #[doc(hidden)]
     fn hoisted(&self) -> &[Self::Real];
 

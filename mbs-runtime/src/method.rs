@@ -62,8 +62,8 @@ macro_rules! schemes {
             }
         })*
 
-        /// What is to be done with the type of a method that was chosen at run time; nothing
-        /// where no type has its scheme.
+        /// Calls the visitor with the type of a method that was chosen at run time. `None` if
+        /// no type has its scheme.
         pub fn with_type<V: MethodVisitor>(method: Explicit, visitor: V) -> Option<V::Result> {
             let Explicit { tableau, stabilization } = method;
             $(if $tableau.is(tableau) {
@@ -105,12 +105,12 @@ pub trait Method: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     const EXPLICIT: Explicit;
 }
 
-/// What [`with_type`] does with the type of a method.
+/// A visitor of the type of a method, for [`with_type`].
 pub trait MethodVisitor {
-    /// What comes of it.
+    /// The result of a visit.
     type Result;
 
-    /// Does it with the method `X`.
+    /// Visits the method `X`.
     fn visit<X: Method>(self) -> Self::Result;
 }
 

@@ -16,7 +16,7 @@ pub trait Pair<T>:
 {
     /// A scalar between pairs.
     type Single: Single<T>;
-    /// What its sines and cosines are computed with, operation by operation.
+    /// The terms with which its sines and cosines are computed, operation by operation.
     type Term: Term;
 
     /// The pair of `first` and `second`.

@@ -63,7 +63,7 @@ pub fn reach<T: Real>(
     Err(out_of_reach(equations, t, row, violation))
 }
 
-/// What cannot be met at a time.
+/// The error for a constraint that cannot be met at a time.
 pub(crate) fn out_of_reach<T: Real>(equations: &dyn Equations<T>, t: T, row: usize, violation: T) -> Error {
     let constraint = equations.info().constraint_name(row);
     Error::OutOfReach { t: t.to_f64(), constraint, violation: violation.to_f64() }

@@ -220,7 +220,7 @@ macro_rules! elementary {
     )*};
 }
 
-/// What is computed for two scalars in a vector register: sines, partial derivatives.
+/// The functions that compute two scalars in a vector register: sines, partial derivatives.
 macro_rules! in_pairs {
     () => {
         #[inline(always)]

@@ -15,7 +15,7 @@ const CONSTRAINTS: usize = 6;
 /// Vectors for all coordinates and velocities of two states.
 const COMPLETED: usize = 4;
 
-/// Vectors to compute with. What they hold before and after a calculation means nothing:
+/// Vectors to compute with. Their contents before and after a calculation mean nothing:
 /// each takes the first ones that it needs.
 #[derive(Debug)]
 pub struct Room<'a, T> {

@@ -264,7 +264,7 @@ impl<T: Real> Run<'_, T> {
     }
 }
 
-/// What [`correction`] works with.
+/// Room for [`correction`].
 #[derive(Debug)]
 pub struct Correction<'a, T> {
     /// All coordinates, velocities and corrections.
@@ -295,7 +295,7 @@ pub fn correction<T: Real>(
     growth
 }
 
-/// What is done with two states of which all coordinates are known.
+/// A function of two states of which all coordinates are known.
 type Look<'a, T> = dyn FnMut([At<'_, T>; 2], &mut Room<'_, T>) -> Result<(), Error> + 'a;
 
 /// Does something with all coordinates of two states of a step.

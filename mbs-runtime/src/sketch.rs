@@ -1,4 +1,4 @@
-//! What a picture of a mechanism needs: bodies, their points, what joins them.
+//! The parts of a picture of a mechanism: bodies, their points, joints and springs.
 //!
 //! The places themselves are given by [`Mechanism::points`](crate::Mechanism::points);
 //! here are names, and positions in that list.

@@ -45,7 +45,7 @@ fn least<T: Real>(info: &Info, phi: &[T], length: T) -> T {
     margin
 }
 
-/// What is allowed, in the unit of the constraint.
+/// The largest allowed violation of a redundant constraint, in its own unit.
 #[inline(always)]
 fn allowed<T: Real>(info: &Info, row: usize, length: T) -> T {
     let exponent = info.constraints.get(row).map_or(0, |constraint| constraint.dimension.length);

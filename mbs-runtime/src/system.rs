@@ -15,7 +15,7 @@ use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Real
 /// The trait is object-safe, and vectors are slices in the order of
 /// [`Info`](crate::Info): `q`, `v` and `acceleration` have a number per coordinate,
 /// `multipliers` one per constraint, `inputs` and `outputs` one for each of theirs,
-/// `points` two for each point. What comes from slices of other lengths means nothing. SI
+/// `points` two for each point. Results from slices of other lengths mean nothing. SI
 /// units, angles in rad. No method panics.
 ///
 /// # Example
@@ -49,13 +49,13 @@ pub trait System<T: Real = f64>: Send {
     /// Names, dimensions and the equations of the mechanism.
     fn equations(&self) -> &dyn Equations<T>;
 
-    /// What the mechanism measures and shows, of any state.
+    /// The reactions, outputs, energies and picture of the mechanism, in any state.
     fn described(&self) -> &dyn Described<T>;
 
     /// The equations and their elimination, for people to read.
     fn derivation(&self) -> &Derivation;
 
-    /// What a picture of it shows.
+    /// The picture of the mechanism.
     fn sketch(&self) -> &Sketch;
 
     /// Writes the parameters that it was made with.

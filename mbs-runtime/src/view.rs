@@ -1,4 +1,4 @@
-//! What there is to see of a mechanism in one state.
+//! A mechanism seen in one state.
 
 use crate::diagnosis::{Solution, check_defined, check_solution};
 use crate::equations::{At, check_outputs};

@@ -1,4 +1,4 @@
-//! What a run watches from step to step: how close its elimination came to a singular
+//! The watch over a run from step to step: how close its elimination came to a singular
 //! position, and when a step has to be examined.
 //!
 //! # How it works

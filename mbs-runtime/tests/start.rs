@@ -129,7 +129,7 @@ fn projection_keeps_what_it_is_told_to_the_bit() {
     }
 }
 
-/// What the declaration prescribes, chosen at run time: the same state.
+/// A projection that keeps at run time what the declaration prescribes gives the declared start.
 #[test]
 fn projection_and_the_declared_start_agree() {
     let mechanism = FourBar::declared();

@@ -19,7 +19,7 @@ pub struct Moment {
     pub acceleration: f64,
 }
 
-/// What one coordinate does over time.
+/// A coordinate as a function of time.
 ///
 /// # Example
 /// ```

@@ -12,9 +12,9 @@ use crate::family::Varied;
 use crate::point::Drives;
 use crate::{Error, OperatingPoint};
 
-/// The first difference steps by this share of a scale,
+/// The first difference steps by this share of a scale.
 const LONGEST: f64 = 0.02;
-/// and so many each by half of the one before.
+/// The number of differences, each with half the step of the one before.
 const LEVELS: usize = 8;
 
 /// Differences that leave a larger share of a derivative open than this may hide a corner.
@@ -22,7 +22,7 @@ const CORNER: f64 = 1e-6;
 /// Roundings in a derivative that the chain rule gives.
 const ROUNDINGS: f64 = 64.0;
 
-/// What the equations say at a state, or how that changes along a direction.
+/// The values of the equations at a state, or their rates along a direction.
 #[derive(Clone, Debug)]
 pub struct Values {
     /// Φ
@@ -33,7 +33,7 @@ pub struct Values {
     pub acceleration: DVector<f64>,
     /// λ
     pub multipliers: DVector<f64>,
-    /// What the declaration measures.
+    /// The declared outputs.
     pub outputs: DVector<f64>,
 }
 
@@ -67,7 +67,7 @@ impl Direction {
 }
 
 impl Derivatives<'_> {
-    /// What the equations say at the point.
+    /// The values of the equations at the point.
     pub fn values(&self) -> Values {
         self.split(&self.joined())
     }
@@ -140,7 +140,7 @@ impl Derivatives<'_> {
         derivative(there, step, LEVELS, is_one_sided)
     }
 
-    /// What a mechanism says at a state, as one vector.
+    /// The values of the equations of a mechanism at a state, as one vector.
     fn at(&self, mechanism: &dyn Described<f64>, [q, v, inputs]: [&DVector<f64>; 3]) -> DVector<f64> {
         let at = At { t: self.point.t, q: q.as_slice(), v: v.as_slice() };
         DVector::from_vec(evaluated(mechanism, at, inputs.as_slice(), self.point.drives))
@@ -196,8 +196,8 @@ fn evaluated<T: Real>(mechanism: &dyn Described<T>, at: At<'_, T>, inputs: &[T],
     let (mut acceleration, mut multipliers) = (zeros(n), zeros(m));
     mechanism.reactions(at, inputs, &mut acceleration, &mut multipliers);
     if drives == Drives::Held {
-        // Φ_t, and what Φ_tt and Φ_tq v do to the accelerations. What is taken away with them,
-        // (Φ_q v)_q v, is of second order at rest.
+        // Φ_t, and what Φ_tt and Φ_tq v do to the accelerations. (Φ_q v)_q v is taken away with them;
+        // it is of second order at rest.
         let (still, mut driven, mut gamma) = (zeros(n), zeros(m), zeros(m));
         mechanism.phi_dot(At { v: &still, ..at }, &mut driven);
         mechanism.phi_dot(At { v: &acceleration, ..at }, &mut gamma);

@@ -86,15 +86,15 @@ const LONGEST: f64 = 0.25;
 /// A search ends that leads further than so many sizes of the mechanism at the start.
 const FAR: f64 = 1e4;
 
-/// What a search finds.
+/// The result of a search.
 struct Found {
     q: DVector<f64>,
     iterations: u32,
 }
 
 impl Equilibrium {
-    /// What the stiffness says of small disturbances. Friction, dampers and gyroscopic terms are
-    /// not asked; forces that follow the motion may make a position unstable by flutter although
+    /// The response to small disturbances, as far as the stiffness tells. Friction, dampers and gyroscopic
+    /// terms are not asked; forces that follow the motion may make a position unstable by flutter although
     /// its stiffness is positive.
     pub fn stability(&self) -> Stability {
         let largest = self.stiffness.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));

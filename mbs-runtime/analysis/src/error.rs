@@ -1,10 +1,10 @@
-//! What can go wrong in an analysis.
+//! Errors of analyses.
 
 /// Why an analysis has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// What the mechanism said.
+    /// An error of the mechanism.
     #[error("{0}")]
     Mechanism(#[from] mbs_runtime::Error),
     /// A mechanism whose motion is prescribed.
@@ -33,7 +33,7 @@ pub enum Error {
     /// A vector of the wrong length.
     #[error("{what} are {found} numbers, but the mechanism has {expected}")]
     Length {
-        /// What it is.
+        /// The vector, in words.
         what: &'static str,
         /// How many numbers were given.
         found: usize,
@@ -43,7 +43,7 @@ pub enum Error {
     /// A name that nothing has.
     #[error("unknown {kind} `{name}`; the mechanism has {}", listed(.known))]
     Unknown {
-        /// What kind of thing was looked for.
+        /// The kind of thing that was looked for.
         kind: &'static str,
         /// The name that was given.
         name: String,
@@ -109,15 +109,15 @@ pub enum Error {
          sqrt(x) has at x = 0; choose another position"
     )]
     Slope {
-        /// What has none: "the acceleration of `x`", "the output `y`".
+        /// The quantity without a derivative: "the acceleration of `x`", "the output `y`".
         of: String,
     },
     /// A number that has to be positive.
     #[error("{what} = {value} {unit}: it has to be finite and above 0")]
     Range {
-        /// What it is.
+        /// The quantity, in words.
         what: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: f64,
         /// Its unit.
         unit: &'static str,
@@ -125,11 +125,11 @@ pub enum Error {
     /// A measured sample that cannot be used.
     #[error("sample {} of `{name}` cannot be used: {reason}", index + 1)]
     Sample {
-        /// What was measured.
+        /// The measured quantity.
         name: String,
         /// The number of the sample, from 0 on.
         index: usize,
-        /// What is wrong with it.
+        /// Why the sample cannot be used.
         reason: &'static str,
     },
     /// Data from before the run.
@@ -138,7 +138,7 @@ pub enum Error {
          count the time of the data from the start of the motion"
     )]
     BeforeStart {
-        /// What was measured.
+        /// The measured quantity.
         name: String,
         /// When, in s.
         t: f64,
@@ -153,21 +153,21 @@ pub enum Error {
     FewSamples {
         /// The samples of all quantities.
         samples: usize,
-        /// What is looked for.
+        /// The number of unknowns.
         unknowns: usize,
     },
     /// A standard deviation that is none.
     #[error("the standard deviation of `{name}` is {value} (SI), but it has to be finite and above 0")]
     Deviation {
-        /// What was measured.
+        /// The measured quantity.
         name: String,
-        /// What was given.
+        /// The value that was given.
         value: f64,
     },
     /// A probability that is none.
     #[error("the confidence is {value}, but it has to be between 0 and 1, such as 0.95")]
     Confidence {
-        /// What was given.
+        /// The value that was given.
         value: f64,
     },
     /// Something that is looked for twice.
@@ -186,9 +186,9 @@ pub enum Error {
         name: String,
         /// From where it is looked for.
         guess: f64,
-        /// The smallest value that it may have,
+        /// The smallest value that it may have.
         low: f64,
-        /// and the largest.
+        /// The largest value that it may have.
         high: f64,
     },
     /// A mechanism that does not move in one way.

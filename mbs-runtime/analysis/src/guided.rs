@@ -18,9 +18,9 @@ use crate::tangent::Rest;
 
 /// Newton's corrections of a step along the path.
 const CORRECTIONS: usize = 12;
-/// A correction that moves no coordinate by more than this share of its scale is rounding,
+/// A correction that moves no coordinate by more than this share of its scale is rounding.
 const ROUNDING: f64 = 1e-14;
-/// and one below this, if the next is not half as long.
+/// A correction below this share is rounding too, if it is more than half as long as the one before.
 const STAGNANT: f64 = 1e-11;
 /// A position is on the path that was predicted if it is nearer to that than this share of the scales.
 /// Branches that are nearer to each other than that meet, where the determinant changes its sign.
@@ -45,7 +45,7 @@ pub struct Guided<'a> {
     pub jacobian: Jacobian,
 }
 
-/// What moves a mechanism in a prescribed way.
+/// The accelerations, reactions and efforts of a prescribed motion.
 pub struct Forces {
     /// q̈
     pub acceleration: DVector<f64>,
@@ -262,7 +262,7 @@ impl<'a> Guided<'a> {
         directions.transpose() * moved
     }
 
-    /// What the declaration measures.
+    /// The declared outputs.
     pub fn outputs(&self, v: &DVector<f64>, inputs: &[f64], forces: &Forces) -> Vec<f64> {
         let mut outputs = vec![f64::NAN; self.mechanism.info().outputs.len()];
         let at = At { t: self.t, q: self.q.as_slice(), v: v.as_slice() };

@@ -11,7 +11,7 @@ use crate::point::Drives;
 use crate::singular::Singular;
 use crate::{Error, Signal, Variable};
 
-/// What produces a prescribed motion.
+/// The efforts or inputs that produce a prescribed motion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum By {
     /// A force or a torque along each prescribed coordinate, as if a drive moved it.
@@ -29,7 +29,7 @@ pub struct Prescription {
     /// As many coordinates as the mechanism has degrees of freedom, and what each does over time; none
     /// for a mechanism that its drives determine.
     pub curves: Vec<(String, Curve)>,
-    /// What produces the motion.
+    /// The efforts or inputs that produce the motion.
     pub by: By,
     /// The inputs that are not looked for, and where those begin that are; `None` for their defaults.
     pub inputs: Option<Vec<f64>>,
@@ -58,7 +58,7 @@ pub struct Instant {
     pub efforts: Vec<f64>,
     /// λ: that of a drive is −1 times what the drive exerts.
     pub multipliers: Vec<f64>,
-    /// What the declaration measures.
+    /// The declared outputs.
     pub outputs: Vec<f64>,
 }
 
@@ -66,10 +66,10 @@ pub struct Instant {
 const ITERATIONS: usize = 30;
 /// Inputs whose effects are this share of the largest are none.
 const NOTHING: f64 = 1e-9;
-/// What may be missing of a force, as a share of the forces that act.
+/// The forces that may be missing, as a share of the forces that act.
 const MISSING: f64 = 1e-9;
 
-/// What a mechanism does, and what it takes, along a prescribed motion z(t) of some of its coordinates,
+/// Positions, velocities, accelerations and forces along a prescribed motion z(t) of some coordinates,
 /// z = q_I, sample by sample:
 ///
 /// ```text

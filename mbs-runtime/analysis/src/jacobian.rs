@@ -19,7 +19,7 @@ pub struct Jacobian {
     all: DMatrix<f64>,
     places: Vec<usize>,
     scales: DVector<f64>,
-    /// What each row of J is divided by.
+    /// The divisor of each row of J.
     sizes: DVector<f64>,
     scaled: DMatrix<f64>,
     factors: Factors,

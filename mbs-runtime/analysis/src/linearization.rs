@@ -14,7 +14,7 @@ use crate::{Error, OperatingPoint, Signal, Variable};
 /// A rate in 1/s that is slower than any mechanism.
 const SLOW: f64 = 1e-3;
 
-/// What goes into a linear system, what comes out of it, and in which coordinates.
+/// The states, inputs and outputs of a linear system.
 #[derive(Clone, Default)]
 pub struct Ports<'a> {
     /// The coordinates that are states, as many as there are degrees of freedom; `None` for those

@@ -24,7 +24,7 @@ const DOUBLE: f64 = 1e-7;
 /// A singular value of the pencil is 0 that is less than this share of it: rounding moves a double root by √ε.
 const DEFECT: f64 = 1e-6;
 
-/// What becomes of a small displacement in the shape of a mode.
+/// The behaviour of a small displacement in the shape of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behaviour {
     /// Nothing drives it back: λ = 0.
@@ -42,7 +42,7 @@ pub enum Behaviour {
 }
 
 impl Behaviour {
-    /// What it does, in words.
+    /// The behaviour in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::RigidBody => "rigid-body mode: moves freely",
@@ -68,7 +68,7 @@ pub struct Mode {
     /// φ, a component for each coordinate. That of the state that moves most is 1 rad or 1 m, where an
     /// angle of 1 rad counts as much as a length of the size of the mechanism.
     pub shape: DVector<Complex<f64>>,
-    /// What becomes of it.
+    /// The behaviour of a displacement in this shape.
     pub behaviour: Behaviour,
     /// The right and left null vectors of λ²1 − λG − K, in the norm of the mass.
     pub(crate) vectors: [DVector<Complex<f64>>; 2],

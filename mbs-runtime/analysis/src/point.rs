@@ -11,7 +11,7 @@ use crate::{Equilibrium, Error, Variable};
 /// scales. A run with feedback stays nearer than that, and what is found differs by such a share.
 const NEAR: f64 = 1e-5;
 
-/// What drives do while a mechanism moves away from an operating point.
+/// The behaviour of drives while a mechanism moves away from an operating point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drives {
     /// They stand still where they are at that time, Φ_t = 0 and Φ_tt = 0: the mechanism is at rest.
@@ -31,7 +31,7 @@ pub struct OperatingPoint {
     pub v: Vec<f64>,
     /// The inputs.
     pub inputs: Vec<f64>,
-    /// What drives do.
+    /// Whether drives stand still or move on.
     pub drives: Drives,
 }
 

@@ -1,4 +1,4 @@
-//! What a linear system answers: to harmonic inputs, and to a step.
+//! Responses of a linear system to harmonic inputs and to a step.
 
 use std::f64::consts::{PI, TAU};
 

@@ -127,7 +127,7 @@ fn about_rest(
 }
 
 impl Varied<'_> {
-    /// What is seen of the mechanism that has some parameters.
+    /// Returns what `look` sees of the mechanism with these parameters.
     fn seen<R>(
         &self,
         parameters: &[f64],

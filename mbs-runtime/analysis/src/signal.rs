@@ -1,4 +1,4 @@
-//! What goes into a linear system and comes out of it.
+//! Inputs and outputs of a linear system.
 
 use mbs_runtime::{Dimension, Info, Quantity};
 
@@ -26,7 +26,7 @@ pub enum Variable {
 pub struct Signal {
     /// Its name: `x`, `der(x)`, `lambda(pin_x)`, or that of an input, a parameter or an output.
     pub name: String,
-    /// What it is.
+    /// The quantity of the mechanism.
     pub variable: Variable,
     /// Its dimension.
     pub dimension: Dimension,
@@ -56,7 +56,7 @@ impl Signal {
         (0..count).filter_map(|at| Self::of(info, of(at))).collect()
     }
 
-    /// What can be observed of a mechanism, all of it: outputs, coordinates, their rates, multipliers.
+    /// All that can be observed of a mechanism: outputs, coordinates, their rates, multipliers.
     pub fn observable(info: &Info) -> Vec<Self> {
         let n = info.coordinates.len();
         [
@@ -68,7 +68,8 @@ impl Signal {
         .concat()
     }
 
-    /// What can be chosen for a run and differentiated by: parameters, then coordinates and their rates at the start.
+    /// All that can be chosen for a run and differentiated by: parameters, then coordinates and their rates
+    /// at the start.
     pub fn adjustable(info: &Info) -> Vec<Self> {
         let n = info.coordinates.len();
         [

@@ -11,7 +11,7 @@ use crate::point::Drives;
 use crate::tangent::Rest;
 use crate::{Error, Signal, Variable};
 
-/// What is moved slowly.
+/// The coordinate or the drive that is moved slowly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Along {
     /// A coordinate, by a force or a torque along it.
@@ -23,7 +23,7 @@ pub enum Along {
 /// A slow motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travel {
-    /// What is moved.
+    /// The coordinate or the drive that is moved.
     pub along: Along,
     /// The positions of the coordinate in m or rad, or the times of a drive in s, in their order.
     pub samples: Vec<f64>,
@@ -50,7 +50,7 @@ pub struct Position {
     pub q: Vec<f64>,
     /// λ
     pub multipliers: Vec<f64>,
-    /// What the declaration measures.
+    /// The declared outputs.
     pub outputs: Vec<f64>,
     /// dq/dx: how far each coordinate moves for a unit of what is moved; nothing for a mechanism with
     /// further degrees of freedom.
@@ -170,7 +170,7 @@ pub fn travel(mechanism: &dyn Described<f64>, request: &Travel) -> Result<Vec<Po
     Ok(positions)
 }
 
-/// What is moved, by its position among the coordinates or the constraints.
+/// The coordinate or the drive that is moved, by its position among the coordinates or the constraints.
 #[derive(Clone, Copy)]
 enum Lead {
     Coordinate(usize),

@@ -1,4 +1,4 @@
-//! What prescribed motions take: closed forms of pendulums, drives that are declared against drives that
+//! Forces of prescribed motions: closed forms of pendulums, drives that are declared against drives that
 //! are not, more inputs and fewer than degrees of freedom, forces that are not linear in an input, runs
 //! that get the motion back from the inputs that were found, texts; and motions that cannot be made.
 
@@ -294,7 +294,7 @@ fn a_force_that_is_no_line_of_its_input() {
     }
 }
 
-/// What redundant constraints share, they share as in a run: by least norm.
+/// Redundant constraints share a reaction as in a run: by least norm.
 #[test]
 fn redundant_rails() {
     let rails = Rails::declared();

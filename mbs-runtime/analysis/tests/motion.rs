@@ -65,7 +65,7 @@ struct Moving<M: Mechanism> {
     inputs: Vec<f64>,
 }
 
-/// What is changed of it: z, ż, or one of its inputs or parameters.
+/// A quantity of a mechanism in motion that is changed: z, ż, or one of its inputs or parameters.
 #[derive(Clone, Copy)]
 enum Change {
     Position,

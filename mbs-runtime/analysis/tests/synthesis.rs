@@ -185,7 +185,7 @@ fn tips(values: &[f64], cranks: &[f64], side: f64) -> Vec<[f64; 2]> {
     cranks.iter().map(|crank| closed_form(values, *crank, side).unwrap().1).collect()
 }
 
-/// What becomes of one mechanism that can be assembled at all points.
+/// Judges one mechanism that can be assembled at all points.
 fn judged(values: &[f64], points: &[[f64; 2]], drive: &str) -> Synthesis {
     let live = compiled(FOUR_BAR);
     let task =

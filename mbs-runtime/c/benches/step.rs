@@ -1,4 +1,4 @@
-//! What a step costs through the C interface and in Rust, in turns in one process.
+//! The cost of a step through the C interface and in Rust, in turns in one process.
 #![allow(unsafe_code, reason = "a function of C is called with a handle that is not freed")]
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark")]
 

@@ -26,9 +26,9 @@ use std::ptr;
 
 use crate::status::{Failure, Status};
 
-/// What there are handles of.
+/// A type that has handles.
 pub trait Handle {
-    /// What messages call it.
+    /// The name of the type in messages.
     const NAME: &'static str;
 }
 
@@ -37,7 +37,7 @@ pub trait Handle {
 pub struct Shared<'a, T>(*const T, PhantomData<&'a T>);
 
 impl<'a, T: Handle> Shared<'a, T> {
-    /// What it stands for.
+    /// The value that the handle stands for.
     ///
     /// # Errors
     /// It is NULL.
@@ -54,7 +54,7 @@ impl<'a, T: Handle> Shared<'a, T> {
 pub struct Exclusive<'a, T>(*mut T, PhantomData<&'a mut T>);
 
 impl<'a, T: Handle> Exclusive<'a, T> {
-    /// What it stands for.
+    /// The value that the handle stands for.
     ///
     /// # Errors
     /// It is NULL.

@@ -1,4 +1,4 @@
-//! What stands around every function of the interface.
+//! The guard around every function of the interface.
 //!
 //! It writes exported functions around safe bodies, keeps the error for `mbs_error` (`last`), and makes a
 //! status of a panic.

@@ -1,4 +1,4 @@
-//! What went wrong last, for each thread.
+//! The last failure of each thread.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -9,7 +9,7 @@ use crate::status::{Failure, Status};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Problem {
-    /// What is wrong.
+    /// The problem, in words.
     pub message: *const c_char,
     /// How to mend it, or nothing.
     pub help: *const c_char,
@@ -56,7 +56,7 @@ pub fn keep(failure: Failure) -> Status {
     status
 }
 
-/// What is asked of the last failure; nothing if there was none.
+/// The answer of `ask` about the last failure; `None` if there was none.
 fn seen<T>(ask: impl FnOnce(&Last) -> T) -> Option<T> {
     LAST.try_with(|kept| kept.borrow().as_ref().map(ask)).ok().flatten()
 }

@@ -59,7 +59,7 @@ impl Kind {
         })
     }
 
-    /// What messages call one of them.
+    /// The word for a quantity of this kind in messages.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Parameter => "parameter",
@@ -93,7 +93,7 @@ impl Handle for Mechanism {
     const NAME: &'static str = "mechanism";
 }
 
-/// What a caller may say about compiling.
+/// The choices that a caller has for compiling.
 pub struct Choices<'a> {
     /// Of several mechanisms in Rust the one with this name.
     pub name: Option<&'a str>,
@@ -139,7 +139,7 @@ impl Mechanism {
         Ok(Self { name: c_text(info.name), entries, live })
     }
 
-    /// What runs are made of.
+    /// The compiled mechanism, of which runs are made.
     pub fn live(&self) -> &Live {
         &self.live
     }

@@ -4,7 +4,7 @@ use mbs_runtime::{COMPOSITIONS, Composition, SCHEMES, Stabilization, Tableau};
 
 use crate::status::{Failure, Status};
 
-/// What the implicit method for stiff forces is called.
+/// The word for the implicit method for stiff forces.
 const TRBDF2: &str = "trbdf2";
 
 /// A method; what is `None` is as the text declares it.

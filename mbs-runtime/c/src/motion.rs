@@ -10,7 +10,7 @@ use mbs_runtime::{
 use crate::method::Method;
 use crate::status::{Failure, Status};
 
-/// What is set for a run.
+/// The settings of a run.
 #[derive(Clone)]
 pub struct Settings {
     /// The mechanism with its declared parameters.
@@ -35,7 +35,7 @@ impl Settings {
     /// A run at its start.
     ///
     /// # Errors
-    /// What the mechanism refuses, and settings that do not go together.
+    /// Those of the mechanism, and settings that do not go together.
     pub fn begin(&self) -> Result<Box<dyn SystemClone>, Failure> {
         let live = self.live.with_parameters(|own| own.copy_from_slice(&self.parameters))?;
         match (self.method, self.tolerances) {

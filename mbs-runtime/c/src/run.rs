@@ -128,7 +128,7 @@ impl Run {
     /// Starts, or starts anew.
     ///
     /// # Errors
-    /// What the mechanism refuses, and settings that do not go together; nothing changes then.
+    /// Those of the mechanism, and settings that do not go together; nothing changes then.
     pub fn start(&mut self) -> Result<(), Failure> {
         self.motion = Some(self.settings.begin()?);
         Ok(())
@@ -177,7 +177,7 @@ impl Run {
         Ok([accelerations, multipliers])
     }
 
-    /// What the text measures.
+    /// The declared outputs.
     ///
     /// # Errors
     /// As [`reactions`](Self::reactions); one is not finite.

@@ -57,11 +57,11 @@ pub fn words(status: i32) -> &'static CStr {
 /// Why a call failed.
 #[derive(Debug)]
 pub struct Failure {
-    /// What C is given.
+    /// The status that C is given.
     pub status: Status,
-    /// What `mbs_error` says.
+    /// The message that `mbs_error` gives.
     pub message: String,
-    /// Those of a text that was not compiled.
+    /// The problems of a text that was not compiled.
     pub problems: Vec<mbs_live::Problem>,
 }
 
@@ -85,7 +85,7 @@ impl From<mbs_live::Error> for Failure {
     }
 }
 
-/// What a mechanism or a run refuses.
+/// An error of a mechanism or a run.
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let status = match error {

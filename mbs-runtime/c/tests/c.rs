@@ -42,7 +42,7 @@ fn libraries() -> PathBuf {
     test.parent().expect("a folder").to_owned()
 }
 
-/// What a command prints, which has to succeed.
+/// Runs a command that has to succeed; returns the text that it prints.
 fn output<S: AsRef<OsStr>>(command: &mut Command, arguments: impl IntoIterator<Item = S>) -> String {
     let command = command.args(arguments).env("LD_LIBRARY_PATH", libraries());
     let output = command.output().expect("a process");
@@ -69,13 +69,13 @@ fn build(folder: &TempDir, compiler: &str, flags: &[&str], source: &Path) -> Pat
     program
 }
 
-/// What the program is given: a step, steps and the files of the library.
+/// The arguments of the program: a step, steps and the files of the library.
 fn arguments() -> Vec<String> {
     let files = LIBRARY.iter().map(|name| file(name).to_str().expect("UTF-8").to_owned());
     [STEP.to_string(), STEPS.to_string()].into_iter().chain(files).collect()
 }
 
-/// What it has to print: the numbers of runs in Rust, to the bit.
+/// The lines that the program has to print: the numbers of runs in Rust, to the bit.
 fn expected() -> String {
     let line = |name: &&str| {
         let live =

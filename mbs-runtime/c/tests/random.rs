@@ -13,7 +13,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use support::*;
 
-/// What a call is given; each function takes what it needs.
+/// The arguments of a call; each function takes those that it needs.
 #[derive(Clone, Debug)]
 struct Given {
     function: u8,
@@ -92,7 +92,7 @@ struct Handles {
     runs: Vec<Pointer>,
 }
 
-/// What is called; whatever it answers is a status.
+/// Makes a call; the answer is a status.
 fn call(given: &Given, handles: &mut Handles) -> c_int {
     let Given { function, handle, is_null, kind, index, count, number, other, text } = given;
     let (kind, index, count, number, other) = (*kind, *index, *count, *number, *other);

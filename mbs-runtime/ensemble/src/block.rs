@@ -211,7 +211,7 @@ fn unseen<M: Mechanism, X: Method>(simulation: &Simulation<M, X>) -> Option<Erro
         .or_else(|| not_finite("the rate of constraint", mechanism.phi_dot(&at)))
 }
 
-/// What an observer found no number for in a healthy state.
+/// The error for a healthy state in which an observer found no number.
 fn not_computable<M: Mechanism, X: Method>(simulation: &Simulation<M, X>) -> Error {
     Error::NonFinite { t: simulation.time().to_f64(), coordinate: "what is observed" }
 }

@@ -64,8 +64,8 @@
 //!
 //! # Memory
 //!
-//! A block lives on the stack of its thread. What remains is a
-//! [`Run`] per member: nothing grows with the number of steps, but for
+//! A block lives on the stack of its thread. Each member leaves a
+//! [`Run`]: nothing grows with the number of steps, but for
 //! [`Samples`]. [`Ensemble::for_each`] hands over members as they are finished, in
 //! order, and so needs memory for a bounded number of them, however many there are.
 //!
@@ -123,7 +123,7 @@ pub struct Run<M: Mechanism, R> {
     /// Where it came closest to a singular position, if it lost more than two of them;
     /// see [`Simulation::worst_place`].
     pub worst_place: Option<WorstPlace>,
-    /// What was observed.
+    /// The result of the observer.
     pub observed: R,
 }
 
@@ -177,7 +177,7 @@ impl<'a, const N: usize> Ensemble<'a, N> {
     /// Runs members 0 … `count` − 1 on the threads of the current `rayon` pool.
     ///
     /// # Errors
-    /// [`Cancelled`]. What happens to members is in their [`Outcome`].
+    /// [`Cancelled`]. Errors of members are in their [`Outcome`].
     pub fn run<M, X, O>(
         &self,
         count: usize,

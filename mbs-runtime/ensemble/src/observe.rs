@@ -1,12 +1,12 @@
-//! What is looked at while members run.
+//! Observers, which look at members while these run.
 
 use mbs_runtime::Mechanism;
 use mbs_runtime::lanes::{Lane, Snapshot, and};
 
 /// Reduces the states of every member while it runs: at its start, and after every step.
 ///
-/// An observer is shared by all blocks. What it remembers of the `N` members of a block
-/// is a [`Notes`](Self::Notes), with a [`Lanes`](mbs_runtime::Lanes) for each number, so that
+/// An observer is shared by all blocks. Its memory of the `N` members of a block is a
+/// [`Notes`](Self::Notes), with a [`Lanes`](mbs_runtime::Lanes) for each number, so that
 /// looking at eight members costs what looking at one does.
 ///
 /// # Example
@@ -53,9 +53,9 @@ use mbs_runtime::lanes::{Lane, Snapshot, and};
 /// # Ok::<(), mbs_ensemble::Cancelled>(())
 /// ```
 pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
-    /// What is remembered of the members of a block.
+    /// The notes on the members of a block.
     type Notes<const N: usize>;
-    /// What comes out for a member.
+    /// The result for a member.
     type Result: Send;
 
     /// Whether it looks at anything. Steps that nobody looks at are tested for health
@@ -73,7 +73,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
     /// the step.
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N];
 
-    /// What comes out for the member in a lane below `N`.
+    /// The result for the member in a lane below `N`.
     fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result;
 }
 

@@ -1,4 +1,4 @@
-//! What comes out of members that have no result, or came close to having none.
+//! Members that have no result, or came close to having none.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_ensemble::{Ensemble, Extremes, Observe, Violation};
@@ -40,7 +40,7 @@ fn member_without_a_number_ends_with_its_name() {
     }
 }
 
-/// What lies before the time from which one looks need not be a number.
+/// A quantity need not be a number before the time from which one looks.
 #[test]
 fn what_nobody_asks_for_need_not_be_a_number() {
     let late = Extremes { from: 0.5 };

@@ -1,4 +1,4 @@
-//! What it takes to run a declaration at once: from text to the first step, and a step by
+//! The time that a declaration takes from text to the first step, and the time of a step by
 //! interpretation against the compiled one, alone and in lanes, in turns in one run.
 #![allow(
     clippy::expect_used,

@@ -1,9 +1,9 @@
-//! What a function of a mechanism is given.
+//! Arguments of the functions of a mechanism.
 
 use mbs_runtime::Real;
 
-/// Arguments of a function, `C` numbers each. What a function does not read may be left
-/// empty; what it reads and does not find is no number.
+/// Arguments of a function, `C` numbers each. Those that the function does not read may be left
+/// empty; one that it reads and does not find is no number.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a, T = f64, const C: usize = 1> {
     /// t in s

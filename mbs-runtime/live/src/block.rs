@@ -12,7 +12,7 @@ use crate::steps::Steps;
 pub struct Member<'a> {
     /// The mechanism, with its own parameters.
     pub mechanism: &'a Live,
-    /// What is integrated, and its velocities.
+    /// The coordinates that are integrated, and their velocities.
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub inputs: &'a [f64],
@@ -25,8 +25,8 @@ pub struct Member<'a> {
 }
 
 /// As many members as there are lanes. A member comes out as its
-/// [`Stepper`](crate::Stepper) alone does, to the last bit. What lanes cannot compute is a
-/// sine or cosine beyond 10⁹ rad, which is no number there.
+/// [`Stepper`](crate::Stepper) alone does, to the last bit. Lanes cannot compute a sine or
+/// cosine beyond 10⁹ rad, which is no number there.
 pub struct Block {
     stepper: Steps<Vector, VECTORS>,
     q: Vec<Column>,

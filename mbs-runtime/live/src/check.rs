@@ -31,7 +31,7 @@ pub fn check(compiled: &Compiled, program: &Program, code: &Code) -> Result<(), 
     follower.follow(&code.instructions, &code.outputs).ok_or(Inconsistency { pass: "live code", rule })
 }
 
-/// What slots hold on the way: operands of the program instead of numbers.
+/// Follows the code with operands of the program in slots, instead of numbers.
 struct Follower<'a> {
     compiled: &'a Compiled,
     program: &'a Program,

@@ -16,9 +16,9 @@ use crate::slots::allocate;
 /// The code of a program.
 #[derive(Debug)]
 pub struct Code {
-    /// What is done in every run.
+    /// The instructions of every run.
     pub instructions: Vec<Instruction>,
-    /// What the first slots hold, before the first run and for ever.
+    /// The numbers in the first slots, before the first run and for ever.
     pub fixed: Vec<Fixed>,
     /// Arguments, and the slots that they are put into before every run.
     pub given: Vec<(Given, u32)>,
@@ -97,7 +97,7 @@ impl Code {
     }
 }
 
-/// What an operand is to the code that reads it.
+/// The role of an operand in the code that reads it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
     /// There before the first run.

@@ -49,7 +49,7 @@ impl fmt::Display for Warnings {
 /// One problem of a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// What is wrong, in the words of the declaration.
+    /// The problem in the words of the declaration.
     pub message: String,
     /// The token at fault; nothing if it is no single place.
     pub location: Option<Location>,
@@ -62,7 +62,7 @@ pub struct Problem {
 /// Another place that matters, such as an earlier definition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// What there is to say about it.
+    /// The text of the note.
     pub message: String,
     /// The place, if it is one.
     pub location: Option<Location>,
@@ -86,7 +86,7 @@ impl Error {
         Self { file, text, problems }
     }
 
-    /// What errors call the file.
+    /// The name of the file in errors.
     pub fn file(&self) -> &str {
         &self.file
     }
@@ -122,7 +122,7 @@ impl Problem {
         [&self.location].into_iter().chain(notes).flatten().map(|place| place.bytes.clone()).collect()
     }
 
-    /// What the compiler says of a text.
+    /// The problem that the compiler found in a text.
     pub(crate) fn of(diagnostic: &Diagnostic, text: &str) -> Self {
         let note = |(span, note): &(Span, String)| Note {
             message: note.clone(),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use mbs_codegen::Diagnostic;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 
-/// What stands in the only block of a file, or in the one that declares `name`. Blocks are
+/// The tokens inside the only block of a file, or inside the one that declares `name`. Blocks are
 /// found by their tokens, so that comments and strings have none.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use mbs_symbolic::{Instruction, Operand, Operation, Program, SinCos};
 
 use crate::products::{Products, Sum};
 
-/// What an interpreter branches by.
+/// The kind of an instruction, by which an interpreter branches.
 type Kind = (Operation, Option<Sum>);
 
 /// A program with the same instructions, those of a kind together.
@@ -29,12 +29,12 @@ pub fn grouped(program: &Program) -> Program {
     reordered(program, &order)
 }
 
-/// What an interpreter does as one instruction, each named after one that belongs to it: a sum with its product,
-/// a sine with its cosine, and any other by itself.
+/// The parts of a program that an interpreter does as one instruction: a sum with its product, a sine with
+/// its cosine, and any other by itself. Each is named after an instruction that belongs to it.
 struct Units {
     /// The instructions of each unit, in their order; none of what belongs to another unit.
     members: Vec<Vec<usize>>,
-    /// What branches tell apart, by number.
+    /// The kind of each unit, by number.
     kinds: Vec<usize>,
     /// The units that read a result of each, once for every reading.
     readers: Vec<Vec<usize>>,
@@ -90,7 +90,7 @@ impl Units {
         self.ready[kind].pop_front()
     }
 
-    /// What waits for nothing else than this unit is ready from now on.
+    /// Makes the units ready that wait for nothing else than this one.
     fn release(&mut self, unit: usize) {
         for reader in std::mem::take(&mut self.readers[unit]) {
             self.waits[reader] -= 1;

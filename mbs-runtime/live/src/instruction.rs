@@ -1,4 +1,4 @@
-//! What an interpreter does: operations on numbered slots.
+//! The instructions of an interpreter: operations on numbered slots.
 //!
 //! All scalar functions are those of `Real`. So results equal the compiled Rust to the last bit.
 //! `models/tests/library/texts.rs` holds every mechanism of the library to that.

@@ -4,7 +4,7 @@ use proc_macro2::{LexError, TokenStream};
 
 use crate::error::{Location, Note, Problem};
 
-/// What is wrong where a text cannot be cut into tokens: the lexer says where.
+/// The problem of a text that cannot be cut into tokens, at the place where the lexer fails.
 pub fn problem(error: &LexError, text: &str) -> Problem {
     let at = error.span().byte_range().start.min(text.len());
     let rest = text.get(at..).unwrap_or_default();

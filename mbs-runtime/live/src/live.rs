@@ -55,7 +55,7 @@ pub struct Live<T = f64> {
     hoisted: Vec<T>,
 }
 
-/// What a declaration is compiled to, whatever its parameters are.
+/// The programs of a declaration, whatever its parameters are.
 pub(crate) struct Programs {
     pub tables: &'static Tables,
     /// In the order of [`FunctionId`].
@@ -68,7 +68,7 @@ pub(crate) struct Programs {
     /// stages. `None` if the mechanism is too large for that.
     steps: Option<[Arc<Code>; 2]>,
     conditions: Vec<Condition>,
-    /// What goes back through a run, where that was asked for.
+    /// The programs that go back through a run, where they were asked for.
     pub transposes: Option<Transposes>,
 }
 
@@ -242,7 +242,7 @@ impl<T: Real> Live<T> {
         &self.programs.tables.derivation
     }
 
-    /// What a picture of it shows.
+    /// The picture of the mechanism.
     pub fn sketch(&self) -> &'static Sketch {
         &self.programs.tables.sketch
     }
@@ -271,7 +271,7 @@ impl<T: Real> Live<T> {
         &self.programs
     }
 
-    /// What a slot holds that does not change from run to run.
+    /// The number in a slot that does not change from run to run.
     pub(crate) fn fixed(&self, fixed: Fixed) -> T {
         fixed.value(&self.parameters, &self.hoisted)
     }

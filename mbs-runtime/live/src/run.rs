@@ -56,10 +56,10 @@ pub struct Run<T = f64> {
     start_time: T,
     steps: u64,
     t: T,
-    /// What is integrated, and its velocities.
+    /// The coordinates that are integrated, and their velocities.
     q: Vec<T>,
     v: Vec<T>,
-    /// How many there are.
+    /// The number of multipliers.
     multipliers: usize,
     watch: Watch<T>,
     stepper: Stepper<T>,
@@ -146,7 +146,7 @@ impl<T: Real> Run<T> {
         Adaptive::builder(Prepared::new(mechanism))
     }
 
-    /// What is integrated.
+    /// The state of the coordinates that are integrated.
     fn states(&self) -> At<'_, T> {
         At { t: self.t, q: &self.q, v: &self.v }
     }

@@ -1,4 +1,4 @@
-//! What lives as long as the process: names in errors and in [`Info`] are `'static`.
+//! Texts and tables that live as long as the process: names in errors and in [`Info`] are `'static`.
 //!
 //! A mechanism that `mechanism!` makes has them in its binary. One that comes as a text has
 //! them here: each name once, and the tables of each declaration once, however often it is
@@ -27,7 +27,7 @@ pub struct Tables {
     pub splines: &'static [Spline],
     /// The equations, for people to read.
     pub derivation: Derivation,
-    /// What a picture shows.
+    /// The picture of the mechanism.
     pub sketch: Sketch,
     /// The declared step in s.
     pub step: Option<f64>,
@@ -38,7 +38,7 @@ pub struct Tables {
 static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
 static TABLES: Mutex<BTreeMap<String, &'static Tables>> = Mutex::new(BTreeMap::new());
 
-/// What a lock guards is whole at any time: a panic elsewhere does not spoil it.
+/// Locks a mutex whose contents are whole at any time: a panic elsewhere does not spoil them.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -13,7 +13,7 @@ use crate::code::{Code, Fixed};
 use crate::instruction::Instruction;
 use crate::live::Programs;
 
-/// What runs instructions: for one number in a slot, or for many at once.
+/// A function that runs instructions: for one number in a slot, or for many at once.
 pub type Execute<T, const C: usize> = fn(&[Instruction], &[Spline], &mut [[T; C]]);
 
 /// Vectors of columns.
@@ -25,11 +25,11 @@ pub struct Steps<T, const C: usize> {
     programs: Arc<Programs>,
     execute: Execute<T, C>,
     memory: Memory<T, C>,
-    /// The positions that are integrated after the last step,
+    /// The positions that are integrated, after the last step.
     pub q: Columns<T, C>,
-    /// their velocities after it,
+    /// The velocities of these positions after the last step.
     pub v: Columns<T, C>,
-    /// and the pivot growths of its stages, added.
+    /// The pivot growths of the stages of the last step, added.
     pub growth: [T; C],
 }
 
@@ -47,7 +47,7 @@ struct Stages<T, const C: usize> {
     /// The slots of the first stage, and those of the others.
     first: Columns<T, C>,
     others: Columns<T, C>,
-    /// What projects, where the method does.
+    /// The projection, if the method has one.
     projection: Option<Projection<T, C>>,
     /// v and q̈ of every stage.
     velocities: Vec<Columns<T, C>>,

@@ -26,8 +26,8 @@ use crate::{find, lexing};
 /// The longest text that is compiled, in bytes.
 pub const LONGEST: usize = 1 << 20;
 
-/// What the compiler needs where it is not optimised; it descends into formulas and groups
-/// by recursion, at most as deep as it allows them to nest.
+/// The stack of the compiler where it is not optimised, in bytes; it descends into formulas and
+/// groups by recursion, at most as deep as it allows them to nest.
 #[cfg(not(target_family = "wasm"))]
 const STACK: usize = 64 << 20;
 
@@ -62,7 +62,7 @@ pub struct Text {
     limit: Option<Duration>,
 }
 
-/// What stands in a text.
+/// The form of a text.
 #[derive(Clone, Debug)]
 enum Form {
     /// The inside of `mechanism! { … }`.
@@ -139,7 +139,7 @@ impl Text {
         Ok(moved_left(self.text.get(inside).unwrap_or_default()))
     }
 
-    /// Compiling ends in an error after this time. What was begun goes on for itself until
+    /// Compiling ends in an error after this time. Work that was begun goes on for itself until
     /// it is done: a process that is to end it ends itself.
     #[must_use]
     pub fn within(mut self, limit: Duration) -> Self {
@@ -252,7 +252,7 @@ impl Text {
         self.make(|_, compiled| target::wasm(compiled))
     }
 
-    /// What `target` makes of the compiled mechanism and of its declaration as tokens.
+    /// Compiles the text, and calls `target` with the declaration as tokens and the compiled mechanism.
     fn make<T: Send + 'static>(
         &self,
         target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics> + Send + 'static,
@@ -264,7 +264,7 @@ impl Text {
         self.apart(target).map_err(|problems| self.error(problems))
     }
 
-    /// What [`make`] makes, in a thread with a stack that is deep enough.
+    /// Calls [`make`] in a thread with a stack that is deep enough.
     #[cfg(not(target_family = "wasm"))]
     fn apart<T: Send + 'static>(
         &self,
@@ -295,7 +295,8 @@ impl Text {
         made.unwrap_or_else(|| Err(vec![internal("it came to an unforeseen end")]))
     }
 
-    /// What [`make`] makes: WebAssembly has no threads. Its host gives the stack, and ends what takes too long.
+    /// Calls [`make`] in this thread: WebAssembly has no others. Its host gives the stack, and ends what
+    /// takes too long.
     #[cfg(target_family = "wasm")]
     fn apart<T>(
         &self,

@@ -16,8 +16,8 @@ pub struct Transposes([Option<Transposed>; Function::ALL.len()]);
 /// A transposed program.
 pub struct Transposed {
     pub code: Code,
-    /// What is added to each vector of the adjoints, in the order of [`vectors`]: slots and places. A vector
-    /// after the other, since a choice for each number would cost as much as an operation.
+    /// The results that are added to each vector of the adjoints, in the order of [`vectors`]: slots and
+    /// places. Vector follows vector, since a choice for each number would cost as much as an operation.
     sums: [Vec<(u32, usize)>; 8],
 }
 

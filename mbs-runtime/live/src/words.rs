@@ -49,7 +49,7 @@ fn elimination(step: &compiled::Elimination) -> Elimination {
     }
 }
 
-/// What a picture shows.
+/// The picture of a mechanism.
 pub fn sketch(sketch: &compiled::Sketch) -> Sketch {
     let body =
         |(name, points): &(String, Vec<usize>)| Body { name: text(name), points: leak(points.clone()) };

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use mbs_live::{LONGEST, Problem, Scalar, Text};
 
-/// What rustc shows of a problem, without its frame; see `tests/compile_fail`.
+/// The text that rustc shows of a problem, without its frame; see `tests/compile_fail`.
 fn as_rustc_shows(problem: &Problem) -> String {
     let mut text = format!("error: {}\n", problem.message);
     if let Some(help) = &problem.help {

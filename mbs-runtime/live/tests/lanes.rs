@@ -46,7 +46,7 @@ fn crank() -> Live {
     )
 }
 
-/// What a run says of itself.
+/// The steps, time, state, growth and violations of a run.
 fn told(run: &Run) -> (u64, f64, Vec<f64>, f64, [f64; 2]) {
     let n = run.equations().info().coordinates.len();
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);

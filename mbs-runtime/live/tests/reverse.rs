@@ -40,7 +40,7 @@ fn with(change: impl Fn(String) -> String) -> Vec<Live> {
     found
 }
 
-/// What a number counts in the sum: something else for every number and every step.
+/// The weight of a number in the sum: another one for every number and every step.
 fn weight(step: u64, at: usize) -> f64 {
     (1.0 + 0.7 * step as f64 + 1.3 * at as f64).sin()
 }

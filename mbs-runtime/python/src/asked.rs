@@ -1,4 +1,4 @@
-//! What Python asks of a run.
+//! The options of a run, as Python gives them.
 
 use mbs_runtime::Info;
 use mbs_workbench::{About, Error, PortNames, RunOptions, Signals};

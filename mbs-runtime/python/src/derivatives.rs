@@ -137,7 +137,7 @@ impl Mechanism {
     }
 }
 
-/// What the columns are now.
+/// The values of the columns in the present state.
 fn see(run: &dyn System<Partials>, columns: &[Signal]) -> Result<Vec<Partials>, mbs_runtime::Error> {
     let info = run.equations().info();
     let zeros = |count: usize| vec![Partials::default(); count];

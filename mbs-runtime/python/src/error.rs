@@ -1,4 +1,4 @@
-//! What goes wrong, as the exceptions that the package declares in Python.
+//! Errors as the exceptions that the package declares in Python.
 //!
 //! The package declares the exceptions, so that a module of other mechanisms (`module!`) raises the same
 //! ones.
@@ -15,7 +15,7 @@ pub fn raised(py: Python<'_>, message: &str) -> PyErr {
     instance(py, "Error", (message,)).unwrap_or_else(|error| error)
 }
 
-/// What the workbench says.
+/// The Python exception for an error of the workbench.
 pub fn of(py: Python<'_>, error: &mbs_workbench::Error) -> PyErr {
     match error {
         mbs_workbench::Error::Declaration(error) => of_declaration(py, error),
@@ -28,12 +28,13 @@ pub fn of_run(py: Python<'_>, error: mbs_runtime::Error) -> PyErr {
     of(py, &error.into())
 }
 
-/// What an analysis says.
+/// The Python exception for an error of an analysis.
 pub fn of_analysis(py: Python<'_>, error: mbs_analysis::Error) -> PyErr {
     of(py, &error.into())
 }
 
-/// What is wrong with a declaration: its text with the underlined source, and all problems for tools.
+/// The Python exception for a declaration with errors: its text with the underlined source, and all problems
+/// for tools.
 pub fn of_declaration(py: Python<'_>, error: &mbs_live::Error) -> PyErr {
     let problems = || -> PyResult<Bound<'_, PyList>> {
         let list = PyList::empty(py);

@@ -13,10 +13,11 @@ use crate::error;
 use crate::mechanism::Mechanism;
 use crate::watched::{Watch, watched};
 
-/// What was measured: a name, times in s, values, and perhaps the deviation of their noise, in declared units.
+/// A measured quantity: its name, times in s, values, and perhaps the deviation of their noise, in
+/// declared units.
 type Measured = (String, Vec<f64>, Vec<f64>, Option<f64>);
 
-/// What is looked for: a name, perhaps a guess, and the bounds, in texts.
+/// An unknown: its name, perhaps a guess, and the bounds, in texts.
 type Wanted = (String, Option<String>, [Option<String>; 2]);
 
 /// How a fit is made.
@@ -29,7 +30,7 @@ pub struct AskedFit {
     confidence: f64,
 }
 
-/// What is looked for, and its units.
+/// The unknowns and their units.
 struct Unknowns {
     unknown: Vec<Unknown>,
     units: Vec<Unit>,

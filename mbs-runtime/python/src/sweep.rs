@@ -74,7 +74,7 @@ impl Grid {
     }
 }
 
-/// What is kept of the members: of each quantity that is wanted the smallest, the largest and the last value.
+/// The results of the members: the smallest, the largest and the last value of each quantity that is wanted.
 struct Kept {
     wanted: Vec<usize>,
     extents: Vec<[Vec<f64>; 3]>,

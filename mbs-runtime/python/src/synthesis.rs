@@ -13,7 +13,7 @@ use crate::error;
 use crate::mechanism::Mechanism;
 use crate::watched::{Watch, watched};
 
-/// What a mechanism is to pass, and what may be changed.
+/// The positions that a mechanism is to pass, and the parameters that may be changed.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct AskedTask {

@@ -10,7 +10,7 @@ pub struct Beginning<D: Dynamics> {
     pub inputs: D::Inputs,
     /// t, q and v.
     pub state: (D::Real, D::Coordinates, D::Coordinates),
-    /// What is done with the state.
+    /// How the state becomes the start of the run.
     pub start: Start,
 }
 

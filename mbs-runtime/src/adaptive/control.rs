@@ -4,7 +4,7 @@ use mbs_schemes::Estimate;
 
 use crate::{Error, Real};
 
-/// What a run to a tolerance is asked for.
+/// The tolerances of a run, its longest step and its first one.
 ///
 /// The error that a step adds is estimated per component: it is allowed to be
 ///

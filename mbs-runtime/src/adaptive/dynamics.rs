@@ -31,7 +31,7 @@ pub trait Dynamics: Clone + Send {
     /// Its equations on slices.
     fn equations(&self) -> &dyn Equations<Self::Real>;
 
-    /// What else there is to know of it.
+    /// Its reactions, outputs, energies, texts and picture.
     fn described(&self) -> &dyn Described<Self::Real>;
 
     /// The declared start, nothing made consistent.

@@ -1,6 +1,6 @@
-//! What a run to a tolerance takes.
+//! The number and the lengths of the steps of a run to a tolerance.
 
-/// What a run to a tolerance has taken.
+/// The number and the lengths of the steps that a method chose itself, as in a run to a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Effort {
     /// Steps taken.

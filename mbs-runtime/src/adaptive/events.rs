@@ -38,7 +38,7 @@ pub const MOST_EVENTS: usize = 64;
 type Values<'a, D> =
     dyn FnMut(&D, &<D as Dynamics>::Inputs, At<'_, <D as Dynamics>::Real>, &mut [<D as Dynamics>::Real]) + 'a;
 
-/// What is watched: values, which of their changes of sign count, and room for the values.
+/// The values that are watched, the changes of their signs that count, and room for the values.
 pub(super) struct Watched<'a, D: Dynamics> {
     pub count: usize,
     pub direction: &'a dyn Fn(usize) -> Option<Direction>,
@@ -51,16 +51,16 @@ pub(super) struct Watched<'a, D: Dynamics> {
 /// Events at a moment as sets of bits: bit i is that of the watched value i.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Happened {
-    /// The events at this moment,
+    /// The events at this moment.
     pub all: u64,
-    /// those of them that rise,
+    /// The events of `all` and of `judged` that rise.
     pub rising: u64,
-    /// and those that were not told yet.
+    /// The events of `all` that were not told yet.
     pub due: u64,
-    /// Those of earlier moments too, of values that are still zero: whether a program has turned them
-    /// around is judged,
+    /// Events, of earlier moments too, whose value is still zero, and of which it is known whether a
+    /// program has turned the value around.
     pub judged: u64,
-    /// and so they were.
+    /// The events of `judged` whose value a program has turned around.
     pub turned: u64,
     /// `true` if the state was set, at the start or by a program, and is not the end of a step.
     pub is_set: bool,

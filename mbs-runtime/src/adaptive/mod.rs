@@ -349,7 +349,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         self.control.next.min(self.tolerances.max_step)
     }
 
-    /// What it was asked for.
+    /// The tolerances of the run.
     pub fn tolerances(&self) -> &Tolerances {
         &self.tolerances
     }

@@ -67,9 +67,9 @@ pub struct Sampled<D: Dynamics, S: Scheme> {
 /// A value that a run watches beside its declared events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Threshold {
-    /// What is compared,
+    /// The quantity that is compared.
     pub measured: Measured,
-    /// with what, in SI units.
+    /// The value that the quantity is compared with, in SI units.
     pub value: f64,
     /// Which changes of sign of the difference count.
     pub direction: Direction,
@@ -204,7 +204,7 @@ impl<D: Dynamics, S: Scheme> Sampled<D, S> {
         &self.run
     }
 
-    /// What is seen.
+    /// The mechanism in the state that is seen.
     fn view(&self) -> View<'_, D> {
         let at = At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() };
         View { dynamics: &self.run.dynamics, inputs: &self.run.inputs, at }

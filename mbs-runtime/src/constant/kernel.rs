@@ -1,4 +1,4 @@
-//! What a method is to the run that takes its steps.
+//! The interface between a method and the run that takes its steps.
 
 use crate::adaptive::Moment;
 use crate::{Dynamics, Effort, Error, Info};
@@ -14,7 +14,7 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
     /// Whether the method can integrate a mechanism.
     ///
     /// # Errors
-    /// What of the mechanism it cannot.
+    /// The mechanism has a property that the method does not support.
     fn check(&self, info: &Info) -> Result<(), Error>;
 
     /// Writes the acceleration of a moment at the start and where inputs have changed, when it holds

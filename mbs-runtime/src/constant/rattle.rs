@@ -84,7 +84,7 @@ impl<D: Dynamics> Rattle<D> {
 }
 
 impl<D: Dynamics> ConstantStepBuilder<D, RattleStep<D::States>> {
-    /// What a step is composed of: [`RATTLE`](crate::RATTLE) itself, of second order, or
+    /// Sets the composition of a step: [`RATTLE`](crate::RATTLE) itself, of second order, or
     /// [`RATTLE4`](crate::RATTLE4), five steps that make one of fourth order.
     ///
     /// # Example

@@ -8,7 +8,7 @@ use crate::watch::WorstPlace;
 use crate::{Derivation, Dynamics, Effort, Error, Real, Sketch, System, vectors};
 
 impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
-    /// What is seen.
+    /// The mechanism in its present state.
     fn view(&self) -> View<'_, D> {
         let [q, v] = &self.all;
         let at = At { t: self.now.t, q: q.as_ref(), v: v.as_ref() };

@@ -1,4 +1,4 @@
-//! What the lanes of a pack are, and where.
+//! The simulations in the lanes of a pack, and their states.
 //!
 //! Numbers lie per quantity. The loop over steps is inside `Pack::advance`, so that the state stays in
 //! registers.
@@ -19,7 +19,7 @@ use crate::{Components, Gains, Mechanism, Method, Simulation, State};
 /// State by state, the lanes.
 type Array<M, const N: usize> = <ManyStates<M, N> as Components>::Array;
 
-/// What does not change while simulations advance: what they are,
+/// The mechanisms and inputs of simulations, which do not change while these advance.
 #[derive(Clone, Copy)]
 pub(super) struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
     pub mechanism: Many<M, N>,
@@ -53,7 +53,7 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
     }
 }
 
-/// and how they advance.
+/// The gains, steps and start times of simulations.
 #[derive(Clone, Copy)]
 pub(super) struct Pace<T, const N: usize> {
     pub gains: Gains<Lanes<T, N>>,
@@ -92,9 +92,9 @@ pub(super) struct Moment<M: Mechanism<Real: Lane>, const N: usize> {
     pub v: Array<M, N>,
     /// Steps since the start; exact, and a number that vectors can compute with.
     pub steps: Lanes<f64, N>,
-    /// The growth over which the next step is not calm,
+    /// The growth over which the next step is not calm.
     pub alarm: Lanes<M::Real, N>,
-    /// and the largest one so far.
+    /// The largest growth so far.
     pub worst: Lanes<M::Real, N>,
 }
 

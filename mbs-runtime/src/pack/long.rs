@@ -9,8 +9,8 @@ use crate::lanes::{Lane, Lanes};
 use crate::watch::Watch;
 use crate::{Gains, Mechanism, Method, Real, Simulation, State, spare};
 
-/// Takes steps in each lane before the next one begins, as its scalar does. What is watched is what
-/// [`step_all`](super::step_all) watches.
+/// Takes steps in each lane before the next one begins, as its scalar does. It watches the same as
+/// [`step_all`](super::step_all).
 #[inline(never)]
 pub(super) fn lane_after_lane<M, X, S, const N: usize>(
     members: &[S; N],

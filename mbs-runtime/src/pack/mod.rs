@@ -37,7 +37,7 @@ type Clock<M, const N: usize> = <Many<M, N> as Mechanism>::Clock;
 /// The coordinates of `N` instances.
 pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
 
-/// What is integrated of `N` instances.
+/// The coordinates of `N` instances that are integrated.
 pub type ManyStates<M, const N: usize> = <Many<M, N> as Mechanism>::States;
 
 /// The outputs of `N` instances.
@@ -99,8 +99,8 @@ pub struct Pack<M: Mechanism<Real: Lane>, X: Method, const N: usize, S = Simulat
     instances: Instances<M, N>,
     pace: Pace<M::Real, N>,
     now: Moment<M, N>,
-    /// What growths they remember, which changes in steps of [`step_each`](Self::step_each)
-    /// only.
+    /// The watches of the members. Of all steps, only those of [`step_each`](Self::step_each)
+    /// change them.
     watches: [Watch<M::Real>; N],
     feedback: PhantomData<X>,
 }
@@ -127,8 +127,8 @@ where
         }
     }
 
-    /// Advances every lane by a step; those that did. What a step of
-    /// [`simulation`](Self::simulation) says is why another did not.
+    /// Advances every lane by a step; `true` for those that did. For another one, a step of
+    /// [`simulation`](Self::simulation) gives the reason.
     pub fn step(&mut self) -> [bool; N] {
         if self.stride(1) { [true; N] } else { self.step_each() }
     }
@@ -253,7 +253,7 @@ where
         self.now.steps.0[lane.min(N - 1)] as u64
     }
 
-    /// What can be observed of all lanes.
+    /// All lanes as they are now, to be observed.
     #[inline(always)]
     pub fn snapshot(&self) -> Snapshot<'_, M, N> {
         Snapshot { instances: &self.instances, moment: &self.now }

@@ -1,4 +1,4 @@
-//! What can be observed of a pack.
+//! The quantities of a pack that can be observed.
 #![allow(
     clippy::needless_range_loop,
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"

@@ -2,7 +2,7 @@
 //! [`gradients`](crate::gradients#many-variables-in-reverse).
 //!
 //! A declaration with `gradients = reverse;` is [`Transposed`]: for a function y = f(x) it has the product
-//! x̄ = (∂f/∂x)ᵀ ȳ, in which ȳ, the *adjoint* of y, is the derivative of the sum by y. What goes back through a
+//! x̄ = (∂f/∂x)ᵀ ȳ, in which ȳ, the *adjoint* of y, is the derivative of the sum by y. The way back through a
 //! run with these is written once, for types and texts ([`Reversible`]).
 
 #[cfg(feature = "std")]
@@ -52,7 +52,7 @@ pub trait Transposed: Mechanism {
 /// A function of a mechanism that is transposed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
-    /// What depends on parameters alone.
+    /// The values that depend on parameters alone.
     Hoisted,
     /// q̈ of the states with feedback of their own violation, and that feedback.
     Stabilized,
@@ -68,11 +68,11 @@ pub enum Function {
     Projection,
     /// q̈ and λ, where the feedback that is given is 0.
     Reactions,
-    /// What the declaration measures.
+    /// The declared outputs.
     Outputs,
-    /// The state behind a whole step with feedback that is held over it,
+    /// The state behind a whole step with feedback that is held over it.
     StepHeld,
-    /// or with feedback in every stage.
+    /// The state behind a whole step with feedback in every stage.
     StepPerStage,
 }
 
@@ -93,7 +93,7 @@ impl Function {
     ];
 }
 
-/// What a function is given; what it does not read may be left empty.
+/// The arguments of a function; those that it does not read may be left empty.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'a, T> {
     /// t in s

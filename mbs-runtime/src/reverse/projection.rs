@@ -10,14 +10,14 @@ use crate::vectors::{add, copy, fill};
 
 /// Room for a projection.
 pub struct Projection {
-    /// What is integrated, before the projection,
+    /// The coordinates that are integrated, and their velocities, before the projection.
     pub q: Vec<f64>,
     pub v: Vec<f64>,
-    /// and positions behind it.
+    /// The coordinates that are integrated, after the projection of positions.
     moved: Vec<f64>,
-    /// All coordinates before positions are projected,
+    /// All coordinates and velocities before the projection of positions.
     before: [Vec<f64>; 2],
-    /// and behind, with velocities that are not.
+    /// All coordinates and velocities after the projection of positions, before that of velocities.
     behind: [Vec<f64>; 2],
     /// Φ and Φ̇
     violations: [Vec<f64>; 2],

@@ -25,13 +25,13 @@ pub struct Stages {
     velocities: Vec<Vec<f64>>,
     accelerations: Vec<Vec<f64>>,
     feedback: Vec<f64>,
-    /// Adjoints of v and q̈ of every stage,
+    /// Adjoints of v and q̈ of every stage.
     of_velocities: Vec<Vec<f64>>,
     of_accelerations: Vec<Vec<f64>>,
-    /// and of the state before the step.
+    /// Adjoints of the state before the step.
     of_position: Vec<f64>,
     of_velocity: Vec<f64>,
-    /// What projects, where the method does.
+    /// The projection, if the method has one.
     projection: Option<Projection>,
     /// Weights of the results of a stage.
     weights: Vec<f64>,
@@ -204,13 +204,13 @@ struct Sum {
 }
 
 impl Sum {
-    /// What leads to a stage; nothing to the first.
+    /// The sum that leads to a stage; `None` for the first one.
     fn before(method: Explicit, stage: usize, at: &Given<'_, f64>) -> Option<Self> {
         let row = method.tableau.stages.get(stage.checked_sub(1)?)?;
         Some(Self { weights: row.weights, factor: row.share * at.h })
     }
 
-    /// What leads to the end of the step.
+    /// The sum that leads to the end of the step.
     fn update(method: Explicit, at: &Given<'_, f64>) -> Self {
         let row = &method.tableau.update;
         Self { weights: row.weights, factor: row.share * at.h }

@@ -42,7 +42,7 @@ pub struct Moment<'a> {
 }
 
 impl Moment<'_> {
-    /// What the declaration measures there. It is computed when it is asked for.
+    /// The declared outputs in this state. A call computes them.
     ///
     /// # Errors
     /// [`Error::Undefined`] if an output is not finite.
@@ -51,7 +51,7 @@ impl Moment<'_> {
     }
 }
 
-/// What a state adds to a sum.
+/// A function that returns the term of a state in a sum.
 type Term<'a> = dyn FnMut(&mut Moment<'_>) -> Result<f64, Error> + 'a;
 
 impl Sum<'_> {
@@ -248,7 +248,7 @@ impl Pieces {
     }
 }
 
-/// What states add to the sum, and room for that.
+/// Room for the terms of a sum and for their derivatives.
 struct Terms {
     measures: Measures,
     by_q: Vec<f64>,

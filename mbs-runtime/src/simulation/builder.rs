@@ -1,4 +1,4 @@
-//! What can be chosen before a simulation starts.
+//! The choices before a simulation starts.
 
 use super::Simulation;
 use crate::equations::Arrays;

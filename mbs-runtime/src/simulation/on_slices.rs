@@ -7,7 +7,7 @@ use crate::room::{OnStack, Room};
 use crate::run::Run;
 use crate::{Components, Error, Mechanism, Method, Real, Scheme, State, spare};
 
-/// What is done with a run.
+/// A function of a run and of vectors to compute with.
 type Do<'a, T> = dyn FnMut(&Run<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
 
 impl<M: Mechanism, X: Method> Simulation<M, X> {

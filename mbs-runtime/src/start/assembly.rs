@@ -49,11 +49,11 @@ pub fn assemble<T: Real>(
     })
 }
 
-/// What Newton's iteration works with.
+/// The vectors of Newton's iteration.
 pub(super) struct Iterate<'a, T> {
-    /// A correction of positions,
+    /// A correction of positions.
     pub delta: &'a mut [T],
-    /// and positions after a part of it.
+    /// The positions after a part of the correction.
     pub next: &'a mut [T],
     /// Φ
     pub phi: &'a mut [T],

@@ -112,8 +112,8 @@ fn check_rows<T: Real>(info: &Info, t: T, found: &[T], allowed: &[T], is_rate: b
 /// Refuses a start in which redundant constraints are met, but not by its accelerations:
 /// with parameters for which they fit at this instant only.
 ///
-/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind. What violates a constraint
-/// over a step by no more than the rounding of positions is none: a structure at rest has
+/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind. A violation that Φ̈ causes over a
+/// step counts as none if it is no more than the rounding of positions: a structure at rest has
 /// accelerations that are rounding.
 pub(super) fn check_redundant_accelerations<T: Real>(
     equations: &dyn Equations<T>,

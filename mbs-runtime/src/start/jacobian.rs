@@ -28,7 +28,7 @@ impl<'a, T: Real> Jacobian<'a, T> {
         Self { equations, t, q, phi_t, direction }
     }
 
-    /// What is known of the mechanism.
+    /// The description of the mechanism.
     pub fn info(&self) -> &'a Info {
         self.equations.info()
     }

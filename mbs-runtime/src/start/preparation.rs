@@ -1,4 +1,4 @@
-//! What becomes of a state before a run starts from it.
+//! The preparation of a state from which a run starts.
 
 use super::consistency::{check_redundant_accelerations, length};
 use super::jacobian::Jacobian;
@@ -9,21 +9,21 @@ use crate::room::Room;
 use crate::simulation::clock::check_time;
 use crate::{Error, Real};
 
-/// What is done with a state before it becomes the start.
+/// How a state becomes the start of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// The declared one is made consistent.
     Declared,
     /// A given one has to be consistent.
     Given,
-    /// It may be anything.
+    /// A given one may violate constraints.
     Unchecked,
 }
 
-/// What a run that is to start consists of, but for its state.
+/// The conditions under which a state becomes the start of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Preparation<'a, T> {
-    /// What is done with the state.
+    /// How the state becomes the start.
     pub start: Start,
     /// The inputs of the first step.
     pub inputs: &'a [T],

@@ -90,14 +90,14 @@ fn find_mobility<T: Real>(equations: &dyn Equations<T>, t: T, q: &[T], unit: &mu
     vectors::map(mobility, |mobility| if mobility > zero { mobility } else { of_massless });
 }
 
-/// What the search for a least correction works with: conjugate gradients of
+/// The vectors of the search for a least correction: conjugate gradients of
 /// ‖residual − Φ_q W y‖², Δ = W y, with the mobilities W.
 struct Search<'a, T> {
     /// W Φ_qᵀ (residual − Φ_q W y)
     slope: &'a mut [T],
-    /// The direction in which y is changed,
+    /// The direction in which y is changed.
     direction: &'a mut [T],
-    /// and W times it.
+    /// W times the direction.
     moved: &'a mut [T],
     /// residual − Φ_q W y
     rest: &'a mut [T],

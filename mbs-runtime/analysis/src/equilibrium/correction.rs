@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use crate::singular::Singular;
 use crate::tangent::Rest;
 
-/// An acceleration is a rounding that is less than this share of what its terms are, in scales per s²,
+/// Accelerations are rounded by up to this share of their terms, in scales per s².
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// or than this many scales per s².
+/// Accelerations are rounded by up to this many scales per s², whatever their terms are.
 const STILL: f64 = 1e-11;
 
 /// The displacement N z that takes an acceleration q̈ away: (s − A_r) z = z̈, with z̈ of q̈ and
@@ -20,7 +20,7 @@ pub struct Correction {
     /// How much of the length may be rounding. Accelerations are rounded in proportion to the stiffest
     /// direction, and the softest direction turns that into a displacement.
     pub rounding: f64,
-    /// What of z̈ acts in directions without stiffness, in scales per s².
+    /// The part of z̈ in directions without stiffness, in scales per s².
     left: f64,
     /// The size of A_r in 1/s².
     rate: f64,

@@ -10,7 +10,7 @@ use crate::singular::Singular;
 /// Columns of the Jacobian whose combination is smaller than this part of them cannot be told from columns
 /// that depend on each other: their derivatives are known to about ten times the tolerance of the runs.
 const DEPENDENT: f64 = 1e-6;
-/// What changes by less than this part of the largest change is not named.
+/// An unknown that changes by less than this part of the largest change is not named.
 const NAMED: f64 = 1e-2;
 
 /// (JᵀJ)⁻¹ of the unknowns that are free; zeros for the others.

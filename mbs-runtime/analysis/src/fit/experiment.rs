@@ -1,4 +1,4 @@
-//! What was measured, under which conditions, and what is looked for.
+//! A measured run, its conditions, and the unknowns of the mechanism.
 
 use std::sync::Arc;
 
@@ -29,9 +29,9 @@ pub struct Experiment {
 pub struct Measurement {
     /// Its name: an output, a coordinate `x`, its rate `der(x)`, or a multiplier `lambda(row)`.
     pub name: String,
-    /// The instants in s, ascending,
+    /// The instants in s, ascending.
     pub times: Vec<f64>,
-    /// and the value at each.
+    /// The value at each instant.
     pub values: Vec<f64>,
     /// The standard deviation of its noise; where it is not known, it is estimated.
     pub deviation: Option<f64>,

@@ -21,14 +21,14 @@ pub use experiment::{Experiment, Measurement, Unknown, clock_of};
 use nalgebra::DMatrix;
 pub use trials::{Look, See, Trial, Trials, trials_of_type};
 
-/// What an [`Experiment`] says about what was looked for.
+/// The result of fitting an [`Experiment`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// What was found, in the order in which it was looked for.
+    /// The estimates, in the order of the unknowns.
     pub estimates: Vec<Estimate>,
     /// The covariance of the estimates, in SI units; without those that ended at a bound, whose rows are 0.
     pub covariance: DMatrix<f64>,
-    /// What is left over, of each measured quantity.
+    /// The remainder of each measured quantity.
     pub remainders: Vec<Remainder>,
     /// Σ (r/σ)² over all samples, with the deviations σ of the remainders.
     pub chi_squared: f64,
@@ -38,21 +38,21 @@ pub struct Fit {
     pub has_converged: bool,
     /// The runs that it took.
     pub runs: usize,
-    /// The probability with which an interval contains the true value,
+    /// The probability with which an interval contains the true value.
     pub confidence: f64,
-    /// and how many standard errors it reaches to each side: by Student's distribution where a deviation was
-    /// estimated, by the normal one where all were given.
+    /// The number of standard errors that an interval reaches to each side: by Student's distribution where a
+    /// deviation was estimated, by the normal one where all were given.
     pub coverage: f64,
 }
 
 /// A value that was found, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// What was looked for.
+    /// The name of the unknown.
     pub name: String,
-    /// From where.
+    /// The value from which it was looked for.
     pub guess: f64,
-    /// What was found.
+    /// The estimated value.
     pub value: f64,
     /// Its standard deviation, to first order; 0 at a bound.
     pub standard_error: f64,
@@ -63,10 +63,10 @@ pub struct Estimate {
     pub is_at_bound: bool,
 }
 
-/// What a fit leaves over of a measured quantity, in SI units.
+/// The residuals of a measured quantity, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remainder {
-    /// What the mechanism does at the instants of the samples.
+    /// The values of the fitted mechanism at the instants of the samples.
     pub predicted: Vec<f64>,
     /// Measured less predicted.
     pub residuals: Vec<f64>,
@@ -79,9 +79,9 @@ pub struct Remainder {
 /// How far a fit is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The number of the start, from 1 on,
+    /// The number of the start, from 1 on.
     pub start: usize,
-    /// of how many at most.
+    /// The largest number of starts.
     pub starts: usize,
     /// The runs that were made.
     pub runs: usize,

@@ -1,4 +1,4 @@
-//! What a mechanism does at the instants of the samples, with its derivatives.
+//! Predictions of a mechanism at the instants of the samples, with derivatives.
 
 use std::cell::{Cell, RefCell};
 
@@ -38,7 +38,7 @@ pub struct Sample {
 }
 
 impl<'a> Problem<'a> {
-    /// What an experiment asks for.
+    /// Finds the names of an experiment, and puts its samples in the order of time.
     ///
     /// # Errors
     /// As [`Experiment::fit`].
@@ -159,7 +159,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Parameters, positions and velocities with some values of x, as variables from the one with the number
-    /// `first` on. What x does not have is a NaN in positions and velocities.
+    /// `first` on. Positions and velocities that are not in x are NaN.
     fn planted(&self, x: &DVector<f64>, first: usize) -> [Vec<Partials>; 3] {
         let Experiment { info, parameters, .. } = self.experiment;
         let unset = || vec![Partials::constant(f64::NAN); info.coordinates.len()];
@@ -186,7 +186,7 @@ impl<'a> Problem<'a> {
         self.samples.partition_point(|sample| sample.instant < instants)
     }
 
-    /// What is predicted for the first `count` samples, and its derivatives by x.
+    /// The predictions of the first `count` samples, and their derivatives by x.
     ///
     /// # Errors
     /// Those of the runs.
@@ -244,7 +244,7 @@ fn steps_of(run: &dyn System<Partials>) -> u64 {
     run.effort().map_or(0, |effort| effort.steps)
 }
 
-/// What is seen of a run at an instant, in room that is made once.
+/// The state of a run at an instant, in room that is made once.
 struct View {
     q: Vec<Partials>,
     v: Vec<Partials>,

@@ -13,9 +13,9 @@ use super::quantile::two_sided;
 use super::{Estimate, Experiment, Fit, Progress, Remainder, Trials};
 use crate::Error;
 
-/// Parts of the data over which a start is followed before it is over all of them,
+/// Parts of the data over which a start is followed, one after the other, before all of the data.
 const PARTS: [f64; 4] = [1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0];
-/// as long as there are so many samples for every unknown.
+/// A part of the data is used if it has so many samples for every unknown.
 const SAMPLES: usize = 4;
 const OVER_A_PART: Stop = Stop { iterations: 12, change: 1e-3 };
 /// The sum changes by the square of how far x is off, so that x is known to a thousandth of its error.
@@ -27,7 +27,7 @@ const EQUAL: f64 = 1e-5;
 /// Weights are estimated at most so many times, until they change by less than this part.
 const ROUNDS: usize = 20;
 const SETTLED: f64 = 1e-3;
-/// What has less influence than this on the data has none.
+/// An unknown with less influence than this on the data has none.
 const NOTHING: f64 = 1e-7;
 /// A deviation is not estimated below this part of the range of the data: the error of the runs.
 const LEAST: f64 = 1e-9;

@@ -43,14 +43,14 @@ pub trait Trials {
     /// Makes a run and shows it at the times of the trial, by their number.
     ///
     /// # Errors
-    /// What refuses the parameters or the start or ends the run, and what `see` says.
+    /// Those of the parameters, of the start and of the run, and those of `see`.
     fn follow(&self, trial: &Trial<'_>, see: &mut See<'_>) -> Result<(), Error>;
 }
 
-/// What is done with a run at one of its times.
+/// A function of a run at one of its times, which is given by its number.
 pub type See<'a> = dyn FnMut(usize, &dyn System<Partials>) -> Result<(), Error> + 'a;
 
-/// What is done with a mechanism and its declared positions.
+/// A function of a mechanism and its declared positions.
 pub type Look<'a> = dyn FnMut(&dyn Described<Partials>, &[Partials]) + 'a;
 
 /// A run that is tried.
@@ -64,13 +64,13 @@ pub struct Trial<'a> {
     pub times: &'a [f64],
     /// When the run starts, in s, unless as the mechanism declares it.
     pub start_time: Option<f64>,
-    /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs),
+    /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs).
     pub inputs: &'a [f64],
-    /// and those that change with time.
+    /// The inputs that change with time.
     pub table: &'a Arc<InputTable>,
-    /// The tolerances of the run,
+    /// The tolerances of the run.
     pub tolerances: Tolerances,
-    /// and the steps that it may take.
+    /// The largest number of steps that the run may take.
     pub most_steps: u64,
 }
 

@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// What is to vanish at a position, with its derivatives.
+/// The residuals at a position, with their derivatives.
 pub struct Block {
     pub residuals: DVector<f64>,
     /// A

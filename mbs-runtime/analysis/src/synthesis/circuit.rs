@@ -48,7 +48,7 @@ struct Curve<'a> {
     guess: &'a Guess,
 }
 
-/// What lies on a curve, by the way from its beginning.
+/// The course of a curve, by the way from its beginning.
 #[derive(Default)]
 struct Way {
     /// The positions by their numbers.

@@ -1,4 +1,4 @@
-//! What has to vanish at the positions of a task, and its derivatives.
+//! The residuals at the positions of a task, and their derivatives.
 //!
 //! Every row is divided by the size of what it measures, so that lengths and angles weigh alike: a constraint in
 //! m² by L², an angle by 1 rad, with L the extent of the positions.
@@ -104,7 +104,7 @@ impl<'a> System<'a> {
         parameters
     }
 
-    /// What has to vanish at a position; the constraints count `weight` times.
+    /// Writes the residuals at a position; the constraints count `weight` times.
     fn residuals(
         &self,
         mechanism: &dyn Described<Partials>,

@@ -1,4 +1,4 @@
-//! What a linkage is to do, and which parameters may be chosen for that.
+//! The task of a linkage, and the parameters that may be chosen for it.
 
 use mbs_runtime::Info;
 
@@ -28,9 +28,9 @@ pub struct Task {
     pub drive: Option<String>,
     /// By how much each value may be missed, in SI units.
     pub tolerance: f64,
-    /// From so many starts it is looked at most,
+    /// The largest number of starts.
     pub starts: usize,
-    /// until so many mechanisms are found.
+    /// The number of mechanisms at which the search ends.
     pub enough: usize,
     /// The random numbers of another seed lead to other mechanisms.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! What is refused, and in which words.
+//! Experiments that are refused, and the words of the refusals.
 
 use mbs_analysis::{Error, Experiment, Measurement, Unknown, trials_of_type};
 use mbs_runtime::Mechanism;

@@ -105,7 +105,7 @@ pub fn c(text: &str) -> CString {
     CString::new(text).expect("a text without NUL")
 }
 
-/// What a text of C says.
+/// A text of C as a string.
 pub fn said(text: *const c_char) -> String {
     assert!(!text.is_null());
     // SAFETY: texts of the library end with a NUL and stay while they are read here
@@ -119,7 +119,7 @@ pub fn error() -> String {
     said(unsafe { mbs_error() })
 }
 
-/// What has to be 0; the error says what is wrong.
+/// Checks that a status is 0; the panic shows the last error.
 #[track_caller]
 pub fn ok(status: c_int) {
     assert!(status == OK, "{status}: {}", error());

@@ -196,7 +196,7 @@ impl Reversible for Retraced {
     }
 }
 
-/// What a function is given, as codes read it.
+/// The arguments of a function, as codes read them.
 fn arguments<'a>(given: &Given<'a, f64>) -> Arguments<'a> {
     Arguments {
         inputs: single(given.inputs),

@@ -1,4 +1,4 @@
-//! What tools see of a run.
+//! A run as tools see it.
 
 use mbs_runtime::equations::{self, At, Described, Equations, Room, check_outputs};
 use mbs_runtime::{Derivation, Error, Real, Sketch, System, WorstPlace};

@@ -44,7 +44,7 @@ fn side_by_side(mut typed: Box<dyn System>, mut run: Box<dyn System>, inputs: &[
     }
 }
 
-/// What both find on their way through declared events.
+/// Both find the same declared events on their way.
 #[test]
 fn events_are_the_same() {
     let live = mbs_live::Text::declaration("bouncer.mbs", BOUNCER).compile().expect("a mechanism");
@@ -84,7 +84,7 @@ fn told(run: &dyn System) -> Vec<f64> {
     [q, v, acceleration, multipliers, outputs, inputs, parameters, points, scalars].concat()
 }
 
-/// What both answer to choices that cannot be made, and to steps that cannot be taken.
+/// Both refuse choices that cannot be made, and steps that cannot be taken, in the same words.
 #[test]
 fn runs_are_refused_with_the_same_words() {
     let live = mbs_live::Text::declaration("free.mbs", FREE).compile().expect("a mechanism");
