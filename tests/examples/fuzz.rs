@@ -141,14 +141,14 @@ fn one(options: &Options) -> Outcome {
     Ok(())
 }
 
-/// What a run has seen.
+/// Counts of the verdicts of a run.
 #[derive(Default)]
 struct Tally {
     inputs: u64,
     compiled: u64,
     refused: u64,
     no_tokens: u64,
-    /// Too slow, but not again.
+    /// Inputs that were too slow, but not again.
     once_slow: u64,
     words: BTreeMap<String, u64>,
     /// How often each failure occurred.
@@ -222,7 +222,7 @@ fn note(
             }
             let times = tally.failures.entry(failure.to_owned()).or_default();
             *times += 1;
-            // What fails at the same place, or takes too long, is looked at a few times only.
+            // Failures at the same place are looked at once, inputs that take too long a few times.
             let most = if failure == "TooSlow" { 8 } else { 1 };
             if *times <= most {
                 keep(&text, failure, options, bar)?;

@@ -5,7 +5,7 @@
 pub struct Slope {
     /// f′(0)
     pub value: f64,
-    /// What truncation and rounding may add to it.
+    /// A bound of its errors by truncation and by rounding.
     pub error: f64,
 }
 

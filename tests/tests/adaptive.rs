@@ -338,7 +338,7 @@ fn the_shortest_and_the_longest_steps_are_taken() {
     assert!(run.time() > 1e9 && run.state().q.x == 1.0);
 }
 
-/// What is tried in search of an error is no part of the run.
+/// Trials in search of an error are no part of the run.
 #[test]
 fn an_error_leaves_the_watch_as_it_was() {
     let mut run = crank::<Dopri5>(1e-6);

@@ -1,4 +1,4 @@
-//! What a declaration promises of its solver: step, gains, cost.
+//! Promises of a declaration about its solver: step, gains, cost.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{Baumgarte, Mechanism, PerStage, Rk4, Simulation, State, mechanism};

@@ -1,4 +1,4 @@
-//! What a pass close to a singular position leaves of a motion.
+//! The digits that a pass close to a singular position leaves of a motion.
 
 use mbs_runtime::{Error, Simulation};
 use models::NFourBar40;

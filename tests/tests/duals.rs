@@ -124,8 +124,8 @@ fn operators_have_their_rules() {
     }
 }
 
-/// What does not move may stand where a slope is infinite: a power of a negative number, the root
-/// of nothing.
+/// A partial derivative of zero stays zero where a slope is infinite or undefined: at the root of nothing, in
+/// the exponent of a negative number.
 #[test]
 fn what_does_not_move_needs_no_slope() {
     let still = Dual::<f64, 2>::constant;

@@ -44,7 +44,7 @@ mechanism! {
 type Observer = (Violation, (Extremes, Samples));
 const OBSERVER: Observer = (Violation, (Extremes { from: 0.1 }, Samples::every(100)));
 
-/// What `OBSERVER` says, found by scalar steps.
+/// The numbers of `OBSERVER`, found by scalar steps.
 fn alone<M: Mechanism<Real = f64>, X: Method>(mut run: Simulation<M, X>) -> Vec<f64> {
     let mut numbers = vec![0.0_f64; 2];
     let count = M::Outputs::NAMES.len();

@@ -1,5 +1,5 @@
-//! What an ensemble allocates does not depend on the number of steps, and what it
-//! holds at once does not depend on the number of members that are handed over.
+//! The most memory that an ensemble holds at once depends neither on the number of steps nor on the number of
+//! members that are handed over.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::alloc::{GlobalAlloc, Layout, System};

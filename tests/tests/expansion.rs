@@ -1,6 +1,5 @@
-//! What `mechanism!` expands to, of a pendulum, as a person reviews it: items, signatures and documentation,
-//! with the bodies of functions left out. What is in these is counted (`operation_counts`) and run (everywhere
-//! else).
+//! The expansion of `mechanism!`, of a pendulum, as a person reviews it: items, signatures and documentation,
+//! with the bodies of functions left out. These are counted (`operation_counts`) and run (everywhere else).
 //!
 //! A change of what is generated shows here as a difference to review;
 //! `BLESS=1 cargo test --release --workspace --test expansion` accepts it.

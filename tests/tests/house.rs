@@ -66,7 +66,7 @@ fn rooms_of_the_compiler_see_those_before_them_alone() {
     assert!(imports > 100, "{imports}");
 }
 
-/// What a target knows of a mechanism is `Compiled`.
+/// A target knows a mechanism by `Compiled` alone.
 #[test]
 fn targets_see_the_waist_alone() {
     let mut found = Vec::new();

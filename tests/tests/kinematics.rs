@@ -85,7 +85,7 @@ fn far_instants_are_on_the_same_branch() {
     }
 }
 
-/// What the drive takes is what a run says.
+/// Outputs and reactions of a position are those of a run.
 #[test]
 fn reactions_and_outputs() {
     let mut kinematics = Kinematics::new(SliderCrank::declared()).expect("fully driven");

@@ -225,7 +225,7 @@ fn steps_and_runs_have_the_derivatives_of_differences() {
     }
 }
 
-/// What stands in `mechanism! { … }`.
+/// The declaration in the first `mechanism! { … }`.
 fn declaration(tokens: TokenStream) -> Option<TokenStream> {
     let mut before = [false; 2];
     for tree in tokens {

@@ -106,7 +106,7 @@ fn loops_are_the_straight_lines_of_four_bars() {
     assert!(simulation.state().q.theta_0 < -1.0, "it has gone through θ = 0");
 }
 
-/// What was chosen can be read.
+/// The description says whether a mechanism has loops.
 #[test]
 fn the_description_tells_loops_from_straight_lines() {
     let loops = |info: &mbs_runtime::Info| info.functions.iter().any(|function| function.loops > 0);

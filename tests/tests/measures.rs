@@ -133,8 +133,8 @@ fn powers_balance_the_energy() {
     assert!(jammed < 10, "friction of 0.1 seldom jams");
 }
 
-/// What friction takes of the motion is f(λ) with the λ that comes out: the
-/// residual of the fixed point, in every state relative to the load.
+/// The friction in the forces is f(λ) with the λ that comes out: the residual of the fixed point, in every
+/// state relative to the load.
 #[test]
 fn friction_is_that_of_the_reactions_it_causes() {
     let everything = Everything::declared();

@@ -105,8 +105,8 @@ fn derivatives_do_not_allocate() {
     assert_eq!(allocations(|| run.advance(10_000).expect("a regular motion")), 0);
 }
 
-/// What a gradient in reverse allocates, it allocates once: a longer run takes as many allocations, whether
-/// all states are kept or most are made again.
+/// A gradient in reverse allocates once: a longer run takes as many allocations, whether all states are kept
+/// or most are made again.
 #[test]
 fn steps_in_reverse_do_not_allocate() {
     let text = "Block { dof = 1; param k = 4 [N/m]; body block (x) { mass = 1 [kg]; }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs};
 
-/// What no firmware wants to find: allocators, panics and their messages.
+/// Parts of symbols that no firmware wants to find: allocators, panics and their messages.
 const UNWANTED: [&str; 6] = ["alloc", "malloc", "panic", "fmt", "unwind", "format"];
 
 /// A copy of `tests/no_std` among the build outputs, so that neither its

@@ -58,8 +58,8 @@ fn right_hand_sides_cost_at_most_half_more_than_by_hand() {
     }
 }
 
-/// What a right-hand side of chains may cost, feedback included: bounds that hold for
-/// an elimination that sees their structure.
+/// Bounds of the operations of a right-hand side of chains, feedback included. They hold for an elimination
+/// that sees their structure.
 #[test]
 fn chains_cost_what_their_structure_promises() {
     for (info, most) in [

@@ -12,8 +12,9 @@ use tests::linkages::declaration;
 
 const MECHANISMS: u64 = 300;
 
-/// None of them is large: the longest takes seconds. What does not end is meant, on machines that are
-/// busy with something else too; how long a compilation takes is measured by `benches/expansion`.
+/// The time after which a compilation counts as endless, on machines that are busy with something else too.
+/// No mechanism is large: the longest takes seconds. How long a compilation takes is measured by
+/// `benches/expansion`.
 const LIMIT: Duration = Duration::from_secs(60);
 
 #[test]

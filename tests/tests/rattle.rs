@@ -76,7 +76,7 @@ fn errors_fall_with_the_order() {
     orders(Rotor::declared());
 }
 
-/// What the energy of a run does.
+/// The energy of a run and its violation.
 struct Energy {
     /// The largest deviation from that of the start in the first and in the second half, over the
     /// largest kinetic energy.

@@ -38,7 +38,7 @@ fn seeds_compile() {
     }
 }
 
-/// What the compiler says.
+/// The errors of the compiler.
 fn errors(text: &str) -> Vec<String> {
     let answer = tests::fuzzing::tokens(text).map(mbs_codegen::compile);
     answer.and_then(Result::err).iter().flat_map(|errors| errors.iter()).map(|error| error.text()).collect()

@@ -271,8 +271,8 @@ fn texts_run_alike() {
     assert_eq!(found[0], found[1]);
 }
 
-/// What a stage takes stands in the contract, and a mechanism without forces of positions or
-/// velocities has no stage of its own.
+/// The operations of a stage stand in the description. A mechanism without forces of positions or velocities
+/// has no stage of its own.
 #[test]
 fn operations_of_a_stage_are_told() {
     let of_stage = Crank::<f64>::INFO.operations("implicit").expect("a stiff mechanism");

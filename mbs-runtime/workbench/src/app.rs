@@ -19,7 +19,7 @@ use crate::console::complain;
 use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
 
-/// What a command has to say about results that it gave nevertheless.
+/// Warnings about the results of a command that gave them nevertheless.
 pub(crate) type Warnings = Vec<String>;
 
 /// The exit code of a command that has warnings.
@@ -27,7 +27,7 @@ const DOUBTFUL: u8 = 3;
 /// That of a command whose reader has gone away.
 const NO_READER: u8 = 141;
 
-/// What a command of the embedding program does.
+/// The function behind a command of the embedding program.
 type Action = Box<dyn Fn(&ArgMatches) -> Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
 /// A command line for mechanisms: `list`, `explain`, `simulate`, `sweep`, `equilibrium`, `linearize`,
@@ -77,8 +77,8 @@ impl App {
         self
     }
 
-    /// Adds a mechanism whose declaration is a text, which is compiled when it is asked
-    /// for, and whose runs have these defaults. What is wrong with it is told then.
+    /// Adds a mechanism whose declaration is a text, and whose runs have these defaults. The text is compiled
+    /// on first use; its errors appear then.
     #[cfg(feature = "live")]
     #[must_use]
     pub fn text(mut self, name: &str, text: mbs_live::Text, defaults: Settings) -> Self {

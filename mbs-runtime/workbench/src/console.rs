@@ -1,4 +1,4 @@
-//! What the program says.
+//! Lines on standard output and standard error.
 
 use std::fmt::Display;
 use std::io::Write;

@@ -12,8 +12,8 @@ use crate::energy::Energy;
 use crate::number::significant;
 use crate::unit::Unit;
 
-/// The violation of a constraint, as a share of the size of the mechanism (for angles, of
-/// a radian), from which on a run is doubted. What joints leave open is then visible.
+/// The violation of a constraint, as a share of the size of the mechanism (for angles, of a radian), from
+/// which on a run is doubted. A gap in a joint is then visible.
 const VIOLATION: f64 = 1e-3;
 /// Decimal digits below which a run is doubted. Half of those of a double: an error of that
 /// size grows in motions that are sensitive, and nothing else tells of it.
@@ -26,11 +26,11 @@ pub enum Doubt {
     Violation {
         /// The constraint.
         constraint: &'static str,
-        /// Its largest violation in SI units,
+        /// Its largest violation, in SI units.
         value: f64,
-        /// the unit,
+        /// The unit of the violation.
         unit: String,
-        /// and when that was, in s.
+        /// The time of the largest violation, in s.
         at: f64,
         /// The size of the mechanism at the start in m.
         size: f64,
@@ -53,35 +53,35 @@ pub enum Doubt {
     },
     /// Constant steps were too long for the forces, so that deviations grew that die away in truth.
     Unstable {
-        /// The coordinate that moves fastest,
+        /// The coordinate that moves fastest.
         coordinate: &'static str,
-        /// when that was seen, in s,
+        /// The time at which that was seen, in s.
         at: f64,
-        /// the step in s,
+        /// The step, in s.
         step: f64,
-        /// the time in s within which the forces act,
+        /// The time within which the forces act, in s.
         within: f64,
-        /// and a step in s that would have been stable.
+        /// A step that would have been stable, in s.
         longest: f64,
     },
     /// Constant steps were too long for the motion.
     Coarse {
-        /// The coordinate whose rate was off most,
+        /// The coordinate whose rate was off most.
         coordinate: &'static str,
-        /// when, in s,
+        /// The time at which it was, in s.
         at: f64,
-        /// the step in s,
+        /// The step, in s.
         step: f64,
-        /// and the error of one step, as a share of the fastest motion.
+        /// The error of one step, as a share of the fastest motion.
         share: f64,
     },
     /// A quantity was not a number, or infinite.
     NotFinite {
         /// The quantity.
         name: String,
-        /// What it was.
+        /// Its first value that was not finite.
         value: f64,
-        /// Since when, in s.
+        /// The time of that value, in s.
         at: f64,
     },
 }
@@ -147,7 +147,7 @@ fn plain(step: f64) -> String {
     if rounded >= 1e-6 { format!("{}ms", significant(1e3 * rounded, 1)) } else { format!("{rounded:.0e}") }
 }
 
-/// What is watched during a run.
+/// A watch over the constraints and the energy during a run.
 pub(crate) struct Watch {
     rows: Vec<Row>,
     /// Extent of the mechanism at the start in m.
@@ -194,7 +194,7 @@ impl Watch {
         self.energy.as_mut()
     }
 
-    /// What is to be doubted after a run that recorded these columns, time first.
+    /// The reasons to doubt a run that recorded these columns, time first.
     pub fn doubts(self, columns: &[Column]) -> Vec<Doubt> {
         let size = self.size;
         let worst = self

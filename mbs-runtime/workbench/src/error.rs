@@ -1,4 +1,4 @@
-//! What can go wrong at the desk.
+//! Errors of the workbench.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ pub enum Error {
     /// A name that nothing has.
     #[error("{}", names::unknown(.kind, .name, .known))]
     Unknown {
-        /// What kind of thing was looked for: `mechanism`, `parameter`, …
+        /// The kind of thing that was looked for: `mechanism`, `parameter`, …
         kind: &'static str,
         /// The name that was given.
         name: String,
@@ -21,7 +21,7 @@ pub enum Error {
     /// A task for which there is no mechanism, as far as was looked.
     #[error("no mechanism was found: {reason}")]
     NoLinkage {
-        /// What became of the starts, and what to change.
+        /// Why no start led to one, and what to change.
         reason: String,
     },
     /// A column that a file does not have.
@@ -37,41 +37,41 @@ pub enum Error {
     /// A setting that is not of the form `name=value`.
     #[error("`{text}` is not a setting; write it as name=value, for instance omega=300rpm")]
     Setting {
-        /// What was given.
+        /// The text that was given.
         text: String,
     },
     /// A value that is not a number with an optional unit.
     #[error("{what} = `{text}`: {reason}")]
     Value {
-        /// What the value is for.
+        /// The quantity or the option that the value is for.
         what: String,
-        /// What was given.
+        /// The text that was given.
         text: String,
-        /// What is wrong with it.
+        /// The reason why it is refused.
         reason: String,
     },
     /// A value with the unit of something else.
     #[error("{what} = `{text}`: a {found} was given, but {what} is a {expected}")]
     Dimension {
-        /// What the value is for.
+        /// The quantity or the option that the value is for.
         what: String,
-        /// What was given.
+        /// The text that was given.
         text: String,
         /// The dimension it has to have.
         expected: String,
         /// The dimension it has.
         found: String,
     },
-    /// What the mechanism or the integrator said.
+    /// An error of the mechanism or the integrator.
     #[error("{0}")]
     Mechanism(#[from] mbs_runtime::Error),
-    /// What an analysis said.
+    /// An error of an analysis.
     #[error("{0}")]
     Analysis(#[source] mbs_analysis::Error),
     /// No equilibrium to linearize about.
     #[error("{0}; or linearize elsewhere: --here at rest at the start, --after 0.1s in motion")]
     NoEquilibrium(#[source] mbs_analysis::Error),
-    /// What is wrong with a declaration.
+    /// Errors in a declaration.
     #[cfg(feature = "live")]
     #[error("{0}")]
     Declaration(#[from] mbs_live::Error),
@@ -99,16 +99,16 @@ pub enum Error {
     Serve {
         /// The port that was asked for.
         port: u16,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// What a compiler of C says.
+    /// A C compiler that failed.
     #[cfg(feature = "live")]
     #[error("the C compiler `{compiler}` failed; --sources-only does without: {reason}")]
     Compiler {
         /// Its name.
         compiler: String,
-        /// What it says.
+        /// Its message, or the error of the system where it cannot be started.
         reason: String,
     },
     /// A run that ended early; what it had computed was kept.
@@ -132,7 +132,7 @@ pub enum Error {
     /// A search that was interrupted.
     #[error("interrupted{kept}")]
     Stopped {
-        /// What is there of it, as a clause to append.
+        /// How far the search came, as a clause to append; may be empty.
         kept: String,
     },
     /// Runs of a sweep that failed.
@@ -168,7 +168,7 @@ pub enum Error {
         doing: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// Standard output takes nothing more.
@@ -187,10 +187,10 @@ pub enum Error {
     Figure {
         /// Its title.
         title: String,
-        /// What the drawing library says.
+        /// The message of the drawing library.
         reason: String,
     },
-    /// What a command of the embedding program says.
+    /// An error of a command of the embedding program.
     #[error("{0}")]
     Command(#[source] Box<dyn std::error::Error + Send + Sync>),
 }

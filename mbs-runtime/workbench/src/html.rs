@@ -1,4 +1,4 @@
-//! What pages are put together from: places to fill, texts, and the scripts that several of them share.
+//! Parts of pages: places to fill, texts, and the scripts that several of them share.
 //!
 //! A page is filled in one pass.
 
@@ -7,9 +7,8 @@ pub(crate) const SHAPES_SCRIPT: &str = include_str!("html/mechanism.js");
 pub(crate) const UPLOT_STYLE: &str = include_str!("../assets/uplot/uPlot.min.css");
 pub(crate) const UPLOT_SCRIPT: &str = include_str!("../assets/uplot/uPlot.iife.min.js");
 
-/// The template with every `@NAME@` replaced by the part of that name. What is filled in
-/// is not looked through again: a part may contain anything. Other than around names, a
-/// template has no `@`.
+/// The template with every `@NAME@` replaced by the part of that name. Parts are not looked through again, so
+/// they may contain anything. Other than around names, a template has no `@`.
 pub fn filled(template: &str, parts: &[(&str, &str)]) -> String {
     let mut text = String::new();
     for (at, piece) in template.split('@').enumerate() {

@@ -10,7 +10,7 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// `true` while there is a [`Flag`]. The first Ctrl-C then sets it, and the next one ends the program.
 static IS_LOOKED_AT: AtomicBool = AtomicBool::new(false);
 
-/// What a program that was interrupted ends with: 128 + SIGINT.
+/// The exit code of a program that was interrupted: 128 + SIGINT.
 pub const EXIT_CODE: u8 = 130;
 
 /// The flag that Ctrl-C sets while this lives. Pressed again, or later, it ends the program at once.

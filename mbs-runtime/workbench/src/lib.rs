@@ -1,5 +1,5 @@
-//! What a person at a desk uses to work with mechanisms that `mechanism!`
-//! compiled: a command line, recordings, sweeps, figures and reports.
+//! Tools to work at a desk with mechanisms that `mechanism!` compiled: a command line, recordings, sweeps,
+//! figures and reports.
 //!
 //! - [`app`] gives a program of one line the commands `list`, `simulate`, `sweep`
 //!   and `new` for its own mechanisms.

@@ -8,11 +8,11 @@ use mbs_runtime::Info;
 use crate::sheet::{Sheet, SheetColumn};
 use crate::{Error, Signals, Unit, names, quantity};
 
-/// What a file says about a motion.
+/// A measured motion, read from a file.
 pub(crate) struct Measurements {
-    /// The quantities that are compared with those of the mechanism, in SI units,
+    /// The quantities that are compared with those of the mechanism, in SI units.
     pub measured: Vec<Measurement>,
-    /// and the units in which they are shown.
+    /// The units in which they are shown.
     pub units: Vec<Unit>,
     /// The inputs that acted, if the file has columns of such.
     pub inputs: Option<Signals>,

@@ -21,13 +21,13 @@ use crate::run::Instant;
 use crate::settings::{Settings, Start, place};
 use crate::{Error, Unit};
 
-/// What happens to the members of a sweep.
+/// The members of a sweep, and where their results go.
 pub struct Members<'a> {
-    /// The parameters that differ,
+    /// The parameters that differ.
     pub names: Vec<String>,
-    /// how many members there are,
+    /// How many members there are.
     pub count: usize,
-    /// and the values, in SI units, of the member with an index.
+    /// The values of these parameters in SI units, for the member with an index.
     pub values: &'a (dyn Fn(usize) -> Vec<f64> + Sync),
     /// Is called with every member, in order.
     pub take: &'a mut dyn FnMut(usize, Member),
@@ -37,17 +37,17 @@ pub struct Members<'a> {
     pub cancel: &'a AtomicBool,
 }
 
-/// What every quantity of [`quantities`] was, or why the run did not reach its end.
+/// The extents of all [`quantities`], or why the run did not reach its end.
 pub type Member = Result<Vec<Extent>, mbs_runtime::Error>;
 
-/// Of a quantity, over all steps of a run.
+/// The extent of a quantity over all steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// The smallest value,
+    /// The smallest value.
     pub low: f64,
-    /// the largest,
+    /// The largest value.
     pub high: f64,
-    /// and the one at the end.
+    /// The value at the end.
     pub last: f64,
 }
 
@@ -109,7 +109,7 @@ impl dyn Model + '_ {
             let (first, last) = (batch.start, batch.end);
             let done: Vec<Option<Member>> =
                 batch.into_par_iter().map(|index| member(index).transpose()).collect();
-            // What is finished is kept, even where a neighbour is not.
+            // Finished members are kept, even where a neighbour is not finished.
             let finished = first + done.iter().flatten().count();
             let members = done.into_iter().enumerate();
             members
@@ -121,7 +121,7 @@ impl dyn Model + '_ {
     }
 }
 
-/// What an interruption may lose of the work.
+/// The time that a batch should take: the work that an interruption may lose.
 const GRAIN: Duration = Duration::from_millis(500);
 
 /// Runs members in batches that take about [`GRAIN`], at least `smallest` at once: what a

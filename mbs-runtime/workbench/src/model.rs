@@ -18,8 +18,8 @@ use crate::start_state::StartState;
 
 /// A mechanism that commands can run: every [`Mechanism`] in `f64` by [`of`].
 ///
-/// What they do with it ([`simulate`](#method.simulate), [`sweep`](#method.sweep) and so
-/// on) is written once for all mechanisms, on the runs that it starts.
+/// The work of the commands ([`simulate`](#method.simulate), [`sweep`](#method.sweep) and so on) is written
+/// once for all mechanisms, on the runs that it starts.
 pub trait Model: Send + Sync {
     /// Names, units, equations and operation counts.
     fn info(&self) -> &'static Info;
@@ -27,7 +27,7 @@ pub trait Model: Send + Sync {
     /// The equations and their elimination.
     fn derivation(&self) -> &'static Derivation;
 
-    /// What a picture of it shows.
+    /// The points and the parts that a picture of it shows.
     fn sketch(&self) -> &'static Sketch;
 
     /// The scheme that it declares: Heun's method, unless it says another.
@@ -38,7 +38,7 @@ pub trait Model: Send + Sync {
         !self.scheme().is(&HEUN)
     }
 
-    /// What a run is asked to do where nothing else is said.
+    /// The settings of a run where nothing else is said.
     fn defaults(&self) -> Settings {
         Settings::default()
     }

@@ -32,7 +32,7 @@ pub(crate) enum Found<'a> {
 }
 
 impl Found<'_> {
-    /// What it is called.
+    /// Its name.
     pub fn name(&self) -> &str {
         match self {
             Self::Known(name, _) => name,

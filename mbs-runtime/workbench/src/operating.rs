@@ -33,7 +33,7 @@ pub struct About {
     pub after: Option<String>,
 }
 
-/// What goes into a linear system and comes out of it, by names.
+/// Names of the states, the inputs and the outputs of a linear system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PortNames {
     /// The coordinates that are states; `None` for those that move most.
@@ -49,15 +49,15 @@ pub struct PortNames {
 
 /// A mechanism and the point about which it is linearized.
 pub struct Operating<'a> {
-    /// What it is called.
+    /// The name of the mechanism.
     pub name: &'a str,
-    /// The mechanism,
+    /// The mechanism.
     pub model: &'a dyn Model,
-    /// a run of it,
+    /// A run of the mechanism.
     pub run: Box<dyn System>,
-    /// and the point.
+    /// The point.
     pub point: OperatingPoint,
-    /// Where the point is an equilibrium that was found.
+    /// The equilibrium, where the point is one that was found.
     pub rest: Option<Equilibrium>,
     /// How it was looked for.
     pub search: Search,
@@ -219,7 +219,7 @@ fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn Sys
     Ok(run)
 }
 
-/// What is to be said of a linear system whose derivatives are not known well, if there is anything.
+/// The doubt about a linear system whose derivatives are not known well; `None` if they are.
 pub fn doubt(linear: &Linearization) -> Option<String> {
     let digits = (-linear.uncertainty.log10()).floor().max(0.0);
     (linear.uncertainty >= DOUBTFUL).then(|| {

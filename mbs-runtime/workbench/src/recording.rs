@@ -1,4 +1,4 @@
-//! What a run leaves behind: columns of numbers and a summary.
+//! Results of a run: columns of numbers and a summary.
 
 use mbs_runtime::{Constraint, Effort, Info};
 

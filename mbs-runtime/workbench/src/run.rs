@@ -147,7 +147,7 @@ fn places(run: &dyn System, t: f64, q: &[f64]) -> Vec<[f64; 2]> {
     points.chunks_exact(2).map(|point| [point[0], point[1]]).collect()
 }
 
-/// What is seen of a run at an instant, in room that is made once.
+/// The state and the results of a run at an instant, in room that is made once.
 pub(crate) struct Instant {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
@@ -184,7 +184,7 @@ impl Instant {
     }
 }
 
-/// What is made of a run.
+/// A recorder of a run: its columns, its summary, its events and reasons to doubt it.
 struct Recorder {
     info: &'static Info,
     columns: Vec<Column>,
@@ -193,7 +193,7 @@ struct Recorder {
     /// The size of the mechanism at the start in m.
     size: f64,
     reactions: Reactions,
-    /// Of a run with a constant step.
+    /// The watch over the length of the steps, of a run with a constant step.
     resolution: Option<Resolution>,
     now: Instant,
     phi: Vec<f64>,
@@ -289,7 +289,7 @@ impl Recorder {
         Ok(false)
     }
 
-    /// What is looked at in every step.
+    /// Looks at a state. This is called in every step.
     fn see(&mut self, run: &dyn System) {
         let Self { summary, watch, now, phi, .. } = self;
         now.see(run);

@@ -1,4 +1,4 @@
-//! What a run is asked to do, as a person writes it: at the command line, or in another language.
+//! Options of a run as a person writes them: at the command line, or in another language.
 //!
 //! Commands and Python translate their arguments into these texts. So units and messages are the same in
 //! both.
@@ -11,7 +11,7 @@ use crate::{ConstantMethod, Error, Model, Settings, Signals, Start, StartKind, S
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
 
-/// What a run is asked to do, in texts: values are numbers with or without a unit, and what is left out is as the
+/// Options of a run, in texts. Values are numbers with or without a unit; what is left out is as the
 /// mechanism declares it.
 ///
 /// # Example
@@ -112,7 +112,7 @@ impl RunOptions {
         })
     }
 
-    /// What they say, and the defaults of a mechanism where they do not.
+    /// The settings that the options ask for, with the defaults of a mechanism where they say nothing.
     ///
     /// # Errors
     /// As [`values`](Self::values); words that name no method, feedback or start.

@@ -1,4 +1,4 @@
-//! What a run is asked to do.
+//! Settings of a run.
 
 use std::sync::Arc;
 
@@ -78,9 +78,8 @@ pub struct Settings {
     pub scheme: Option<&'static Tableau>,
     /// A method with a constant step in place of a scheme.
     pub constant: Option<ConstantMethod>,
-    /// What keeps the constraints.
-    /// `None` for projection of a run to a tolerance, and for held feedback of one with a
-    /// constant step.
+    /// The way in which the constraints are kept. `None` for projection of a run to a tolerance, and for held
+    /// feedback of one with a constant step.
     pub stabilization: Option<Stabilization>,
     /// For a run to a tolerance: its steps are as long as their error permits, and `step` is the
     /// time between two samples of it.
@@ -119,7 +118,7 @@ impl Default for Settings {
     }
 }
 
-/// What a run starts with: settings in which every quantity of a mechanism has its number.
+/// The start of a run: settings in which every quantity of a mechanism has its number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// The parameters in SI units, in the order of [`Info::parameters`](mbs_runtime::Info::parameters).
@@ -142,7 +141,7 @@ pub struct Start {
     pub step: f64,
     /// The tolerances of a run that keeps such.
     pub tolerances: Option<Tolerances>,
-    /// What it watches beside its declared events.
+    /// A threshold that it watches beside its declared events.
     pub threshold: Option<Threshold>,
     /// Where the run starts.
     pub kind: StartKind,
@@ -154,7 +153,7 @@ pub struct Start {
 }
 
 impl Start {
-    /// What these settings mean for a mechanism.
+    /// The start that these settings mean for a mechanism.
     ///
     /// # Errors
     /// A step that is not positive, a name that the mechanism does not have, feedback or gains

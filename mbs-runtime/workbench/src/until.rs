@@ -6,12 +6,12 @@ use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
 use crate::run::Instant;
 use crate::{Error, Unit, quantity};
 
-/// What ends a run.
+/// The condition or the event that ends a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Until {
     /// As it was written.
     pub text: String,
-    /// What it means.
+    /// Its meaning.
     pub ending: Ending,
 }
 

@@ -1,4 +1,4 @@
-//! What a sweep says of members whose numbers end.
+//! Members of a sweep whose numbers end.
 
 use std::sync::atomic::AtomicBool;
 
@@ -20,7 +20,7 @@ mbs_runtime::mechanism! {
     }
 }
 
-/// What becomes of members that are measured for so many seconds, in a run of half a second.
+/// The results of members that are measured for so many seconds, in a run of half a second.
 fn swept(model: &dyn Model, until: &[f64]) -> Result<Vec<Member>, mbs_workbench::Error> {
     let mut taken = Vec::new();
     let members = Members {

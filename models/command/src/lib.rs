@@ -1,4 +1,4 @@
-//! What the `mbs` command knows: the library's mechanisms as texts, and the study of a paper.
+//! The contents of the `mbs` command: the library's mechanisms as texts, and the study of a paper.
 
 pub mod library;
 pub mod paper;

@@ -79,7 +79,7 @@ impl Entry {
         Text::rust(format!("models/src/{}", self.file), source)
     }
 
-    /// What its runs do where nothing else is said.
+    /// The settings of its runs where nothing else is said.
     pub fn defaults(&self) -> Settings {
         match self.name {
             // 20 000 steps that have to follow 300 rad/s

@@ -1,4 +1,4 @@
-//! What the page of the editor asks of the compiler of mechanisms, and what it is answered.
+//! Requests of the editor's page to the compiler of mechanisms, and the answers.
 //!
 //! # How it works
 //!

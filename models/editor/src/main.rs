@@ -17,7 +17,7 @@ const WORKER: &str = include_str!("page/worker.js");
 const SCRIPTS: [&str; 3] =
     [include_str!("page/compiler.js"), include_str!("page/text.js"), include_str!("page/editor.js")];
 
-/// What a browser shows that cannot run the page.
+/// The handler of errors in the page's script: it shows that this browser cannot run the page.
 const FAILED: &str = "(error) => {
   document.getElementById(\"state\").textContent = `This browser cannot run the editor: ${error.message}`;
   throw error;

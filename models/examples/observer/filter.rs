@@ -21,7 +21,7 @@ use super::{SliderCrankFree, SliderCrankFreeCoordinates};
 type Derived = Dual<f64, 2>;
 type Matrix = [[f64; 2]; 2];
 
-/// What is measured.
+/// A measurement.
 pub struct Measured {
     /// The position of the slider in m.
     pub slider: f64,
@@ -36,11 +36,11 @@ pub struct Observer {
     t: f64,
     /// All coordinates of the last estimate, from which the next assembly starts.
     near: SliderCrankFreeCoordinates<f64>,
-    /// θ₁ in rad and θ̇₁ in rad/s,
+    /// The estimates of θ₁ in rad and of θ̇₁ in rad/s.
     pub estimate: [f64; 2],
-    /// their covariance,
+    /// The covariance of the estimates.
     pub covariance: Matrix,
-    /// and by how much it grows in a step.
+    /// The growth of their variances in a step.
     pub noise: [f64; 2],
 }
 

@@ -24,17 +24,17 @@ pub struct Rig {
     sum: f64,
 }
 
-/// What there is to see of a tick.
+/// The rig at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
     pub time: f64,
-    /// Angle and speed of the crank, in rad and rad/s,
+    /// Angle and speed of the crank, in rad and rad/s.
     pub truth: [f64; 2],
-    /// and their estimates,
+    /// The estimates of angle and speed.
     pub estimate: [f64; 2],
-    /// with the standard deviations that the observer gives them.
+    /// The standard deviations that the observer gives them.
     pub deviation: [f64; 2],
-    /// In N·m.
+    /// The torque on the crank, in N·m.
     pub torque: f64,
 }
 
@@ -50,7 +50,7 @@ impl Rig {
         Ok(Self { plant, observer, random: 1, sum: 0.0 })
     }
 
-    /// What there is to see now.
+    /// The rig now.
     pub fn seen(&self) -> Seen {
         let state = self.plant.state();
         let variance = self.observer.covariance;

@@ -19,10 +19,10 @@ const SAMPLED: u64 = 500;
 struct Drift {
     phi: f64,
     phi_dot: f64,
-    /// Of the energy from its first value, over the largest kinetic energy;
-    /// 0 where a drive or a damper changes it anyway.
+    /// The largest change of the energy from its first value, over the largest kinetic energy; 0 for
+    /// mechanisms without a degree of freedom, whose drives change it anyway.
     energy: f64,
-    /// What rounding alone may leave of each of the three.
+    /// Bounds of what rounding alone leaves of each of the three.
     rounding: [f64; 3],
 }
 

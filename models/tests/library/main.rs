@@ -1,6 +1,5 @@
-//! What holds for every mechanism of the library, whatever it does: its
-//! reactions balance forces and moments, its energy changes by the power that
-//! goes in, its constraints stay closed.
+//! Laws that every mechanism of the library obeys, whatever it does: its reactions balance forces and
+//! moments, its energy changes by the power that goes in, its constraints stay closed.
 //!
 //! Energies are differentiated by dual numbers. Drift falls as the order of the method demands.
 
@@ -33,7 +32,7 @@ pub struct Case<M: Mechanism> {
     pub end: f64,
     /// Parameters that take energy, to be 0 in the long run.
     pub without: &'static [&'static str],
-    /// What inputs and dampers put in.
+    /// The power of inputs and dampers.
     pub power: Power<M>,
 }
 

@@ -1,5 +1,4 @@
-//! What generated code offers besides `Mechanism`, in a form that tests can
-//! loop over.
+//! Functions of generated code besides those of `Mechanism`, in a form that tests can loop over.
 
 use mbs_runtime::{Mechanism, State};
 

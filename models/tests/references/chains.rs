@@ -119,9 +119,9 @@ fn slowest_mode(n: usize) -> (f64, Vec<f64>) {
     (omega_squared, mode)
 }
 
-/// What is not linear is smaller by some tens of the amplitude's square, and
-/// rounding of forces of 400 N is 1e-8 of what accelerates the lightest mode.
-/// Heun's phase error in a turn is (ωh)² π/3 = 6e-7 for the slowest mode.
+/// Compares a swing in the slowest mode with the linear theory, and returns its ω². Nonlinear terms are some
+/// tens of times the amplitude's square, relative to the linear ones. Rounding of forces of 400 N is 1e-8 of
+/// what accelerates the lightest mode. Heun's phase error in a turn is (ωh)² π/3 = 6e-7 for the slowest mode.
 fn swings_in_its_mode<M: Mechanism<Real = f64>>(mechanism: M, n: usize) -> Result<f64, Error> {
     const AMPLITUDE: f64 = 1e-4;
     const LIMIT: f64 = 2e-6;

@@ -24,7 +24,7 @@ fn block(
     (start, [p.slope.sin(), coefficient * p.slope.cos(), p.transition])
 }
 
-/// What Heun's method errs by in the speed, once through the transition.
+/// The error of Heun's method in the speed, once through the transition.
 ///
 /// Its error per step is h³(F′²F/6 − F″F²/12) for v̇ = F; with z = g c h/w that is
 /// below 0.6 w z³ for s < 2c, and the transition takes some 2/z steps.

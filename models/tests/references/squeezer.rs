@@ -6,9 +6,9 @@ use mbs_runtime::{Error, Mechanism, Simulation};
 use models::{AndrewsSqueezer, AndrewsSqueezerInputs};
 use paths::{Single, through_every_path};
 
-/// Heun's error in the angles is 4e-7 rad at 1e-6 s, and with reduced states 3.3e-6 (both fall
-/// with h²); the printed reference is good to 1e-9. What 3e4 steps round, ε/2 of 16 rad each, is at
-/// random √3e4 times that, 3e-13.
+/// Heun's error in the angles is 4e-7 rad at 1e-6 s, and with reduced states 3.3e-6 (both fall with h²); the
+/// printed reference is good to 1e-9. Roundings in 3e4 steps, ε/2 of 16 rad each, add up at random to √3e4
+/// times that, 3e-13.
 #[test]
 fn squeezer_is_where_it_ought_to_be() -> Result<(), Error> {
     let of_method = if AndrewsSqueezer::<f64>::INFO.has_reduced_states() { 5e-6 } else { 1e-6 };

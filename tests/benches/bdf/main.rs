@@ -35,7 +35,8 @@ struct Start {
     v: Vec<f64>,
 }
 
-/// What a run was asked for, the steps that it tried, its error in rad, and its least time in s.
+/// Outcome of a run: the step or the tolerance that it was asked for, the steps that it tried, its error in
+/// rad, and its least time in s.
 struct Outcome {
     asked: String,
     steps: u64,

@@ -1,6 +1,5 @@
-//! What a Heun step of a long chain costs: how it grows with the number of links,
-//! generated loops against straight lines and against a person's loops, in the
-//! same run. `-- --figure FILE.svg` draws it.
+//! Cost of a Heun step of a long chain: how it grows with the number of links, generated loops against
+//! straight lines and against a person's loops, in the same run. `-- --figure FILE.svg` draws it.
 
 mod figure;
 mod kernels;

@@ -1,5 +1,5 @@
-//! What derivatives cost: a run of the free slider-crank with 1, 4 and 8 partial derivatives against
-//! the run itself, of the type and of its text, in the same process; and ten derivatives in reverse.
+//! Cost of derivatives: a run of the free slider-crank with 1, 4 and 8 partial derivatives against the run
+//! itself, of the type and of its text, in the same process; and ten derivatives in reverse.
 //! `-- --figure FILE.svg` draws how the slider's position depends on the parameters.
 #![allow(clippy::expect_used, reason = "a benchmark ends where it cannot go on")]
 

@@ -1,6 +1,5 @@
-//! What a Heun step of a member of an ensemble costs: by lanes, against one
-//! simulation after the other and against lanes that a person has eliminated, in the same
-//! run, and on two threads; and a million members.
+//! Cost of a Heun step of a member of an ensemble: by lanes, against one simulation after the other and
+//! against lanes that a person has eliminated, in the same run, and on two threads; and a million members.
 
 mod by_hand;
 #[cfg(target_arch = "x86_64")]

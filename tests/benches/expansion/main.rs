@@ -1,5 +1,5 @@
-//! What a long chain costs to compile: `mechanism!` alone, in this process, and
-//! with `-- --compile` a crate around it, by cargo.
+//! Time to compile a long chain: `mechanism!` alone, in this process, and with `-- --compile` a crate around
+//! it, by cargo.
 
 mod release;
 

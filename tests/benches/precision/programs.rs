@@ -1,4 +1,4 @@
-//! What is compared: methods, each with several steps or tolerances.
+//! The programs that are compared: methods, each with several steps or tolerances.
 
 use mbs_runtime::{
     Adaptive, Bs3, Components, Dop853, Dopri5, Held, Heun, Mechanism, Method, Projected, Rk4, Scheme,
@@ -35,7 +35,7 @@ impl Program {
     }
 }
 
-/// What it is all compared with.
+/// The method that a person writes, with which the others are compared.
 pub const BY_HAND: &str = "by hand, RK4 in the angle";
 
 /// The names of the methods.

@@ -18,7 +18,7 @@ pub const RUN: &str = "--run-kernel";
 const FEW: u32 = 200;
 const MANY: u32 = 1200;
 
-/// What a child process does: the kernel's name and steps follow [`RUN`].
+/// Runs a kernel in a child process: its name and steps follow [`RUN`].
 pub fn run_child(arguments: &[String]) -> bool {
     let [name, steps] = arguments else { return false };
     let (Some(kernel), Ok(steps)) = (Kernel::all().into_iter().find(|k| k.name() == *name), steps.parse())

@@ -1,6 +1,5 @@
-//! What a Heun step of the slider-crank costs: compiled, against a dense LU of
-//! the same equations and against a person's elimination, in the same run; its
-//! operations; its instructions against recorded ones.
+//! Cost of a Heun step of the slider-crank: compiled, against a dense LU of the same equations and against a
+//! person's elimination, in the same run; its operations; its instructions against recorded ones.
 
 mod instructions;
 mod kernels;

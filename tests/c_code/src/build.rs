@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use mbs_codegen::target::CSources;
 use tempfile::TempDir;
 
-/// What the printed code compiles with, without a warning.
+/// Flags with which the printed code compiles without a warning.
 pub const WARNINGS: [&str; 7] =
     ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-Werror", "-pedantic"];
 
@@ -16,9 +16,9 @@ pub const WARNINGS: [&str; 7] =
 pub enum Fault {
     /// A file or a process.
     Io(io::Error),
-    /// What a compiler says.
+    /// Messages of a compiler.
     Compiler(String),
-    /// What a program prints instead of numbers.
+    /// The output of a program in the place of numbers.
     Program(String),
 }
 
@@ -133,7 +133,7 @@ pub fn build_around(
 }
 
 impl Built {
-    /// What a program prints that is given nothing.
+    /// Runs the program without any input, and returns what it prints.
     ///
     /// # Errors
     /// [`Fault::Program`] with what it says if it fails.

@@ -5,8 +5,8 @@ use std::{fs, io};
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// What stands between the braces of every `mechanism! { … }` in a folder and those below it, with
-/// the names of the files, in their order. Declarations inside of other macros are left out.
+/// The declarations in every `mechanism! { … }` of a folder and of those below it, with the names of the
+/// files, in their order. Declarations inside of other macros are left out.
 ///
 /// # Errors
 /// A file cannot be read.

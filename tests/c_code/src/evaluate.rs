@@ -11,7 +11,7 @@ pub struct Evaluator<'a> {
     hoisted: Vec<f64>,
 }
 
-/// What a function is given; empty where it is not.
+/// The arguments of a function; empty where they are not given.
 #[derive(Clone, Copy, Debug, Default)]
 struct Given<'a> {
     t: f64,

@@ -1,6 +1,6 @@
-//! Functional mock-up units as C: without a warning, with the bits of the program's own runs, refusing what is
-//! wrong, and clean under sanitizers and valgrind over ten thousand instances. What importers make of them stands
-//! in `tests/fmi`, in Python.
+//! Functional mock-up units as C: without a warning, with the bits of the program's own runs, refusing what
+//! is wrong, and clean under sanitizers and valgrind over ten thousand instances. Tests with importers are in
+//! `tests/fmi`, in Python.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
@@ -49,7 +49,7 @@ fn exported(text: &Text, instances: usize) -> TempDir {
     folder
 }
 
-/// What a command prints, which has to succeed.
+/// Runs a command, which has to succeed, and returns what it prints.
 fn run(folder: &Path, line: &str) -> String {
     let output = Command::new("sh").args(["-c", line]).current_dir(folder).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

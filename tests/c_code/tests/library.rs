@@ -12,7 +12,7 @@ use mbs_codegen::{Compiled, analyse};
 #[macro_use]
 mod chains;
 
-/// What is also compiled with reduced states.
+/// The files of mechanisms that are also compiled with reduced states.
 const REDUCED: [&str; 5] =
     ["slider_crank.rs", "slider_crank_free.rs", "four_bar_free.rs", "scotch_yoke.rs", "cam_follower.rs"];
 

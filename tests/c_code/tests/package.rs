@@ -26,7 +26,7 @@ fn exported(name: &str) -> (TempDir, String) {
     (folder, sources.prefix)
 }
 
-/// What a command prints, which has to succeed.
+/// Runs a command, which has to succeed, and returns what it prints.
 fn run(folder: &Path, line: &str) -> String {
     let output = Command::new("sh").args(["-c", line]).current_dir(folder).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -19,8 +19,8 @@ const MECHANISMS: u64 = 24;
 const STEPS: usize = 1000;
 const EVERY: usize = 10;
 
-/// What a run looks like from outside: t, q, v, q̈, λ and outputs, at the start and after
-/// every tenth step; and why it ended before its end, if it did.
+/// A run as it looks from outside: t, q, v, q̈, λ and outputs, at the start and after every tenth step; and
+/// why it ended before its end, if it did.
 type Rows = (Vec<Vec<f64>>, Option<Error>);
 
 fn alone<X: Method>(live: &Live, step: f64, inputs: &[f64]) -> Result<Rows, Error> {

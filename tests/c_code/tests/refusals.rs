@@ -1,4 +1,4 @@
-//! What C refuses: the checks stand in `refusals.c`.
+//! Refusals of the printed C code: the checks stand in `refusals.c`.
 
 use std::path::Path;
 

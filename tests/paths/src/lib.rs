@@ -13,7 +13,7 @@ use compare::Widening;
 use mbs_runtime::{Error, Mechanism, Method, Simulation};
 use steps::{Fused, InLanes, InStages, Steps, narrowed};
 
-/// What is compared in single precision.
+/// The comparison in single precision.
 #[derive(Clone, Copy)]
 pub enum Single {
     /// Steps so many times as long, to tolerances wider by the square of that: Heun's
@@ -101,7 +101,7 @@ fn compare_along<M: Mechanism<Real = f64>, X: Method>(
     Ok(())
 }
 
-/// What it is called, and how it begins.
+/// The name of a path, and how it begins.
 type Path<M, X> = (&'static str, Start<M, X>);
 
 type Start<M, X> = fn(&Simulation<M, X>) -> Result<Box<dyn Steps<M>>, Error>;

@@ -1,11 +1,11 @@
-//! What takes the steps.
+//! Runs that take the steps of a path.
 
 use mbs_runtime::lanes::Lane;
 use mbs_runtime::{Components, Error, Mechanism, Method, Pack, Real, Simulation, State};
 
 use crate::Instant;
 
-/// What takes the steps.
+/// A run that takes the steps of a path.
 pub trait Steps<M: Mechanism<Real = f64>> {
     fn advance(&mut self, steps: u64) -> Result<(), Error>;
     fn now(&self) -> Result<Instant<M>, Error>;

@@ -3,9 +3,9 @@
 
 use mbs_runtime::Mechanism;
 
-/// What is done with each mechanism.
+/// A visitor of mechanisms.
 pub trait Visit {
-    /// With this one, given its declaration.
+    /// Visits a mechanism, given its declaration.
     fn visit<M: Mechanism<Real = f64>>(&mut self, text: &str);
 }
 

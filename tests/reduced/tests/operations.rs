@@ -1,4 +1,4 @@
-//! What reduced states leave of a right-hand side: operations, and which coordinates are integrated.
+//! Operations of a right-hand side with reduced states, and the coordinates that are integrated.
 #![allow(clippy::expect_used, reason = "a test says by panicking what is wrong")]
 
 use mbs_runtime::{Info, Mechanism};

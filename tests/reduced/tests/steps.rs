@@ -121,7 +121,7 @@ fn reactions_are_those_of_all_coordinates() {
     each!(check);
 }
 
-/// What constraints give meets them to a rounding of the terms, however long a run is.
+/// Coordinates that constraints give meet them to a rounding of the terms, however long a run is.
 #[test]
 fn given_coordinates_meet_their_constraints() {
     fn check<A: Mechanism<Real = f64>, R: Mechanism<Real = f64>>(_: A, reduced: R, file: &str, h: f64) {

@@ -11,7 +11,7 @@ const H: f64 = 0.5e-3;
 /// Partials of a dual.
 const N: usize = 4;
 
-/// What a number counts at the end: something else for every number.
+/// The weight of a number at the end, another one for every number.
 fn weight(at: usize) -> f64 {
     (1.0 + 1.3 * at as f64).sin()
 }

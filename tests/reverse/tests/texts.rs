@@ -22,7 +22,7 @@ use reverse::tipper::Tipper;
 const STEPS: u64 = 30;
 const H: f64 = 0.47e-3;
 
-/// What a number counts in the sum: something else for every number and every step.
+/// The weight of a number in the sum, another one for every number and every step.
 fn weight(step: u64, at: usize) -> f64 {
     (1.0 + 0.7 * step as f64 + 1.3 * at as f64).sin()
 }

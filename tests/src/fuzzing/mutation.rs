@@ -128,7 +128,7 @@ pub fn crossed(seeds: &[Seed], random: &mut Random) -> TokenStream {
     head
 }
 
-/// What stands before the braces, and the statements in them.
+/// The tokens before the braces, and the statements in them.
 fn parts(declaration: TokenStream) -> Option<(TokenStream, Vec<TokenStream>)> {
     let mut head: Vec<TokenTree> = declaration.into_iter().collect();
     match head.pop() {

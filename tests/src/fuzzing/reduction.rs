@@ -34,12 +34,12 @@ pub fn smallest(input: &str, mut fails: impl FnMut(&str) -> bool, mut stop: impl
     }
 }
 
-/// What is done at a token.
+/// A change at a token.
 #[derive(Clone, Copy)]
 enum Change {
-    /// It and those behind it in the same group go.
+    /// Deletes so many tokens of a group, from this one on.
     Delete(usize),
-    /// The group's content takes its place.
+    /// Replaces a group by its content.
     Unwrap,
 }
 

@@ -33,7 +33,7 @@ const SOURCES: &[&str] = &[
     include_str!("../../tests/references/slotted_pendulum_modelica.rs"),
 ];
 
-/// What stands between the braces of every `mechanism! { … }` in a file.
+/// The declarations in every `mechanism! { … }` of a file.
 fn of_source(source: &str) -> Vec<TokenStream> {
     source.parse().map(declarations).unwrap_or_default()
 }

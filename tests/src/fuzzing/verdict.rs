@@ -1,4 +1,4 @@
-//! What the compiler does with an input.
+//! Verdicts on the compiler's answers to inputs.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;

@@ -12,7 +12,7 @@ pub fn of_models() -> [(&'static str, TokenStream); 3] {
     ]
 }
 
-/// What stands between the braces of the first `mechanism! { … }` in a file.
+/// The declaration in the first `mechanism! { … }` of a file.
 fn declaration(source: &str) -> TokenStream {
     let file = syn::parse_file(source).expect("models are Rust");
     let mut macros = file.items.into_iter().filter_map(|item| match item {

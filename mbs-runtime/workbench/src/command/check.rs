@@ -54,7 +54,7 @@ pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
     if refused == 0 { Ok(()) } else { Err(Error::Refused { refused, of: files.len() }) }
 }
 
-/// What a declaration comes to, in a line.
+/// A declaration in a line: its name, its size, and the time that the check took.
 fn summary(file: &str, live: &Live, seconds: f64) -> String {
     let info = live.declared_info();
     format!(

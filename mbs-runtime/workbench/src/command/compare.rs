@@ -30,7 +30,7 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    /// What the options ask for, if they ask for one.
+    /// The comparison that the options ask for, if they ask for one.
     pub fn of(info: &'static Info, settings: &Settings, matches: &ArgMatches) -> Result<Option<Self>, Error> {
         let Some(text) = matches.get_one::<String>("compare") else { return Ok(None) };
         let (name, list) = quantity::split_setting(text)?;

@@ -1,12 +1,12 @@
-//! What of a run is drawn, and how curves share panels.
+//! The choice of columns to draw, and how curves share panels.
 
 use crate::figure::axis;
 use crate::figure::{Axis, Figure, Panel, SERIES_COLOURS, Series};
 use crate::{Column, Error, Recording};
 
-/// A list of coordinates that is longer is long,
+/// A list of more coordinates than this is shown by its ends.
 const MANY: usize = 12;
-/// and shown by its ends, which in a chain are those of the chain.
+/// Each end of a long list has so many coordinates. In a chain, the ends of the list are those of the chain.
 const ENDS: usize = 3;
 /// Curves of one panel: as many as there are colours.
 const MOST: usize = SERIES_COLOURS.len();
@@ -21,8 +21,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// The columns to be written: all of them if none are chosen. What they are drawn over
-    /// comes first.
+    /// The columns to be written: all of them if none are chosen. The abscissa comes first.
     pub fn written<'a>(&self, recording: &'a Recording) -> Result<Vec<&'a Column>, Error> {
         let mut columns = match self.columns.as_slice() {
             [] => recording.columns.iter().collect(),
@@ -73,7 +72,7 @@ fn axis_of(column: &Column) -> Axis {
     }
 }
 
-/// What columns of one unit have in common.
+/// The kind of quantity of a column. Columns of one kind and one unit share panels.
 fn kind(recording: &Recording, column: &Column) -> &'static str {
     let at = recording.columns.iter().position(|other| other.name == column.name).unwrap_or(0);
     let is_length = column.unit.starts_with('m');
@@ -170,7 +169,7 @@ mod tests {
                 }
                 start { x[i] = i*1 [m]; guess y[i] = 0; }
             }
-            /// What the hook holds.
+            /// The force on the hook.
             output pull [kN] = lambda(rod[1]);
         }
     }

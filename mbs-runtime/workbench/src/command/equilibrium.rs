@@ -77,7 +77,7 @@ fn still(run: &dyn System, sketch: &'static mbs_runtime::Sketch, rest: &Equilibr
     Motion { sketch, times: vec![rest.t], places: vec![places] }
 }
 
-/// What is shown of an equilibrium: names, values in their units, and the units.
+/// An equilibrium as it is shown: names, values in SI units, and the units that they are shown in.
 struct Found<'a> {
     name: &'a str,
     rest: &'a Equilibrium,
@@ -105,7 +105,7 @@ impl<'a> Found<'a> {
         }
     }
 
-    /// What the stiffness says, in words.
+    /// The stability of the equilibrium, in words.
     fn stability(&self) -> String {
         match self.rest.stability() {
             Stability::Stable if self.rest.stiffness.is_empty() => "held: nothing is free to move".into(),

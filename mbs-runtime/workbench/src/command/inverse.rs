@@ -192,7 +192,7 @@ pub(super) fn coordinate_range<'a>(info: &'a Info, text: &str) -> Result<(&'a Qu
     Ok((coordinate, [value(from)?, value(to)?]))
 }
 
-/// What produces the motion: the inputs that fit the patterns, or nothing but forces along coordinates.
+/// The causes of the motion: the inputs that fit the patterns, or nothing but forces along coordinates.
 fn by(info: &Info, matches: &ArgMatches) -> Result<By, Error> {
     let Some(patterns) = matches.get_many::<String>("inputs") else { return Ok(By::Efforts) };
     let mut found: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! What scripts read.
+//! JSON for scripts.
 
 use serde_json::{Map, Value, json};
 

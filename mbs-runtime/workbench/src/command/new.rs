@@ -132,7 +132,7 @@ fn write_declaration(path: &Path) -> Result<(), Error> {
     written.map_err(Error::file("create", path))
 }
 
-/// What stands between the braces of `mechanism!` in the new crate.
+/// The declaration of the new crate: the text between the braces of `mechanism!`.
 fn declaration() -> String {
     let lines = LIBRARY.lines().skip_while(|line| *line != "mechanism! {").skip(1);
     let lines = lines.take_while(|line| *line != "}");

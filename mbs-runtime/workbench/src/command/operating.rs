@@ -34,7 +34,7 @@ pub(super) fn of_a_point() -> Vec<Arg> {
     arguments
 }
 
-/// What goes into the linear system and comes out of it.
+/// Options that choose states, inputs and outputs of the linear system.
 pub(super) fn of_ports() -> [Arg; 4] {
     let list = |name: &'static str, help: &'static str| {
         option(name, "NAME,…", help).value_delimiter(',').action(ArgAction::Append)
@@ -113,7 +113,7 @@ pub(super) fn words(operating: &Operating<'_>) -> String {
     format!("{}{hint}", operating.words())
 }
 
-/// What is to be said of a linear system whose derivatives are not known well.
+/// A warning about a linear system whose derivatives are not known well.
 pub(super) fn warnings(linear: &Linearization) -> Warnings {
     doubt(linear).into_iter().collect()
 }

@@ -154,10 +154,10 @@ fn is_table(value: &str) -> bool {
     value.trim_start().starts_with('@')
 }
 
-/// What was set, in SI units, and the unit in which it is shown.
+/// The name of a quantity that was set, its value in SI units, and the unit in which it is shown.
 pub(super) type Given = (String, f64, Unit);
 
-/// What the settings replace of what was declared.
+/// The values of the settings that replace declared ones.
 pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
     let set = settings.parameters.iter().chain(&settings.inputs);
     let quantity = |name: &str| info.parameters.iter().chain(info.inputs).find(|q| q.name == name);

@@ -1,4 +1,4 @@
-//! What a run shows: a table, curves, and a page with the mechanism in motion.
+//! Output of a run: a table, curves, and a page with the mechanism in motion.
 
 use mbs_runtime::Info;
 
@@ -87,7 +87,8 @@ pub(super) enum Shown<'a> {
     Chosen(Vec<&'a Column>),
 }
 
-/// What was set, the figures of a run that one looks at first, and the values at its end.
+/// A table of a run: the values that were set, the figures that one looks at first, and the values at its
+/// end.
 pub(super) fn summary(name: &str, given: &[Given], recording: &Recording, shown: Shown<'_>) -> Table {
     let summary = &recording.summary;
     let mut table = Table::new([name, "", ""]);

@@ -210,7 +210,7 @@ impl Bode {
         table
     }
 
-    /// What keeps the response from being seen in a test, if anything does.
+    /// The reason why a test does not show the response, if there is one.
     pub fn remark(&self) -> Option<&'static str> {
         self.is_unstable.then_some(
             "the system is unstable there: what grows hides this response, unless feedback holds it",

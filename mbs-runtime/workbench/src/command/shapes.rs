@@ -13,14 +13,14 @@ use crate::picture::Extent;
 use crate::report::Animation;
 use crate::{Motion, Operating, Picture};
 
-/// What moves most moves by this share of the mechanism,
+/// The largest amplitude of a point, as a share of the size of the mechanism.
 const SWING: f64 = 0.12;
-/// and by no more than this angle in rad.
+/// The largest amplitude of an angle, in rad.
 const TURN: f64 = 0.35;
 /// Frames of a period, and periods of an animation.
 const FRAMES: usize = 40;
 const PERIODS: usize = 4;
-/// In s, of what does not oscillate.
+/// The period in which a mode is shown that does not oscillate, in s.
 const PERIOD: f64 = 1.0;
 /// Poses of a still picture: between the extremes.
 const POSES: usize = 5;
@@ -129,7 +129,7 @@ impl<'a> Shapes<'a> {
     }
 }
 
-/// What a mode is called: its number, and its frequency or what it does.
+/// The title of a mode: its number, and its frequency or its behaviour.
 pub(super) fn title(at: usize, mode: &Mode) -> String {
     let number = at + 1;
     if mode.damped_frequency() > 0.0 {

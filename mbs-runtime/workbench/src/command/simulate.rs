@@ -97,9 +97,8 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
     }
 }
 
-/// What the program does without a command: the mechanism as it is declared,
-/// recorded to `NAME.csv`, drawn to `NAME.svg` and `NAME-mechanism.svg`, and
-/// shown in motion in `NAME.html`.
+/// Runs a program that is given no command: simulates the mechanism as it is declared, records it to
+/// `NAME.csv`, draws it to `NAME.svg` and `NAME-mechanism.svg`, and shows it in motion in `NAME.html`.
 pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<Warnings, Error> {
     let path = |ending: &str| Some(PathBuf::from(format!("{name}{ending}")));
     let files = Files {
@@ -112,7 +111,7 @@ pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<Warnings, Erro
         .carry_out(&model.defaults())
 }
 
-/// What is to be run, and what is to be made of it.
+/// A run that is asked for, and its outputs.
 pub(super) struct Request<'a> {
     pub name: &'a str,
     pub model: &'a dyn Model,
@@ -122,7 +121,7 @@ pub(super) struct Request<'a> {
     pub json: bool,
 }
 
-/// What a run is to be written to.
+/// The files that a run is written to.
 pub(super) struct Files {
     pub csv: Option<PathBuf>,
     pub plot: Option<PathBuf>,

@@ -90,7 +90,7 @@ pub(crate) fn command() -> Command {
         .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the summary as JSON"))
 }
 
-/// What is looked at of a mechanism.
+/// A quantity of a mechanism that a sweep looks at.
 struct Watched {
     /// Its place among all [`quantities`].
     at: usize,
@@ -98,7 +98,7 @@ struct Watched {
     unit: Unit,
 }
 
-/// What is drawn and summed up of an extent.
+/// The number of an extent that is drawn and summed up.
 #[derive(Clone, Copy)]
 enum Shown {
     Peak,
@@ -291,7 +291,7 @@ struct Sweep<'a> {
     rows: Option<Rows>,
     /// The runs that are made.
     members: Range<usize>,
-    /// What is shown, quantity by quantity; NaN where a run failed, nothing of a share.
+    /// The shown numbers, quantity by quantity; NaN where a run failed, empty for a share.
     values: Vec<Vec<f64>>,
     failures: usize,
     first_failure: Option<(usize, Failure)>,
@@ -344,7 +344,7 @@ impl Sweep<'_> {
         Ok(())
     }
 
-    /// What an interrupted sweep leaves behind.
+    /// Ends an interrupted sweep: keeps its rows, and prints the summary of the runs that it finished.
     fn give_up(mut self, shown: &str, finished: usize, of: usize) -> Result<Warnings, Error> {
         let part = self.rows.take().map(Rows::give_up).transpose()?;
         if self.failures < finished {

@@ -111,7 +111,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
     files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
 }
 
-/// What is moved.
+/// The coordinate or the drive that is moved, with its values or its times.
 struct Lead {
     along: Along,
     name: String,

@@ -83,7 +83,7 @@ pub(super) fn range(axis: &Axis, values: impl Iterator<Item = f64>, air: bool) -
         return if low < high { (low / factor, high * factor) } else { (low / 2.0, high * 2.0) };
     }
     let largest = high.abs().max(low.abs());
-    // What is 0 throughout has no scale of its own.
+    // Values that are 0 throughout have no scale of their own.
     if air && largest == 0.0 {
         return (0.0, 1.0);
     }

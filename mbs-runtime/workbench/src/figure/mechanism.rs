@@ -83,7 +83,7 @@ fn rounded(p: Pixel) -> (i32, i32) {
     (p.0.round() as i32, p.1.round() as i32)
 }
 
-/// What draws the shapes of one instant.
+/// A pen that draws the shapes of one instant.
 struct Pen<'a, B: DrawingBackend> {
     canvas: &'a Canvas<'a, B>,
     picture: &'a Picture,
@@ -133,7 +133,7 @@ impl<B: DrawingBackend> Pen<'_, B> {
         corners.copied().try_for_each(|corner| self.canvas.dot(rounded(corner), 0.5 * width, colour))
     }
 
-    /// What is drawn of faint poses too.
+    /// Draws a shape if faint poses have it too.
     fn body(&self, shape: &Shape) -> Drawn {
         let width = self.size(8.0);
         match shape {
@@ -176,7 +176,7 @@ impl<B: DrawingBackend> Pen<'_, B> {
         vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
     }
 
-    /// What is not drawn of faint poses.
+    /// Draws a shape if faint poses do not have it.
     fn joint(&self, shape: &Shape) -> Drawn {
         match shape {
             Shape::Rail { from, ahead, reach } => {

@@ -71,11 +71,11 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// What is drawn.
+    /// The curves, the map or the mechanism on them.
     pub content: Content,
 }
 
-/// What a panel shows.
+/// The content of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Curves.
@@ -108,9 +108,9 @@ impl Panel {
 /// An axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// What it measures, such as `‖Φ‖`.
+    /// The quantity that it measures, such as `‖Φ‖`.
     pub label: String,
-    /// In which unit; may be empty.
+    /// The unit; may be empty.
     pub unit: String,
     /// Whether it is logarithmic.
     pub log: bool,
@@ -212,7 +212,7 @@ pub struct HeatMap {
     pub y: Vec<f64>,
     /// The values, row after row; positive on a logarithmic scale.
     pub values: Vec<f64>,
-    /// What is shown, and on which kind of scale.
+    /// The quantity that is shown, and the kind of its scale.
     pub scale: Axis,
 }
 

@@ -19,7 +19,7 @@ pub use binary::{Binary, binaries};
 /// C code, pictures, and binaries for some platforms. It needs nothing else where it is used.
 #[derive(Clone, Debug)]
 pub struct Fmu {
-    /// What the code and the binaries are called.
+    /// The name of the code and of the binaries.
     pub identifier: String,
     files: mbs_live::Fmu,
     icon: Option<Vec<u8>>,
@@ -111,7 +111,7 @@ fn coordinates(model: &dyn Model) -> Vec<f64> {
     vec![0.0; model.info().coordinates.len()]
 }
 
-/// What a person finds in the archive: what the mechanism is, and how it is simulated.
+/// The page of documentation in the archive: what the mechanism is, and how it is simulated.
 fn page(model: &dyn Model, experiment: Experiment) -> String {
     let info = model.info();
     include_str!("page.html")

@@ -1,6 +1,6 @@
 //! Web addresses that carry a mechanism behind `?`.
 
-/// What an address has behind `?`, decoded; nothing of a text that is no address.
+/// The part of an address behind `?`, decoded; `None` for a text that is no address.
 pub(super) fn query(text: &str) -> Option<String> {
     let (before, behind) = text.trim().split_once('?')?;
     before.starts_with("http").then(|| decoded(behind))

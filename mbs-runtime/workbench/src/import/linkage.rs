@@ -14,7 +14,7 @@ const MOST_PINS: usize = 1000;
 /// Pins, links, slots and drives with the names and numbers of a file.
 #[derive(Debug)]
 pub(super) struct Linkage {
-    /// What the file calls it.
+    /// Its name in the file.
     pub name: String,
     /// The program that wrote the file.
     pub program: &'static str,
@@ -34,7 +34,7 @@ pub(super) struct Linkage {
     pub slots: Vec<Slot>,
     pub drives: Vec<Drive>,
     pub forces: Vec<Force>,
-    /// What was assumed, and what was not carried over.
+    /// Notes on what was assumed, and on what was not carried over.
     pub notes: Vec<String>,
 }
 
@@ -42,9 +42,9 @@ pub(super) struct Linkage {
 #[derive(Debug)]
 pub(super) struct Pin {
     pub name: String,
-    /// What the file calls it, for messages.
+    /// Its name in messages, in the words of the file.
     pub of: String,
-    /// At the start.
+    /// Its place at the start.
     pub at: Point,
 }
 
@@ -52,10 +52,10 @@ pub(super) struct Pin {
 #[derive(Debug)]
 pub(super) struct Link {
     pub name: String,
-    /// What the file calls it, for messages.
+    /// Its name in messages, in the words of the file.
     pub of: String,
     pub pins: Vec<usize>,
-    /// Where the file says it; a thin bar otherwise.
+    /// The mass, where the file says it; a thin bar otherwise.
     pub mass: Option<Mass>,
 }
 
@@ -63,12 +63,12 @@ pub(super) struct Link {
 #[derive(Debug)]
 pub(super) struct Force {
     pub name: String,
-    /// What the file calls it, for messages.
+    /// Its name in messages, in the words of the file.
     pub of: String,
     pub link: usize,
     /// Where it acts at the start.
     pub at: Point,
-    /// In N, at the start.
+    /// The force at the start, in N.
     pub force: Point,
     /// Whether it turns with the link.
     pub turns: bool,
@@ -96,7 +96,7 @@ pub(super) struct Drive {
     pub link: usize,
     /// The link that carries the motor.
     pub against: usize,
-    /// What the file calls it, for messages.
+    /// Its name in messages, in the words of the file.
     pub of: String,
     /// The polar angle in rad of `to` seen from `from` at t = 0, where the file says it.
     pub start: Option<f64>,
@@ -314,7 +314,7 @@ impl Linkage {
         extent(0).max(extent(1)).max(1e-300)
     }
 
-    /// What the file says of a thing that it refers to and does not have.
+    /// The refusal of a file that refers to a thing that it does not have.
     pub fn missing(what: &str, name: &str, by: &str) -> Refusal {
         Refusal(format!("{by} refers to {what} {}, which the file does not have", shown(name)))
     }

@@ -9,7 +9,7 @@ use super::geometry::minus;
 use super::linkage::{Drive, GROUND, Linkage, Motion, Slot};
 use super::{Refusal, shown};
 
-/// What a file describes. Lengths of the program are in mm or, in a file of inches, in them.
+/// Reads a file. Its lengths count as mm unless a unit is given, also where the program shows inches.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
     let document = Document::parse(text)?;
     let root = document.root();

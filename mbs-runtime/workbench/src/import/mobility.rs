@@ -3,7 +3,7 @@
 use super::geometry::{Point, minus};
 use super::linkage::{GROUND, Linkage, Motion};
 
-/// What the constraints of a linkage leave.
+/// The degrees of freedom of a linkage, and its redundant constraints.
 pub(super) struct Mobility {
     /// Degrees of freedom.
     pub dof: usize,

@@ -3,7 +3,7 @@
 //! A reader makes a [`Linkage`](linkage::Linkage) of a file: pins, links, slots and drives, with
 //! the names and the numbers of the file. [`declaration`] writes it in the language. Files of
 //! [robots](robot), which have masses and stand in space, become declarations by a way of their
-//! own. What was written is compiled before anybody gets to see it.
+//! own. Each declaration is compiled before anybody gets to see it.
 //!
 //! # How it works
 //!
@@ -81,7 +81,7 @@ pub(crate) const FORMATS: [(&str, Format); 8] = [
 pub(crate) struct Imported {
     /// The declaration.
     pub text: String,
-    /// What was assumed, and what was not carried over.
+    /// Notes on what was assumed, and on what was not carried over.
     pub notes: Vec<String>,
     /// How many links move.
     pub links: usize,

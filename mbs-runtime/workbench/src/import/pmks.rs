@@ -14,10 +14,10 @@ use crate::import::shown;
 
 pub(super) use text::is_begun;
 
-/// What PMKS turns its input with, where a file says nothing.
+/// The speed of the input where a file says nothing, in rpm or in lengths per second.
 const USUAL_SPEED: f64 = 10.0;
 
-/// What a file describes.
+/// Reads a file.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
     let sheet = if text.trim_start().starts_with('{') { json::read(text)? } else { text::read(text)? };
     sheet.linkage()

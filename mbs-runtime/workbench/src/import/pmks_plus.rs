@@ -14,7 +14,7 @@ use super::linkage::{self, Drive, GROUND, Linkage, Motion, Slot};
 use super::masses::{Mass, outline};
 use records::{Drawing, Force, Joint, Link, Settings};
 
-/// What a slide moves with where a text says nothing, in lengths per second.
+/// The speed of a slide where a text says nothing, in lengths per second.
 const USUAL_SLIDE: f64 = 5.0;
 
 /// The units that a drawing is in: of lengths; kg of a mass, the same in the inertia; N of a force.
@@ -34,7 +34,7 @@ fn content(text: &str) -> String {
     query(text).unwrap_or_else(|| text.trim().to_owned())
 }
 
-/// What a text describes.
+/// Reads a text.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
     let text = content(text);
     let drawing = records::read(&text)?;

@@ -12,7 +12,7 @@ use super::{Refusal, values};
 /// The names that the older form has for its joints.
 const OLDER: [&str; 7] = ["Static", "_StaticBase", "Crank", "Fixed", "Linear", "Prismatic", "Revolute"];
 
-/// What a file describes. Lengths have no unit there: they count as metres.
+/// Reads a file. Its lengths have no unit; they count as metres unless one is given.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
     let file: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|error| Refusal(format!("it is no complete JSON: {error}")))?;

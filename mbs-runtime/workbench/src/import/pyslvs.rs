@@ -15,7 +15,7 @@ pub(super) fn is_begun(text: &str) -> bool {
     text == "M["
 }
 
-/// What an expression describes. Lengths are drawn in millimetres.
+/// Reads an expression. Its lengths have no unit; they count as mm unless one is given.
 pub(super) fn read(text: &str) -> Result<Linkage, Refusal> {
     let text = without_comments(text);
     let mut linkage = Linkage::new("Pyslvs", "mm");
@@ -114,7 +114,7 @@ impl<'a> Parser<'a> {
         if self.takes(word) { Ok(()) } else { Err(self.refusal(&format!("`{word}`"))) }
     }
 
-    /// What should stand here, and what does.
+    /// The refusal of what stands here, with what should be here.
     fn refusal(&self, expected: &str) -> Refusal {
         let rest = self.rest.trim_start();
         let line = self.text[..self.text.len() - rest.len()].matches('\n').count() + 1;

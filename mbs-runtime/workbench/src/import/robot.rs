@@ -46,7 +46,7 @@ const MOST_TIES: usize = 1000;
 /// A tree of bodies with what moves, closes and drives it, in SI units.
 #[derive(Debug)]
 struct Robot {
-    /// What the file calls it.
+    /// Its name in the file.
     name: String,
     /// The program whose file it is.
     program: &'static str,
@@ -57,7 +57,7 @@ struct Robot {
     closings: Vec<Closing>,
     couplings: Vec<Coupling>,
     actuators: Vec<Actuator>,
-    /// What was assumed, and what was not carried over.
+    /// Notes on what was assumed, and on what was not carried over.
     notes: Vec<String>,
 }
 
@@ -65,12 +65,13 @@ struct Robot {
 #[derive(Debug)]
 struct Body {
     name: String,
-    /// What the file calls it, for messages.
+    /// Its name in messages, in the words of the file.
     of: String,
     parent: usize,
-    /// In the frame of the parent.
+    /// Its frame in that of the parent.
     pose: Pose,
-    /// Between the body and its parent, the first one at the parent; without any it is fixed to it.
+    /// The joints between the body and its parent, the first one at the parent; without any it is fixed to
+    /// it.
     joints: Vec<Joint>,
     lumps: Vec<Lump>,
     marks: Vec<Mark>,
@@ -147,7 +148,7 @@ struct LoopJoint {
     joint: Joint,
 }
 
-/// What closes a loop and has no coordinate: a place of each of two bodies.
+/// A tie that closes a loop and has no coordinate: a place of each of two bodies.
 #[derive(Debug)]
 struct Closing {
     name: String,
@@ -177,7 +178,7 @@ impl Coupling {
     }
 }
 
-/// What drives a joint: its effort is gear (gain u + b0 + b1 gear q + b2 gear q̇).
+/// An actuator of a joint: its effort is gear (gain u + b0 + b1 gear q + b2 gear q̇).
 #[derive(Debug)]
 struct Actuator {
     name: String,
@@ -186,7 +187,7 @@ struct Actuator {
     gear: f64,
     gain: f64,
     bias: [f64; 3],
-    /// What its input is.
+    /// The kind of its input u.
     input: Input,
 }
 

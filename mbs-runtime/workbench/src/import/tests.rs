@@ -32,7 +32,7 @@ const FILES: [&str; 24] = [
     include_str!("../../../../models/command/tests/command/imported/pmks_plus_watt.pmks"),
 ];
 
-/// What stands in files in the place of something else.
+/// Texts that are put in the place of others in files.
 const WRONG: [&str; 16] = [
     "", "0", "-1", "1e308", "NaN", "1e-320", "null", "\"\"", "[", "]", "{", "<", "&#0;", "\u{7f}ä", "true",
     "ground",

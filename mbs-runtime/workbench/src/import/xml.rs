@@ -1,7 +1,7 @@
 //! A reader of XML that takes what the programs write whose files are imported.
 //!
-//! It is more lenient than the standard: comments may contain `--`, attributes need no blank between
-//! them, and prefixes no declaration; they are a part of the name. What a document declares is not
+//! It is more lenient than the standard: comments may contain `--`, attributes need no blank between them,
+//! and prefixes no declaration; they are a part of the name. Entities that a document declares are not
 //! expanded. Time and memory are proportional to the text, up to sorting the attributes of an element.
 
 use std::borrow::Cow;

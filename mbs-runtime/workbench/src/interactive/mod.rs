@@ -51,7 +51,7 @@ const SCRIPTS: [&str; 8] = [
     include_str!("framed.js"),
 ];
 
-/// What a browser shows that cannot run the page.
+/// The handler of errors in the page's script: it shows that this browser cannot run the page.
 const FAILED: &str = "(error) => {
   document.getElementById(\"message\").textContent = `This browser cannot run the page: ${error.message}`;
   throw error;

@@ -20,7 +20,7 @@ pub trait InLanes: Send + Sync {
     /// Members to a vector instruction.
     fn width(&self) -> usize;
 
-    /// Runs some members, and hands them over in order. What is observed is in SI units.
+    /// Runs some members, and hands them over in order. Their values are in SI units.
     ///
     /// # Errors
     /// It was cancelled.
@@ -29,9 +29,9 @@ pub trait InLanes: Send + Sync {
 
 /// Some members of a sweep.
 pub struct Batch<'a> {
-    /// Which ones.
+    /// The indices of the members.
     pub members: Range<usize>,
-    /// What the member with an index starts with.
+    /// The start of the member with an index.
     pub start: &'a (dyn Fn(usize) -> Start + Sync),
     /// When they end, in s.
     pub end: f64,
@@ -115,8 +115,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Extents {
         (Of::none(), Of::none())
     }
 
-    /// What a lane that cannot be looked at leaves in its notes does not matter: its
-    /// run has ended.
+    /// The notes of a lane that cannot be looked at do not matter: its run has ended.
     #[inline(always)]
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
         let (outputs, healthy) = at.outputs();

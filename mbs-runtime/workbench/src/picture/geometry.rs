@@ -43,8 +43,8 @@ impl Extent {
 }
 
 impl Picture {
-    /// What a frame has to hold: everything that is drawn, at all instants,
-    /// with some air. Of a positive size even where nothing moves.
+    /// The frame around everything that is drawn, at all instants, with some air. Its size is positive even
+    /// where nothing moves.
     pub fn extent(&self) -> Extent {
         let mut shown: Vec<usize> = self.shapes.iter().flat_map(Shape::points).collect();
         shown.sort_unstable();

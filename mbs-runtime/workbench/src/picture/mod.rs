@@ -52,7 +52,7 @@ pub struct Picture {
     pub times: Vec<f64>,
     /// For every instant the points, in m.
     pub points: Vec<Vec<[f64; 2]>>,
-    /// What is drawn, from back to front.
+    /// The shapes that are drawn, from back to front.
     pub shapes: Vec<Shape>,
     /// Points whose path is drawn, with their colours.
     pub traced: Vec<(usize, usize)>,
@@ -75,7 +75,7 @@ pub enum Shape {
         /// From where to where it is drawn, in m from the first towards the second.
         reach: [f64; 2],
     },
-    /// What stands still: a hatched triangle.
+    /// A place that stands still: a hatched triangle.
     Ground {
         /// Its tip.
         at: usize,
@@ -144,7 +144,7 @@ pub enum Shape {
     },
     /// A joint of a kind that has no shape of its own: its word, at a dashed line.
     Mark {
-        /// What it connects.
+        /// The points that it connects.
         between: [usize; 2],
         /// The word.
         text: String,

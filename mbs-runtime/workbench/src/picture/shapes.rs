@@ -34,7 +34,7 @@ pub(super) fn draw(sketch: &Sketch, picture: &mut Picture) {
     (picture.shapes, picture.traced, picture.weight) = (shapes, traced, weight);
 }
 
-/// What lies behind what.
+/// The layer of a shape. Higher layers lie in front of lower ones.
 fn layer(shape: &Shape) -> u8 {
     match shape {
         Shape::Rail { .. } => 0,

@@ -10,7 +10,7 @@ use crate::picture::{Picture, json::shape};
 pub struct Animation {
     /// The caption.
     pub title: String,
-    /// What moves.
+    /// The mechanism that moves.
     pub picture: Picture,
     /// Values shown beside the picture.
     pub readouts: Vec<Readout>,

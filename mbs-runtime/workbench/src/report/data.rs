@@ -18,7 +18,7 @@ fn axis(axis: &Axis) -> Value {
 }
 
 fn series(series: &Series, shown: (f64, f64)) -> Value {
-    // What lies outside a prescribed range would only make the page longer.
+    // Points outside a prescribed range would only make the page longer.
     let points = || series.points.iter().filter(|p| p[0] >= shown.0 && p[0] <= shown.1);
     let coordinate = |at: usize| points().map(|p| number(p[at])).collect::<Vec<_>>();
     let stroke = match series.stroke {

@@ -20,7 +20,7 @@ const SCRIPT: &str = include_str!("page.js");
 pub struct Report {
     /// The title.
     pub title: String,
-    /// What it is about, in a paragraph.
+    /// The introduction, a paragraph.
     pub lead: String,
     /// The sections, in order.
     pub sections: Vec<Section>,
@@ -44,7 +44,7 @@ pub enum Block {
     Figure {
         /// The figure.
         figure: Figure,
-        /// What it shows.
+        /// The caption.
         caption: String,
         /// Files with the same content, to be linked.
         files: Vec<String>,

@@ -6,11 +6,11 @@ use crate::{Error, files};
 
 /// The cells of a table.
 pub(crate) struct Cells {
-    /// The cells of the headings,
+    /// The cells of the headings.
     pub headings: Vec<String>,
-    /// of a row of units beneath them, if there is one,
+    /// The cells of a row of units beneath the headings, if there is one.
     pub units: Option<Vec<String>>,
-    /// and of the rows, with the lines of the file in which they stand. Numbers have a decimal point.
+    /// The cells of the rows, with the lines of the file in which they stand. Numbers have a decimal point.
     pub rows: Vec<(u64, Vec<String>)>,
 }
 

@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 /// Bounds on the requests and connections of clients.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Bytes of a request without its body,
+    /// Bytes of a request without its body.
     pub head: u64,
-    /// and of its body, which nothing is done with.
+    /// Bytes of the body of a request, which nothing is done with.
     pub body: u64,
     /// Requests that one connection may make.
     pub requests: usize,
@@ -116,7 +116,7 @@ fn converse(stream: &TcpStream, limits: &Limits, answer: &dyn Fn(&Request) -> Re
             break;
         }
     }
-    // What is on its way is taken for a moment: otherwise the system may drop the answer as well.
+    // Bytes that are on their way are taken for a moment: otherwise the system may drop the answer as well.
     stream.shutdown(Shutdown::Write)?;
     reader.get_mut().begin(limits.patience.min(Duration::from_secs(1)));
     io::copy(&mut reader.take(1 << 20), &mut io::sink()).map(drop)

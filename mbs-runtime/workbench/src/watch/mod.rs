@@ -23,7 +23,7 @@ pub(crate) use server::Server;
 /// How often the file is looked at.
 const GRAIN: Duration = Duration::from_millis(50);
 
-/// What a mechanism looks like.
+/// The pages that show a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Pages {
     /// A run as it was recorded.
@@ -32,21 +32,21 @@ pub(crate) struct Pages {
     pub played: Option<String>,
 }
 
-/// What is made of the file: pages, or what is wrong with it.
+/// The outcome of the file: pages, or its error.
 pub(crate) type Outcome = Result<Pages, String>;
 
-/// What became of the file so far.
+/// The state of a followed file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shown {
     /// Counts the outcomes.
     pub version: u64,
     /// The last pages that there were, and their version.
     pub pages: Option<(u64, Pages)>,
-    /// What is wrong with the file now.
+    /// The error of the file as it is now.
     pub error: Option<String>,
 }
 
-/// What became of the file, for those who wait for news of it.
+/// The state of a followed file, for those who wait for news of it.
 #[derive(Debug, Default)]
 pub(crate) struct News {
     shown: Mutex<Shown>,
@@ -66,7 +66,7 @@ impl News {
         self.changed.notify_all();
     }
 
-    /// What became of the file.
+    /// The state of the file now.
     pub fn now(&self) -> MutexGuard<'_, Shown> {
         // whoever panicked left a whole value
         self.shown.lock().unwrap_or_else(PoisonError::into_inner)

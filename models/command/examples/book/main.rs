@@ -75,7 +75,7 @@ impl Places {
         Ok(Self { root, made: target.join("tmp/book"), book: target.join("book"), mbs })
     }
 
-    /// What a command prints.
+    /// Runs the `mbs` command, and returns what it prints.
     fn printed(&self, arguments: &[&str]) -> Outcome<String> {
         let ended = Command::new(&self.mbs).args(arguments).output()?;
         if !ended.status.success() {

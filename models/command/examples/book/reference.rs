@@ -13,7 +13,7 @@ struct Page {
     source: &'static str,
     /// How other pages name it.
     names: &'static [&'static str],
-    /// What rustdoc shows below it.
+    /// The pictures that rustdoc shows below it.
     pictures: &'static [&'static str],
 }
 

@@ -10,7 +10,7 @@ use super::{scalars::Scalars, torque};
 pub struct Picture {
     /// Name of its files, without ending.
     pub file: &'static str,
-    /// What it shows, in a sentence or two.
+    /// A caption of a sentence or two.
     pub caption: String,
     /// The figure.
     pub figure: Figure,

@@ -121,7 +121,7 @@ fn torques(study: &Study, s: &mut Scalars) {
     }
 }
 
-/// What the paper did not see.
+/// Torques and violations under each kind of feedback, which the paper does not have.
 fn feedbacks(study: &Study, s: &mut Scalars) {
     for run in &study.feedbacks {
         let trace = &run.trace;

@@ -114,7 +114,7 @@ impl Setup {
     /// max ‖Φ‖ over all steps up to a time, both ends included, with feedback in both stages.
     ///
     /// # Errors
-    /// What ended the run.
+    /// The error that kept the run from starting, or ended it.
     pub fn largest_violation(&self, crank: &Crank, end: f64) -> Result<f64, Error> {
         let mut run = self.run(crank, PER_STAGE)?;
         let mut largest = 0.0;

@@ -38,7 +38,7 @@ pub struct Study {
     pub torque: Vec<Trace>,
     /// Clean torque with held feedback and J = m l²/12, one per speed.
     pub clean: Vec<Trace>,
-    /// What each feedback does to the torque at 200 rpm, J = m l²/12, over two turns.
+    /// Torque runs with each kind of feedback at 200 rpm, J = m l²/12, over two turns.
     pub feedbacks: Vec<FeedbackRun>,
 }
 
@@ -55,7 +55,7 @@ pub struct FeedbackRun {
 /// Computes everything; shows progress on the terminal.
 ///
 /// # Errors
-/// What keeps a run from starting. Runs that end early are results, not errors.
+/// An error that keeps a run from starting. Runs that end early are results, not errors.
 pub fn study(crank: Crank) -> Result<Study, Error> {
     let none = Setup::gains(0.0, 0.0);
     let paper = Setup::gains(2000.0, 2000.0);

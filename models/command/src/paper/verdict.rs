@@ -1,5 +1,5 @@
-//! What the paper says, what comes out here, and how the two compare: always
-//! computed from the numbers.
+//! The claims of the paper, the numbers that come out here, and how the two compare: always computed from the
+//! numbers.
 
 use mbs_workbench::Table;
 use mbs_workbench::number::significant;
@@ -8,7 +8,7 @@ use super::scalars::Scalars;
 use super::setup::SPEEDS;
 use super::study::Study;
 
-/// What the paper says about a quantity.
+/// The paper's claim about a quantity.
 #[derive(Clone, Copy, Debug)]
 enum Claim {
     /// A number printed with so many decimals.
@@ -181,7 +181,7 @@ fn torques(rows: &mut Rows<'_>) {
     }
 }
 
-/// What the paper did not see.
+/// Rows of numbers that the paper does not have.
 fn beyond(rows: &mut Rows<'_>) {
     let scalars = rows.scalars;
     let smaller = |key: &'static str| {

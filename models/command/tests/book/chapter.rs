@@ -4,13 +4,13 @@ use std::ops::Range;
 
 /// A fenced block of a chapter.
 pub struct Block<'a> {
-    /// What stands behind the opening fence: `console`, `mbs`, `python`.
+    /// The word behind the opening fence: `console`, `mbs`, `python`.
     pub language: &'a str,
     /// The file that the line above names, `**pendulum.mbs**`.
     pub file: Option<&'a str>,
-    /// What stands between the fences.
+    /// The text between the fences.
     pub text: &'a str,
-    /// Where that is in the chapter, in bytes.
+    /// The place of that text in the chapter, in bytes.
     pub range: Range<usize>,
 }
 

@@ -1,10 +1,11 @@
-//! What the book shows is what happens.
+//! The book shows what happens.
 //!
-//! The chapters are read one after the other, as SUMMARY.md has them, in one folder, as a reader would: `book` in
-//! cargo's folder for files of tests, from where the pictures go into the book. A block below the name of a file is written to that file. Each command of a `console` block is run
-//! there, and its output is compared with what stands below it; `...` and `[..]` stand for what may differ.
-//! Blocks of `python` are run where `BOOK_PYTHON` is an interpreter that has the package `mbs`. Blocks of `rust`
-//! are compiled and run by the crate `book`. `BLESS=1` writes into the chapters what was printed.
+//! The chapters are read one after the other, as SUMMARY.md has them, in one folder, as a reader would:
+//! `book` in cargo's folder for files of tests, from where the pictures go into the book. A block below the
+//! name of a file is written to that file. Each command of a `console` block is run there, and its output is
+//! compared with what stands below it; `...` and `[..]` stand for what may differ. Blocks of `python` are run
+//! where `BOOK_PYTHON` is an interpreter that has the package `mbs`. Blocks of `rust` are compiled and run by
+//! the crate `book`. `BLESS=1` writes into the chapters what was printed.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
@@ -22,7 +23,7 @@ fn source() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../book/src")
 }
 
-/// What is not run, by how it begins, and why.
+/// Commands that are not run, by how they begin, and why.
 const NOT_RUN: &[(&str, &str)] = &[
     ("rustup ", "installs a compiler"),
     ("git clone ", "needs the network"),

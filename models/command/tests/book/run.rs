@@ -50,7 +50,8 @@ impl Reading<'_> {
         printed
     }
 
-    /// What a console shows. None where a program is not on this machine.
+    /// Runs the commands of a console, and returns what it shows. `None` where a program is not on this
+    /// machine.
     fn console(&self, shown: &[Shown], is_interrupted: bool, wrong: &mut Vec<String>) -> Option<String> {
         let mut text = String::new();
         for Shown { command, output } in shown {
@@ -130,7 +131,7 @@ impl Reading<'_> {
         }
     }
 
-    /// What is to stand in the chapter: what stands there, if that is right.
+    /// The text that is to stand in the chapter: the present one, if that is right.
     fn compared(&self, what: &str, actual: &str, expected: &str, wrong: &mut Vec<String>) -> String {
         let name = format!("{}: `{}`", self.chapter, what.trim_end());
         let plain = |text: &str| -> Data { text.to_owned().into_data() };

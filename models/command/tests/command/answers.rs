@@ -1,4 +1,4 @@
-//! What the command says to people who slip.
+//! Answers of the command to people who slip.
 
 use super::sweeps::sweep;
 use super::{mbs, refusal, refuses, text};

@@ -63,7 +63,7 @@ fn drawings_that_cannot_be_made() {
     assert!(refusal("export dxf nothing --out a.dxf").contains("there is no mechanism `nothing`"));
 }
 
-/// What an attribute of elements has, wherever it stands.
+/// The values of an attribute, wherever it stands.
 fn attributes<'a>(picture: &'a str, name: &str) -> Vec<&'a str> {
     let start = format!(" {name}=\"");
     let parts = picture.split(start.as_str()).skip(1);

@@ -1,4 +1,4 @@
-//! What is left on the disk, whatever happens.
+//! Files that are left on the disk, whatever happens.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};

@@ -57,7 +57,7 @@ fn values_errors_and_files() {
     assert!(picture.contains("residual of x") && picture.contains("measured"));
 }
 
-/// What `simulate` records can be fitted, with inputs from a table, which the data may carry.
+/// A recording of `simulate` can be fitted, with inputs from a table, which the data may carry.
 #[test]
 fn a_recording_with_an_input_is_fitted() {
     let folder = tempfile::tempdir().unwrap();

@@ -365,7 +365,7 @@ fn a_file_that_is_too_large_is_refused() {
     assert_eq!(message, "it has 600 links and 300 joints; at most 200 and 1000 are imported");
 }
 
-/// What the compiler answers is said in the words of the file.
+/// The answer of the compiler is given in the words of the file.
 #[test]
 fn the_compilers_answer_names_the_part_of_the_file() {
     // The rod of 3 m cannot reach the line 50 m above the crank.

@@ -1,4 +1,4 @@
-//! What is said of files of PMKS and PMKS+ that cannot be imported.
+//! Refusals of files of PMKS and PMKS+ that cannot be imported.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! What is said of files of robots that cannot be imported: one line for each message.
+//! Refusals of files of robots that cannot be imported: one line for each message.
 
 use super::imports::refused;
 

@@ -1,4 +1,4 @@
-//! What is said of files of SDF that cannot be imported.
+//! Refusals of files of SDF that cannot be imported.
 
 use super::imports::refused;
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{mbs, parts, refuses};
 
-/// What a sweep prints, on both streams, and its rows. It has to end with this code.
+/// Runs a sweep, which has to end with this code. Returns what it prints, on both streams, and its rows.
 fn sweep_ending(code: i32, folder: &Path, arguments: &str) -> (String, Vec<Vec<String>>) {
     let mut output = mbs(folder, &format!("sweep {arguments} --out out.csv --plot out.svg"));
     assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));

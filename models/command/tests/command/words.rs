@@ -1,4 +1,4 @@
-//! What the command prints about mechanisms.
+//! Words of the command about mechanisms: lists, equations and completions.
 
 use std::path::Path;
 

@@ -6,7 +6,7 @@
 use mbs_runtime::Gains;
 use mbs_runtime::Real;
 
-/// What does not change in a run.
+/// Numbers that do not change in a run.
 #[derive(Clone, Copy)]
 pub struct Crank {
     pub r: f64,

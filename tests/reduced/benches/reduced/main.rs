@@ -1,7 +1,6 @@
-//! What a Heun step costs with reduced states, against all coordinates in the same run. Timed are
-//! a simulation that runs to a time, one whose steps are function calls, and members in lanes, and
-//! the step of the driven slider-crank that a person writes. Repetitions take turns, and medians are
-//! compared.
+//! Cost of a Heun step with reduced states, against all coordinates in the same run. Timed are a simulation
+//! that runs to a time, one whose steps are function calls, and members in lanes, and the step of the driven
+//! slider-crank that a person writes. Repetitions take turns, and medians are compared.
 #![allow(missing_docs, reason = "a program")]
 
 mod by_hand;

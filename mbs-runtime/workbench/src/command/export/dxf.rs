@@ -102,7 +102,7 @@ fn drawing(sketch: &Sketch, picture: &Picture, instant: usize) -> String {
                 dxf.polyline(&layer_of(*colour), &block(at(*middle), along, radius), true);
             }
             Shape::Pin { at: place } | Shape::Weld { at: place } => dxf.circle("joints", at(*place), radius),
-            // What is no part of the mechanism: names, centres, and signs for joints of other kinds.
+            // No part of the mechanism: names, centres, and signs for joints of other kinds.
             Shape::Coil { .. } | Shape::Mark { .. } | Shape::Centre { .. } | Shape::Label { .. } => {}
         }
     }

@@ -40,7 +40,7 @@ pub(super) fn animated(name: &str, picture: &Picture) -> String {
     svg + "</svg>\n"
 }
 
-/// What draws shapes at every instant.
+/// A pen that draws shapes at every instant.
 struct Pen<'a> {
     picture: &'a Picture,
     extent: Extent,
@@ -117,7 +117,7 @@ impl<'a> Pen<'a> {
             Shape::Pin { at } | Shape::Weld { at } => {
                 self.disk(*at, 4.5 * weight, "fill=\"#ffffff\" stroke=\"#202428\"")
             }
-            // What is no part of the mechanism: names, centres, and signs for joints of other kinds.
+            // No part of the mechanism: names, centres, and signs for joints of other kinds.
             Shape::Coil { .. } | Shape::Mark { .. } | Shape::Centre { .. } | Shape::Label { .. } => {
                 String::new()
             }

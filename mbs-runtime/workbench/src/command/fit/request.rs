@@ -1,4 +1,4 @@
-//! What a command line asks to be fitted.
+//! The request of a fit, read from a command line.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ pub(super) struct Request {
     confidence: f64,
 }
 
-/// What can be looked for under a name.
+/// The dimension and the unit of a value that is looked for.
 struct Place {
     dimension: Dimension,
     unit: Unit,
@@ -173,7 +173,7 @@ impl Request {
         Error::Name { name: self.path.display().to_string(), reason }
     }
 
-    /// What is asked of the analysis.
+    /// The experiment that the analysis is asked to make.
     pub fn experiment(&self) -> Experiment {
         let experiment = Experiment::of(self.info)
             .parameters(self.start.parameters.clone())

@@ -1,4 +1,4 @@
-//! What a fit found: as tables, for scripts, as columns and as a picture.
+//! Results of a fit: as tables, for scripts, as columns and as a picture.
 
 use mbs_analysis::{Estimate, Fit, Measurement, Remainder};
 use mbs_runtime::Info;
@@ -13,11 +13,11 @@ use crate::names::some_of;
 use crate::number::significant;
 use crate::{Column, Table, Unit};
 
-/// Estimates that are known to fewer digits than this are in doubt,
+/// A parameter is in doubt if its standard error is more than this part of it.
 const UNCERTAIN: f64 = 0.5;
-/// so are residuals that differ from independent ones by so many standard errors of the autocorrelation,
+/// Residuals are in doubt if their autocorrelation is more than so many of its standard errors.
 const DEPENDENT: f64 = 4.0;
-/// and deviations that differ from the given ones by so many of their own.
+/// Given deviations are in doubt if χ² is off its mean by more than so many standard deviations of χ².
 const UNLIKELY: f64 = 5.0;
 /// Estimates with a larger correlation can hardly be told from each other.
 const CORRELATED: f64 = 0.95;

@@ -96,7 +96,7 @@ impl Grid {
         }
     }
 
-    /// What is swept is not set as well.
+    /// Refuses a parameter that is both swept and set.
     pub fn check_against(&self, settings: &Settings) -> Result<(), Error> {
         let is_set = |axis: &&GridAxis| settings.parameters.iter().any(|(name, _)| name == axis.name);
         match self.axes.iter().find(is_set) {

@@ -23,11 +23,11 @@ pub struct Rows {
     flushed: Instant,
 }
 
-/// What rows are written to.
+/// The file that rows are written to.
 enum Target {
-    /// All rows of a sweep,
+    /// A file for all rows of a sweep.
     Whole(Output),
-    /// or those of a share of it.
+    /// A file for the rows of a share of a sweep.
     Share(Part),
 }
 

@@ -23,7 +23,7 @@ pub struct Shard {
     pub of: usize,
 }
 
-/// What the first line of a file says.
+/// The contents of the first line of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
     pub shard: Shard,
@@ -236,16 +236,16 @@ impl Head {
 /// The sound part of a file of a share.
 #[derive(Default)]
 struct Whole {
-    /// The rows before the first one that is wrong,
+    /// How many rows come before the first wrong one.
     rows: usize,
-    /// where they end,
+    /// The length of the sound part in bytes, with the lines above the rows.
     bytes: u64,
-    /// and what is wrong behind them.
+    /// The reason why the next row is wrong, if there is one.
     wrong: Option<String>,
 }
 
 impl Part {
-    /// Begins the file of a share, or goes on with it. What is whole of a share that was damaged is taken over.
+    /// Begins the file of a share, or goes on with it. The sound rows of a damaged share are taken over.
     pub fn open(path: &Path, head: &Head) -> Result<Self, Error> {
         table_file::check(path)?;
         let part = unfinished(path);

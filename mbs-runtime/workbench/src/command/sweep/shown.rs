@@ -1,4 +1,4 @@
-//! What a sweep shows: a table, a picture, a summary for scripts.
+//! Output of a sweep: a table, a picture, a summary for scripts.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What a command line asks to be synthesized.
+//! The task of a synthesis, read from a command line.
 
 use std::path::{Path, PathBuf};
 

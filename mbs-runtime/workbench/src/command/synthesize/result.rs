@@ -1,4 +1,4 @@
-//! What a synthesis found: as a table, for scripts, as columns and as pictures.
+//! Results of a synthesis: as a table, for scripts, as columns and as pictures.
 
 use mbs_analysis::{Defect, Linkage, Synthesis, Task};
 use mbs_runtime::System;
@@ -164,7 +164,7 @@ impl Shown<'_> {
         Ok(columns)
     }
 
-    /// What was asked for, and what the mechanism does: one quantity over the other where there are two.
+    /// A figure of the task and of the mechanism: one quantity over the other where there are two.
     pub fn figure(&self, best: &Linkage) -> Result<Figure, Error> {
         let values = self.values(best)?;
         let asked = |column: usize| -> Vec<f64> {

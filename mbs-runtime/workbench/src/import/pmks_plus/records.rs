@@ -4,7 +4,7 @@ use super::digits::{checked, decimal, flags, integer};
 use crate::import::geometry::Point;
 use crate::import::{Refusal, shown};
 
-/// What a text says, in its own units.
+/// The contents of a text, in its own units.
 pub(super) struct Drawing<'a> {
     pub settings: Settings,
     pub joints: Vec<Joint<'a>>,
@@ -12,11 +12,11 @@ pub(super) struct Drawing<'a> {
     pub forces: Vec<Force<'a>>,
 }
 
-/// What holds for the whole drawing.
+/// Settings of the whole drawing.
 pub(super) struct Settings {
     pub clockwise: bool,
     pub weightless: bool,
-    /// In lengths per second, where the text says it.
+    /// The speed of slides in lengths per second, where the text says it.
     pub slide_speed: Option<f64>,
     pub rpm: f64,
     /// The number of the unit of lengths.

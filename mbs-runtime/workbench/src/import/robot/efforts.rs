@@ -1,4 +1,4 @@
-//! What acts along coordinates: springs, rotors, couplings and actuators.
+//! Efforts along coordinates: springs, rotors, couplings and actuators.
 
 use std::collections::BTreeMap;
 

@@ -20,7 +20,7 @@ pub(super) struct Flat<'a> {
     pub coordinates: Vec<Coordinate<'a>>,
     pub closings: Vec<Closed<'a>>,
     pub couplings: Vec<Coupled<'a>>,
-    /// What drives which coordinate.
+    /// The actuators, each with the index of its coordinate.
     pub actuators: Vec<(&'a Actuator, usize)>,
     /// The size of the mechanism in m.
     pub size: f64,
@@ -49,20 +49,20 @@ impl Part<'_> {
     }
 }
 
-/// What a body's joints leave of its motion against its parent.
+/// The motion that a body's joints leave it against its parent.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Freedom {
-    /// About a point of both.
+    /// A turn about a point of both.
     Turn,
-    /// Along a line of the parent, without turning.
+    /// A slide along a line of the parent, without turning.
     Slide { along: Point },
-    /// A point of the body along a line of the parent.
+    /// A point of the body moves along a line of the parent, and the body turns.
     SlideAndTurn { along: Point },
-    /// A point of the parent along a line of the body.
+    /// A point of the parent moves along a line of the body, and the body turns.
     TurnAndSlide { along: Point },
-    /// Anywhere, without turning.
+    /// Any displacement, without turning.
     Shift,
-    /// Anywhere.
+    /// Any motion.
     All,
 }
 
@@ -142,7 +142,7 @@ pub(super) fn laid<'a>(robot: &'a Robot, plane: &'a Plane) -> Result<Flat<'a>, R
     Ok(layer.flat)
 }
 
-/// What is said of a joint between bodies that are fixed to each other.
+/// The note on a joint between bodies that are fixed to each other.
 fn idle(of: &str) -> String {
     format!("{of} joins what is one part already: it was left out")
 }
@@ -189,7 +189,7 @@ impl<'a> Layer<'a> {
         self.flat.plane.point(turn.map_or(place, |turn| turn.apply(place)))
     }
 
-    /// What brings the frame of a part that is turned out of the plane into it.
+    /// The rotation that brings the frame of a part into the plane, if the part is turned out of it.
     fn frame(&self, part: usize) -> Option<Rotation> {
         let first = self.places.iter().position(|(of, _)| *of == part)?;
         let turn = self.flat.plane.poses.get(first)?.turn;

@@ -23,7 +23,7 @@ use crate::import::Refusal;
 use classes::{Classes, Element};
 use settings::Settings;
 
-/// What a file describes.
+/// Reads a file.
 pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
     let document = parsed(text, "mujoco")?;
     let root = document.root();
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What is in a body. Each body comes before those in it, and there are not many, so that
+    /// Reads the contents of a body. Each body comes before those in it, and there are not many, so that
     /// these calls do not nest deeply.
     fn inside(&mut self, node: Node<'a>, at: usize, inherited: Option<&'a str>) -> Result<(), Refusal> {
         let inherited = node.attribute("childclass").or(inherited);

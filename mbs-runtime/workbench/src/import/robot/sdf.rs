@@ -30,7 +30,7 @@ const AXES_OF_JOINTS: u32 = 5;
 /// The version from which an axis names the frame that it is along, if it is not that of its joint.
 const AXES_BY_NAME: u32 = 7;
 
-/// What a file describes.
+/// Reads a file.
 pub(super) fn read(text: &str, model: Option<&str>) -> Result<Robot, Refusal> {
     let document = parsed(text, "sdf")?;
     let root = document.root();
@@ -89,7 +89,8 @@ fn check(model: Node<'_>, robot: &mut Robot) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// What else a model has: programs, of which one kind gives an effort to a joint.
+/// Reads the plugins, grippers and sensors of a model. A plugin for a joint's effort becomes an actuator; the
+/// others are noted as not carried over.
 fn extra(node: Node<'_>, robot: &mut Robot) -> Result<(), Refusal> {
     let name = node.name();
     let of = node.described(name);

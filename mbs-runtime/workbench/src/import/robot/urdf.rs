@@ -17,7 +17,7 @@ use crate::import::{Refusal, shown};
 /// The name of what does not move, with an element of its own or without one.
 const WORLD: &str = "world";
 
-/// What a file describes.
+/// Reads a file.
 pub(super) fn read(text: &str) -> Result<Robot, Refusal> {
     let document = parsed(text, "robot")?;
     let root = document.root();

@@ -1,4 +1,4 @@
-//! What the joints leave of the motions of bodies, and how their coordinates are measured.
+//! The motions that joints leave to bodies, and the measures of their coordinates.
 
 use super::{Coordinate, Freedom, Held, Layer, Measure, idle};
 use crate::import::Refusal;

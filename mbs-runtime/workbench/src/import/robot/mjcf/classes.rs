@@ -109,7 +109,7 @@ pub(super) struct Element<'a, 'c> {
     kind: &'static str,
     class: usize,
     classes: &'c [Class<'a>],
-    /// What it is in messages.
+    /// Its name in messages, in the words of the file.
     pub of: String,
 }
 

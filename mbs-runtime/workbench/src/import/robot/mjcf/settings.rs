@@ -1,4 +1,4 @@
-//! What a file says of all of its parts: the sections `compiler` and `option`, and those that
+//! Settings of a file that hold for all of its parts: the sections `compiler` and `option`, and those that
 //! are left out or refused.
 
 use crate::import::xml::Node;
@@ -14,7 +14,7 @@ pub(super) struct Settings {
     pub euler: [char; 3],
     /// Whether masses come from geoms: always, never, or where a body has no `inertial`.
     pub masses_of_geoms: Option<bool>,
-    /// What all bodies together have, if the masses of the file are to be scaled to it.
+    /// The mass of all bodies together, if the masses of the file are to be scaled to it.
     pub total_mass: Option<f64>,
     pub has_gravity: bool,
     pub has_contacts: bool,

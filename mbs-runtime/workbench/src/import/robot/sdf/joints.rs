@@ -19,7 +19,7 @@ const UNLIMITED: f64 = 1e16;
 /// How far directions of length 1 may be apart in their product that are to be the same axis.
 const ALONG: f64 = 1e-4;
 
-/// What a joint leaves of the motion of its links.
+/// The motion that a joint leaves to its links.
 pub(super) enum Hold {
     Fixed,
     /// A hinge or a slide, with its place and its axis in the world.
@@ -39,14 +39,14 @@ pub(super) struct Edge<'a> {
     pub hold: Hold,
 }
 
-/// What of the file the joints are read with.
+/// A reader of joints, with the frames and the version of the file.
 struct Reader<'a, 'r> {
     frames: &'r Frames<'a>,
     version: u32,
     robot: &'r mut Robot,
 }
 
-/// The joints of a model. What they follow and what they lose goes to the robot.
+/// Reads the joints of a model. Their couplings, and notes on what is lost, go to the robot.
 pub(super) fn read<'a>(
     model: Node<'a>,
     frames: &Frames<'a>,

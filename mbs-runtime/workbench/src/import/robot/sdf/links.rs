@@ -51,7 +51,8 @@ pub(super) fn body(
     Ok(Body { name, of, parent, pose, joints: Vec::new(), lumps, marks: Vec::new() })
 }
 
-/// The mass of a link. What the file does not say is 1, as SDF has it.
+/// The mass of a link. As SDF has it, a mass and moments of inertia that the file does not say are 1, and
+/// products of inertia 0.
 fn lump(link: Node<'_>, of: &str, robot: &mut Robot) -> Result<Lump, Refusal> {
     let inertial = link.elements_named("inertial").next();
     if inertial.and_then(|inertial| inertial.attribute("auto")).is_some_and(super::values::is_true) {

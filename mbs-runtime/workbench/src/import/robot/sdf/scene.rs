@@ -74,7 +74,7 @@ fn gravity(world: Node<'_>) -> Result<Vector, Refusal> {
     text(world, "gravity").or(of_physics).map_or(Ok(GRAVITY), |text| exactly(text, "gravity", &of))
 }
 
-/// What of a world is left out, in notes.
+/// Notes on the parts of a world that are left out.
 fn surroundings(world: Node<'_>) -> Result<Vec<String>, Refusal> {
     let mut notes = Vec::new();
     for node in world.elements() {

@@ -55,7 +55,7 @@ pub(super) fn grow<'a>(
     tree.marks(robot)
 }
 
-/// What does not move: the world, or the first link of a model that no joint holds there.
+/// The ground: the world, or the canonical link of a model that no joint holds there.
 fn ground<'a>(frames: &Frames<'a>, edges: &[Edge<'a>], robot: &mut Robot) -> &'a str {
     if edges.iter().any(|edge| edge.parent == WORLD) {
         return WORLD;
