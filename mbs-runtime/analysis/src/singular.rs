@@ -69,7 +69,7 @@ fn turn_all(columns: &mut DMatrix<f64>, turns: &mut DMatrix<f64>) -> bool {
         for j in i + 1..n {
             let (a, b) = (columns.column(i), columns.column(j));
             let (aa, bb, ab) = (a.norm_squared(), b.norm_squared(), a.dot(&b));
-            if !(ab.abs() > f64::EPSILON * aa.sqrt() * bb.sqrt()) {
+            if ab.is_nan() || ab.abs() <= f64::EPSILON * aa.sqrt() * bb.sqrt() {
                 continue;
             }
             has_turned = true;

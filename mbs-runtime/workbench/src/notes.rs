@@ -55,7 +55,8 @@ pub(crate) fn lost_start_values(model: &dyn Model, settings: &Settings) -> Vec<S
         let largest = values.iter().flat_map(|value| [value.declared.abs(), value.kept.abs()]);
         let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
         let kept = kept.iter().filter_map(|&at| values.get(at));
-        let lost = kept.filter(|value| !((value.kept - value.declared).abs() <= 1e-3 * largest));
+        let is_kept = |value: &StartValue| (value.kept - value.declared).abs() <= 1e-3 * largest;
+        let lost = kept.filter(|value| !is_kept(value));
         notes.extend(lost.map(|StartValue { name, declared, kept, unit }| {
             let [declared, kept] = [declared, kept].map(|x| significant(*x, 6));
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
