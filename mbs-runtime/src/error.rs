@@ -366,9 +366,14 @@ impl fmt::Display for Error {
                 t = Shown(t)
             ),
             Self::NonFinite { t, coordinate } => {
+                match coordinate {
+                    // all stages were finite, and their sum is not
+                    "" => f.write_str("the motion")?,
+                    _ => write!(f, "the motion of `{coordinate}`")?,
+                }
                 write!(
                     f,
-                    "the motion of `{coordinate}` is no longer finite at t = {t} s; if the mechanism can reach \
+                    " is no longer finite at t = {t} s; if the mechanism can reach \
                      that position at all, take a smaller step or smaller gains, or for stiff forces the \
                      method `trbdf2`",
                     t = Shown(t)

@@ -107,7 +107,7 @@ impl<T: Real> Run<'_, T> {
         });
         room.completed = all;
         // Where all stages are healthy, the sum that leaves them is not.
-        Err(error.unwrap_or(Error::NonFinite { t: t_last.to_f64(), coordinate: "the state" }))
+        Err(error.unwrap_or(Error::NonFinite { t: t_last.to_f64(), coordinate: "" }))
     }
 
     /// The stages of a step, one after the other; `look` sees each with its q̈ and growth.

@@ -83,7 +83,9 @@ pub fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> R
         return Err(wrong(format!("{what} is a number without a unit; write {number}")));
     }
     let expected = units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]);
-    let unit = units::parse(unit).map_err(|error| wrong(error.in_place_of(expected).to_string()))?;
+    // `5/s` is 5 1/s
+    let unit = if unit.starts_with('/') { format!("1{unit}") } else { unit.to_owned() };
+    let unit = units::parse(&unit).map_err(|error| wrong(error.in_place_of(expected).to_string()))?;
     if unit.dimension != expected {
         return Err(Error::Dimension {
             what: what.into(),

@@ -107,6 +107,9 @@ pub(crate) fn with_values(
     Ok(StartState { start_time: run.time(), steps_taken: 0, q, v })
 }
 
+/// Given positions that contradict each other may move by this share of the largest one.
+const NEAR: f64 = 1e-3;
+
 /// Moves positions, then velocities onto the constraints: as in a start that is declared, and where that would move
 /// one of `places`, everything but those.
 fn make_consistent(
@@ -123,14 +126,24 @@ fn make_consistent(
     let names = |is_rate: bool| -> Vec<&'static str> {
         given(is_rate).map(|(place, _)| info.coordinates[place.at].name).collect()
     };
+    let size = q.iter().fold(0.0_f64, |size, q| size.max(q.abs()));
+    let nearly =
+        |now: &[f64]| given(false).all(|(place, value)| (now[place.at] - value).abs() <= NEAR * size);
     let stays = |now: &[f64], is_rate: bool| given(is_rate).all(|(place, value)| now[place.at] == *value);
 
     let mut moved = q.to_vec();
-    if assemble(equations, t, &mut moved, &mut room).is_ok() && stays(&moved, false) {
-        q.copy_from_slice(&moved);
-    } else {
-        project(equations, t, q, &mut v.to_vec(), [&names(false), &[]], &mut room)?;
+    let is_assembled = assemble(equations, t, &mut moved, &mut room).is_ok();
+    if !(is_assembled && stays(&moved, false)) {
+        let mut kept = q.to_vec();
+        let projected = project(equations, t, &mut kept, &mut v.to_vec(), [&names(false), &[]], &mut room);
+        match projected {
+            Ok(()) => moved = kept,
+            // values that are rounded contradict each other by little, as those of a declaration may
+            Err(_) if is_assembled && nearly(&moved) => {}
+            Err(error) => return Err(error),
+        }
     }
+    q.copy_from_slice(&moved);
     let mut moved = v.to_vec();
     if project_velocities(equations, t, q, &mut moved, &mut room).is_ok() && stays(&moved, true) {
         v.copy_from_slice(&moved);

@@ -107,6 +107,9 @@ fn what_cannot_be_a_start_is_refused() {
             let output = mbs(folder.path(), &format!("simulate pin.mbs --end 1ms {values}"));
             assert_eq!(output.status.code(), Some(1), "{states} {values}: {}", text(output.stdout));
         }
+        // of a length of 0.25, rounded to four digits
+        let output = mbs(folder.path(), "simulate pin.mbs --end 1ms --from x=0.1768 --from y=-0.1768");
+        assert_eq!(output.status.code(), Some(0), "{states}: {}", text(output.stderr));
     }
     assert!(refused("--from x3=2").contains("did you mean `x"));
     assert!(refused("--from der(x3)=2").contains("did you mean `der(x"));

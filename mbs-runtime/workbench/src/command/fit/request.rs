@@ -123,7 +123,12 @@ impl Request {
                 *bound = quantity::parse_in(name, text, place.dimension, &place.unit)?;
             }
         }
-        Ok(())
+        let [low, high] = self.unknown[at].bounds;
+        if low < high {
+            return Ok(());
+        }
+        let what = format!("the bounds of {name}");
+        Err(Error::Value { what, text: range.into(), reason: "the lower one comes first".into() })
     }
 
     /// Takes `NAME=VALUE` of a compared column.
