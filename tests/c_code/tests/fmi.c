@@ -169,10 +169,10 @@ static void tune(void)
         EXPECT(is_set == IS_TUNABLE[at - AT_PARAMETERS] && said == !is_set);
         *parameter = is_set ? value : *parameter;
     }
-    EXPECT(NAME_init(&other, &parameters) == CAPS_OK);
+    EXPECT(NAME_init(&other, &parameters) == 0);
     run.mechanism = &other;
     for (int k = 0; k < 4 * (COMMUNICATION_STEPS - 2); k++) {
-        EXPECT(NAME_step(&run) == CAPS_OK);
+        EXPECT(NAME_step(&run) == 0);
     }
     step_3(it, 2, COMMUNICATION_STEPS);
     EXPECT(memcmp(&it->now.run.state, &run.state, sizeof run.state) == 0);
