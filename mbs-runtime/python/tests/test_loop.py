@@ -252,7 +252,7 @@ def test_a_declared_start_is_left_as_it_is(pendulum):
         (lambda m: m.start_many(2, x=["1 cm", "2 cm"]), "`x` of some runs are numbers"),
         (lambda m: m.start_many(2).reset([0.0, 1.0]), "truth values or indices"),
         (lambda m: m.start(state=np.zeros(2)), "are a dict"),
-        (lambda m: m.start(parameters={"push": 3}), "`push`: it is an input, and no parameter; give `push=3.0`"),
+        (lambda m: m.start(parameters={"push": 3}), "`push` cannot be used: it is an input, and no parameter; give `push=3.0`"),
         (lambda m: m.start(y=0.1), "no parameter, input or coordinate `y`.*did you mean `py`"),
         (lambda m: m.start(step=[1, 2]), "`step` is a number or a text"),
         (lambda m: m.start(length=np.zeros(3)), r"`length` is .*shape \(3,\)"),

@@ -134,14 +134,16 @@ fn make_consistent(
     let mut moved = q.to_vec();
     let is_assembled = assemble(equations, t, &mut moved, &mut room).is_ok();
     if !(is_assembled && stays(&moved, false)) {
-        let mut kept = q.to_vec();
-        let projected = project(equations, t, &mut kept, &mut v.to_vec(), [&names(false), &[]], &mut room);
-        match projected {
-            Ok(()) => moved = kept,
+        let names = names(false);
+        let mut keeping = |names: &[&'static str]| {
+            let mut kept = q.to_vec();
+            project(equations, t, &mut kept, &mut v.to_vec(), [names, &[]], &mut room).map(|()| kept)
+        };
+        moved = keeping(&names).or_else(|error| {
             // values that are rounded contradict each other by little, as those of a declaration may
-            Err(_) if is_assembled && nearly(&moved) => {}
-            Err(error) => return Err(error),
-        }
+            let fewer = (0..names.len()).rev().filter_map(|count| keeping(names.get(..count)?).ok());
+            fewer.into_iter().find(|kept| nearly(kept)).ok_or(error)
+        })?;
     }
     q.copy_from_slice(&moved);
     let mut moved = v.to_vec();

@@ -48,7 +48,7 @@ fn a_joint_that_others_follow_starts_where_it_is_drawn() {
          <limit effort='1' velocity='1' lower='-1' upper='1'/>\
          <mimic joint='jl' multiplier='-0.5' offset='0.02'/></joint></robot>"
     );
-    let (declared, rows) = moved("g.urdf", &robot, &["jl", "jr"]);
+    let (declared, rows) = moved("g.urdf", &robot, &["jl_angle", "jr_position"]);
     let off = (rows[0][0].abs()).max((rows[0][1] - 0.02).abs());
     assert!(off < 1e-12, "{:?}\n{declared}", rows[0]);
 }

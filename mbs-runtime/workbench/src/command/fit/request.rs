@@ -225,8 +225,6 @@ fn confidence(text: Option<&String>) -> Result<f64, Error> {
     let wrong =
         |reason: &str| Error::Value { what: "confidence".into(), text: text.clone(), reason: reason.into() };
     let value: f64 = number.trim().parse().map_err(|_| wrong("write it as 95% or 0.95"))?;
-    // 95 can only mean percent
-    let unit = if value > 1.0 && value < 100.0 { 0.01 } else { unit };
     let value = unit * value;
     if value > 0.0 && value < 1.0 {
         Ok(value)
