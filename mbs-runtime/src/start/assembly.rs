@@ -11,8 +11,8 @@ use crate::{Error, Real, vectors};
 
 const NEWTON_ITERATIONS: usize = 50;
 const STEP_HALVINGS: usize = 10;
-/// An iteration that leads so many times as far as it began has lost its way: of an angle of 10⁹ rad no digits
-/// are left that matter, and its rounding would pass for a small correction.
+/// An iteration that turns a body by so many rad has lost its way. Of such an angle no digits are left that
+/// matter, and its rounding would pass for a small correction.
 const FAR: f64 = 1e9;
 
 /// Makes (q, v) the nearest state that satisfies Φ = 0 and Φ̇ = 0; see
@@ -71,9 +71,8 @@ pub(super) fn newton<T: Real>(
 ) -> Result<(), Error> {
     let Iterate { delta, next, phi, residual } = room;
     equations.phi(t, q, phi);
-    let far = T::from_f64(FAR) * (T::from_f64(1.0) + vectors::largest(q).1);
     for _ in 0..NEWTON_ITERATIONS {
-        if vectors::largest(q).1 > far {
+        if is_lost(equations, q) {
             break;
         }
         vectors::copy(residual, phi);
@@ -89,11 +88,17 @@ pub(super) fn newton<T: Real>(
     }
     let (row, violation) = vectors::largest(phi);
     // Newton may circle at rounding level, where Φ itself is at rounding.
-    if violation <= rounding(q) && vectors::largest(q).1 <= far {
+    if violation <= rounding(q) && !is_lost(equations, q) {
         converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }
     Err(not_assembled(equations, t, row, violation))
+}
+
+/// Whether an angle is beyond all that can be meant.
+fn is_lost<T: Real>(equations: &dyn Equations<T>, q: &[T]) -> bool {
+    let mut coordinates = equations.info().coordinates.iter().zip(q);
+    coordinates.any(|(coordinate, q)| coordinate.dimension.length == 0 && q.abs() > T::from_f64(FAR))
 }
 
 /// The rounding of a constraint whose terms are of the order of the positions, of 1 at least: 64 ε (1 + maxⱼ |qⱼ|).
