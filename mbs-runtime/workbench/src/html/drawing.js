@@ -49,6 +49,11 @@ const drawing = (() => {
       Math.abs(Number(v.toExponential(6).split("e")[0]) % 1) < 1e-5 ? v : null));
   }
 
+  // How wide a vertical axis is: as its longest number is, so that its label stands beside them.
+  function width(least) {
+    return (u, values) => Math.max(least, ...(values || []).map((text) => 22 + 7.5 * (text || "").length));
+  }
+
   // Colours of text and grid may be those of a dark page.
   function axis(description, size, { ink = "#1e1e1e", grid = "#e4e4e4", tick = "#999" } = {}) {
     return {
@@ -61,5 +66,5 @@ const drawing = (() => {
     };
   }
 
-  return { COLOURS, format, scale, range, axis };
+  return { COLOURS, format, scale, range, axis, width };
 })();

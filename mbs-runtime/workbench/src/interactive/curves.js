@@ -22,7 +22,7 @@ const curves = (() => {
       drawn = new uPlot({
         width, height: 230, legend: { show: false }, cursor: { drag: { x: false, y: false } },
         scales: { x: { time: false }, y: { range: drawing.range } },
-        axes: [drawing.axis({ label: "t [s]" }, 40, colours), drawing.axis({ label: data.columns[choice.value] }, 74, colours)],
+        axes: [drawing.axis({ label: "t [s]" }, 40, colours), drawing.axis({ label: data.columns[choice.value] }, drawing.width(60), colours)],
         series: [{}, { stroke: drawing.COLOURS[at], width: 1.8 }],
       }, points(), place);
     };

@@ -17,7 +17,7 @@
     const options = {
       width: width(), height: 320,
       scales: { x: scale(panel.x), y: panel.y.log ? scale(panel.y) : { range: drawing.range, ...scale(panel.y) } },
-      axes: [axis(panel.x, 46), axis(panel.y, 88)],
+      axes: [axis(panel.x, 46), axis(panel.y, drawing.width(88))],
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
     };
