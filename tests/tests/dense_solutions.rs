@@ -71,7 +71,9 @@ fn examine(number: u64) -> Result<&'static str, String> {
     for variant in &variants {
         let found = variant.accelerations(&q, &v);
         let condition = drawn.condition(&q, &variant.independent);
-        close(&drawn, "q̈", [&found, &motion.accelerations], motion.scale, ROUNDING * condition)?;
+        let scale = motion.accelerations.iter().fold(motion.scale, |scale, x| scale.max(x.abs()));
+        let share = condition * (ROUNDING + motion.open / scale);
+        close(&drawn, "q̈", [&found, &motion.accelerations], motion.scale, share)?;
     }
     let ends = variants.iter().map(|variant| variant.end(&q, &v)).collect::<Result<Vec<_>, _>>();
     let ends = ends.map_err(|error| format!("{error}\n{drawn:?}"))?;

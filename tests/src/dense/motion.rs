@@ -30,6 +30,9 @@ pub struct Motion {
     pub accelerations: Vec<f64>,
     /// The size of what they are sums of: of M⁻¹Q, and at least 1.
     pub scale: f64,
+    /// By how much dampers leave accelerations open where their places coincide; see
+    /// [`Mechanism::open`].
+    pub open: f64,
 }
 
 /// Jacobian, and Φ̈ without its part in q̈.
@@ -183,7 +186,28 @@ impl Mechanism {
         let left = parts.free.transpose() * (forces - &masses * &forced);
         let inner = split(&inertia);
         let accelerations = forced + &parts.free * (&inner.inverse * left);
-        Motion { accelerations: accelerations.as_slice().to_vec(), scale }
+        Motion { accelerations: accelerations.as_slice().to_vec(), scale, open: self.open(q, v) }
+    }
+
+    /// How far accelerations are open by dampers without length whose places coincide. Of r only its rounding is
+    /// left there, which differs from one order of operations to the next. By the passage of the language, the
+    /// rate along r has the share (|r|/ε)² of that, 1e-9 for places some metres away.
+    fn open(&self, q: &[f64], v: &[f64]) -> f64 {
+        let masses = self.masses();
+        let least = masses.diagonal().iter().copied().fold(f64::INFINITY, f64::min);
+        let of = |spring: &Spring| {
+            let jets: Vec<Jet> = q.iter().zip(v).map(|(q, v)| line(*q, *v)).collect();
+            let [a, b] = spring.places.map(|place| self.place(&place, &jets));
+            let [x, y] = [0, 1].map(|axis| a[axis] - b[axis]);
+            if spring.length != 0.0 || value(x).hypot(value(y)) >= COINCIDENT {
+                return 0.0;
+            }
+            let arm = |place: &super::Place| place.local[0].hypot(place.local[1]);
+            let size = spring.places.iter().map(arm).fold(value(a[0]).hypot(value(a[1])), f64::max);
+            let share = 4.0 * f64::EPSILON * size / COINCIDENT;
+            spring.damping * first(x).hypot(first(y)) * share * share * (1.0 + size) / least
+        };
+        self.springs.iter().map(of).sum()
     }
 
     /// By how much the motion amplifies what is off in its numbers, if these rows hold it.
