@@ -11,8 +11,8 @@ use crate::{Error, Real, vectors};
 
 const NEWTON_ITERATIONS: usize = 50;
 const STEP_HALVINGS: usize = 10;
-/// An iteration that turns a body by so many rad has lost its way. Of such an angle no digits are left that
-/// matter, and its rounding would pass for a small correction.
+/// An iteration that turns a body so many times as far as angles were, or by so many rad, has lost its way. Of
+/// such an angle no digits are left that matter, and its rounding would pass for a small correction.
 const FAR: f64 = 1e9;
 
 /// Makes (q, v) the nearest state that satisfies Φ = 0 and Φ̇ = 0; see
@@ -71,8 +71,9 @@ pub(super) fn newton<T: Real>(
 ) -> Result<(), Error> {
     let Iterate { delta, next, phi, residual } = room;
     equations.phi(t, q, phi);
+    let far = T::from_f64(FAR) * (T::from_f64(1.0) + largest_angle(equations, q));
     for _ in 0..NEWTON_ITERATIONS {
-        if is_lost(equations, q) {
+        if largest_angle(equations, q) > far {
             break;
         }
         vectors::copy(residual, phi);
@@ -88,17 +89,18 @@ pub(super) fn newton<T: Real>(
     }
     let (row, violation) = vectors::largest(phi);
     // Newton may circle at rounding level, where Φ itself is at rounding.
-    if violation <= rounding(q) && !is_lost(equations, q) {
+    if violation <= rounding(q) && largest_angle(equations, q) <= far {
         converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }
     Err(not_assembled(equations, t, row, violation))
 }
 
-/// Whether an angle is beyond all that can be meant.
-fn is_lost<T: Real>(equations: &dyn Equations<T>, q: &[T]) -> bool {
-    let mut coordinates = equations.info().coordinates.iter().zip(q);
-    coordinates.any(|(coordinate, q)| coordinate.dimension.length == 0 && q.abs() > T::from_f64(FAR))
+/// The largest magnitude of an angle among the coordinates.
+fn largest_angle<T: Real>(equations: &dyn Equations<T>, q: &[T]) -> T {
+    let coordinates = equations.info().coordinates.iter().zip(q);
+    let angles = coordinates.filter(|(coordinate, _)| coordinate.dimension.length == 0);
+    angles.fold(T::default(), |largest, (_, q)| largest.max(q.abs()))
 }
 
 /// The rounding of a constraint whose terms are of the order of the positions, of 1 at least: 64 ε (1 + maxⱼ |qⱼ|).
