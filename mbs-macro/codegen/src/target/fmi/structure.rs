@@ -26,7 +26,7 @@ fn parameters(compiled: &Compiled, function: FunctionId) -> BTreeSet<usize> {
     let operands = program.instructions.iter().flat_map(|it| [it.a, it.b]);
     let symbols = operands.chain(program.outputs.iter().copied()).flat_map(|operand| match operand {
         Operand::Symbol(symbol) => BTreeSet::from([symbol]),
-        Operand::Hoisted(at) => hoisted.get(at).cloned().unwrap_or_default(),
+        Operand::Hoisted(at) => hoisted[at].clone(),
         Operand::Number(_) | Operand::Value(_) => BTreeSet::new(),
     });
     let parameter = |symbol| match compiled.input(symbol) {
