@@ -19,7 +19,7 @@ pub(crate) fn create(path: &Path) -> Result<Output, Error> {
     Output::create(path)
 }
 
-/// Whether a table of this name may be written.
+/// Refuses names of tables in other forms.
 ///
 /// # Errors
 /// [`Error::Name`] if the ending is that of another form.

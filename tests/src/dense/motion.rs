@@ -30,7 +30,7 @@ pub struct Motion {
     pub accelerations: Vec<f64>,
     /// The size of what they are sums of: of M⁻¹Q, and at least 1.
     pub scale: f64,
-    /// By how much dampers leave accelerations open where their places coincide; see
+    /// The uncertainty of accelerations by dampers whose places coincide; see
     /// [`Mechanism::open`].
     pub open: f64,
 }
@@ -189,7 +189,7 @@ impl Mechanism {
         Motion { accelerations: accelerations.as_slice().to_vec(), scale, open: self.open(q, v) }
     }
 
-    /// How far accelerations are open by dampers without length whose places coincide. Of r only its rounding is
+    /// The uncertainty of accelerations by dampers without length whose places coincide. Of r only its rounding is
     /// left there, which differs from one order of operations to the next. By the passage of the language, the
     /// rate along r has the share (|r|/ε)² of that, 1e-9 for places some metres away.
     fn open(&self, q: &[f64], v: &[f64]) -> f64 {

@@ -324,7 +324,7 @@ impl<'a> Writer<'a> {
         self.line("", "    }");
     }
 
-    /// Whether a part hangs on a joint that follows another one, so that it may be elsewhere than it is drawn.
+    /// `true` of a part that hangs on a joint which follows another one: it may be elsewhere than it is drawn.
     fn follows(&self, part: usize, followers: &[usize]) -> bool {
         let held = |at: &usize| self.flat.coordinates.get(*at).map(|coordinate| coordinate.held);
         let mut part = part;
