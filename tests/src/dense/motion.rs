@@ -30,8 +30,8 @@ pub struct Motion {
     pub accelerations: Vec<f64>,
     /// The size of what they are sums of: of M⁻¹Q, and at least 1.
     pub scale: f64,
-    /// The uncertainty of accelerations by dampers whose places coincide; see
-    /// [`Mechanism::open`].
+    /// The uncertainty of accelerations by dampers without length whose places coincide: of their direction r
+    /// only its rounding is left, which differs from one order of operations to the next.
     pub open: f64,
 }
 
