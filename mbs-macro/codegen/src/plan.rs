@@ -7,12 +7,11 @@ mod minimum_norm;
 mod step;
 mod system;
 
-use std::collections::HashMap;
-
 use mbs_symbolic::{
     Elimination, Expr, Hoisted, Inconsistency, Program, Strategy, Undetermined, Unknown, WatchedPivot, lower,
     lower_whole,
 };
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};

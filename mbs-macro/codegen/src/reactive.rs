@@ -32,9 +32,10 @@
 //!
 //! Each response G Dᵢ is one more solution with the factorization of the step.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use mbs_symbolic::{Algebra, Expr, Factorization, Node, Number, Scalar, Symbol, Unknown};
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
 use crate::model::{Meaning, Model};
@@ -183,7 +184,7 @@ impl<'a> System<'a> {
     /// λ₀ + Σ Gⱼ fⱼ
     fn multipliers(&self, at: &[Scalar<'a>]) -> HashMap<Symbol, Expr> {
         let algebra = self.algebra;
-        let mut multipliers = HashMap::new();
+        let mut multipliers = HashMap::default();
         for (&symbol, &without) in &self.without {
             let mut terms = vec![algebra.scalar(without)];
             for (response, &force) in self.responses.iter().zip(at) {

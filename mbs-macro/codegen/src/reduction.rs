@@ -29,9 +29,10 @@
 //! Without feedback, centripetal accelerations along x and y cancel in right-hand sides. These are
 //! multiplied out where that costs less (`eliminate/sums.rs` in `mbs-symbolic`).
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::{Arena, Expr, Node, Number, Symbol};
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
 use crate::independence::Rows;
@@ -66,7 +67,7 @@ pub fn reduce(model: &mut Model, equations: &Equations, rows: &Rows, inputs: &mu
         false => Given::default(),
     };
     if given.rows.is_empty() {
-        return Reduction { values: HashMap::new(), given: BTreeSet::new(), rows: BTreeSet::new() };
+        return Reduction { values: HashMap::default(), given: BTreeSet::new(), rows: BTreeSet::new() };
     }
     Reduction::new(model, given, inputs)
 }
@@ -77,7 +78,7 @@ impl Reduction {
         let states: Vec<usize> =
             (0..model.coordinates.len()).filter(|at| !coordinates.contains(at)).collect();
         inputs.reduce(model, &states);
-        let mut values = HashMap::new();
+        let mut values = HashMap::default();
         for state in &inputs.states {
             let coordinate = &model.coordinates[state.coordinate];
             values.insert(coordinate.position, model.arena.variable(state.position));
@@ -105,7 +106,7 @@ impl Reduction {
     /// formula.
     pub fn predicted(&self, model: &mut Model, inputs: &Inputs) -> Vec<Expr> {
         let arena = &mut model.arena;
-        let mut direction = HashMap::from([(inputs.time, arena.one())]);
+        let mut direction = HashMap::from_iter([(inputs.time, arena.one())]);
         let mut predicted = vec![arena.zero(); model.coordinates.len()];
         for state in &inputs.states {
             let acceleration = arena.variable(state.predicted);
@@ -283,7 +284,7 @@ fn solve(
     coefficient: Number,
 ) -> Expr {
     let row = arena.substitute(row, known);
-    let rest = arena.substitute(row, &HashMap::from([(x, arena.zero())]));
+    let rest = arena.substitute(row, &HashMap::from_iter([(x, arena.zero())]));
     let value = arena.scale(rest, -coefficient.recip());
     short(arena, value)
 }

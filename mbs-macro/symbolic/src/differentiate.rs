@@ -3,8 +3,7 @@
 //! A direction gives each symbol its rate. The Jacobian Φ_q uses unit directions. Φ̇ uses q → v and t → 1. γ
 //! is minus the same derivative of Φ̇.
 
-use std::collections::HashMap;
-
+use rustc_hash::FxHashMap as HashMap;
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Algebra, Scalar};
@@ -34,7 +33,7 @@ impl Arena {
 
     /// ∂e/∂s
     pub fn partial(&mut self, expr: Expr, symbol: Symbol) -> Expr {
-        let direction = HashMap::from([(symbol, self.one())]);
+        let direction = HashMap::from_iter([(symbol, self.one())]);
         self.derivative(expr, &direction)
     }
 

@@ -1,7 +1,6 @@
 //! Expressions in the place of symbols.
 
-use std::collections::HashMap;
-
+use rustc_hash::FxHashMap as HashMap;
 use rustc_hash::FxHashMap;
 
 use crate::arena::{Arena, Expr, Node, Symbol};

@@ -6,7 +6,7 @@
 
 mod common;
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 use common::{Jet, Num, Tree, VARIABLES, every_operator, points, trees};
 use mbs_symbolic::{
@@ -14,6 +14,7 @@ use mbs_symbolic::{
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use rustc_hash::FxHashMap as HashMap;
 
 struct Setting {
     arena: Arena,
@@ -37,7 +38,7 @@ fn setting(tree: &Tree, parameters: usize) -> Option<Setting> {
 impl Setting {
     /// The first and second derivative along x + s v with v constant.
     fn derivatives(&mut self) -> [Expr; 2] {
-        let mut direction = HashMap::new();
+        let mut direction = HashMap::default();
         for (&x, &v) in self.symbols.iter().zip(&self.velocities) {
             direction.insert(x, self.arena.variable(v));
         }

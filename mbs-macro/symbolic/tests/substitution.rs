@@ -4,12 +4,11 @@
 
 mod common;
 
-use std::collections::HashMap;
-
 use common::{Jet, Tree, VARIABLES, every_operator, points, trees};
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use rustc_hash::FxHashMap as HashMap;
 
 struct Setting {
     arena: Arena,
@@ -42,7 +41,7 @@ fn check_values(outer: &Tree, inner: &Tree, x: [f64; VARIABLES]) -> Result<(), T
     prop_assume!(built.0.is_some() && built.1.is_some());
     let (outer, inner) = (built.0.unwrap(), built.1.unwrap());
 
-    let substituted = arena.substitute(outer, &HashMap::from([(symbols[0], inner)]));
+    let substituted = arena.substitute(outer, &HashMap::from_iter([(symbols[0], inner)]));
     let found = arena.evaluate(&[substituted], &|symbol| x[symbol.index()])[0];
     let tolerance = expected.value.tolerance()
         + inner_value.tolerance() * (expected.first.value.abs() + expected.first.tolerance());
@@ -91,7 +90,7 @@ proptest! {
         values.insert(stranger, arena.one());
         prop_assert_eq!(arena.substitute(expr, &values), expr);
         let shared = arena.share(expr);
-        prop_assert_eq!(arena.substitute(shared, &HashMap::new()), shared);
+        prop_assert_eq!(arena.substitute(shared, &HashMap::default()), shared);
     }
 
     /// All symbols at once: an exchange of two is its own inverse in value.
@@ -101,7 +100,7 @@ proptest! {
         let point: Vec<_> = x.iter().map(|&x| Jet::constant(x)).collect();
         let Some(expected) = tree.jet(&point) else { return Ok(()) };
         let Some(expr) = tree.build(&mut arena, &variables) else { return Ok(()) };
-        let exchange = HashMap::from([(symbols[0], variables[1]), (symbols[1], variables[0])]);
+        let exchange = HashMap::from_iter([(symbols[0], variables[1]), (symbols[1], variables[0])]);
         let exchanged = arena.substitute(expr, &exchange);
         let other = |symbol: Symbol| [x[1], x[0], x[2], x[3]][symbol.index()];
         let found = arena.evaluate(&[exchanged], &other)[0];
@@ -117,7 +116,7 @@ fn shared_values_stay_shared() {
     let shared = arena.share(sum);
     let outer = arena.mul(shared, variables[2]);
     let outer = arena.add(outer, variables[0]);
-    let substituted = arena.substitute(outer, &HashMap::from([(symbols[0], variables[3])]));
+    let substituted = arena.substitute(outer, &HashMap::from_iter([(symbols[0], variables[3])]));
     let expected = arena.add(variables[3], variables[1]);
     let expected = arena.share(expected);
     let expected = arena.mul(expected, variables[2]);

@@ -6,9 +6,10 @@
 //! other. Among them the one comes first whose operands have been there for longest. The operations and their
 //! operands stay the same.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::VecDeque;
 
 use mbs_symbolic::{Instruction, Operand, Operation, Program, SinCos};
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::products::{Products, Sum};
 
@@ -56,7 +57,7 @@ impl Units {
         let unit_of: Vec<usize> = (0..count).map(unit_of).collect();
         let (mut members, mut readers) = (vec![Vec::new(); count], vec![Vec::new(); count]);
         let (mut kinds, mut waits) = (Vec::with_capacity(count), vec![0; count]);
-        let mut numbers: HashMap<Kind, usize> = HashMap::new();
+        let mut numbers: HashMap<Kind, usize> = HashMap::default();
         for (at, step) in program.instructions.iter().enumerate() {
             let unit = unit_of[at];
             members[unit].push(at);

@@ -1,8 +1,7 @@
 //! Products that are read once, by a sum or a difference, which are done with it.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::{Operand, Operation, Program};
+use rustc_hash::FxHashMap as HashMap;
 
 /// Instructions that multiply → the ones that add.
 pub struct Products {
@@ -24,7 +23,7 @@ impl Products {
     /// Those of a program. Where both operands of a sum are such products, the second one
     /// is done with it.
     pub fn of(program: &Program) -> Self {
-        let mut reads: HashMap<usize, usize> = HashMap::new();
+        let mut reads: HashMap<usize, usize> = HashMap::default();
         let mut count = |operand: Operand| {
             if let Operand::Value(at) = operand {
                 *reads.entry(at).or_default() += 1;

@@ -1,8 +1,7 @@
 //! Which slot holds what, and for how long.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::{Function, Inconsistency, Instruction as Step, Operand, Operation, Program, SinCos};
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::code::{Code, Role};
 use crate::instruction::Instruction;
@@ -19,7 +18,7 @@ const END: usize = usize::MAX;
 pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Code, Inconsistency> {
     let (pairs, products) = (SinCos::of(program), Products::of(program));
     let last_reads = last_reads(program, &pairs, &products);
-    let mut allocator = Allocator { places: HashMap::new(), free: Vec::new(), slots: 0, last_reads };
+    let mut allocator = Allocator { places: HashMap::default(), free: Vec::new(), slots: 0, last_reads };
     let (mut fixed, mut given) = (Vec::new(), Vec::new());
     let operands = program.instructions.iter().flat_map(|step| [step.a, step.b]);
     let operands: Vec<Operand> = operands.chain(program.outputs.iter().copied()).collect();
@@ -55,7 +54,7 @@ pub fn allocate(program: &Program, role: &dyn Fn(Operand) -> Role) -> Result<Cod
 /// Where every operand is read for the last time. The later one of a sine and a cosine of
 /// the same angle reads it where the earlier one does, a product where its sum is.
 fn last_reads(program: &Program, pairs: &SinCos, products: &Products) -> HashMap<Operand, usize> {
-    let mut last_reads = HashMap::new();
+    let mut last_reads = HashMap::default();
     for (at, step) in program.instructions.iter().enumerate() {
         let earlier = pairs.partner(at).map_or(at, |partner| partner.min(at));
         let reader = products.reader(at).unwrap_or(earlier);

@@ -1,6 +1,6 @@
 //! Rows of which most entries are 0, as those of a large mechanism are.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 use std::ops::{Mul, Sub};
 
 /// The entries that are not 0, with their columns in order.

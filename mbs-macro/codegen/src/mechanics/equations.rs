@@ -1,9 +1,10 @@
 //! Equations of motion: bodies, forces and names are gone, only expressions
 //! are left.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use mbs_symbolic::{Algebra, Arena, Expr, Scalar, Symbol};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::{Inertia, Load, Motion, Work, energies};
 

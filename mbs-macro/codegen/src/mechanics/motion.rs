@@ -1,8 +1,7 @@
 //! How a mechanism moves: which symbols are its coordinates, and how fast they change.
 
-use std::collections::{HashMap, HashSet};
-
 use mbs_symbolic::{Algebra, Expr, Scalar, Symbol};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 /// The symbols of the motion.
 pub struct Motion {
@@ -68,7 +67,7 @@ impl Motion {
 
     /// The rates of the symbols of x; that of time only if `has_time`.
     fn direction(&self, x: Scalar<'_>, has_time: bool) -> HashMap<Symbol, Expr> {
-        let mut direction = HashMap::new();
+        let mut direction = HashMap::default();
         for symbol in x.symbols() {
             if let Some(&coordinate) = self.coordinates.get(&symbol) {
                 direction.insert(symbol, self.velocity(x.algebra(), coordinate).expr());

@@ -4,10 +4,9 @@
 //! be the same at both ends, and rise as steeply. Otherwise the follower would
 //! jump, or be struck, wherever the cam turns through that position.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Number, Symbol};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::names::{Local, Place, Typed};
 use super::resolver::Resolver;
@@ -53,7 +52,7 @@ impl Resolver<'_> {
         let (time, half_turn) = (self.scope.time, std::f64::consts::PI);
         let angle = self.scope.arena.variable(time);
         let profile = self.profile_at(joint, formula, angle)?;
-        let direction = HashMap::from([(time, self.scope.arena.one())]);
+        let direction = HashMap::from_iter([(time, self.scope.arena.one())]);
         let slope = self.scope.arena.derivative(profile, &direction);
         let at = |expr: Expr, angle: f64, change: &dyn Fn(usize) -> f64| {
             let value = |symbol: Symbol| match self.scope.meaning(symbol) {

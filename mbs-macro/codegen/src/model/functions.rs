@@ -1,10 +1,9 @@
 //! Function calls: the elementary ones, `der`, `lambda`, `effort` and `distance`.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Function, Number, Symbol};
 use proc_macro2::Ident;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Meaning;
 use super::hints::in_radians;
@@ -145,7 +144,7 @@ impl Scope<'_> {
             return None;
         };
         let inner = self.formula(argument, Place::Anywhere, errors)?;
-        let mut direction = HashMap::new();
+        let mut direction = HashMap::default();
         for symbol in self.arena.symbols_in(inner.expr) {
             let rate = match self.meaning(symbol) {
                 Meaning::Time => self.arena.one(),

@@ -5,11 +5,12 @@
 //! Names come first. Values, profiles, places, constraints and forces follow. Outputs come last, since they
 //! may measure all of these.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use mbs_symbolic::Expr;
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
@@ -99,7 +100,7 @@ impl<'a> Resolver<'a> {
             coordinates: Vec::new(),
             bodies: Vec::new(),
             resolved_bodies: BTreeSet::new(),
-            body_names: HashMap::new(),
+            body_names: HashMap::default(),
             constraints: Vec::new(),
             row_count: 0,
             gravity: None,
@@ -108,14 +109,14 @@ impl<'a> Resolver<'a> {
             checks: Vec::new(),
             gaps: Vec::new(),
             potentials: Vec::new(),
-            load_names: HashMap::new(),
+            load_names: HashMap::default(),
             starts: Vec::new(),
             closes: None,
             start_time: None,
             outputs: Vec::new(),
-            output_names: HashMap::new(),
+            output_names: HashMap::default(),
             events: Vec::new(),
-            event_names: HashMap::new(),
+            event_names: HashMap::default(),
         }
     }
 

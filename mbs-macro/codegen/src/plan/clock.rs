@@ -6,9 +6,8 @@
 //!
 //! Ensembles use this. A single run would not gain, since its sines are computed two at a time anyway.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::{Inconsistency, Operand, Operation, Program, probe};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::step::{Fusion, Kinds};
 use crate::inputs::{Input, Inputs};

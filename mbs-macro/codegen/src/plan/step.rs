@@ -10,10 +10,9 @@
 //! the same factorization. In Rust these are generic functions, compiled where they are used. A third pair
 //! is given functions of time (`clock`).
 
-use std::collections::HashMap;
-
 use mbs_schemes::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::clock::{Clocked, clocked};
 use crate::inputs::{Input, Inputs, State};
@@ -187,7 +186,7 @@ fn step(
     let scheme = model.solver.scheme();
     let mut steps = Fusion::default();
     let mut velocities = vec![v.clone()];
-    let mut solved = vec![steps.append(first, &HashMap::new())];
+    let mut solved = vec![steps.append(first, &HashMap::default())];
     let held: HashMap<Symbol, Operand> =
         inputs.feedback.iter().copied().zip(solved[0][n..n + m].iter().copied()).collect();
     for row in scheme.stages {

@@ -19,8 +19,8 @@
 mod operators;
 mod vector;
 
+use rustc_hash::FxHashMap as HashMap;
 use std::cell::RefCell;
-use std::collections::HashMap;
 
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;

@@ -6,7 +6,9 @@
 //! are there already, so that seeds are judged again before they are taken.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap, HashMap};
+use std::collections::{BTreeMap, BinaryHeap};
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::ancestors::Ancestors;
 use super::interval::interval;
@@ -349,7 +351,7 @@ impl<'a> Chooser<'a> {
 }
 
 fn turns(program: &Program, angles: &Angles) -> Vec<usize> {
-    let mut first = HashMap::new();
+    let mut first = HashMap::default();
     let of_pair = |(at, instruction): (usize, &Instruction)| match angles.get(&instruction.a) {
         Some((pair, _)) if is_sine_or_cosine(instruction) => *first.entry(*pair).or_insert(at),
         _ => at,

@@ -7,7 +7,7 @@
 //! pair is one operation less, but a lane that waits for the other may make the way from run to
 //! run longer.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Layout;
 use super::nodes::Nodes;
@@ -31,7 +31,7 @@ pub(super) fn interval(program: &Program, nodes: &Nodes, layout: &Layout<'_>) ->
 fn recurrence(program: &Program, nodes: &Nodes, layout: &Layout<'_>) -> f32 {
     let carried = carried(program, layout);
     let mut times = vec![0; program.instructions.len()];
-    let mut arrivals: HashMap<Symbol, u32> = HashMap::new();
+    let mut arrivals: HashMap<Symbol, u32> = HashMap::default();
     let mut ends = [0; 2];
     for run in 0..RUNS {
         let time = |operand: Operand, times: &[u32]| match operand {

@@ -29,9 +29,10 @@ mod steps;
 mod trial;
 mod weave;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_schemes::sine::SHIFT;
+use rustc_hash::FxHashMap as HashMap;
 
 pub use self::steps::{Given, Lane, Scalar, Step, Term};
 use crate::arena::Symbol;
@@ -97,7 +98,7 @@ fn pair_angles(program: &Program) -> Angles {
         }
         depths.push(of_result);
     }
-    let mut lanes = Angles::new();
+    let mut lanes = Angles::default();
     for pair in angles.values().flat_map(|angles| angles.chunks(2)) {
         if let [first, second] = *pair {
             lanes.insert(first, ((first, second), Lane::First));

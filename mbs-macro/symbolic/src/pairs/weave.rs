@@ -5,7 +5,7 @@
 //! product takes over the flip of a factor, so that one flip of a sine and a cosine
 //! serves all that is computed from it.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::{Angles, Given, Kind, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings, kind, sines};
 use crate::operators::Function;
@@ -25,10 +25,10 @@ pub(super) fn weave(
         partners,
         layout,
         steps: Vec::new(),
-        scalars: HashMap::new(),
-        pairs: HashMap::new(),
+        scalars: HashMap::default(),
+        pairs: HashMap::default(),
         angles,
-        turns: HashMap::new(),
+        turns: HashMap::default(),
     };
     let outputs = program.outputs.iter().map(|&output| weaver.scalar(output)).collect();
     Woven { steps: weaver.steps, outputs }

@@ -1,6 +1,6 @@
 //! Instructions as statements of C.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet as HashSet;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -82,7 +82,7 @@ impl<'a> Printer<'a> {
         kept: Option<Kept<'a>>,
         indent: &'static str,
     ) -> Self {
-        let (pairs, printed, text) = (SinCos::of(program), HashSet::new(), String::new());
+        let (pairs, printed, text) = (SinCos::of(program), HashSet::default(), String::new());
         Self { target, program, pairs, range, kept, printed, indent, text }
     }
 

@@ -4,13 +4,14 @@
 //! fused step are made of such programs. The sines and cosines of two angles that are known at the same
 //! place are one statement, which `f64` computes in a vector register.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use mbs_symbolic::layout::{Array, Layout, Place};
 use mbs_symbolic::{Block, Function, Operand, Operation, Program, SinCos};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 use super::access::Access;
 use super::long::{self, places};
@@ -180,8 +181,8 @@ impl<'a> Writer<'a> {
             pairs,
             range,
             layout: None,
-            apart: HashSet::new(),
-            results: HashMap::new(),
+            apart: HashSet::default(),
+            results: HashMap::default(),
             taken: BTreeSet::new(),
             statements: TokenStream::new(),
         }

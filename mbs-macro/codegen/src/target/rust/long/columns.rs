@@ -1,10 +1,11 @@
 //! The operands that differ between the copies of a loop, as the loop reads them.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use mbs_symbolic::layout::{Carried, Column, Home, Kept, Loop, Read, Rule};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::{Context, places};
 use crate::compiled::Vector;
@@ -22,7 +23,7 @@ pub struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     pub fn new(context: &'a Context<'a>, repeated: &'a Loop<Vector>) -> Self {
-        Self { context, repeated, reads: TokenStream::new(), known: HashMap::new() }
+        Self { context, repeated, reads: TokenStream::new(), known: HashMap::default() }
     }
 
     /// The operand in a copy; `None` if it reads as in straight instructions.

@@ -1,12 +1,11 @@
 //! Copies of the same instructions as a loop on pairs.
 
-use std::collections::HashMap;
-
 use mbs_symbolic::Operand;
 use mbs_symbolic::layout::{Loop, Read, WovenCopy};
 use mbs_symbolic::pairs::{Given, Lane, Scalar, Step};
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Context;
 use super::columns::{Columns, carried_name, head};
