@@ -238,6 +238,7 @@ impl Recorder {
         goes_on: &mut dyn FnMut(u64, u64) -> bool,
     ) -> Result<(), mbs_runtime::Error> {
         let powers_every = every.max(steps / POWERS);
+        let mut margin_at_start = f64::NAN;
         for taken in 0..=steps {
             self.see(run);
             if let Some(resolution) = &mut self.resolution {
@@ -252,8 +253,11 @@ impl Recorder {
             if taken % every == 0 || taken == steps {
                 self.append_row(run)?;
             }
-            if taken == 0 {
-                self.holds_at_start = self.until.as_ref().is_some_and(|until| until.holds(&self.now));
+            let margin = self.until.as_ref().map_or(f64::NAN, |until| until.margin(&self.now));
+            // at the threshold itself, what the first step does counts
+            if taken == 0 || (taken == 1 && margin_at_start == 0.0) {
+                self.holds_at_start = margin > 0.0;
+                margin_at_start = margin;
             }
             if taken < steps {
                 if self.step(run)? {

@@ -54,18 +54,18 @@ impl Until {
         }
     }
 
-    /// Whether it is true of a state; an event is not.
-    pub(crate) fn holds(&self, now: &Instant) -> bool {
-        let Some(Threshold { measured, value, direction }) = self.threshold() else { return false };
+    /// How far a state is inside of it: positive where it is true. An event is never.
+    pub(crate) fn margin(&self, now: &Instant) -> f64 {
+        let Some(Threshold { measured, value, direction }) = self.threshold() else { return f64::NAN };
         let found = match measured {
             Measured::Position(at) => now.q.get(at),
             Measured::Velocity(at) => now.v.get(at),
             Measured::Output(at) => now.outputs.get(at),
             Measured::Multiplier(at) => now.multipliers.get(at),
         };
-        found.is_some_and(|found| match direction {
-            Direction::Falling => *found < value,
-            Direction::Rising | Direction::Either => *found > value,
+        found.map_or(f64::NAN, |found| match direction {
+            Direction::Falling => value - found,
+            Direction::Rising | Direction::Either => found - value,
         })
     }
 }

@@ -144,7 +144,9 @@ impl Scope<'_> {
 
     fn unit_help(&self, formula: &Formula, (found, wanted): (Dimension, Dimension)) -> String {
         if matches!(formula.kind, FormulaKind::Number { unit: None, .. }) {
-            return format!("give the number its unit: {wanted}");
+            let number = formula.span.source_text().unwrap_or_else(|| "1".to_owned());
+            let unit = wanted.si_unit();
+            return format!("give the number its unit, as in `{number} [{unit}]`");
         }
         if let Some(help) = unit_help_for_products(formula) {
             return help;
@@ -152,7 +154,10 @@ impl Scope<'_> {
         let bare = self.bare_parameters(formula);
         match &bare[..] {
             [name] if found == Dimension::NONE => {
-                format!("`{name}` is declared without a unit; give its value one: {wanted}")
+                format!(
+                    "`{name}` is declared without a unit; give its value one, such as [{}]",
+                    wanted.si_unit()
+                )
             }
             _ => "check the units and factors of this formula".to_owned(),
         }

@@ -53,7 +53,7 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     let indices = Indices::of(&content.fork().parse()?);
     let items = Reader::new(errors).statements(&content, &indices);
     if !input.is_empty() {
-        errors.push(input.error("one mechanism per `mechanism!`"));
+        errors.push(input.error("a declaration has one mechanism, which ended before this"));
         input.parse::<TokenStream>()?;
     }
     Ok(Declaration { doc, visibility, name, items })
