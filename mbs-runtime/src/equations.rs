@@ -8,7 +8,6 @@
 //! [`Info`]. The vectors of a step have a component per coordinate that is integrated
 //! ([`Info::states`]). SI units, angles in rad.
 
-pub use crate::adaptive::cause;
 pub use crate::described::Described;
 pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};
 pub use crate::reach::reach;

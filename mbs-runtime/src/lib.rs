@@ -126,6 +126,7 @@ pub mod equations;
 mod error;
 pub mod explicit;
 pub mod gradients;
+pub mod implicit;
 mod info;
 #[doc = include_str!("language.md")]
 pub mod language {}
@@ -159,8 +160,8 @@ mod view;
 mod watch;
 
 pub use adaptive::{
-    Adaptive, AdaptiveBuilder, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured, Moment, Sampled,
-    Threshold, Tolerances,
+    Adaptive, AdaptiveBuilder, AdaptiveScheme, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured,
+    Moment, Sampled, Threshold, Tolerances,
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
@@ -175,8 +176,8 @@ pub use lanes::Lanes;
 pub use mbs_macro::mechanism;
 pub use mbs_schemes::sine::Octant;
 pub use mbs_schemes::{
-    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, Explicit, HEUN, RATTLE, RATTLE4, RK4, Row, SCHEMES,
-    Stabilization, Tableau,
+    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, ESDIRK4, Explicit, HEUN, IMPLICIT, Implicit, RATTLE,
+    RATTLE4, RK4, Row, SCHEMES, Stabilization, TRBDF2, Tableau,
 };
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
 pub use method::{

@@ -328,18 +328,23 @@ fn remember<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, growth: T, wat
 }
 
 /// Tells the watch of a step that was not calm, or of a mechanism whose redundant constraints
-/// have to be looked at.
+/// have to be looked at. A method that corrects the positions of a step once gives its inputs and the step:
+/// whether its constraints can still be met is another question then.
 ///
 /// # Errors
-/// [`Error::OutOfReach`] of a redundant constraint.
+/// [`Error::OutOfReach`] of a redundant constraint, or of one that cannot be met any more.
 pub(crate) fn note_risen<T: Real>(
     equations: &dyn Equations<T>,
     [from, to]: [At<'_, T>; 2],
     growth: T,
+    corrected_once: Option<(&[T], T)>,
     watch: &mut Watch<T>,
     room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
     completed(equations, [from, to], room, &mut |[from, to], room| {
+        if let (Some((inputs, step)), true) = (corrected_once, growth > watch.alarm) {
+            reach(equations, to.t, to.q, inputs, step, room)?;
+        }
         let [phi, ..] = &mut room.constraints;
         spare::check(equations, to.t, to.q, watch.length, phi)?;
         if growth > watch.alarm {

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::indexing_slicing, reason = "helpers of tests")]
 
 use mbs_live::{Prepared, Text};
-use mbs_runtime::{Adaptive, Components, Dop853, Mechanism, State, System, Tolerances, TrBdf2};
+use mbs_runtime::{Adaptive, Components, Dop853, Error, Mechanism, State, System, Tolerances, TrBdf2};
 use nalgebra::{DMatrix, DVector};
 use tests::bushing::{CRANK, Crank, CrankCoordinates, CrankParameters, REDUCED, ReducedCrank};
 
@@ -189,6 +189,26 @@ fn a_stiff_rod_turns_as_a_rigid_one() {
     let angle: f64 = 21.0 * 0.3;
     let error = (q[0] - 0.1 * angle.cos()).hypot(q[1] - 0.1 * angle.sin()) / 0.1;
     assert!(error < 4e-5, "{error:e}");
+}
+
+/// A rod of 1 m whose end a drive pulls away at 0.1 m/s, until the rod lies on the way of the drive at 10 s. Steps
+/// went on from there to places 10¹⁴⁴ m away, since the one correction that a step makes was not looked at.
+#[test]
+fn a_run_ends_where_a_drive_leads_beyond_reach() {
+    let text = "Pulled {
+        dof = 0;
+        body end (x, y) { mass = 1 [kg]; }
+        constraint rod: x^2 + y^2 = 1 [m^2];
+        drive pull: x = 0.1 [m/s]*t;
+        start { guess y = 1 [m]; }
+    }";
+    let live = Text::declaration("pulled.mbs", text).compile().expect("a declaration");
+    for step in [1e-2, 1e-3, 1.7e-4] {
+        let mut run = TrBdf2::builder(Prepared::new(&live), step).build().expect("a start");
+        let error = run.advance_to(20.0).expect_err("an end");
+        assert!(matches!(error, Error::OutOfReach { constraint: "rod", .. }), "{error}");
+        assert!((run.time() - 10.0).abs() < 1.5 * step, "{}", run.time());
+    }
 }
 
 /// A force that a program sets anew for every step acts on both masses at once, though it is applied

@@ -1,5 +1,5 @@
-//! Explicit one-step schemes as data: a scheme is a [`Tableau`], and whatever takes a step
-//! (generated code, the runtime, an interpreter) reads its numbers there.
+//! One-step schemes as data: an explicit scheme is a [`Tableau`], a diagonally implicit one an [`Implicit`].
+//! Whatever takes a step (generated code, the runtime, an interpreter) reads its numbers there.
 //!
 //! The first-order form of the equations of motion is (q, v)˙ = (v, q̈(t, q, v)). Stage i
 //! has the slopes vᵢ of q and q̈ᵢ of v. The first stage stands at the start of the step. A
@@ -39,6 +39,7 @@
 
 mod composition;
 mod explicit;
+mod implicit;
 mod interpolant;
 mod response;
 mod roots;
@@ -50,6 +51,7 @@ mod trees;
 
 pub use composition::{COMPOSITIONS, Composition, RATTLE, RATTLE4};
 pub use explicit::{Explicit, Stabilization};
+pub use implicit::{ESDIRK4, IMPLICIT, Implicit, TRBDF2};
 pub use interpolant::Interpolant;
 pub use response::Response;
 pub use schemes::{BS3, DOP853, DOPRI5, HEUN, MOST_STAGES, RK4, SCHEMES};

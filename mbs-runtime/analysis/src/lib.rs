@@ -13,8 +13,6 @@
 //! [`Info`](mbs_runtime::Info), in SI units and rad.
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "bdf")]
-mod bdf;
 mod chart;
 mod complex;
 mod curve;
@@ -53,15 +51,12 @@ mod synthesis;
 #[doc = include_str!("synthesis/linkages.svg")]
 pub mod linkages {}
 #[doc = include_str!("ode_crates.md")]
-#[doc = include_str!("ode_crates.svg")]
 pub mod ode_crates {}
 mod tangent;
 mod travel;
 
 pub use nalgebra;
 
-#[cfg(feature = "bdf")]
-pub use bdf::{Bdf, BdfSteps};
 pub use curve::{Curve, Moment, Time};
 pub use driven::Driven;
 pub use equilibrium::{Equilibrium, Search, Stability, Strategy, equilibrium};

@@ -1,11 +1,8 @@
 //! Methods of integration, asked for by their words.
 
-use mbs_runtime::{COMPOSITIONS, Composition, SCHEMES, Stabilization, Tableau};
+use mbs_runtime::{COMPOSITIONS, Composition, IMPLICIT, Implicit, SCHEMES, Stabilization, Tableau};
 
 use crate::status::{Failure, Status};
-
-/// The word for the implicit method for stiff forces.
-const TRBDF2: &str = "trbdf2";
 
 /// A method; what is `None` is as the text declares it.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +11,8 @@ pub enum Method {
     Explicit(Option<&'static Tableau>, Option<Stabilization>),
     /// RATTLE.
     Rattle(&'static Composition),
-    /// TR-BDF2.
-    TrBdf2,
+    /// An implicit scheme, for stiff forces.
+    Implicit(&'static Implicit),
 }
 
 impl Method {
@@ -24,13 +21,10 @@ impl Method {
     /// # Errors
     /// There is none.
     pub fn find(text: &str) -> Result<Self, Failure> {
-        match text.trim() {
-            TRBDF2 => return Ok(Self::TrBdf2),
-            word => {
-                if let Some(composition) = Composition::find(word) {
-                    return Ok(Self::Rattle(composition));
-                }
-            }
+        match (Composition::find(text.trim()), Implicit::find(text.trim())) {
+            (Some(composition), _) => return Ok(Self::Rattle(composition)),
+            (_, Some(scheme)) => return Ok(Self::Implicit(scheme)),
+            (None, None) => {}
         }
         let (mut scheme, mut stabilization) = (None, None);
         for word in text.split_whitespace() {
@@ -42,24 +36,16 @@ impl Method {
         }
         Ok(Self::Explicit(scheme, stabilization))
     }
-
-    /// The word of a method that stands alone, which takes constant steps and keeps the constraints itself.
-    pub const fn alone(self) -> Option<&'static str> {
-        match self {
-            Self::Explicit(..) => None,
-            Self::Rattle(composition) => Some(composition.word),
-            Self::TrBdf2 => Some(TRBDF2),
-        }
-    }
 }
 
 fn unknown(text: &str) -> Failure {
     let schemes = SCHEMES.map(|scheme| scheme.word).join(", ");
     let kept = Stabilization::ALL.map(Stabilization::word).join(", ");
-    let alone = COMPOSITIONS.map(|composition| composition.word).join(", ");
+    let alone = COMPOSITIONS.map(|composition| composition.word).into_iter();
+    let alone = alone.chain(IMPLICIT.map(|scheme| scheme.word)).collect::<Vec<_>>().join(", ");
     let message = format!(
         "there is no method `{text}`; it is one of {schemes}, or one of {kept}, or one of each with a space between \
-         them, or one of {alone}, {TRBDF2}"
+         them, or one of {alone}"
     );
     Failure::new(Status::Name, message)
 }
@@ -74,7 +60,8 @@ mod tests {
             Ok(Method::Explicit(scheme, kept)) => {
                 [scheme.map_or("", |it| it.word), kept.map_or("", |it| it.word())]
             }
-            Ok(method) => [method.alone().unwrap_or(""), "alone"],
+            Ok(Method::Rattle(composition)) => [composition.word, "alone"],
+            Ok(Method::Implicit(scheme)) => [scheme.word, "alone"],
             Err(failure) => {
                 assert_eq!(failure.status, Status::Name);
                 ["", "none"]
@@ -86,6 +73,7 @@ mod tests {
         assert_eq!(found("per-stage"), ["", "per-stage"]);
         assert_eq!(found("rattle4"), ["rattle4", "alone"]);
         assert_eq!(found(" trbdf2 "), ["trbdf2", "alone"]);
+        assert_eq!(found("esdirk4"), ["esdirk4", "alone"]);
         for wrong in ["rk", "rk4 rk4", "held held", "rk4 heun", "rattle held", "rk4,held", "RK4"] {
             assert_eq!(found(wrong), ["", "none"], "{wrong}");
         }

@@ -3,8 +3,8 @@
 use mbs_live::{Live, Prepared};
 use mbs_runtime::equations::At;
 use mbs_runtime::{
-    Adaptive, ConstantStepBuilder, DOPRI5, Error, Explicit, Kernel, MethodVisitor, Rattle, Sampled,
-    Stabilization, SystemClone, Tableau, Tolerances, TrBdf2, with_type,
+    Adaptive, AdaptiveScheme, ConstantStepBuilder, DOPRI5, Error, Explicit, Kernel, MethodVisitor, Rattle,
+    Sampled, Stabilization, SystemClone, TRBDF2, Tableau, Tolerances, TrBdf2, implicit, with_type,
 };
 
 use crate::method::Method;
@@ -48,12 +48,18 @@ impl Settings {
                 self.has_no_gains(composition.word)?;
                 self.constant(Rattle::builder(Prepared::new(&live), self.step).composition(composition))
             }
-            (Method::TrBdf2, None) => {
-                self.has_no_gains("trbdf2")?;
-                self.constant(TrBdf2::builder(Prepared::new(&live), self.step))
+            (Method::Implicit(scheme), tolerances) => {
+                self.has_no_gains(scheme.word)?;
+                let usual = (scheme.word != TRBDF2.word).then(Tolerances::default);
+                let Some(tolerances) = tolerances.or(usual) else {
+                    return self.constant(TrBdf2::builder(Prepared::new(&live), self.step));
+                };
+                let unknown = || Err(Error::Scheme { name: scheme.word }.into());
+                let started = Sampling { settings: self, live: &live, tolerances };
+                implicit::with_type(scheme, started).unwrap_or_else(unknown)
             }
-            (Method::Rattle(_) | Method::TrBdf2, Some(_)) => {
-                let word = self.method.alone().unwrap_or_default();
+            (Method::Rattle(composition), Some(_)) => {
+                let word = composition.word;
                 Err(Failure::new(
                     Status::Method,
                     format!("the method `{word}` takes constant steps; set no tolerances, or take a scheme"),
@@ -141,8 +147,22 @@ impl MethodVisitor for Sampling<'_> {
     type Result = Result<Box<dyn SystemClone>, Failure>;
 
     fn visit<X: mbs_runtime::Method>(self) -> Self::Result {
+        self.with_scheme::<X::Scheme>()
+    }
+}
+
+impl implicit::Visitor for Sampling<'_> {
+    type Result = Result<Box<dyn SystemClone>, Failure>;
+
+    fn visit<S: AdaptiveScheme>(self) -> Self::Result {
+        self.with_scheme::<S>()
+    }
+}
+
+impl Sampling<'_> {
+    fn with_scheme<S: AdaptiveScheme>(self) -> Result<Box<dyn SystemClone>, Failure> {
         let Self { settings, live, tolerances } = self;
-        let builder = Adaptive::builder(Prepared::new(live)).scheme::<X::Scheme>().tolerances(tolerances);
+        let builder = Adaptive::builder(Prepared::new(live)).scheme::<S>().tolerances(tolerances);
         let mut builder = builder.inputs(settings.inputs.clone());
         if let Some((t, q, v)) = settings.start.clone() {
             builder = builder.from_vectors(t, q, v);

@@ -264,7 +264,7 @@ fn what_does_not_go_together_is_refused_at_the_start() {
 
         assert_eq!(mbs_run_set_tolerances(run.pointer, 1e-30, 1e-9), VALUE);
         for (method, has_gains) in
-            [("held", false), ("rattle", false), ("trbdf2", false), ("heun", false), ("", true)]
+            [("held", false), ("rattle", false), ("heun", false), ("", true), ("esdirk4", true)]
         {
             let run = pendulum.run(method, 1e-3);
             ok(mbs_run_set_tolerances(run.pointer, 1e-6, 1e-9));
@@ -273,7 +273,7 @@ fn what_does_not_go_together_is_refused_at_the_start() {
             }
             assert_eq!(mbs_run_start(run.pointer), METHOD, "{method}");
         }
-        for method in ["rattle4", "trbdf2", "projection"] {
+        for method in ["rattle4", "trbdf2", "esdirk4", "projection"] {
             let run = pendulum.run(method, 1e-3);
             ok(mbs_run_set_gains(run.pointer, 1.0, 1.0));
             assert_eq!(mbs_run_start(run.pointer), METHOD, "{method}");

@@ -1,10 +1,10 @@
 //! One step of some length, with an estimate of its error.
 
-use mbs_schemes::{Estimate, Tableau};
+use mbs_schemes::Estimate;
 
 use super::dense::Moment;
-use super::{Dynamics, Tolerances};
-use crate::explicit::{self, Beside, Slopes, Span, factor, subtract, sums};
+use super::{AdaptiveScheme, Dynamics, Tolerances};
+use crate::explicit::{Beside, Slopes, factor, subtract, sums};
 use crate::mechanism::growth_limit;
 use crate::{Real, vectors};
 
@@ -30,10 +30,9 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     /// left after it is a rounding; velocities once, in the position that was found. The slope at
     /// the end belongs to the estimate and is the first one of the next step.
     #[inline(always)]
-    pub fn step<D: Dynamics<States = V>>(
+    pub fn step<D: Dynamics<States = V>, S: AdaptiveScheme>(
         &mut self,
-        (dynamics, tableau): (&D, &'static Tableau),
-        inputs: &D::Inputs,
+        of: (&D, &D::Inputs),
         from: &Moment<D::Real, V>,
         t_next: D::Real,
         to: &mut Moment<D::Real, V>,
@@ -42,22 +41,10 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
         V: AsRef<[D::Real]> + AsMut<[D::Real]>,
     {
         let Self { velocities, accelerations, there } = self;
-        let (velocities, accelerations) = (velocities.as_mut(), accelerations.as_mut());
-        copy(velocities.first_mut()?, &from.v);
-        copy(&mut to.q, &from.q);
-        let span = Span { t: from.t, h: t_next - from.t, t_next };
-        let slopes = Slopes { velocities: &mut *velocities, accelerations: &mut *accelerations };
-        let mut growth = explicit::step(tableau, &span, &mut to.q, slopes, there, |stage, t, q, v, a| {
-            if stage > 0 {
-                return dynamics.acceleration(t, q, v, inputs, a);
-            }
-            // known from the end of the step before
-            copy(a, &from.a);
-            D::Real::default()
-        });
+        let (dynamics, accelerations) = (of.0, accelerations.as_mut());
         to.t = t_next;
-        copy(&mut to.v, velocities.first()?);
-        copy(velocities.first_mut()?, &from.v);
+        let slopes = Slopes { velocities: velocities.as_mut(), accelerations: &mut *accelerations };
+        let mut growth = S::advance(of, from, slopes, there, to)?;
         let small = D::Real::EPSILON.sqrt();
         for correction in 1.. {
             growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: None }, there);
@@ -73,8 +60,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
         converge_partials(dynamics, t_next, &mut to.q, there);
         growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: Some(&to.v) }, there);
         subtract(&mut to.v, there);
-        growth = growth + dynamics.acceleration(t_next, &to.q, &to.v, inputs, &mut to.a);
-        Some(growth)
+        Some(growth + S::finish(of, accelerations, to)?)
     }
 
     /// The estimated error of a step that was taken, over the allowed one.

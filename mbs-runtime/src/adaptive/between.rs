@@ -1,7 +1,7 @@
 //! Slopes and terms of interpolants. Some schemes need them beside both ends of a step, so that states between the
 //! ends are as accurate as the step.
 
-use mbs_schemes::{Interpolant, Row, Tableau};
+use mbs_schemes::{Interpolant, Row};
 
 use super::attempt::{Attempt, copy};
 use super::{Dynamics, Moment};
@@ -55,7 +55,7 @@ impl<R> Between<R> {
     /// Makes the terms of a step from the stages of the attempt; `there` is room.
     pub fn find<D, V, Stages>(
         &mut self,
-        (dynamics, tableau): (&D, &'static Tableau),
+        (dynamics, interpolant): (&D, &Interpolant),
         inputs: &D::Inputs,
         attempt: &Attempt<V, Stages>,
         [from, to]: [&Moment<D::Real, V>; 2],
@@ -66,7 +66,7 @@ impl<R> Between<R> {
         V: Clone + AsRef<[D::Real]> + AsMut<[D::Real]>,
         Stages: AsRef<[V]> + AsMut<[V]>,
     {
-        let Some(Interpolant { stages, terms, .. }) = &tableau.interpolant else { return };
+        let Interpolant { stages, terms, .. } = interpolant;
         let h = to.t - from.t;
         let (velocities, accelerations) = (attempt.velocities.as_ref(), attempt.accelerations.as_ref());
         self.is_known = false;

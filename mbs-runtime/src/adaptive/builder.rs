@@ -6,17 +6,17 @@ use super::attempt::{Attempt, copy, is_healthy};
 use super::between::Between;
 use super::events::Happened;
 use super::noise::Progress;
-use super::{Adaptive, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
+use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
 use crate::equations::Start;
 use crate::watch::Watch;
-use crate::{Components, Dopri5, Error, Mechanism, Real, Scheme, State};
+use crate::{Components, Dopri5, Error, Mechanism, Real, State};
 
 /// Given states are checked as those of runs with this step, in s.
 const NOMINAL_STEP: f64 = 1e-3;
 
 /// The choices before a run to a tolerance starts; see [`Adaptive::builder`].
 #[derive(Clone)]
-pub struct AdaptiveBuilder<D: Dynamics, S: Scheme = Dopri5> {
+pub struct AdaptiveBuilder<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     beginning: Beginning<D>,
     tolerances: Tolerances,
     most_steps: u64,
@@ -32,11 +32,11 @@ impl<D: Dynamics> Adaptive<D> {
     }
 }
 
-impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
     /// The scheme, one with an estimate of its error: [`Bs3`](crate::Bs3) for coarse tolerances,
     /// [`Dopri5`] or [`Dop853`](crate::Dop853) for fine ones, from about 10⁻⁸ on.
     #[must_use]
-    pub fn scheme<R: Scheme>(self) -> AdaptiveBuilder<D, R> {
+    pub fn scheme<R: AdaptiveScheme>(self) -> AdaptiveBuilder<D, R> {
         let Self { beginning, tolerances, most_steps, .. } = self;
         AdaptiveBuilder { beginning, tolerances, most_steps, scheme: PhantomData }
     }
@@ -88,15 +88,15 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
     /// [`Error::Tolerance`], [`Error::Step`], [`Error::NoEstimate`] for a scheme that cannot tell
     /// its error, and those of the start of a [`Simulation`](crate::Simulation).
     pub fn build(self) -> Result<Adaptive<D, S>, Error> {
-        let scheme = S::TABLEAU.word;
-        let estimate = S::TABLEAU.estimate.ok_or(Error::NoEstimate { scheme })?;
+        let scheme = S::WORD;
+        let estimate = S::ESTIMATE.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
         let Self { mut beginning, tolerances, most_steps, .. } = self;
-        let length = beginning.prepare::<S>(NOMINAL_STEP)?;
+        let length = beginning.prepare::<S::Explicit>(NOMINAL_STEP)?;
         let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
         let moment = Moment { t, a: states.clone(), q: states, v: rates };
-        let stages = S::stages(moment.q.clone());
+        let stages = S::slopes(moment.q.clone());
         let mut run = Adaptive {
             control: Control::new(tolerances.first_step.unwrap_or(0.0)),
             before: moment.clone(),
@@ -127,7 +127,7 @@ impl<D: Dynamics, S: Scheme> AdaptiveBuilder<D, S> {
     }
 }
 
-impl<M: Mechanism, S: Scheme> AdaptiveBuilder<M, S> {
+impl<M: Mechanism, S: AdaptiveScheme> AdaptiveBuilder<M, S> {
     /// Starts from a state that has to be [`check`](crate::start::check)ed for consistency.
     #[must_use]
     pub fn from_state(self, state: State<M::Coordinates>) -> Self {
@@ -135,7 +135,7 @@ impl<M: Mechanism, S: Scheme> AdaptiveBuilder<M, S> {
     }
 }
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The first step that the motion suggests: one in which Euler's method changes the state by
     /// a hundredth of what is allowed, and in which the second derivative, from a difference,
     /// lets the scheme add a hundredth of the allowed error.

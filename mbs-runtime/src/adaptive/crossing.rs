@@ -3,8 +3,8 @@
 use super::attempt::is_healthy;
 use super::change::last_change;
 use super::events::{Happened, Watched};
-use super::{Adaptive, Dynamics};
-use crate::{Error, Real, Scheme, vectors};
+use super::{Adaptive, AdaptiveScheme, Dynamics};
+use crate::{Error, Real, vectors};
 
 /// A step is looked through in so many parts of equal length.
 const PARTS: u32 = 4;
@@ -47,7 +47,7 @@ struct Beginning<T> {
     is_zero: bool,
 }
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Looks for the first event in the last step. If there is one, the step ends right behind it,
     /// and whatever has happened by then is due.
     ///
@@ -290,7 +290,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     fn value_of_step(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
         let Self { dynamics, inputs, before, next, attempt, all, between, .. } = self;
         between.lose_stages();
-        match attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next) {
+        match attempt.step::<D, S>((&*dynamics, &*inputs), before, t, next) {
             Some(growth) if is_healthy(growth, next) => watched.value(index, (dynamics, inputs), next, all),
             _ => self.value_between(t, index, watched),
         }

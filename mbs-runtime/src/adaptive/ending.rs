@@ -2,10 +2,10 @@
 
 use super::attempt::is_healthy;
 use super::events::Watched;
-use super::{Adaptive, Dynamics};
-use crate::{Error, Real, Scheme, vectors};
+use super::{Adaptive, AdaptiveScheme, Dynamics};
+use crate::{Error, Real, vectors};
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Ends the last step at `t`, which lies in it.
     pub(super) fn end_at(&mut self, t: D::Real) -> Result<(), Error> {
         // a time with derivatives moves the end even where its value does not
@@ -14,7 +14,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         }
         let Self { dynamics, inputs, before, now, next, attempt, between, .. } = self;
         between.lose_stages();
-        let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
+        let growth = attempt.step::<D, S>((&*dynamics, &*inputs), before, t, next);
         if growth.is_some_and(|growth| is_healthy(growth, next)) {
             core::mem::swap(now, next);
             between.begin(true);
@@ -46,7 +46,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         let t = t.without_partials();
         let Self { dynamics, inputs, before, next, attempt, all, between, .. } = self;
         between.lose_stages();
-        let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, t, next);
+        let growth = attempt.step::<D, S>((&*dynamics, &*inputs), before, t, next);
         if !growth.is_some_and(|growth| is_healthy(growth, next)) {
             return t;
         }

@@ -5,9 +5,9 @@
 //! of sign is located, and the step ends there (`ending`).
 
 use super::dense::Moment;
-use super::{Adaptive, Dynamics};
+use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::equations::At;
-use crate::{Error, Mechanism, Real, Scheme, State, vectors};
+use crate::{Error, Mechanism, Real, State, vectors};
 
 /// Which changes of sign are events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +82,7 @@ impl Direction {
     }
 }
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Takes steps until the first event, or until `end`.
     pub(super) fn until(&mut self, end: f64, watched: &mut Watched<'_, D>) -> Result<Option<Event>, Error> {
         let last = D::Real::from_f64(end);
@@ -183,7 +183,7 @@ impl<D: Dynamics> Watched<'_, D> {
     }
 }
 
-impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
+impl<M: Mechanism, S: AdaptiveScheme> Adaptive<M, S> {
     /// Takes steps until one of some values of the state changes its sign, or until `end`.
     ///
     /// The state is then that right behind the change: the last step is made again with its end

@@ -2,7 +2,8 @@
 //!
 //! # How it works
 //! * `dynamics` is a mechanism as these runs see it.
-//! * `attempt` takes a step and estimates its error. `control` chooses the next length.
+//! * `scheme` has the stages of a step. `attempt` takes it and estimates its error. `control` chooses the
+//!   next length.
 //! * `dense` has the motion within a step. `crossing` looks through it for events, and `ending` ends a step
 //!   at one.
 //! * `sampled` makes a `System` of a run. `cause` finds the error that ends one.
@@ -22,6 +23,7 @@ mod ending;
 mod events;
 mod noise;
 mod sampled;
+mod scheme;
 mod typed;
 
 use attempt::{Attempt, converge_partials};
@@ -29,7 +31,7 @@ pub(crate) use attempt::{copy, is_healthy};
 pub(crate) use beginning::Beginning;
 use between::Between;
 pub use builder::AdaptiveBuilder;
-pub use cause::cause;
+pub(crate) use cause::cause;
 use control::Control;
 pub use control::Tolerances;
 pub use dense::Moment;
@@ -38,17 +40,19 @@ pub use effort::Effort;
 use events::Happened;
 pub use events::{Direction, Event, MOST_EVENTS};
 use noise::Progress;
+pub(crate) use noise::RISEN;
 pub use sampled::{Measured, Sampled, Threshold};
+pub use scheme::AdaptiveScheme;
 
 use core::fmt;
 
-use mbs_schemes::{Estimate, Tableau};
+use mbs_schemes::Estimate;
 
 use crate::diagnosis::check_inputs;
 use crate::explicit::{Beside, subtract};
 use crate::run::note_risen;
 use crate::watch::{Watch, WorstPlace};
-use crate::{Dopri5, Error, Real, Scheme, vectors};
+use crate::{Dopri5, Error, Real, vectors};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
@@ -100,7 +104,7 @@ const LONGEST: f64 = 1.0;
 /// Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4 and II.5; Eich 1993
 /// (see [`Projected`](crate::Projected)).
 #[derive(Clone)]
-pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
+pub struct Adaptive<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     dynamics: D,
     inputs: D::Inputs,
     tolerances: Tolerances,
@@ -112,7 +116,7 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     now: Moment<D::Real, D::States>,
     /// The end of the step that is tried.
     next: Moment<D::Real, D::States>,
-    attempt: Attempt<D::States, S::Stages<D::States>>,
+    attempt: Attempt<D::States, S::Slopes<D::States>>,
     between: Between<S::Between<[D::States; 2]>>,
     /// Room for all coordinates and velocities.
     all: [D::Coordinates; 2],
@@ -129,9 +133,7 @@ pub struct Adaptive<D: Dynamics, S: Scheme = Dopri5> {
     arrival: Moment<D::Real, D::States>,
 }
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
-    const TABLEAU: &'static Tableau = S::TABLEAU;
-
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Takes a step as long as the tolerance permits.
     ///
     /// # Errors
@@ -211,7 +213,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
             }
             let Self { dynamics, inputs, now, next, attempt, between, .. } = self;
             between.lose_stages();
-            let growth = attempt.step((&*dynamics, Self::TABLEAU), inputs, now, t_next, next);
+            let growth = attempt.step::<D, S>((&*dynamics, &*inputs), now, t_next, next);
             let growth = growth.filter(|growth| is_healthy(*growth, next));
             let ratio = match growth {
                 Some(_) => attempt.error(&self.estimate, &self.tolerances, now, next),
@@ -231,8 +233,9 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         let Self { dynamics, before, now, next, watch, .. } = self;
         if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
             let (from, to) = (now.at(), next.at());
-            dynamics
-                .with_room::<S>(|room| note_risen(dynamics.equations(), [from, to], growth, watch, room))?;
+            dynamics.with_room::<S::Explicit>(|room| {
+                note_risen(dynamics.equations(), [from, to], growth, None, watch, room)
+            })?;
         } else {
             watch.note(growth);
         }
@@ -250,10 +253,10 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
         if self.is_solved {
             return Ok(());
         }
-        let Self { dynamics, inputs, now, .. } = self;
+        let h = (self.effort.steps > 0).then(|| D::Real::from_f64(self.next_step()));
+        let Self { dynamics, inputs, now, attempt, .. } = self;
         dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.equations().info(), inputs))?;
-        let Moment { t, q, v, a } = now;
-        let growth = dynamics.acceleration(*t, q, v, inputs, a);
+        let growth = S::begin((&*dynamics, &*inputs), h, &mut attempt.there, now);
         if !is_healthy(growth, now) {
             return Err(self.cause());
         }
@@ -266,7 +269,7 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     fn cause(&mut self) -> Error {
         let Self { dynamics, inputs, now, next, control, watch, .. } = self;
         // steps that only look for the error are not steps of the run
-        let found = cause::<D, S>(dynamics, inputs, now, next, *watch, LONGEST);
+        let found = cause::<D, S::Explicit>(dynamics, inputs, now, next, *watch, LONGEST);
         let step = control.next;
         found.unwrap_or_else(|| self.too_short(step))
     }
@@ -275,18 +278,19 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     /// the ends.
     fn look_between(&mut self) {
         let Self { dynamics, inputs, attempt, before, now, next, between, .. } = self;
-        if Self::TABLEAU.interpolant.is_none() || between.is_known() || now.t <= before.t {
+        let Some(interpolant) = S::INTERPOLANT else { return };
+        if between.is_known() || now.t <= before.t {
             return;
         }
         if between.wants_stages() {
             // another step was tried since
-            let again = attempt.step((&*dynamics, Self::TABLEAU), inputs, before, now.t, next);
+            let again = attempt.step::<D, S>((&*dynamics, &*inputs), before, now.t, next);
             if again.is_none() {
                 return;
             }
             between.begin(true);
         }
-        between.find((&*dynamics, Self::TABLEAU), inputs, attempt, [before, now], next);
+        between.find((&*dynamics, interpolant), inputs, attempt, [before, now], next);
     }
 
     /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
@@ -385,12 +389,11 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     }
 }
 
-impl<D: Dynamics, S: Scheme> fmt::Debug for Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> fmt::Debug for Adaptive<D, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { now, tolerances, effort, .. } = self;
-        let scheme = Self::TABLEAU.word;
         let mut shown = f.debug_struct("Adaptive");
-        shown.field("scheme", &scheme).field("t", &now.t).field("tolerances", tolerances);
+        shown.field("scheme", &S::WORD).field("t", &now.t).field("tolerances", tolerances);
         shown.field("effort", effort).finish_non_exhaustive()
     }
 }

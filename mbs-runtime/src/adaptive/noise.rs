@@ -1,12 +1,12 @@
 //! Where rounding is more than the tolerance: near a singular position, which magnifies it.
 
-use super::{Adaptive, Dynamics, Moment};
+use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
 use crate::diagnosis::singular;
 use crate::explicit::{Beside, subtract};
-use crate::{Error, Real, Scheme, vectors};
+use crate::{Error, Real, vectors};
 
 /// Near a singular position the growth of a step is so many times the least of the run,
-const RISEN: f64 = 100.0;
+pub(crate) const RISEN: f64 = 100.0;
 /// and steps that rounding holds up are shorter than this share of the longest one.
 const SHORT: f64 = 0.01;
 /// Rounding holds a step up that adds more than this share of what is allowed to its error.
@@ -35,7 +35,7 @@ impl<T: Real> Progress<T> {
     }
 }
 
-impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Refuses a step after some that rounding held up near a singular position: shorter ones would not be
     /// more accurate, and would have no end.
     ///
@@ -67,11 +67,12 @@ impl<D: Dynamics, S: Scheme> Adaptive<D, S> {
     }
 
     /// Reports whether the rounding of the present state adds more to the error of a step of `h` seconds than the
-    /// tolerance allows. Every position and velocity is moved by a rounding and led back to the constraints. The
+    /// tolerance allows. The time, every position and velocity are moved by a rounding and led back to the constraints. The
     /// changes of velocities and accelerations, times `h`, are compared with the tolerance.
     fn is_drowned(&mut self, h: D::Real) -> bool {
         let Self { dynamics, inputs, tolerances, now, next, attempt, .. } = self;
-        next.t = now.t;
+        // the time too: a drive follows it
+        next.t = now.t + D::Real::EPSILON * now.t.abs();
         for (to, from) in [(&mut next.q, &now.q), (&mut next.v, &now.v)] {
             let rounding = D::Real::EPSILON * vectors::largest(from.as_ref()).1;
             let mut sign = D::Real::from_f64(1.0);

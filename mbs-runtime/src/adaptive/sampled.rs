@@ -5,12 +5,12 @@
 use core::fmt;
 
 use super::events::Watched;
-use super::{Adaptive, Direction, Dynamics, Effort, Event, MOST_EVENTS};
+use super::{Adaptive, AdaptiveScheme, Direction, Dynamics, Effort, Event, MOST_EVENTS};
 use crate::equations::{At, Described, Equations};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Error, Real, Scheme, Sketch, System, vectors};
+use crate::{Derivation, Error, Real, Sketch, System, vectors};
 
 /// A sample is at the end of a run that is nearer to it than this share of an interval.
 const AT_END: f64 = 1e-6;
@@ -48,7 +48,7 @@ const AT_END: f64 = 1e-6;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone)]
-pub struct Sampled<D: Dynamics, S: Scheme> {
+pub struct Sampled<D: Dynamics, S: AdaptiveScheme> {
     run: Adaptive<D, S>,
     interval: f64,
     /// From when samples are that far apart, and how many there were until then.
@@ -117,7 +117,7 @@ impl Threshold {
     }
 }
 
-impl<D: Dynamics, S: Scheme> Sampled<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> Sampled<D, S> {
     /// A run looked at every `interval` seconds, from where it is.
     ///
     /// # Errors
@@ -225,7 +225,7 @@ const fn check_interval(interval: f64) -> Result<(), Error> {
     if interval > 0.0 && interval.is_finite() { Ok(()) } else { Err(Error::Step { step: interval }) }
 }
 
-impl<D: Dynamics, S: Scheme> fmt::Debug for Sampled<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> fmt::Debug for Sampled<D, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { run, interval, t, .. } = self;
         f.debug_struct("Sampled")
@@ -236,7 +236,7 @@ impl<D: Dynamics, S: Scheme> fmt::Debug for Sampled<D, S> {
     }
 }
 
-impl<D: Dynamics, S: Scheme> System<D::Real> for Sampled<D, S> {
+impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
     fn equations(&self) -> &dyn Equations<D::Real> {
         self.run.dynamics.equations()
     }

@@ -2,10 +2,10 @@
 
 use super::attempt::copy;
 use super::events::Happened;
-use super::{Adaptive, Moment};
-use crate::{Components, Error, Mechanism, Real, Scheme, State};
+use super::{Adaptive, AdaptiveScheme, Moment};
+use crate::{Components, Error, Mechanism, Real, State};
 
-impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
+impl<M: Mechanism, S: AdaptiveScheme> Adaptive<M, S> {
     /// The mechanism.
     pub fn mechanism(&self) -> &M {
         &self.dynamics
@@ -31,7 +31,7 @@ impl<M: Mechanism, S: Scheme> Adaptive<M, S> {
     /// until it is inside.
     pub fn at(&self, t: f64) -> Result<State<M::Coordinates>, Error> {
         let t = M::Real::from_f64(t);
-        let (q, v) = if Self::TABLEAU.interpolant.is_none() || self.between.is_known() {
+        let (q, v) = if S::INTERPOLANT.is_none() || self.between.is_known() {
             self.interpolate(t)?
         } else {
             let mut looked_into = self.clone();

@@ -1,7 +1,7 @@
 //! The interface between a method and the run that takes its steps.
 
 use crate::adaptive::Moment;
-use crate::{Dynamics, Effort, Error, Info};
+use crate::{Dynamics, Error, Info};
 
 /// A method with room for its vectors: [`RattleStep`](crate::RattleStep),
 /// [`TrBdf2Step`](crate::TrBdf2Step), or one of another crate, which
@@ -41,14 +41,8 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
         moment: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
 
-    /// Why there was no step, where the method has found it out itself; see
-    /// [`cause`](crate::equations::cause).
+    /// Why there was no step, where the method has found it out itself. Otherwise explicit steps look for it.
     fn failure(&self) -> Option<Error> {
-        None
-    }
-
-    /// The steps of its own that a method took so far, if it takes such.
-    fn effort(&self) -> Option<Effort> {
         None
     }
 }

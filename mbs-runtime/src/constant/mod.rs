@@ -20,8 +20,8 @@ pub use trbdf2::{TrBdf2, TrBdf2Step};
 
 use core::fmt;
 
-use crate::adaptive::{Moment, cause, copy, is_healthy};
-use crate::diagnosis::check_inputs;
+use crate::adaptive::{Moment, RISEN, cause, copy, is_healthy};
+use crate::diagnosis::{check_inputs, singular};
 use crate::run::note_risen;
 use crate::simulation::clock;
 use crate::watch::Watch;
@@ -79,10 +79,15 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 
     /// Makes the step that was tried the last one.
     fn accept(&mut self, growth: D::Real) -> Result<(), Error> {
-        let Self { dynamics, now, next, watch, .. } = self;
+        let Self { dynamics, inputs, step, now, next, watch, .. } = self;
         if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
             let ends = [now.at(), next.at()];
-            dynamics.with_room::<Heun>(|room| note_risen(dynamics.equations(), ends, growth, watch, room))?;
+            dynamics.with_inputs(inputs, |inputs| {
+                let corrected_once = Some((&*inputs, *step));
+                dynamics.with_room::<Heun>(|room| {
+                    note_risen(dynamics.equations(), ends, growth, corrected_once, watch, room)
+                })
+            })?;
         } else {
             watch.note(growth);
         }
@@ -115,11 +120,19 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 
     /// Why there is no step from the present state.
     fn cause(&mut self) -> Error {
-        let Self { dynamics, inputs, kernel, step, now, next, watch, .. } = self;
+        let Self { dynamics, inputs, kernel, step, now, next, all, watch, .. } = self;
         let step = step.to_f64();
         let found =
             kernel.failure().or_else(|| cause::<D, Heun>(dynamics, inputs, now, next, *watch, 2.0 * step));
-        found.unwrap_or(Error::NotConverged { t: now.t.to_f64(), step })
+        found.unwrap_or_else(|| {
+            let (equations, [q, _]) = (dynamics.equations(), &*all);
+            match equations.worst_pivot(now.t, q.as_ref()) {
+                Some((at, growth)) if growth > D::Real::from_f64(RISEN) => {
+                    singular(equations.info(), now.t, equations.info().pivots.get(at), growth)
+                }
+                _ => Error::NotConverged { t: now.t.to_f64(), step },
+            }
+        })
     }
 
     /// Takes steps until less than half a step is left to `end` seconds.

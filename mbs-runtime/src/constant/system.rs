@@ -5,7 +5,7 @@ use crate::equations::{At, Described, Equations};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Dynamics, Effort, Error, Real, Sketch, System, vectors};
+use crate::{Derivation, Dynamics, Error, Real, Sketch, System, vectors};
 
 impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// The mechanism in its present state.
@@ -97,10 +97,6 @@ impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
 
     fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
         self.dynamics.described().points(t, q, points);
-    }
-
-    fn effort(&self) -> Option<Effort> {
-        self.kernel.effort()
     }
 
     fn worst_growth(&self) -> D::Real {

@@ -9,12 +9,13 @@ use mbs_analysis::{Driven, Trials};
 use mbs_runtime::equations::{At, Correction, Described, Equations, Partials, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
-    Adaptive, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method, MethodVisitor,
-    Rattle, Real, Sampled, Scheme, State, SystemClone, Tolerances, TrBdf2, with_type,
+    Adaptive, AdaptiveScheme, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method,
+    MethodVisitor, Rattle, Real, Sampled, Scheme, State, SystemClone, Tolerances, TrBdf2, implicit,
+    with_type,
 };
 
 use crate::model::components;
-use crate::settings::{ConstantMethod, Start, StartKind};
+use crate::settings::{OtherMethod, Start, StartKind};
 use crate::stages::Stages;
 use crate::start_state::StartState;
 
@@ -30,7 +31,7 @@ impl<D> OnVectors for D where
 {
 }
 
-/// Starts a run with the scheme that is asked for, looked at in steps of the given length.
+/// Starts a run to a tolerance with the scheme that is asked for, looked at in steps of the given length.
 pub(crate) fn start<D>(
     dynamics: D,
     tolerances: Tolerances,
@@ -39,15 +40,18 @@ pub(crate) fn start<D>(
 where
     D: OnVectors,
 {
-    let name = start.method.tableau.word;
-    let dynamics = driven(dynamics, start);
-    with_type(start.method, Started { dynamics, tolerances, start }).unwrap_or(Err(Error::Scheme { name }))
+    let started = Started { dynamics: driven(dynamics, start), tolerances, start };
+    let (name, found) = match start.other {
+        Some(OtherMethod::Implicit(scheme)) => (scheme.word, implicit::with_type(scheme, started)),
+        _ => (start.method.tableau.word, with_type(start.method, started)),
+    };
+    found.unwrap_or(Err(Error::Scheme { name }))
 }
 
-/// Starts a run with a constant step of a method of its own.
+/// Starts a run with a constant step of a method of another kind.
 pub(crate) fn constant<D>(
     dynamics: D,
-    method: ConstantMethod,
+    method: OtherMethod,
     start: &Start,
 ) -> Result<Box<dyn SystemClone>, Error>
 where
@@ -55,29 +59,11 @@ where
 {
     let dynamics = driven(dynamics, start);
     match method {
-        ConstantMethod::Rattle(composition) => {
+        OtherMethod::Rattle(composition) => {
             begun(Rattle::builder(dynamics, start.step).composition(composition), start)
         }
-        ConstantMethod::TrBdf2 => begun(TrBdf2::builder(dynamics, start.step), start),
-        // its equations over duals are those of a text
-        ConstantMethod::Bdf => Err(Error::Scheme { name: method.word() }),
+        OtherMethod::Implicit(_) => begun(TrBdf2::builder(dynamics, start.step), start),
     }
-}
-
-/// Starts a run by backward differentiation formulas; `system` has the equations of `dynamics` over
-/// duals.
-#[cfg(all(feature = "bdf", feature = "live"))]
-pub(crate) fn bdf<D>(
-    dynamics: D,
-    system: mbs_analysis::FirstOrder,
-    start: &Start,
-) -> Result<Box<dyn SystemClone>, Error>
-where
-    D: OnVectors,
-{
-    let tolerances = start.tolerances.unwrap_or_default();
-    let (dynamics, system) = (driven(dynamics, start), system.driven_by(start.table.clone()));
-    begun(mbs_analysis::BdfSteps::builder(dynamics, system, tolerances, start.step), start)
 }
 
 /// Starts a run with a constant step of a scheme, with inputs from a table.
@@ -121,11 +107,29 @@ where
     type Result = Result<Box<dyn SystemClone>, Error>;
 
     fn visit<X: Method>(self) -> Self::Result {
+        self.with_scheme::<X::Scheme>()
+    }
+}
+
+impl<D> implicit::Visitor for Started<'_, D>
+where
+    D: OnVectors,
+{
+    type Result = Result<Box<dyn SystemClone>, Error>;
+
+    fn visit<S: AdaptiveScheme>(self) -> Self::Result {
+        self.with_scheme::<S>()
+    }
+}
+
+impl<D> Started<'_, D>
+where
+    D: OnVectors,
+{
+    fn with_scheme<S: AdaptiveScheme>(self) -> Result<Box<dyn SystemClone>, Error> {
         let Self { dynamics, tolerances, start } = self;
-        let mut builder = Adaptive::builder(dynamics)
-            .scheme::<X::Scheme>()
-            .tolerances(tolerances)
-            .inputs(start.inputs.clone());
+        let mut builder =
+            Adaptive::builder(dynamics).scheme::<S>().tolerances(tolerances).inputs(start.inputs.clone());
         if let Some(StartState { start_time, q, v, .. }) = start.state.clone() {
             builder = builder.from_vectors(start_time, q, v);
         }

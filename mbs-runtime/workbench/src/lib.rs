@@ -124,7 +124,7 @@ pub use picture::{Motion, Picture};
 pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary};
 pub use run::StartValue;
 pub use run_options::RunOptions;
-pub use settings::{ConstantMethod, Settings, Start, StartKind};
+pub use settings::{OtherMethod, Settings, Start, StartKind};
 pub use signals::Signals;
 pub use start_state::StartState;
 pub use table::Table;

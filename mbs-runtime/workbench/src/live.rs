@@ -12,8 +12,6 @@ use rayon::prelude::*;
 
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
-#[cfg(feature = "bdf")]
-use crate::settings::ConstantMethod;
 use crate::settings::{Settings, Start, StartKind};
 use crate::start_state::StartState;
 use crate::{Model, adaptive};
@@ -78,16 +76,10 @@ impl Model for FromText {
 
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         let live = self.with(start)?;
-        #[cfg(feature = "bdf")]
-        if start.constant == Some(ConstantMethod::Bdf)
-            && let Ok(system) = mbs_analysis::FirstOrder::new(live.clone())
-        {
-            return adaptive::bdf(Prepared::new(&live), system, start);
-        }
-        if let (Some(tolerances), None) = (start.tolerances, start.constant) {
+        if let Some(tolerances) = start.tolerances {
             return adaptive::start(Prepared::new(&live), tolerances, start);
         }
-        if let Some(method) = start.constant {
+        if let Some(method) = start.other {
             return adaptive::constant(Prepared::new(&live), method, start);
         }
         if start.has_signals() {

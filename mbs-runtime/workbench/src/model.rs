@@ -149,11 +149,11 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     }
 
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
-        if let (Some(tolerances), None) = (start.tolerances, start.constant) {
+        if let Some(tolerances) = start.tolerances {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::start(Erased::new(mechanism), tolerances, start);
         }
-        if let Some(method) = start.constant {
+        if let Some(method) = start.other {
             let mechanism = M::new(components(&start.parameters))?;
             return adaptive::constant(Erased::new(mechanism), method, start);
         }

@@ -3,15 +3,15 @@
 use mbs_runtime::System;
 
 use crate::number::significant;
-use crate::{Model, Settings, Signals, StartKind, StartValue};
+use crate::{Model, OtherMethod, Settings, Signals, StartKind, StartValue};
 
 /// Declared events that are not looked for, a declared method in whose place another one is taken, and what is made
 /// of a table of inputs.
 pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
-    let Settings { tolerances, constant, scheme, .. } = settings;
+    let Settings { other, scheme, .. } = settings;
     let declared = model.scheme();
-    let taken = constant.map_or(scheme.unwrap_or(declared).word, |constant| constant.word());
-    let is_adaptive = tolerances.is_some() && constant.is_none();
+    let taken = other.map_or(scheme.unwrap_or(declared).word, OtherMethod::word);
+    let is_adaptive = settings.tolerances_of_run().is_some();
     let mut notes = Vec::new();
     if let ([event, ..], false) = (model.info().events, is_adaptive) {
         notes.push(format!(
@@ -20,7 +20,12 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
             event.name
         ));
     }
-    if is_adaptive && scheme.is_none() && model.declares_scheme() && !declared.is_adaptive() {
+    if is_adaptive
+        && scheme.is_none()
+        && other.is_none()
+        && model.declares_scheme()
+        && !declared.is_adaptive()
+    {
         notes.push(format!(
             "the declared method `{}` cannot tell the error of its steps: this run to a tolerance takes `dopri5`",
             declared.word

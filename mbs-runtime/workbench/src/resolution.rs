@@ -7,7 +7,7 @@ use mbs_runtime::{Composition, DOP853, Info, Row, System, Tableau};
 
 use crate::doubt::Doubt;
 use crate::run::Instant;
-use crate::settings::{ConstantMethod, Start};
+use crate::settings::{OtherMethod, Start};
 
 /// A run is looked at so often, at equal distances, and at the first steps whose number is a power of two.
 const LOOKS: u64 = 12;
@@ -72,12 +72,12 @@ struct Coarse {
 impl Resolution {
     /// Of a run of so many steps of a mechanism of this size; nothing where its steps follow from a tolerance.
     pub fn new(info: &'static Info, start: &Start, size: f64, steps: u64) -> Option<Self> {
-        let stepping = match (start.constant, start.tolerances) {
+        let stepping = match (start.other, start.tolerances) {
             // a run without a step has no error
             _ if steps == 0 => return None,
             (None, None) => Stepping::Explicit(start.method.tableau),
-            (Some(ConstantMethod::Rattle(composition)), _) => Stepping::Composed(composition),
-            (Some(ConstantMethod::TrBdf2), _) => Stepping::Implicit,
+            (Some(OtherMethod::Rattle(composition)), _) => Stepping::Composed(composition),
+            (Some(OtherMethod::Implicit(_)), None) => Stepping::Implicit,
             _ => return None,
         };
         let is_length = |at: usize| info.coordinates[at].dimension.length != 0;

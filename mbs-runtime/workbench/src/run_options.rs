@@ -6,7 +6,7 @@
 use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
-use crate::{ConstantMethod, Error, Model, Settings, Signals, Start, StartKind, StartState, Until, quantity};
+use crate::{Error, Model, OtherMethod, Settings, Signals, Start, StartKind, StartState, Until, quantity};
 
 const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
@@ -69,7 +69,7 @@ impl RunOptions {
     /// The words of all methods.
     pub fn methods() -> impl Iterator<Item = &'static str> {
         let schemes = SCHEMES.into_iter().map(|scheme| scheme.word);
-        schemes.chain(ConstantMethod::all().map(ConstantMethod::word))
+        schemes.chain(OtherMethod::all().map(OtherMethod::word))
     }
 
     /// Gives one of [`NAMES`](Self::NAMES) its text.
@@ -122,24 +122,24 @@ impl RunOptions {
         let signals = self.signals.as_ref().filter(|signals| signals.start_time().is_some());
         let end_of_clock = signals.map(|signals| signals.span()[1]);
         let until = self.text("until").map(|text| Until::parse(info, text)).transpose()?;
-        let (scheme, constant) = self.method()?;
+        let (scheme, other) = self.method()?;
         let feedback = self.feedback()?;
         let has_feedback = ["feedback", "alpha", "beta"].iter().any(|name| self.text(name).is_some());
-        // a method with a constant step that is asked for, or declared, is taken as it is
+        // a scheme without an estimate that is asked for, or declared, is taken as it is
         let asked = scheme.or(defaults.scheme).or(model.declares_scheme().then(|| model.scheme()));
         let has_events = self.finds_events
             && !info.events.is_empty()
             && !has_feedback
             && defaults.stabilization.is_none()
-            && constant.is_none()
+            && other.is_none()
             && asked.is_none_or(Tableau::is_adaptive);
         let for_events = (until.is_some() || has_events).then(Tolerances::default);
         // what is declared or of use for events is none for a method that takes constant steps
-        let takes_tolerances = matches!(constant, None | Some(ConstantMethod::Bdf));
+        let takes_tolerances = !matches!(other, Some(OtherMethod::Rattle(_)));
         let usual = defaults.tolerances.or(for_events).filter(|_| takes_tolerances);
         let tolerances = self.tolerances()?.or(usual);
         // feedback that is declared is of use where constraints are not kept otherwise
-        let is_fed_back = tolerances.is_none() && constant.is_none();
+        let is_fed_back = tolerances.is_none() && other.is_none();
         let declared = defaults.stabilization.filter(|_| is_fed_back);
         let stabilization = feedback.or(declared);
         let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
@@ -152,7 +152,7 @@ impl RunOptions {
             alpha: self.value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
             beta: self.value("beta", RATE)?.or(declared_gain(defaults.beta)),
             scheme: scheme.or(defaults.scheme),
-            constant,
+            other,
             stabilization,
             tolerances,
             until,
@@ -171,9 +171,9 @@ impl RunOptions {
         Ok(Settings { end: settings.end + start_time, ..settings })
     }
 
-    fn method(&self) -> Result<(Option<&'static Tableau>, Option<ConstantMethod>), Error> {
+    fn method(&self) -> Result<(Option<&'static Tableau>, Option<OtherMethod>), Error> {
         let Some(word) = self.text("method") else { return Ok((None, None)) };
-        match (Tableau::find(word), ConstantMethod::find(word)) {
+        match (Tableau::find(word), OtherMethod::find(word)) {
             (None, None) => Err(Error::unknown("method", word, Self::methods())),
             found => Ok(found),
         }

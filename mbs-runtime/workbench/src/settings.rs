@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use mbs_analysis::InputTable;
 use mbs_runtime::{
-    COMPOSITIONS, Composition, DOPRI5, Explicit, Info, Quantity, Stabilization, Tableau, Threshold,
-    Tolerances,
+    COMPOSITIONS, Composition, DOPRI5, Explicit, IMPLICIT, Implicit, Quantity, Stabilization, TRBDF2,
+    Tableau, Threshold, Tolerances,
 };
 
 use crate::start_state::{self, StartState};
@@ -21,23 +21,20 @@ pub enum StartKind {
     Declared,
 }
 
-/// A method that is more than the stages of an explicit scheme. Its runs have a constant step, of
-/// [`Bdf`](Self::Bdf) that between two samples.
+/// A method that is more than the stages of an explicit scheme. It keeps the constraints itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ConstantMethod {
-    /// RATTLE, for forces that do not depend on velocities, with what a step is composed of.
+pub enum OtherMethod {
+    /// RATTLE, for forces that do not depend on velocities, with what a step is composed of. Its steps are
+    /// constant.
     Rattle(&'static Composition),
-    /// TR-BDF2, for stiff forces.
-    TrBdf2,
-    /// Backward differentiation formulas to a tolerance, for stiff forces; of texts, in programs with
-    /// the feature `bdf`.
-    Bdf,
+    /// An implicit scheme, for stiff forces. Of TR-BDF2 without tolerances the steps are constant.
+    Implicit(&'static Implicit),
 }
 
-impl ConstantMethod {
+impl OtherMethod {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        COMPOSITIONS.into_iter().map(Self::Rattle).chain([Self::TrBdf2, Self::Bdf])
+        COMPOSITIONS.into_iter().map(Self::Rattle).chain(IMPLICIT.into_iter().map(Self::Implicit))
     }
 
     /// The one with this word.
@@ -49,8 +46,15 @@ impl ConstantMethod {
     pub const fn word(self) -> &'static str {
         match self {
             Self::Rattle(composition) => composition.word,
-            Self::TrBdf2 => "trbdf2",
-            Self::Bdf => "bdf",
+            Self::Implicit(scheme) => scheme.word,
+        }
+    }
+
+    /// Whether its steps are constant where no tolerances are given.
+    fn is_constant(self) -> bool {
+        match self {
+            Self::Rattle(_) => true,
+            Self::Implicit(scheme) => scheme.word == TRBDF2.word,
         }
     }
 }
@@ -76,8 +80,8 @@ pub struct Settings {
     pub beta: Option<f64>,
     /// The scheme of the steps; `None` for the one that the mechanism declares.
     pub scheme: Option<&'static Tableau>,
-    /// A method with a constant step in place of a scheme.
-    pub constant: Option<ConstantMethod>,
+    /// A method of another kind in place of a scheme.
+    pub other: Option<OtherMethod>,
     /// The way in which the constraints are kept. `None` for projection of a run to a tolerance, and for held
     /// feedback of one with a constant step.
     pub stabilization: Option<Stabilization>,
@@ -107,7 +111,7 @@ impl Default for Settings {
             alpha: None,
             beta: None,
             scheme: None,
-            constant: None,
+            other: None,
             stabilization: None,
             tolerances: None,
             until: None,
@@ -115,6 +119,15 @@ impl Default for Settings {
             from: Vec::new(),
             allow_unstable: false,
         }
+    }
+}
+
+impl Settings {
+    /// The tolerances of a run: those that are given, and the usual ones where the method takes no constant steps,
+    /// or a condition ends the run. Nothing of a run with a constant step.
+    pub(crate) fn tolerances_of_run(&self) -> Option<Tolerances> {
+        let is_adaptive = self.until.is_some() || self.other.is_some_and(|other| !other.is_constant());
+        self.tolerances.or(is_adaptive.then(Tolerances::default))
     }
 }
 
@@ -131,8 +144,8 @@ pub struct Start {
     pub start_time: Option<f64>,
     /// The scheme, and what keeps the constraints.
     pub method: Explicit,
-    /// A method with a constant step in its place.
-    pub constant: Option<ConstantMethod>,
+    /// A method of another kind in its place.
+    pub other: Option<OtherMethod>,
     /// α in 1/s.
     pub alpha: f64,
     /// β in 1/s.
@@ -157,18 +170,15 @@ impl Start {
     ///
     /// # Errors
     /// A step that is not positive, a name that the mechanism does not have, feedback or gains
-    /// where the constraints are kept by projection, a method with a constant step and what it has no use for.
+    /// where the constraints are kept by projection, a method of another kind and what it has no use for.
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let info = model.info();
         let step = settings.step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(mbs_runtime::Error::Step { step }.into());
         }
-        if let Some(constant) = settings.constant {
-            has_no_other(constant, settings)?;
-            if constant == ConstantMethod::Bdf {
-                takes_bdf(info, settings)?;
-            }
+        if let Some(other) = settings.other {
+            has_no_other(other, settings)?;
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
@@ -183,12 +193,12 @@ impl Start {
                 .unwrap_or_default(),
             start_time: settings.signals.as_ref().and_then(Signals::start_time),
             method,
-            constant: settings.constant,
+            other: settings.other,
             alpha: settings.alpha.unwrap_or(alpha),
             beta: settings.beta.unwrap_or(beta),
             step,
             // a longer step would leave the run
-            tolerances: settings.tolerances.map(|tolerances| Tolerances {
+            tolerances: settings.tolerances_of_run().map(|tolerances| Tolerances {
                 max_step: tolerances.max_step.min(settings.end.max(step)),
                 ..tolerances
             }),
@@ -216,16 +226,16 @@ impl Start {
     }
 }
 
-/// Refuses what methods with a constant step have no use for, since they keep the constraints
-/// themselves.
-fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error> {
+/// Refuses what methods of another kind have no use for, since they keep the constraints themselves.
+fn has_no_other(method: OtherMethod, settings: &Settings) -> Result<(), Error> {
     let Settings { stabilization, alpha, beta, tolerances, until, .. } = settings;
+    let is_rattle = matches!(method, OtherMethod::Rattle(_));
     let refused = [
         (stabilization.is_some(), "feedback"),
         (alpha.is_some(), "alpha"),
         (beta.is_some(), "beta"),
-        (tolerances.is_some() && method != ConstantMethod::Bdf, "rtol"),
-        (until.is_some(), "until"),
+        (tolerances.is_some() && is_rattle, "rtol"),
+        (until.is_some() && is_rattle, "until"),
     ];
     match refused.into_iter().find(|(is_given, _)| *is_given) {
         None => Ok(()),
@@ -234,49 +244,21 @@ fn has_no_other(method: ConstantMethod, settings: &Settings) -> Result<(), Error
             reason: format!(
                 "the method `{}` {}; leave it out, or take another method",
                 method.word(),
-                match method {
-                    ConstantMethod::Bdf =>
-                        "keeps the constraints itself and finds no events, so it has no use for feedback, gains \
-                         or conditions",
-                    ConstantMethod::Rattle(_) | ConstantMethod::TrBdf2 =>
-                        "takes constant steps and keeps the constraints itself, so it has no use for feedback, \
-                         gains, tolerances or events",
+                if is_rattle {
+                    "takes constant steps and keeps the constraints itself, so it has no use for feedback, \
+                     gains, tolerances or events"
+                } else {
+                    "keeps the constraints itself, so it has no use for feedback or gains"
                 }
             ),
         }),
     }
 }
 
-/// Refuses what the solver of another crate does not know, and a program without it.
-fn takes_bdf(info: &Info, settings: &Settings) -> Result<(), Error> {
-    let refused = |name: &str, reason: &str| Err(Error::Name { name: name.into(), reason: reason.into() });
-    if !cfg!(feature = "bdf") {
-        return refused(
-            ConstantMethod::Bdf.word(),
-            "this program was built without the solver, which takes three minutes of a core to compile; build it with \
-             `--features bdf`, or take `trbdf2`, which needs a step and no tolerance",
-        );
-    }
-    if settings.tolerances.is_some_and(|tolerances| tolerances.max_step.is_finite()) {
-        return refused(
-            "max-step",
-            "the method `bdf` chooses its steps by the tolerances alone; leave it out",
-        );
-    }
-    match info.events.first() {
-        None => Ok(()),
-        Some(event) => refused(
-            event.name,
-            "the method `bdf` finds no events, but this one is declared; take an explicit method to a \
-             tolerance, or `trbdf2`, which passes over events",
-        ),
-    }
-}
-
 /// The method that settings ask for, of a mechanism with this scheme.
 fn method(declared: &'static Tableau, settings: &Settings) -> Result<Explicit, Error> {
     let Settings { scheme, stabilization, alpha, beta, .. } = settings;
-    let is_adaptive = settings.tolerances.is_some();
+    let is_adaptive = settings.tolerances_of_run().is_some();
     let (tableau, stabilization) = match (is_adaptive, stabilization) {
         (true, Some(Stabilization::Held | Stabilization::PerStage)) => {
             let reason = "a run to a tolerance keeps the constraints by projection; leave the feedback out, \

@@ -2,8 +2,10 @@
 //! own time, so that a method keeps its order.
 #![allow(clippy::unwrap_used, reason = "a test says by panicking what is wrong")]
 
-use mbs_runtime::{DOP853, HEUN, Mechanism, RATTLE, RATTLE4, RK4, Stabilization, Tableau, Tolerances};
-use mbs_workbench::{ConstantMethod, Settings, Signals, model};
+use mbs_runtime::{
+    DOP853, HEUN, Mechanism, RATTLE, RATTLE4, RK4, Stabilization, TRBDF2, Tableau, Tolerances,
+};
+use mbs_workbench::{OtherMethod, Settings, Signals, model};
 
 mbs_runtime::mechanism! {
     /// A weight on a massless rod that is pushed to the side.
@@ -65,9 +67,8 @@ fn methods_keep_their_order() {
             ..Settings::default()
         }
     };
-    let constant = |method: ConstantMethod| {
-        move |step: f64| Settings { step, constant: Some(method), ..Settings::default() }
-    };
+    let constant =
+        |method: OtherMethod| move |step: f64| Settings { step, other: Some(method), ..Settings::default() };
     for (what, signals) in [("swell", swell(48_000)), ("ramp", ramp)] {
         let check = |method: &str, expected: f64, found: f64| {
             println!("{what}: {method} {found:.3}");
@@ -77,9 +78,9 @@ fn methods_keep_their_order() {
             check("heun", 2.0, order(&signals, 2e-3, of_scheme(&HEUN, stabilization)));
         }
         check("rk4", 4.0, order(&signals, 3e-2, of_scheme(&RK4, Stabilization::Projection)));
-        check("rattle", 2.0, order(&signals, 4e-3, constant(ConstantMethod::Rattle(&RATTLE))));
-        check("rattle4", 4.0, order(&signals, 3e-2, constant(ConstantMethod::Rattle(&RATTLE4))));
-        check("trbdf2", 2.0, order(&signals, 4e-3, constant(ConstantMethod::TrBdf2)));
+        check("rattle", 2.0, order(&signals, 4e-3, constant(OtherMethod::Rattle(&RATTLE))));
+        check("rattle4", 4.0, order(&signals, 3e-2, constant(OtherMethod::Rattle(&RATTLE4))));
+        check("trbdf2", 2.0, order(&signals, 4e-3, constant(OtherMethod::Implicit(&TRBDF2))));
     }
 }
 

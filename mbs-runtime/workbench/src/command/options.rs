@@ -56,8 +56,8 @@ pub(super) fn of_a_run() -> Vec<Arg> {
             "method",
             "SCHEME",
             "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]; rattle and \
-             rattle4 keep the energy where no force depends on velocities, trbdf2 takes stiff forces, bdf \
-             takes them to a tolerance (built with the feature bdf)",
+             rattle4 keep the energy where no force depends on velocities, trbdf2 and esdirk4 take stiff \
+             forces, esdirk4 to a tolerance always",
         )
         .value_parser(PossibleValuesParser::new(RunOptions::methods())),
         option(

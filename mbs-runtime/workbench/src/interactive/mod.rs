@@ -97,10 +97,10 @@ impl dyn Model + '_ {
 
 /// The option that asks for other steps than a page makes, if there is one.
 pub(crate) fn other_than_played(settings: &Settings) -> Option<&'static str> {
-    let Settings { signals, scheme, constant, tolerances, stabilization, start, from, .. } = settings;
+    let Settings { signals, scheme, other, tolerances, stabilization, start, from, .. } = settings;
     let asked = [
         ("rtol", tolerances.is_some()),
-        ("method", scheme.is_some() || constant.is_some()),
+        ("method", scheme.is_some() || other.is_some()),
         ("input", signals.is_some()),
         ("feedback", *stabilization == Some(Stabilization::Projection)),
         ("start", *start != StartKind::default()),

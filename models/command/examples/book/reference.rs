@@ -39,7 +39,7 @@ const PAGES: &[Page] = &[
     Page { chapter: "libmbs.md", title: "The C library", source: "mbs-runtime/c/README.md",
         names: &["mbs-runtime/c/README.md"], pictures: &[] },
     Page { chapter: "ode_crates.md", title: "Solvers of other crates", source: "mbs-runtime/analysis/src/ode_crates.md",
-        names: &["src/ode_crates.md"], pictures: &["ode_crates.svg"] },
+        names: &["src/ode_crates.md"], pictures: &[] },
 ];
 
 /// Writes the chapters.

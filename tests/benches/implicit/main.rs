@@ -1,16 +1,16 @@
-//! Backward differentiation formulas to a tolerance beside TR-BDF2 with a constant step and an
-//! explicit pair to a tolerance, on a slider-crank whose crank pin is a stiff bushing, one turn, as a
-//! text: steps, errors of the crank angle, and times over that of the explicit pair at 10⁻⁶.
-//! `cargo bench -p tests --features bdf --bench bdf -- --figure FILE.svg`
+//! Implicit schemes to a tolerance beside TR-BDF2 with a constant step and explicit pairs to a tolerance, on a
+//! slider-crank whose crank pin is a stiff bushing, one turn, as a text: steps, errors of the crank angle, and
+//! times over that of `dopri5` at 10⁻⁶. `cargo bench -p tests --bench implicit -- --figure FILE.svg`
 #![allow(clippy::expect_used, reason = "a benchmark ends where it cannot go on")]
 
 use std::env;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use mbs_analysis::{BdfSteps, FirstOrder};
 use mbs_live::{Live, Prepared, Text};
-use mbs_runtime::{Adaptive, Dop853, Effort, Sampled, System, Tolerances, TrBdf2};
+use mbs_runtime::{
+    Adaptive, AdaptiveScheme, Dop853, Dopri5, Effort, Sampled, System, Tolerances, TrBdf2, implicit,
+};
 use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
 use tests::bushing::CRANK;
 
@@ -102,7 +102,7 @@ impl Start {
         Self { t: settling.time(), live, q, v }
     }
 
-    fn outcomes(&self) -> [(&'static str, Vec<Outcome>); 3] {
+    fn outcomes(&self) -> [(&'static str, Vec<Outcome>); 5] {
         let exact = self.fine();
         let outcome = |asked: String, run: &dyn Fn() -> (f64, u64)| {
             let mut time = f64::INFINITY;
@@ -118,7 +118,13 @@ impl Start {
             TOLERANCES.map(|rtol| outcome(format!("{rtol:e}"), &|| run(self, rtol))).into()
         };
         let in_steps = LENGTHS.map(|h| outcome(format!("{h} ms"), &|| self.trbdf2(1e-3 * h)));
-        [("bdf", to(&Self::bdf)), ("trbdf2", in_steps.into()), ("dopri5", to(&Self::dopri5))]
+        [
+            ("esdirk4", to(&Self::adaptive::<implicit::Esdirk4>)),
+            ("trbdf2", to(&Self::adaptive::<implicit::TrBdf2>)),
+            ("trbdf2 in constant steps", in_steps.into()),
+            ("dopri5", to(&Self::adaptive::<Dopri5>)),
+            ("dop853", to(&Self::adaptive::<Dop853>)),
+        ]
     }
 
     fn fine(&self) -> f64 {
@@ -129,20 +135,12 @@ impl Start {
         self.angle(&Sampled::new(run, 1.0).expect("an interval"))
     }
 
-    fn dopri5(&self, rtol: f64) -> (f64, u64) {
-        let builder = Adaptive::builder(Prepared::new(&self.live)).tolerances(tolerances(rtol));
+    fn adaptive<S: AdaptiveScheme>(&self, rtol: f64) -> (f64, u64) {
+        let builder = Adaptive::builder(Prepared::new(&self.live)).scheme::<S>().tolerances(tolerances(rtol));
         let mut run = builder.from_vectors(self.t, self.q.clone(), self.v.clone()).build().expect("a start");
         run.advance_to(self.t + END).expect("a regular motion");
         let tried = tried(*run.effort());
         (self.angle(&Sampled::new(run, 1.0).expect("an interval")), tried)
-    }
-
-    fn bdf(&self, rtol: f64) -> (f64, u64) {
-        let system = FirstOrder::new(self.live.clone()).expect("derivatives");
-        let builder = BdfSteps::builder(Prepared::new(&self.live), system, tolerances(rtol), END);
-        let mut run = builder.from_vectors(self.t, self.q.clone(), self.v.clone()).build().expect("a start");
-        run.step().expect("a regular motion");
-        (self.angle(&run), run.effort().map_or(0, tried))
     }
 
     fn trbdf2(&self, step: f64) -> (f64, u64) {
