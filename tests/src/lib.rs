@@ -18,7 +18,7 @@
 //!
 //! # Random mechanisms
 //!
-//! * `dense` draws mechanisms as numbers. `dense_solutions` compares 3,000 of them in `.ci/run`.
+//! * `dense` draws mechanisms as numbers. `dense_solutions` compares 20,000 of them in `.ci/run`.
 //! * `linkages` makes mechanisms that are assembled as they are made.
 //! * `fuzzing` makes up, mutates and crosses declarations. `examples/fuzz.rs` compiles them in child
 //!   processes with the Rust compiler's stack and a time limit. A failure is cut down into `corpus`, which a
@@ -36,6 +36,7 @@ pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;
+pub mod sample;
 pub mod swing;
 
 /// The README's example compiles and runs.

@@ -62,6 +62,7 @@ fn link(library: &Path, program: &Path) -> Output {
 }
 
 #[test]
+#[ignore = "builds the compiler of mechanisms anew, for two minutes; `.ci/run` asks for it"]
 fn mechanism_without_std_has_no_reachable_panic_and_no_allocator() {
     let copy = copied_crate();
     let program = copy.join("program");

@@ -1,5 +1,7 @@
 //! TR-BDF2: implicit steps for stiff springs and dampers, in straight lines.
 
+use mbs_schemes::TRBDF2;
+
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
 use crate::adaptive::{Moment, copy};
 use crate::explicit::{Beside, subtract};
@@ -29,7 +31,8 @@ use crate::{Dynamics, Error, Info, Real, vectors};
 /// whose rod has 10⁹ N/m, turning by 0.01 rad in a step, these lose the motion within a turn, and
 /// TR-BDF2 is off by 3 · 10⁻⁵ of the radius.
 ///
-/// Take it where a stiff force and not the motion limits the step. Vibrations that a step does not
+/// Take it where a stiff force and not the motion limits the step; [`implicit`](crate::implicit) has it, and a
+/// scheme of fourth order, for runs to a tolerance. Vibrations that a step does not
 /// resolve are lost, and the energy with them. A force whose derivative is not symmetric and that is
 /// stiff (a follower, a spring that acts on one body only) may not be followed; forces between two
 /// bodies are symmetric. Friction as a stiff function of reactions is not treated as stiff.
@@ -66,10 +69,10 @@ use crate::{Dynamics, Error, Info, Real, vectors};
 /// 280-303.
 pub type TrBdf2<D> = ConstantStep<D, TrBdf2Step<<D as Dynamics>::States>>;
 
-/// γ/2 with γ = 2 − √2: the share that a stage has of its own slope.
-const OWN: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
-/// √2/4: the shares of the slopes before in the last stage.
-const BEFORE: f64 = 0.5 * core::f64::consts::FRAC_1_SQRT_2;
+/// d: the share that a stage has of its own slope.
+const OWN: f64 = TRBDF2.own;
+/// w: the shares of the slopes before in the last stage.
+const BEFORE: f64 = TRBDF2.stages[1].share;
 
 /// The vectors of a step of TR-BDF2.
 #[derive(Clone)]

@@ -12,6 +12,9 @@ use mbs_live::{Experiment, Run, Text};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
+#[path = "../../src/sample.rs"]
+mod sample;
+
 /// With drives and without, tables, redundant constraints and loops of long programs.
 const MECHANISMS: [&str; 6] =
     ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
@@ -32,7 +35,7 @@ fn text(name: &str) -> Text {
 fn texts() -> impl Iterator<Item = (&'static str, Text)> {
     let sparse =
         SPARSE.into_iter().map(|declaration| (declaration, Text::declaration("sparse.mbs", declaration)));
-    MECHANISMS.into_iter().map(|name| (name, text(name))).chain(sparse)
+    MECHANISMS.into_iter().map(|name| (name, text(name))).chain(sparse).step_by(sample::stride())
 }
 
 /// The sources of a unit in a folder, with a program around them that makes so many instances four times.

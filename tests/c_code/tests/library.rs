@@ -11,13 +11,15 @@ use mbs_codegen::{Compiled, analyse};
 #[path = "../../src/chains.rs"]
 #[macro_use]
 mod chains;
+#[path = "../../src/sample.rs"]
+mod sample;
 
 /// The files of mechanisms that are also compiled with reduced states.
 const REDUCED: [&str; 5] =
     ["slider_crank.rs", "slider_crank_free.rs", "four_bar_free.rs", "scotch_yoke.rs", "cam_follower.rs"];
 
-/// Declarations with what they are called.
-fn all() -> Vec<(String, Compiled)> {
+/// Declarations with what they are called, or a sample of them.
+fn some() -> Vec<(String, Compiled)> {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src");
     let mut texts: Vec<(String, String)> = declarations(&models)
         .expect("the library is there")
@@ -39,13 +41,13 @@ fn all() -> Vec<(String, Compiled)> {
         let compiled = analyse(tokens).unwrap_or_else(|error| panic!("{name}: {error}"));
         (name, compiled)
     };
-    texts.into_iter().map(compiled).collect()
+    texts.into_iter().step_by(sample::stride()).map(compiled).collect()
 }
 
 #[test]
 fn c_compiles_without_a_warning() {
     let compilers = compilers();
-    for (name, compiled) in all() {
+    for (name, compiled) in some() {
         for scalar in [Scalar::Double, Scalar::Float] {
             let sources = c(&compiled, scalar).unwrap_or_else(|error| panic!("{name}: {error}"));
             for &compiler in &compilers {
@@ -132,7 +134,7 @@ fn is_same(a: &[f64], b: &[f64]) -> bool {
 fn a_thousand_steps_in_c_are_those_of_the_programs_to_the_bit() {
     const STEPS: usize = 1000;
     let Some(&compiler) = compilers().first() else { return };
-    for (name, compiled) in all() {
+    for (name, compiled) in some() {
         let sources = c(&compiled, Scalar::Double).unwrap_or_else(|error| panic!("{name}: {error}"));
         let built = build(&sources, compiler, "-O2").unwrap_or_else(|fault| panic!("{name}: {fault}"));
         // the squeezer turns once in some milliseconds
