@@ -50,8 +50,22 @@ pub(crate) fn stage_error<T: Real>(
     }
     equations.complete(states, q, v);
     let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
-    Some(solution.cause(limit, equations.worst_pivot(t, q), |at| info.state_name(at)))
+    let error = solution.cause(limit, equations.worst_pivot(t, q), |at| info.state_name(at));
+    let undefined = || check_defined(t, "the acceleration of", acceleration, |at| info.state_name(at)).err();
+    match error {
+        // no motion that runs away, but a force without a value, such as the root of a negative number
+        Error::NonFinite { .. } if is_moderate(states) => undefined().or(Some(error)),
+        _ => Some(error),
+    }
 }
+
+/// Whether a state is far from where products of its numbers overflow.
+fn is_moderate<T: Real>(states: At<'_, T>) -> bool {
+    [states.q, states.v].iter().all(|vector| vectors::largest(vector).1 < T::from_f64(MODERATE))
+}
+
+/// Its square is finite in single precision too.
+const MODERATE: f64 = 1e18;
 
 /// Whether a growth reaches a limit; one that is no number does.
 fn is_over<T: Real>(growth: T, limit: T) -> bool {

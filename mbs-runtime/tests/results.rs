@@ -92,6 +92,6 @@ mechanism! {
 fn drive_that_is_no_number_is_an_error() {
     let mut run = Simulation::new(Ending::declared(), 1e-2).expect("a start");
     let error = run.advance_to(0.6).expect_err("NaN");
-    assert!(matches!(error, Error::NonFinite { coordinate: "x", .. }), "{error:?}");
+    assert!(matches!(error, Error::Undefined { name: "x", .. }), "{error:?}");
     assert!(start::consistent(&Ending::declared(), &mbs_runtime::State { t: 0.6, ..run.state() }).is_err());
 }

@@ -234,7 +234,7 @@ fn runs_that_cannot_go_on_say_why() {
                 start { x = 0; der(x) = 1 [m/s]; }
             }",
         );
-        assert!(matches!(error, Error::StepTooShort { .. } | Error::NonFinite { .. }), "{error}");
+        assert!(matches!(error, Error::StepTooShort { .. } | Error::Undefined { .. }), "{error}");
         let (error, t) = ended(
             scheme,
             "Reach {
