@@ -14,54 +14,65 @@ const LOADED: f64 = 1e-6;
 /// m/s²
 const GRAVITY: f64 = 9.81;
 
-/// The digits of reactions, looked at where they are twice as large as where they were last.
+/// The digits of reactions, looked at where they are twice as large as where they were last, and judged by the
+/// largest ones of the run: where a stiff spring is not stretched its force is rounding, and small.
 #[derive(Default)]
 pub(crate) struct Reactions {
-    /// The largest ones that were looked at, by the power of the length in their constraints.
-    seen: Vec<(i8, f64)>,
-    worst: Option<Doubt>,
+    /// By the power of the length in their constraints.
+    kinds: Vec<Kind>,
+}
+
+/// Reactions of constraints with the same power of the length.
+struct Kind {
+    power: i8,
+    largest: f64,
+    /// The largest one when it was looked at last.
+    seen: f64,
+    /// What counts as a load.
+    loaded: f64,
+    /// The largest change by rounding, when, and of which constraint.
+    worst: Option<(f64, f64, &'static str)>,
 }
 
 impl Reactions {
     /// Sees q̈ and λ of an instant of a mechanism of this size.
     pub fn see(&mut self, run: &dyn System, now: &Instant, size: f64) {
         let constraints = run.equations().info().constraints;
-        let mut largest: Vec<(i8, f64)> = Vec::new();
         for (row, multiplier) in constraints.iter().zip(&now.multipliers) {
             let power = row.dimension.length;
-            match largest.iter_mut().find(|(other, _)| *other == power) {
-                Some((_, of)) => *of = of.max(multiplier.abs()),
-                None => largest.push((power, multiplier.abs())),
+            match self.kinds.iter_mut().find(|kind| kind.power == power) {
+                Some(kind) => kind.largest = kind.largest.max(multiplier.abs()),
+                None => {
+                    let largest = multiplier.abs();
+                    self.kinds.push(Kind { power, largest, seen: 0.0, loaded: 0.0, worst: None });
+                }
             }
         }
-        let seen = |power: i8| self.seen.iter().find(|(other, _)| *other == power).map_or(0.0, |(_, of)| *of);
-        if !largest.iter().any(|(power, of)| *of > 2.0 * seen(*power)) {
+        if !self.kinds.iter().any(|kind| kind.largest > 2.0 * kind.seen) {
             return;
         }
         let weight = GRAVITY * heaviest(run, now, size);
         let Some(changes) = changes(run, now) else { return };
-        for (at, row) in constraints.iter().enumerate() {
-            let power = row.dimension.length;
-            let of = largest.iter().find(|(other, _)| *other == power).map_or(0.0, |(_, of)| *of);
-            let is_loaded = of > LOADED * weight * size.powi(1 - i32::from(power));
-            let left = -(changes[at] / of).log10();
-            if is_loaded && left < DIGITS && self.left() > left {
-                self.worst = Some(Doubt::Digits { left: left.max(0.0), at: run.time(), name: row.name });
+        for kind in &mut self.kinds {
+            kind.seen = kind.largest;
+            kind.loaded = LOADED * weight * size.powi(1 - i32::from(kind.power));
+            let rows = constraints.iter().zip(&changes).filter(|(row, _)| row.dimension.length == kind.power);
+            for (row, change) in rows {
+                if kind.worst.is_none_or(|(worst, ..)| *change > worst) {
+                    kind.worst = Some((*change, run.time(), row.name));
+                }
             }
-        }
-        self.seen = largest;
-    }
-
-    fn left(&self) -> f64 {
-        match &self.worst {
-            Some(Doubt::Digits { left, .. }) => *left,
-            _ => f64::INFINITY,
         }
     }
 
     /// The doubt of the reactions with the fewest digits.
     pub fn doubt(self) -> Option<Doubt> {
-        self.worst
+        let doubts = self.kinds.into_iter().filter_map(|kind| {
+            let (change, at, name) = kind.worst.filter(|_| kind.largest > kind.loaded)?;
+            Some((-(change / kind.largest).log10(), at, name))
+        });
+        let (left, at, name) = doubts.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (left < DIGITS).then_some(Doubt::Digits { left: left.max(0.0), at, name })
     }
 }
 

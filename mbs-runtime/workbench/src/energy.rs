@@ -23,6 +23,10 @@ pub(crate) struct Energy {
     has_moved: bool,
     first: Option<f64>,
     last: f64,
+    /// The change in the last step.
+    change: f64,
+    /// The work of all forces in steps that changed the energy, by the power at their ends.
+    work: f64,
     kinetic: f64,
     potential: Option<(f64, f64)>,
     /// Of all energy, along the motion that the equations ask for, at some instants.
@@ -37,8 +41,10 @@ impl Energy {
 
     /// Takes the energies.
     pub fn see(&mut self, kinetic: f64, potential: f64) {
-        self.first.get_or_insert(kinetic + potential);
-        self.last = kinetic + potential;
+        let energy = kinetic + potential;
+        self.first.get_or_insert(energy);
+        self.change = energy - if self.potential.is_some() { self.last } else { energy };
+        self.last = energy;
         self.kinetic = self.kinetic.max(kinetic);
         let (low, high) = self.potential.unwrap_or((potential, potential));
         self.potential = Some((low.min(potential), high.max(potential)));
@@ -51,22 +57,41 @@ impl Energy {
         self.has_moved = self.has_moved || !speeds.all(|speed| speed * step <= AT_REST * f64::EPSILON);
     }
 
-    /// Takes the power with which the energy changes according to the equations.
+    /// Takes the power with which the energy changes according to the equations, at one of the instants that are
+    /// spread over the run.
     pub fn see_power(&mut self, power: f64) {
         self.powers.push(power.abs());
+    }
+
+    /// Whether the last step has changed the energy, so that its power is of interest.
+    pub fn has_changed(&self) -> bool {
+        self.change.abs() > WORK * self.moved()
+    }
+
+    /// Takes the power at the end of a step of so many seconds that has changed the energy.
+    pub fn see_work(&mut self, power: f64, step: f64) {
+        self.work += power * step;
+    }
+
+    /// The energy that was in motion.
+    fn moved(&self) -> f64 {
+        self.kinetic + self.potential.map_or(0.0, |(low, high)| high - low)
     }
 
     /// The doubt about a run of `span` seconds whose energy changed too much. `None` if the energy is kept, if nothing
     /// moved, or if forces without a potential may have changed it.
     pub fn doubt(mut self, span: f64) -> Option<Doubt> {
-        let (low, high) = self.potential.filter(|_| self.has_moved)?;
-        let moved = self.kinetic + (high - low);
-        let change = self.last - self.first?;
+        if !self.has_moved {
+            return None;
+        }
+        let (moved, change) = (self.moved(), self.last - self.first?);
+        // a stop acts for a moment
+        let is_explained = (change - self.work).abs() < 0.5 * change.abs();
         self.powers.sort_by(f64::total_cmp);
         // The median: a pass that goes wrong is short.
         let power = self.powers.get(self.powers.len() / 2).copied().unwrap_or(0.0);
         let is_kept = power * span <= WORK * moved;
-        (is_kept && change.abs() > ENERGY * moved).then_some(Doubt::Energy { change, moved })
+        (is_kept && !is_explained && change.abs() > ENERGY * moved).then_some(Doubt::Energy { change, moved })
     }
 }
 

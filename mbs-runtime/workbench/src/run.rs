@@ -244,10 +244,16 @@ impl Recorder {
             if let Some(resolution) = &mut self.resolution {
                 resolution.see(run, &self.now, taken);
             }
-            if self.watch.energy().is_some() && taken % powers_every == 0 {
+            let is_look = taken % powers_every == 0;
+            if self.watch.energy().is_some_and(|energy| is_look || energy.has_changed()) {
                 let power = self.power(run);
                 if let Some((energy, power)) = self.watch.energy().zip(power) {
-                    energy.see_power(power);
+                    if is_look {
+                        energy.see_power(power);
+                    }
+                    if energy.has_changed() {
+                        energy.see_work(power, run.step_size());
+                    }
                 }
             }
             if taken % every == 0 || taken == steps {

@@ -189,3 +189,38 @@ fn a_mechanism_with_an_event_becomes_a_page() {
         assert!(output.status.success() || words.contains("--param"), "{command}: {words}");
     }
 }
+
+/// A stop without a potential takes the energy of a block, and a spring that is not stretched at the start has a force
+/// that is rounding there. Both were doubted as if the position were singular.
+#[test]
+fn nothing_is_doubted_of_stops_and_of_springs_at_their_length() {
+    let stop = "Buffer { dof = 1; body block (x) { mass = 1 [kg]; }
+        force stop on x = -1e5 [N/m]*max(0, x - 0.1 [m]); start { der(x) = 1 [m/s]; } }";
+    let pinned = "Pinned { dof = 0; body c (x, y, phi) { mass = 1 [kg]; inertia = 0.01 [kg*m^2]; }
+        point o on c = (-0.1, 0) [m]; point e on c = (0.1, 0) [m]; point h on ground = (0.7, 0) [m];
+        revolute p (c.o, ground); drive d: phi = 0.2*sin(2*pi*t/(1 [s]));
+        spring s (c.e, ground.h) { stiffness = 1e8 [N/m]; length = 0.5 [m]; } start { } }";
+    for (text, options) in [(stop, "--until der(x)<0"), (stop, "--end 0.104s"), (pinned, "--end 0.25s")] {
+        let (code, _, messages) = run(text, options);
+        assert_eq!((code, messages.as_str()), (Some(0), ""), "{options}");
+    }
+}
+
+/// A crank of 0.3 m turns a rod of 0.25 m as far as sin φ = 5/6, at 0.98511078 s. A run to a tolerance spoke of a jump
+/// there, or of a time behind its end, and `trbdf2` went on to places of 1e148 m.
+#[test]
+fn a_rod_that_is_too_short_is_named_where_it_is() {
+    let text = "Short { dof = 0; body c (phi) { inertia = 1 [kg*m^2]; } body s (x) { mass = 1 [kg]; }
+        point p on c = (0.3, 0) [m]; distance rod (c.p, s) = 0.25 [m]; drive d: phi = 1 [rad/s]*t;
+        spring k (s, ground) { stiffness = 1e7 [N/m]; length = 0; damping = 1e4 [N*s/m]; }
+        start { guess x = 0.55 [m]; } }";
+    for options in ["", "--method trbdf2", "--rtol 1e-6", "--method dop853 --rtol 1e-10", "--method esdirk4"]
+    {
+        let (code, _, messages) = run(text, &format!("{options} --end 1.1s"));
+        assert_ne!(code, Some(0), "{options}");
+        assert!(
+            messages.contains("out of reach at t = 0.985") && messages.contains("`rod`"),
+            "{options}: {messages}"
+        );
+    }
+}
