@@ -236,6 +236,19 @@ impl<T: Real> Run<'_, T> {
         looked.err().or(blocked).unwrap_or(error)
     }
 
+    /// Whether the constraints can be met at `t_next`, from the positions before the step. A step beyond a dead end may
+    /// end far away, where nothing tells that it left them.
+    ///
+    /// # Errors
+    /// [`Error::OutOfReach`].
+    pub fn reaches(&self, t_next: T, room: &mut Room<'_, T>) -> Result<(), Error> {
+        let Self { equations, at, inputs, step, .. } = *self;
+        let mut look = |[from, _]: [At<'_, T>; 2], room: &mut Room<'_, T>| {
+            reach(equations, t_next, from.q, inputs, step, room)
+        };
+        completed(equations, [at, at], room, &mut look)
+    }
+
     /// Whether a state has accelerations, and its positions constraints at `t_next`.
     fn is_good(&self, from: At<'_, T>, t_next: T, room: &mut Room<'_, T>) -> bool {
         let Self { equations, inputs, .. } = self;
@@ -328,23 +341,18 @@ fn remember<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, growth: T, wat
 }
 
 /// Tells the watch of a step that was not calm, or of a mechanism whose redundant constraints
-/// have to be looked at. A method that corrects the positions of a step once gives its inputs and the step:
-/// whether its constraints can still be met is another question then.
+/// have to be looked at.
 ///
 /// # Errors
-/// [`Error::OutOfReach`] of a redundant constraint, or of one that cannot be met any more.
+/// [`Error::OutOfReach`] of a redundant constraint.
 pub(crate) fn note_risen<T: Real>(
     equations: &dyn Equations<T>,
     [from, to]: [At<'_, T>; 2],
     growth: T,
-    corrected_once: Option<(&[T], T)>,
     watch: &mut Watch<T>,
     room: &mut Room<'_, T>,
 ) -> Result<(), Error> {
     completed(equations, [from, to], room, &mut |[from, to], room| {
-        if let (Some((inputs, step)), true) = (corrected_once, growth > watch.alarm) {
-            reach(equations, to.t, to.q, inputs, step, room)?;
-        }
         let [phi, ..] = &mut room.constraints;
         spare::check(equations, to.t, to.q, watch.length, phi)?;
         if growth > watch.alarm {

@@ -10,6 +10,9 @@ use crate::run::Run;
 use crate::watch::Watch;
 use crate::{Dynamics, Error, Gains, Real, Scheme};
 
+/// From steps below so many seconds Newton's method finds the constraints again if they can be met.
+const NEARBY: f64 = 1e-3;
+
 /// The error of the shortest step from `now` that has one, of steps up to `longest` seconds with
 /// projection; nothing where all of them can be taken. `next` is room for their ends.
 pub fn cause<D: Dynamics, S: Scheme>(
@@ -36,6 +39,9 @@ pub fn cause<D: Dynamics, S: Scheme>(
                     keeps_constraints: true,
                 };
                 run.step(now.t + step, [next.q.as_mut(), next.v.as_mut()], &mut watch, room)?;
+                if h < NEARBY {
+                    run.reaches(now.t + step, room)?;
+                }
                 h *= 4.0;
             }
             Ok(())

@@ -79,15 +79,10 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 
     /// Makes the step that was tried the last one.
     fn accept(&mut self, growth: D::Real) -> Result<(), Error> {
-        let Self { dynamics, inputs, step, now, next, watch, .. } = self;
+        let Self { dynamics, now, next, watch, .. } = self;
         if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
             let ends = [now.at(), next.at()];
-            dynamics.with_inputs(inputs, |inputs| {
-                let corrected_once = Some((&*inputs, *step));
-                dynamics.with_room::<Heun>(|room| {
-                    note_risen(dynamics.equations(), ends, growth, corrected_once, watch, room)
-                })
-            })?;
+            dynamics.with_room::<Heun>(|room| note_risen(dynamics.equations(), ends, growth, watch, room))?;
         } else {
             watch.note(growth);
         }

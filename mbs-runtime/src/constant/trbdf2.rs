@@ -74,6 +74,12 @@ const OWN: f64 = TRBDF2.own;
 /// w: the shares of the slopes before in the last stage.
 const BEFORE: f64 = TRBDF2.stages[1].share;
 
+/// The share of the positions from which on a correction is repeated, as from a start that is far from the
+/// constraints: that of a regular step is of third order.
+const FAR: f64 = 1e-3;
+/// So often at most.
+const CORRECTIONS: usize = 4;
+
 /// The vectors of a step of TR-BDF2.
 #[derive(Clone)]
 pub struct TrBdf2Step<V> {
@@ -149,8 +155,20 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
         // Not by `project`: its closure would be one function for both corrections, with its numbers in
         // memory, which takes 20 ns longer.
         let delta = a3;
-        let of_positions = dynamics.correction(t_next, &Beside { q, v: None }, delta);
+        let mut of_positions = dynamics.correction(t_next, &Beside { q, v: None }, delta);
         subtract(q, delta);
+        for correction in 1.. {
+            let [moved, size] = [&*delta, q].map(|x| vectors::largest(x.as_ref()).1);
+            if moved <= D::Real::from_f64(FAR) * (D::Real::from_f64(1.0) + size) {
+                break;
+            }
+            // beyond reach none is small
+            if correction == CORRECTIONS {
+                return None;
+            }
+            of_positions = of_positions + dynamics.correction(t_next, &Beside { q, v: None }, delta);
+            subtract(q, delta);
+        }
         let of_velocities = dynamics.correction(t_next, &Beside { q, v: Some(v) }, delta);
         subtract(v, delta);
         Some(growth + (of_positions + of_velocities))
