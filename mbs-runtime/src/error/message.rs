@@ -139,8 +139,8 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     " is no longer finite at t = {t} s; if the mechanism can reach \
-                     that position at all, take a smaller step or smaller gains, or for stiff forces the \
-                     method `trbdf2`",
+                     that position at all, take a smaller step or smaller gains, or for stiff forces a run to a \
+                     tolerance by `esdirk4`",
                     t = Shown(t)
                 )
             }

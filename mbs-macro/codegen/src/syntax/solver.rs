@@ -1,7 +1,7 @@
 //! How a mechanism is to be solved: `redundant = …;`, `states = …;`, `limit …;`, `step = …;`,
 //! `method = …;`, `feedback = …;`, `gradients = …;`.
 
-use mbs_schemes::{SCHEMES, Tableau};
+use mbs_schemes::{Composition, Implicit, SCHEMES, Tableau};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
@@ -83,7 +83,14 @@ pub fn method(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     let expected = format!("a scheme is expected here, one of {words}");
     let word = Ident::parse_any(input).map_err(|error| Error::new(error.span(), &expected))?;
     let Some(scheme) = Tableau::find(&word.to_string()) else {
-        return Err(Error::new(word.span(), expected));
+        let word_text = word.to_string();
+        let is_other = Implicit::find(&word_text).is_some() || Composition::find(&word_text).is_some();
+        let of_runs = if is_other {
+            format!("; a run is asked for `{word_text}`: --method {word_text}")
+        } else {
+            String::new()
+        };
+        return Err(Error::new(word.span(), expected + &of_runs));
     };
     semicolon(input)?;
     Ok(ItemKind::Method { keyword, scheme })

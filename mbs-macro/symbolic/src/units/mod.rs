@@ -269,6 +269,13 @@ pub fn meant(name: &str) -> Option<String> {
     if let Some((_, meant)) = OTHER_NAMES.iter().find(|(other, _)| *other == name) {
         return Some((*meant).to_owned());
     }
+    // people write several kilograms as `kgs`, and newton-seconds as `Ns`
+    let counted = [Dimension::MASS, Dimension::LENGTH, Dimension::NONE];
+    if let Some(one) =
+        name.strip_suffix('s').filter(|one| lookup(one).is_some_and(|unit| counted.contains(&unit.dimension)))
+    {
+        return Some(one.to_owned());
+    }
     let mut products = (1..name.len()).filter_map(|at| name.split_at_checked(at));
     // nobody means a product of two masses by `kgg`
     let dimension = |name| lookup(name).map(|unit| unit.dimension);
