@@ -149,6 +149,36 @@ fn stiff_dampers_do_not_shorten_steps() {
     }
 }
 
+/// The force of a stiff damper and spring, at every sample and between steps, is that of the motion: k x + c ẋ = −m ẍ =
+/// −e^(−t) N but for 10⁻⁸. It is 10⁸ times what a tolerance allows in positions, and was off by 153 N.
+#[test]
+fn stiff_forces_between_steps_are_those_of_the_motion() {
+    let live = compiled(
+        "Creeping {
+            dof = 1;
+            body mass (x) { mass = 1 [kg]; }
+            spring strong (mass, ground) { stiffness = 1e8 [N/m]; damping = 1e8 [N*s/m]; length = 0; }
+            start { x = 1 [m]; }
+            output force [N] = force(strong);
+        }",
+    );
+    for (scheme, rtol) in IMPLICIT.into_iter().flat_map(|scheme| [1e-4, 1e-6].map(|rtol| (scheme, rtol))) {
+        let mut run = started(scheme, &live, tolerances(rtol), 0.0137, None).expect("a start");
+        let mut worst = 0.0_f64;
+        for sample in 1..=200 {
+            run.step().expect("a regular motion");
+            let (mut a, mut multipliers, mut force) = ([0.0], [0.0; 0], [0.0]);
+            run.reactions(&mut a, &mut multipliers).expect("accelerations");
+            run.outputs(&a, &multipliers, &mut force).expect("outputs");
+            if sample > 10 {
+                worst = worst.max((force[0].abs() - (-run.time()).exp()).abs());
+            }
+        }
+        println!("{} {rtol:e} {worst:e}", scheme.word);
+        assert!(worst < 100.0 * rtol, "{} {rtol:e}: {worst:e}", scheme.word);
+    }
+}
+
 /// Where nothing is stiff they are as good as an explicit method at every sample.
 #[test]
 fn soft_mechanisms_agree_with_explicit_runs() {

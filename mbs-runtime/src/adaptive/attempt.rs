@@ -60,7 +60,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
         converge_partials(dynamics, t_next, &mut to.q, there);
         growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: Some(&to.v) }, there);
         subtract(&mut to.v, there);
-        Some(growth + S::finish(of, accelerations, to)?)
+        Some(growth + S::finish(of, t_next - from.t, accelerations, there, to)?)
     }
 
     /// The estimated error of a step that was taken, over the allowed one.

@@ -272,7 +272,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// A value at a time within the last step, by interpolation.
     fn value_between(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
-        let Self { before, now, next, dynamics, inputs, all, between, .. } = self;
+        let Self { before, now, next, dynamics, inputs, attempt, all, between, .. } = self;
         let moment = if t <= before.t {
             before
         } else if t >= now.t {
@@ -280,6 +280,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         } else {
             before.between(between.terms(), now, t, &mut next.q, &mut next.v);
             next.t = t;
+            if S::RELAXES {
+                before.acceleration(now, t, &mut next.a);
+                S::relax((&*dynamics, &*inputs), now.t - before.t, &mut attempt.there, next);
+            }
             next
         };
         watched.value(index, (dynamics, inputs), moment, all)

@@ -63,6 +63,28 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
         }
     }
 
+    /// Writes the second derivative of that quintic,
+    ///
+    /// ```text
+    /// h²q̈(s) = h²q̈₀ + 6 s P + 6 s² P′ + s³ P″,  P = d₃ + d₄ c + d₅ c²
+    /// ```
+    ///
+    /// which is off by O(h⁴).
+    pub fn acceleration(&self, end: &Self, t: T, a: &mut V) {
+        let number = T::from_f64;
+        let h = end.t - self.t;
+        let s = (t - self.t) / h;
+        let c = s - number(1.0);
+        let (half, two, three, six) = (number(0.5), number(2.0), number(3.0), number(6.0));
+        for (([q0, v0, a0], [q1, v1, a1]), a) in self.scaled(h).zip(end.scaled(h)).zip(a.as_mut()) {
+            let (d3, dv, da) = (q1 - q0 - v0 - half * a0, v1 - v0 - a0, a1 - a0);
+            let d4 = dv - three * d3;
+            let d5 = half * da - three * dv + six * d3;
+            let (cubic, slope) = (d3 + c * (d4 + c * d5), d4 + two * c * d5);
+            *a = (a0 + s * (six * cubic + s * (six * slope + s * two * d5))) / (h * h);
+        }
+    }
+
     /// The same by the polynomial of a scheme's own, with the terms of positions and of velocities; see
     /// [`Interpolant`](mbs_schemes::Interpolant).
     pub fn interpolate_by(&self, terms: &[[V; 2]; 4], end: &Self, t: T, q: &mut V, v: &mut V) {
@@ -111,9 +133,11 @@ mod tests {
         let (start, end) = (at(0.4), at(1.3));
         for step in 0..=20 {
             let t = 0.4 + 0.045 * f64::from(step);
-            let (mut q, mut v) = ([0.0], [0.0]);
+            let (mut q, mut v, mut a) = ([0.0], [0.0], [0.0]);
             start.interpolate(&end, t, &mut q, &mut v);
+            start.acceleration(&end, t, &mut a);
             let expected = at(t);
+            assert!((a[0] - expected.a[0]).abs() < 1e-12, "{t}");
             assert!((q[0] - expected.q[0]).abs() < 1e-14 && (v[0] - expected.v[0]).abs() < 1e-13, "{t}");
         }
     }

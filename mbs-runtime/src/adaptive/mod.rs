@@ -234,7 +234,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
             let (from, to) = (now.at(), next.at());
             dynamics.with_room::<S::Explicit>(|room| {
-                note_risen(dynamics.equations(), [from, to], growth, None, watch, room)
+                note_risen(dynamics.equations(), [from, to], growth, watch, room)
             })?;
         } else {
             watch.note(growth);
@@ -296,7 +296,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Positions and velocities at `t` seconds, within the last step: interpolated and projected
     /// onto the constraints.
     fn interpolate(&self, t: D::Real) -> Result<(D::States, D::States), Error> {
-        let Self { before, now, dynamics, between, .. } = self;
+        let Self { before, now, dynamics, inputs, between, .. } = self;
         if !(t >= before.t && t <= now.t) {
             return Err(Error::EndTime { end: t.to_f64(), now: before.t.to_f64() });
         }
@@ -311,6 +311,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             converge_partials(dynamics, t, &mut q, &mut delta);
             dynamics.correction(t, &Beside { q: &q, v: Some(&v) }, &mut delta);
             subtract(&mut v, &delta);
+            if S::RELAXES {
+                let mut state = Moment { t, a: before.a.clone(), q, v };
+                before.acceleration(now, t, &mut state.a);
+                S::relax((dynamics, inputs), now.t - before.t, &mut delta, &mut state);
+                (q, v) = (state.q, state.v);
+            }
             if is_end {
                 vectors::zip_map(q.as_mut(), now.q.as_ref(), |q, now| now.with_partials_of(q));
                 vectors::zip_map(v.as_mut(), now.v.as_ref(), |v, now| now.with_partials_of(v));

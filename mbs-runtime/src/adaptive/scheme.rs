@@ -57,13 +57,31 @@ pub trait AdaptiveScheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static 
         to: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
 
-    /// Writes the acceleration of the end of a step, after its projection; its growth.
+    /// Writes the acceleration of the end of a step of `h` seconds, after its projection; its growth.
     #[doc(hidden)]
     fn finish<D: Dynamics>(
         of: (&D, &D::Inputs),
+        h: D::Real,
         accelerations: &[D::States],
+        there: &mut D::States,
         to: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
+
+    /// Whether a state between the ends of a step is [relaxed](Self::relax).
+    #[doc(hidden)]
+    const RELAXES: bool = false;
+
+    /// Leads a state within a step of `h` seconds, and its acceleration, to where stiff forces are those that the
+    /// acceleration asks for; the growth of what was solved.
+    #[doc(hidden)]
+    fn relax<D: Dynamics>(
+        _: (&D, &D::Inputs),
+        _h: D::Real,
+        _there: &mut D::States,
+        _state: &mut Moment<D::Real, D::States>,
+    ) -> D::Real {
+        D::Real::default()
+    }
 
     /// Writes the acceleration of a state that no step led to, or whose inputs have changed; its growth.
     /// A scheme may start from that of the moment before, if there is one. The next step is tried with
@@ -123,7 +141,9 @@ impl<S: Scheme> AdaptiveScheme for S {
     #[inline(always)]
     fn finish<D: Dynamics>(
         (dynamics, inputs): (&D, &D::Inputs),
+        _: D::Real,
         _: &[D::States],
+        _: &mut D::States,
         Moment { t, q, v, a }: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real> {
         Some(dynamics.acceleration(*t, q, v, inputs, a))
