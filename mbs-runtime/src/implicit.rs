@@ -14,12 +14,12 @@
 //! elimination of M − γh ∂Q/∂v − γ²h² ∂Q/∂q in place of M, with the exact derivatives of the forces
 //! ([`Mechanism::implicit`](crate::Mechanism::implicit)). What its last step still changed is part of the
 //! estimate of the error. So a stage that is not solved for makes the next steps shorter, as a stage that is
-//! too coarse does. The last stage is the end of the step. It is projected onto the constraints, and one more step of
+//! too coarse does. The last stage is the end of the step. It is projected onto the constraints, and a last step of
 //! Newton's method leads it, and every state between the ends of a step, to where stiff forces are those that its
 //! acceleration asks for: an error of 10⁻⁹ m is a force of 1 N in a spring of 10⁹ N/m.
 //!
 //! # Which one to take
-//! A step of [`Esdirk4`] takes fifteen eliminations, one of [`TrBdf2`] four. For errors below 10⁻⁴ of the motion
+//! A step of [`Esdirk4`] takes seventeen eliminations and a projection, one of [`TrBdf2`] six. For errors below 10⁻⁴ of the motion
 //! [`Esdirk4`] is the faster one all the same. The errors of the steps add up, and a scheme of second order
 //! takes many: that of a run falls with the power 2/3 of the tolerance. The picture has a crank whose pin is a
 //! bushing of 10⁹ N/m, undamped above and with 10⁵ N·s/m below, and `tests/benches/README.md` the numbers. Where a
@@ -203,9 +203,10 @@ fn stages<D: Dynamics>(
     Some(growth)
 }
 
-/// One more step of Newton's method for a state that was projected or interpolated. Its error, which the tolerance
-/// allows, is a stiff force times as large as the stiffness. The state moves by less than that error to where the force
-/// is the one that the acceleration asks for.
+/// A step of Newton's method for a state that was projected or interpolated. Its error, which the tolerance allows, is a
+/// stiff force times as large as the stiffness. The state moves by less than that error to where the force is the one
+/// that the acceleration asks for. An acceleration that obeys the constraints in this state takes the place of the
+/// given one first, so that the state moves along them.
 fn relax<D: Dynamics>(
     scheme: &Implicit,
     (dynamics, inputs): (&D, &D::Inputs),
@@ -214,8 +215,11 @@ fn relax<D: Dynamics>(
     Moment { t, q, v, a }: &mut Moment<D::Real, D::States>,
 ) -> D::Real {
     let own = D::Real::from_f64(scheme.own) * h;
-    copy(there, a);
-    let growth = dynamics.implicit(*t, [&*q, &*v], inputs, (own, &*there), a);
+    let mut growth = D::Real::default();
+    for _ in 0..2 {
+        copy(there, a);
+        growth = growth + dynamics.implicit(*t, [&*q, &*v], inputs, (own, &*there), a);
+    }
     vectors::zip_map(there.as_mut(), a.as_ref(), |before, after| after - before);
     vectors::add_scaled(v.as_mut(), own, there.as_ref());
     vectors::add_scaled(q.as_mut(), own * own, there.as_ref());

