@@ -59,7 +59,7 @@ pub(crate) fn stage_error<T: Real>(
     }
 }
 
-/// Whether a state is far from where products of its numbers overflow.
+/// `true` for a state that is far from where products of its numbers overflow.
 fn is_moderate<T: Real>(states: At<'_, T>) -> bool {
     [states.q, states.v].iter().all(|vector| vectors::largest(vector).1 < T::from_f64(MODERATE))
 }

@@ -236,7 +236,7 @@ impl<T: Real> Run<'_, T> {
         looked.err().or(blocked).unwrap_or(error)
     }
 
-    /// Whether the constraints can be met at `t_next`, from the positions before the step. A step beyond a dead end may
+    /// Checks that the constraints can be met at `t_next`, from the positions before the step. A step beyond a dead end may
     /// end far away, where nothing tells that it left them.
     ///
     /// # Errors

@@ -67,7 +67,7 @@ pub trait AdaptiveScheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static 
         to: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real>;
 
-    /// Whether a state between the ends of a step is [relaxed](Self::relax).
+    /// `true` if states between the ends of a step are [relaxed](Self::relax).
     #[doc(hidden)]
     const RELAXES: bool = false;
 

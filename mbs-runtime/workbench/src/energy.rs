@@ -63,7 +63,7 @@ impl Energy {
         self.powers.push(power.abs());
     }
 
-    /// Whether the last step has changed the energy, so that its power is of interest.
+    /// `true` if the last step has changed the energy, so that its power is of interest.
     pub fn has_changed(&self) -> bool {
         self.change.abs() > WORK * self.moved()
     }

@@ -50,7 +50,7 @@ impl OtherMethod {
         }
     }
 
-    /// Whether its steps are constant where no tolerances are given.
+    /// `true` if its steps are constant where no tolerances are given.
     fn is_constant(self) -> bool {
         match self {
             Self::Rattle(_) => true,
