@@ -2,7 +2,7 @@
 //! compute: the stages of these mechanisms are given arrays and return arrays, and a
 //! step converts its state once.
 
-use mbs_schemes::Stabilization;
+use mbs_interface::Stabilization;
 
 use crate::explicit::{self, Slopes, Span, correct, project};
 use crate::{Accelerations, Components, Gains, Mechanism, Method, Real, Scheme, Stabilized, State};

@@ -2,13 +2,13 @@
 //!
 //! # One step for every scheme
 //!
-//! A scheme is a table of numbers in `mbs-schemes`. A step is written here once for any table: for scalars,
+//! A scheme is a table of numbers in `mbs-interface`. A step is written here once for any table: for scalars,
 //! lanes and columns, on the stack, on slices and on the arrays of long chains. The order of operations
 //! stands here. Fused programs and C code keep it, so that all paths agree to the bit.
 
 mod trial;
 
-use mbs_schemes::{Row, Tableau};
+use mbs_interface::{Row, Tableau};
 
 use crate::Real;
 pub(crate) use trial::{Trial, correct, trial, trial_in_place};

@@ -4,7 +4,7 @@
 //! [`TrBdf2`](crate::TrBdf2) is the first of them with a constant step.
 //!
 //! # One step
-//! With γ and the weights of a scheme (`mbs-schemes`), a stage is found from the slopes before it by
+//! With γ and the weights of a scheme (`mbs-interface`), a stage is found from the slopes before it by
 //!
 //! ```text
 //! vᵢ = v + h Σ aᵢⱼ aⱼ + γh aᵢ,  qᵢ = q + h Σ aᵢⱼ vⱼ + γh vᵢ,  aᵢ = a(qᵢ, vᵢ)
@@ -55,7 +55,7 @@
 //! ```
 #![doc = include_str!("implicit.svg")]
 
-use mbs_schemes::{ESDIRK4, Estimate, Implicit, Interpolant, Row, TRBDF2};
+use mbs_interface::{ESDIRK4, Estimate, Implicit, Interpolant, Row, TRBDF2};
 
 use crate::adaptive::{AdaptiveScheme, Moment, copy};
 use crate::explicit::Slopes;

@@ -6,7 +6,7 @@
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use mbs_schemes::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, Stabilization, Tableau};
+use mbs_interface::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, Stabilization, Tableau};
 
 mod sealed {
     pub trait Sealed {}

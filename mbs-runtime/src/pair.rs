@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use mbs_schemes::sine::{Octant, RANGE};
+use mbs_interface::sine::{Octant, RANGE};
 use wide::f64x2;
 
 use crate::Real;

@@ -173,7 +173,7 @@ pub trait Real:
 /// Inlined within its range, which few mechanisms leave.
 #[inline(always)]
 fn sin_cos_f64(x: f64) -> (f64, f64) {
-    if x.abs() <= mbs_schemes::sine::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
+    if x.abs() <= mbs_interface::sine::RANGE { crate::sincos::sin_cos(x) } else { far_sin_cos(x) }
 }
 
 /// The library's, for angles of more than 10⁸ turns, infinities and NaN. A
@@ -229,7 +229,7 @@ macro_rules! in_pairs {
             // vectors were compared, LLVM would load an angle together with the number beside it in
             // memory, and a load across two stores waits for both.
             let [first, second] = angles.map(|angle| angle.abs().to_bits());
-            if first.max(second) <= mbs_schemes::sine::RANGE.to_bits() {
+            if first.max(second) <= mbs_interface::sine::RANGE.to_bits() {
                 let (sines, cosines) = crate::sincos::sin_cos_of_two(angles.into());
                 (sines.to_array(), cosines.to_array())
             } else {

@@ -3,7 +3,7 @@
 //! Functions with named components copy to arrays and back, and have room on the stack. A mechanism whose
 //! number of coordinates is known at run time only has its room within any slice.
 
-use mbs_schemes::MOST_STAGES;
+use mbs_interface::MOST_STAGES;
 
 use crate::arrays::{Constraints, Coordinates, States};
 use crate::{Components, Info, Mechanism, Scheme};

@@ -1,7 +1,7 @@
 //! A run on slices: a step stage by stage, and what is done where a step or a result is not
 //! healthy, finding out whether anything went wrong, and what.
 
-use mbs_schemes::{Explicit, Stabilization};
+use mbs_interface::{Explicit, Stabilization};
 
 use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution, singular, stage_error};
 use crate::equations::{At, Equations};

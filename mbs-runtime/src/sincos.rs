@@ -7,7 +7,7 @@
 //!
 //! It serves `f64` up to 10⁹ rad. Its chain of dependent operations is short, since steps wait for it.
 
-use mbs_schemes::sine::{Octant, RANGE, SHIFT};
+use mbs_interface::sine::{Octant, RANGE, SHIFT};
 use wide::bytemuck::cast;
 use wide::{f64x2, u64x2};
 
@@ -95,7 +95,7 @@ pub(crate) fn turned_vector(octant: Octant<f64x2>) -> (f64x2, f64x2) {
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use mbs_schemes::sine::{Octant, RANGE};
+    use mbs_interface::sine::{Octant, RANGE};
     use wide::f64x2;
 
     use super::{sin_cos, sin_cos_of_two, straight_shift_of_vector, straight_sin_cos_of_two, turned_vector};

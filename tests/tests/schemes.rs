@@ -1,6 +1,6 @@
 //! Every scheme has its order on constrained mechanisms with exact solutions, with feedback and
 //! with projection. The conditions of order themselves are tested where the coefficients are
-//! (`mbs-schemes`).
+//! (`mbs-interface`).
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::f64::consts::TAU;

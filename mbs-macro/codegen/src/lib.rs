@@ -16,7 +16,7 @@
 //! | `plan` | `Plan` | programs: elimination fixed, loads that follow reactions solved for, parameter-only work hoisted |
 //! | `validate` | – | the mechanism closes from its start, is regular there and keeps its values |
 //! | `compiled` | `Compiled` | declaration and equations are left as texts; programs have names |
-//! | `target` | tokens, C, or WebAssembly | what is written computes what was checked |
+//! | `targets` | tokens, C, or WebAssembly | what is written computes what was checked |
 //!
 //! `mechanics` is no stage: formulas and facts of joints, forces and equations, which the
 //! first stages read and `derive` puts together.
@@ -50,7 +50,7 @@ mod reactive;
 mod reduction;
 mod stiff;
 mod syntax;
-pub mod target;
+pub mod targets;
 mod validate;
 
 use proc_macro2::TokenStream;
@@ -71,7 +71,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
 /// All errors of the first stage that has any.
 #[cfg(feature = "rust")]
 pub fn compile(declaration: TokenStream) -> Result<TokenStream, Diagnostics> {
-    target::rust(&analyse(declaration)?)
+    targets::rust(&analyse(declaration)?)
 }
 
 /// Compiles a declaration to what every target is printed from: the whole pipeline.

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Tree, VARIABLES, points, trees};
-use mbs_schemes::sine::{Octant, SHIFT};
+use mbs_interface::sine::{Octant, SHIFT};
 use mbs_symbolic::pairs::{Lane, Layout, Scalar, Step, Term, Woven, weave};
 use mbs_symbolic::{Arena, Expr, Function, Operation, Program, Stage, Symbol, lower_whole};
 use proptest::prelude::*;

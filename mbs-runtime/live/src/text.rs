@@ -14,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 use mbs_codegen::compiled::Choices;
-use mbs_codegen::target::{self, CSources, Experiment, Fmu, Scalar, Wasm};
+use mbs_codegen::targets::{self, CSources, Experiment, Fmu, Scalar, Wasm};
 use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
@@ -211,7 +211,7 @@ impl Text {
     /// # Ok::<(), mbs_live::Error>(())
     /// ```
     pub fn c(&self, scalar: Scalar) -> Result<CSources, Error> {
-        self.make(move |_, compiled| target::c(compiled, scalar))
+        self.make(move |_, compiled| targets::c(compiled, scalar))
     }
 
     /// Compiles the declaration to the files of a functional mock-up unit: descriptions for importers,
@@ -230,7 +230,7 @@ impl Text {
     /// # Ok::<(), mbs_live::Error>(())
     /// ```
     pub fn fmu(&self, experiment: Experiment) -> Result<Fmu, Error> {
-        self.make(move |_, compiled| target::fmi(compiled, experiment))
+        self.make(move |_, compiled| targets::fmi(compiled, experiment))
     }
 
     /// Compiles the declaration to a WebAssembly module, with the tables that the script of its runs
@@ -249,7 +249,7 @@ impl Text {
     /// # Ok::<(), mbs_live::Error>(())
     /// ```
     pub fn wasm(&self) -> Result<Wasm, Error> {
-        self.make(|_, compiled| target::wasm(compiled))
+        self.make(|_, compiled| targets::wasm(compiled))
     }
 
     /// Compiles the text, and calls `target` with the declaration as tokens and the compiled mechanism.

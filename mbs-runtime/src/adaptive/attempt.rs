@@ -1,6 +1,6 @@
 //! One step of some length, with an estimate of its error.
 
-use mbs_schemes::Estimate;
+use mbs_interface::Estimate;
 
 use super::dense::Moment;
 use super::{AdaptiveScheme, Dynamics, Tolerances};

@@ -1,7 +1,7 @@
 //! Slopes and terms of interpolants. Some schemes need them beside both ends of a step, so that states between the
 //! ends are as accurate as the step.
 
-use mbs_schemes::{Interpolant, Row};
+use mbs_interface::{Interpolant, Row};
 
 use super::attempt::{Attempt, copy};
 use super::{Dynamics, Moment};

@@ -3,7 +3,7 @@
 //! A step of a run fails or is too inaccurate, but does not say why. So steps on slices are taken from the
 //! last good state, from a very short one on. The first that fails names the error.
 
-use mbs_schemes::Explicit;
+use mbs_interface::Explicit;
 
 use super::dense::Moment;
 use crate::run::Run;

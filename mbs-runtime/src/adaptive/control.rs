@@ -1,6 +1,6 @@
 //! How long steps are that keep a tolerance.
 
-use mbs_schemes::Estimate;
+use mbs_interface::Estimate;
 
 use crate::{Error, Real};
 

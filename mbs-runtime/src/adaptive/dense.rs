@@ -83,7 +83,7 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
     }
 
     /// The same by the polynomial of a scheme's own, with the terms of positions and of velocities; see
-    /// [`Interpolant`](mbs_schemes::Interpolant).
+    /// [`Interpolant`](mbs_interface::Interpolant).
     pub fn interpolate_by(&self, terms: &[[V; 2]; 4], end: &Self, t: T, q: &mut V, v: &mut V) {
         let h = end.t - self.t;
         let s = (t - self.t) / h;

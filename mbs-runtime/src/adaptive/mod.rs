@@ -46,7 +46,7 @@ pub use scheme::AdaptiveScheme;
 
 use core::fmt;
 
-use mbs_schemes::Estimate;
+use mbs_interface::Estimate;
 
 use crate::diagnosis::check_inputs;
 use crate::explicit::{Beside, subtract};

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use mbs_schemes::{Estimate, Interpolant};
+use mbs_interface::{Estimate, Interpolant};
 
 use super::attempt::copy;
 use super::{Dynamics, Moment};

@@ -1,6 +1,6 @@
 //! RATTLE: steps that keep the energy of mechanisms without friction.
 
-use mbs_schemes::{Composition, RATTLE};
+use mbs_interface::{Composition, RATTLE};
 
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
 use crate::adaptive::{Moment, copy};

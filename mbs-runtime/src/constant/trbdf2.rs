@@ -1,6 +1,6 @@
 //! TR-BDF2: implicit steps for stiff springs and dampers, in straight lines.
 
-use mbs_schemes::TRBDF2;
+use mbs_interface::TRBDF2;
 
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
 use crate::adaptive::{Moment, copy};

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use mbs_schemes::Stabilization;
+use mbs_interface::Stabilization;
 
 use super::{Beside, Slopes, Solve, Span, project, step_of};
 use crate::arrays::States;

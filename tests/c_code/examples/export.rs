@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use c_code::declarations;
 use mbs_codegen::analyse;
-use mbs_codegen::target::{Scalar, c};
+use mbs_codegen::targets::{Scalar, c};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1).map(PathBuf::from);

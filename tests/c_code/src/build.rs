@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 use std::process::{Command, Stdio};
 
-use mbs_codegen::target::CSources;
+use mbs_codegen::targets::CSources;
 use tempfile::TempDir;
 
 /// Flags with which the printed code compiles without a warning.

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use c_code::{Choice, Evaluator, build, build_around, compile, compilers, declarations, is_there};
-use mbs_codegen::target::{Scalar, c};
+use mbs_codegen::targets::{Scalar, c};
 use mbs_codegen::{Compiled, analyse};
 
 #[path = "../../src/chains.rs"]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use c_code::{build_around, compilers, declarations};
 use mbs_codegen::analyse;
-use mbs_codegen::target::{Scalar, c};
+use mbs_codegen::targets::{Scalar, c};
 
 #[test]
 fn c_refuses_what_is_wrong_and_keeps_the_last_good_state() {

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use c_code::{compile, compilers, declarations};
 use mbs_codegen::compiled::{Input, Results};
-use mbs_codegen::target::{Scalar, c_with_tangents};
+use mbs_codegen::targets::{Scalar, c_with_tangents};
 use mbs_codegen::{Compiled, FunctionId, analyse};
 use mbs_symbolic::{Operand, Symbol};
 

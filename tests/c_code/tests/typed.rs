@@ -5,7 +5,7 @@
 
 use c_code::{Built, Choice, Fault, build, compilers};
 use mbs_codegen::analyse;
-use mbs_codegen::target::{Scalar, c};
+use mbs_codegen::targets::{Scalar, c};
 use mbs_runtime::{
     Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Real, Rk4, Simulation, mechanism,
 };

@@ -20,7 +20,7 @@
 //!   position is singular and the result must not be used.
 //!
 //! The example `python` of this crate is a whole target in fifty lines;
-//! [`target::c`](crate::target::c) is one with loops, a start and a watch.
+//! [`targets::c`](crate::targets::c) is one with loops, a start and a watch.
 //!
 //! # Example
 //! ```
@@ -50,7 +50,7 @@ mod vectors;
 
 use std::rc::Rc;
 
-use mbs_schemes::Tableau;
+use mbs_interface::Tableau;
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Operand, Program, Spline, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};

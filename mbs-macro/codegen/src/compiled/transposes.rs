@@ -1,7 +1,7 @@
 //! Transposed programs, which a derivative in reverse is made of.
 //!
 //! They are made when a target asks for them. A declaration wants them if it says `gradients = reverse;`.
-//! `target/rust/transposes.rs` prints them, long ones in loops and parts as other long programs.
+//! `targets/rust/transposes.rs` prints them, long ones in loops and parts as other long programs.
 //! `transposed.rs` of `mbs-live` makes code of them.
 
 use mbs_symbolic::{Arena, Inconsistency, Operand, Program, Stage};

@@ -1,7 +1,7 @@
 //! `states = …;`, `step = …;`, `method = …;`, `feedback = …;`, `gradients = …;` and `limit …;`: how a mechanism is meant to be
 //! integrated, and what that may cost.
 
-use mbs_schemes::{HEUN, Tableau};
+use mbs_interface::{HEUN, Tableau};
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::{Ident, Span};

@@ -10,7 +10,7 @@
 //! the same factorization. In Rust these are generic functions, compiled where they are used. A third pair
 //! is given functions of time (`clock`).
 
-use mbs_schemes::Row;
+use mbs_interface::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 use rustc_hash::FxHashMap as HashMap;
 

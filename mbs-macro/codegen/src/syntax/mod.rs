@@ -12,7 +12,7 @@ mod solver;
 mod statements;
 mod words;
 
-use mbs_schemes::Tableau;
+use mbs_interface::Tableau;
 use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
 use proc_macro2::{Ident, Span, TokenStream};

@@ -1,7 +1,7 @@
 //! How a mechanism is to be solved: `redundant = …;`, `states = …;`, `limit …;`, `step = …;`,
 //! `method = …;`, `feedback = …;`, `gradients = …;`.
 
-use mbs_schemes::{Composition, Implicit, SCHEMES, Tableau};
+use mbs_interface::{Composition, Implicit, SCHEMES, Tableau};
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;

@@ -31,7 +31,7 @@ mod weave;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_schemes::sine::SHIFT;
+use mbs_interface::sine::SHIFT;
 use rustc_hash::FxHashMap as HashMap;
 
 pub use self::steps::{Given, Lane, Scalar, Step, Term};

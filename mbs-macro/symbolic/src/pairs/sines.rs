@@ -1,12 +1,12 @@
 //! The operations of sines and cosines as steps of their own.
 //!
 //! A sine and a cosine are some fifty operations, among which those of other results find time. They are
-//! recorded from `mbs_schemes::sine`, the formula that the runtime evaluates.
+//! recorded from `mbs_interface::sine`, the formula that the runtime evaluates.
 
 use std::cell::RefCell;
 use std::ops::{Add, Mul, Sub};
 
-use mbs_schemes::sine::Octant;
+use mbs_interface::sine::Octant;
 
 use super::{Step, Term};
 use crate::program::Operation;

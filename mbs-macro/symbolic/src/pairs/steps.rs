@@ -1,6 +1,6 @@
 //! The steps of a program on pairs, and what they compute with.
 
-use mbs_schemes::sine::Octant;
+use mbs_interface::sine::Octant;
 
 use crate::arena::Symbol;
 use crate::number::Number;

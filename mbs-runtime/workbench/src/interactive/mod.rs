@@ -3,7 +3,7 @@
 //!
 //! # How it works
 //!
-//! The page is put together of the module and the script of its runs (`target/wasm` of `mbs-codegen`), the
+//! The page is put together of the module and the script of its runs (`targets/wasm` of `mbs-codegen`), the
 //! tables, the picture of a native run, the equations (`equations`, MathML from the LaTeX of `mbs explain`),
 //! and the scripts beside this file. Module and tables are packed. The policy of the page allows these parts
 //! and nothing else. Shapes and axes are drawn by the scripts of reports. `tests/page` drives a page in

@@ -6,8 +6,8 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compiled::{Compiled, Vector};
-use crate::target::rust::access::{Access, Argument};
-use crate::target::rust::names::Names;
+use crate::targets::rust::access::{Access, Argument};
+use crate::targets::rust::names::Names;
 
 /// The vectors that a program's loops read as arrays.
 #[derive(Default)]
@@ -15,7 +15,7 @@ pub struct Arrays(BTreeSet<Vector>);
 
 impl Vector {
     /// Whether stages on arrays are given the vector as one.
-    pub(in crate::target::rust) fn is_given(self) -> bool {
+    pub(in crate::targets::rust) fn is_given(self) -> bool {
         match self {
             Self::Positions
             | Self::Velocities
@@ -32,7 +32,7 @@ impl Vector {
     }
 
     /// The name of its array.
-    pub(in crate::target::rust) fn ident(self) -> Ident {
+    pub(in crate::targets::rust) fn ident(self) -> Ident {
         let name = match self {
             Self::Parameters => "parameter",
             Self::Inputs => "input",

@@ -1,10 +1,10 @@
 //! The tables of a mechanism that the script of a run reads, as JSON.
 
-use mbs_schemes::{Explicit, Row};
+use mbs_interface::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
 use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results};
-use crate::target::words;
+use crate::targets::words;
 
 /// The tables of a mechanism. `<` is escaped, so that they can stand within a `script` element.
 pub fn tables(compiled: &Compiled) -> String {

@@ -7,7 +7,7 @@ use super::docs;
 use super::names::{Names, field};
 use super::tokens;
 use crate::compiled::{Compiled, Quantity, Results};
-use crate::target::words;
+use crate::targets::words;
 
 /// Vectors with more components are converted by calls.
 const LARGEST_INLINED: usize = 64;

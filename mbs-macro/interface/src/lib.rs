@@ -26,7 +26,7 @@
 //!
 //! # Example
 //! ```
-//! use mbs_schemes::{Explicit, HEUN, RK4};
+//! use mbs_interface::{Explicit, HEUN, RK4};
 //!
 //! assert_eq!((HEUN.order, RK4.order), (2, 4));
 //! // the gains that remove a violation within two steps of 1 ms

@@ -9,8 +9,8 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::{Context, places};
 use crate::compiled::Vector;
-use crate::target::rust::program::Writer;
-use crate::target::rust::tokens;
+use crate::targets::rust::program::Writer;
+use crate::targets::rust::tokens;
 
 /// The operands that differ from copy to copy, and the names that they have so far.
 pub struct Columns<'a> {

@@ -11,7 +11,7 @@ use super::arrays::Arrays;
 use super::columns::{Columns, carried_values, element, head, store, vectors};
 use super::{Context, Definition, paired, places};
 use crate::compiled::Vector;
-use crate::target::rust::program::Writer;
+use crate::targets::rust::program::Writer;
 
 /// A loop over the copies.
 pub fn definition(

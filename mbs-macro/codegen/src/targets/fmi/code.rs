@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use mbs_schemes::Explicit;
+use mbs_interface::Explicit;
 
 use super::Experiment;
 use super::structure::tunable;

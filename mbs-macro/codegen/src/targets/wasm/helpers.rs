@@ -1,6 +1,6 @@
 //! Functions that programs call: those of the host, and small ones of the module.
 
-use mbs_schemes::sine::{COSINE, HALF_PI, RANGE, SHIFT, SINE};
+use mbs_interface::sine::{COSINE, HALF_PI, RANGE, SHIFT, SINE};
 use mbs_symbolic::Function as Elementary;
 use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
 

@@ -107,7 +107,7 @@ impl Target<'_> {
 ///
 /// # Example
 /// ```
-/// use mbs_codegen::target::{Scalar, c};
+/// use mbs_codegen::targets::{Scalar, c};
 ///
 /// let declaration = "Pendulum {
 ///     dof = 1;

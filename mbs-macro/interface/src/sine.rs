@@ -61,7 +61,7 @@ impl<T> Octant<T> {
     ///
     /// # Example
     /// ```
-    /// use mbs_schemes::sine::{Octant, SHIFT};
+    /// use mbs_interface::sine::{Octant, SHIFT};
     ///
     /// let Octant { sine, cosine, .. } = Octant::new(0.5, SHIFT, |constant| constant);
     /// assert!((sine - 0.5_f64.sin()).abs() < 1e-15 && (cosine - 0.5_f64.cos()).abs() < 1e-15);

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeSet;
 
-use mbs_schemes::sine::Octant;
+use mbs_interface::sine::Octant;
 use mbs_symbolic::Operation;
 use mbs_symbolic::pairs::{Given, Lane, Scalar, Step, Term};
 use proc_macro2::{Ident, Literal, Span, TokenStream};

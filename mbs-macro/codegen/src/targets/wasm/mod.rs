@@ -57,7 +57,7 @@ pub struct Wasm {
 ///
 /// # Example
 /// ```
-/// use mbs_codegen::target::wasm;
+/// use mbs_codegen::targets::wasm;
 ///
 /// let declaration = "Pendulum {
 ///     dof = 1;

@@ -82,7 +82,7 @@ pub struct Fmu {
 ///
 /// # Example
 /// ```
-/// use mbs_codegen::target::{Experiment, fmi};
+/// use mbs_codegen::targets::{Experiment, fmi};
 ///
 /// let declaration = "Block { dof = 1; param k = 4 [N/m]; input push [N];
 ///     body block (x) { mass = 2 [kg]; } force spring on x = push - k*x; start { x = 1 [m]; } }";

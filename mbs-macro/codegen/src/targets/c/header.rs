@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use mbs_schemes::Explicit;
+use mbs_interface::Explicit;
 
 use super::Target;
 use super::docs::comment;
 use super::kernels::Kernel;
 use super::names::Struct;
 use crate::compiled::Results;
-use crate::target::words::errors;
+use crate::targets::words::errors;
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     let structs = &target.names.structs;

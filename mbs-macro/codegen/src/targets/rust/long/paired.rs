@@ -11,8 +11,8 @@ use super::Context;
 use super::columns::{Columns, carried_name, head};
 use super::repeated::Around;
 use crate::compiled::Vector;
-use crate::target::rust::on_pairs::{self, of_lane, single};
-use crate::target::rust::{program, tokens};
+use crate::targets::rust::on_pairs::{self, of_lane, single};
+use crate::targets::rust::{program, tokens};
 
 /// A loop over the copies, each of which reads its columns, computes on pairs, and stores.
 pub fn copies(context: &Context<'_>, repeated: &Loop<Vector>, copy: &WovenCopy) -> TokenStream {

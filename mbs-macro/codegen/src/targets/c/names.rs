@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::docs::constraint;
 use crate::compiled::{Compiled, Quantity, Results, Vector};
-use crate::target::words::quantity;
+use crate::targets::words::quantity;
 
 /// The names of a printed mechanism.
 pub struct Names {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use mbs_schemes::{Explicit, Row};
+use mbs_interface::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
 use super::docs::comment;
@@ -11,7 +11,7 @@ use super::loops::lines;
 use super::names::Struct;
 use super::{Scalar, Target};
 use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
-use crate::target::words;
+use crate::targets::words;
 
 /// The text from the functions of the programs, and from a step that is one program.
 pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> String {
