@@ -1,5 +1,9 @@
-//! One-step schemes as data: an explicit scheme is a [`Tableau`], a diagonally implicit one an [`Implicit`].
-//! Whatever takes a step (generated code, the runtime, an interpreter) reads its numbers there.
+//! The tables that the compiler of mechanisms and their runtime agree on: the functions of a mechanism
+//! ([`FUNCTIONS`]), one-step schemes, the formula of sine and cosine.
+//!
+//! # Schemes
+//! An explicit scheme is a [`Tableau`], a diagonally implicit one an [`Implicit`]. Whatever takes a step
+//! (generated code, the runtime, an interpreter) reads its numbers there.
 //!
 //! The first-order form of the equations of motion is (q, v)˙ = (v, q̈(t, q, v)). Stage i
 //! has the slopes vᵢ of q and q̈ᵢ of v. The first stage stands at the start of the step. A
@@ -39,6 +43,7 @@
 
 mod composition;
 mod explicit;
+mod functions;
 mod implicit;
 mod interpolant;
 mod response;
@@ -51,6 +56,7 @@ mod trees;
 
 pub use composition::{COMPOSITIONS, Composition, RATTLE, RATTLE4};
 pub use explicit::{Explicit, Stabilization};
+pub use functions::{Argument, FUNCTIONS, FunctionId, FunctionRow, Property, Results};
 pub use implicit::{ESDIRK4, IMPLICIT, Implicit, TRBDF2};
 pub use interpolant::Interpolant;
 pub use response::Response;

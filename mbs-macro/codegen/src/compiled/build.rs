@@ -1,7 +1,5 @@
 //! From the stages of the compiler to the value that they give.
 
-use mbs_symbolic::Program;
-
 use super::derivation::readable;
 use super::{
     Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link,
@@ -20,8 +18,7 @@ impl Compiled {
             (name.to_owned(), input)
         });
         let symbols = symbols.collect();
-        let programs = FunctionId::all().map(|function| program(&plan, function).clone()).collect();
-        let start = plan.start.evaluate(&model.values(|_| 0.0), &[]);
+        let start = plan.programs[FunctionId::Start].evaluate(&model.values(|_| 0.0), &[]);
         Self {
             name: model.name.to_string(),
             doc: model.doc.clone(),
@@ -45,7 +42,7 @@ impl Compiled {
             written: written(&model),
             warnings: model.warnings,
             symbols,
-            programs,
+            programs: plan.programs.into_vec(),
             fused_step: plan.fused_step,
             parameters: model.parameters.into_iter().map(Parameter::from).collect(),
             inputs: model.inputs,
@@ -53,37 +50,6 @@ impl Compiled {
             outputs: model.outputs.into_iter().map(|output| output.quantity).collect(),
             events: model.events.into_iter().map(Event::from).collect(),
         }
-    }
-}
-
-fn program(plan: &Plan, function: FunctionId) -> &Program {
-    match function {
-        FunctionId::Hoisted => &plan.prepare,
-        FunctionId::Phi => &plan.phi,
-        FunctionId::PhiDot => &plan.phi_dot,
-        FunctionId::PhiQ => &plan.phi_q,
-        FunctionId::PhiT => &plan.phi_t,
-        FunctionId::Gamma => &plan.gamma,
-        FunctionId::BaumgarteRhs => &plan.baumgarte_rhs,
-        FunctionId::Mass => &plan.mass,
-        FunctionId::Forces => &plan.forces,
-        FunctionId::KineticEnergy => &plan.kinetic_energy,
-        FunctionId::PotentialEnergy => &plan.potential_energy,
-        FunctionId::Stabilized => &plan.stabilized,
-        FunctionId::Constrained => &plan.constrained,
-        FunctionId::Reactions => &plan.reactions,
-        FunctionId::PositionCorrection => &plan.position_correction,
-        FunctionId::VelocityCorrection => &plan.velocity_correction,
-        FunctionId::Projection => &plan.projection,
-        FunctionId::Outputs => &plan.outputs,
-        FunctionId::Events => &plan.events,
-        FunctionId::Conditions => &plan.requirements,
-        FunctionId::Start => &plan.start,
-        FunctionId::Pivots => &plan.pivots,
-        FunctionId::StartPivots => &plan.start_pivots,
-        FunctionId::Points => &plan.points,
-        FunctionId::Complete => &plan.complete,
-        FunctionId::Implicit => &plan.implicit,
     }
 }
 

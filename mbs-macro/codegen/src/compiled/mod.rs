@@ -42,8 +42,8 @@
 //! ```
 
 mod build;
+mod costs;
 mod derivation;
-mod functions;
 mod tangents;
 mod transposes;
 mod vectors;
@@ -60,8 +60,9 @@ use crate::diagnostics::Diagnostic;
 pub use crate::inputs::Input;
 pub use crate::plan::{Clocked, FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
+pub use costs::Count;
 pub use derivation::{Derivation, Elimination, Formula};
-pub use functions::{Argument, Count, FunctionId, Results};
+pub use mbs_interface::{Argument, FunctionId, Property, Results};
 pub use transposes::{Transposed, Transposes};
 pub use vectors::Vector;
 

@@ -6,7 +6,7 @@
 
 use mbs_symbolic::{Arena, Inconsistency, Operand, Program, Stage};
 
-use super::{Compiled, FunctionId, Input, Kinds, Results};
+use super::{Compiled, FunctionId, Input, Kinds, Property, Results};
 
 /// A program that goes backward: from how much each result of a function counts, its weight, to how much
 /// everything counts that the function reads,
@@ -32,20 +32,6 @@ pub struct Transposes {
 }
 
 impl Transposes {
-    /// The functions that are transposed: of what depends on parameters alone, of stages, of a projection and
-    /// of what is measured.
-    const FUNCTIONS: [FunctionId; 9] = [
-        FunctionId::Hoisted,
-        FunctionId::Stabilized,
-        FunctionId::Constrained,
-        FunctionId::Complete,
-        FunctionId::Phi,
-        FunctionId::PhiDot,
-        FunctionId::Projection,
-        FunctionId::Reactions,
-        FunctionId::Outputs,
-    ];
-
     /// That of a function, if it is transposed.
     pub fn of(&self, function: FunctionId) -> Option<&Transposed> {
         self.functions.iter().find(|(id, _)| *id == function).map(|(_, transposed)| transposed)
@@ -71,19 +57,17 @@ impl Compiled {
     /// # Errors
     /// A mistake of the compiler.
     pub fn transposes(&self) -> Result<Transposes, Inconsistency> {
-        let functions = Transposes::FUNCTIONS.map(|function| {
-            let counted = function.results().iter().filter(|result| **result != Results::Growth);
-            let weights = counted.map(|result| self.length(*result)).sum();
-            Ok((function, self.transposed(self.program(function), weights)?))
-        });
+        let functions =
+            self.functions().filter(|function| function.is(Property::Transposed)).map(|function| {
+                let counted = function.results().iter().filter(|result| **result != Results::Growth);
+                let weights = counted.map(|result| self.length(*result)).sum();
+                Ok((function, self.transposed(self.program(function), weights)?))
+            });
         let step = self.fused_step.as_ref().map(|step| {
             let transposed = |program| self.transposed(program, 2 * self.states.len());
             Ok(Kinds { held: transposed(&step.alone.held)?, per_stage: transposed(&step.alone.per_stage)? })
         });
-        Ok(Transposes {
-            functions: functions.into_iter().collect::<Result<_, _>>()?,
-            step: step.transpose()?,
-        })
+        Ok(Transposes { functions: functions.collect::<Result<_, _>>()?, step: step.transpose()? })
     }
 
     /// The transpose of a program of which the first `counted` results have a weight.

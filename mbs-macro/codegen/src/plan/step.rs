@@ -332,6 +332,8 @@ impl Fusion {
 
 #[cfg(test)]
 mod tests {
+    use mbs_interface::FunctionId;
+
     use super::{Program, check, step};
     use crate::validate::planned::{DECLARATION, Planned, corrupted, needed};
 
@@ -340,9 +342,9 @@ mod tests {
     fn every_wrong_instruction_of_a_fused_step_is_caught() {
         let planned = Planned::new(DECLARATION);
         let (model, plan) = (&planned.model, &planned.plan);
-        let first = &plan.stabilized;
-        for second in [&plan.constrained, &plan.stabilized] {
-            for reactions in [None, Some(&plan.reactions)] {
+        let first = &plan.programs[FunctionId::Stabilized];
+        for second in [&plan.programs[FunctionId::Constrained], &plan.programs[FunctionId::Stabilized]] {
+            for reactions in [None, Some(&plan.programs[FunctionId::Reactions])] {
                 let right = step(model, &plan.inputs, first, second, reactions);
                 let is_accepted =
                     |step: &Program| check(model, &plan.inputs, [first, second], reactions, step).is_ok();

@@ -7,6 +7,7 @@ use crate::independence::samples::units;
 use crate::inputs::Input;
 use crate::model::Model;
 use crate::plan::Plan;
+use mbs_interface::FunctionId;
 
 const ITERATIONS: usize = 50;
 const HALVINGS: usize = 10;
@@ -42,13 +43,13 @@ pub struct Programs<'a> {
 
 impl<'a> Programs<'a> {
     pub fn new(model: &'a Model, equations: &Equations, plan: &'a Plan) -> Self {
-        let hoisted = plan.prepare.evaluate(&model.values(|_| f64::NAN), &[]);
+        let hoisted = plan.programs[FunctionId::Hoisted].evaluate(&model.values(|_| f64::NAN), &[]);
         Self { model, plan, assembly: Assembly::new(model, equations), units: units(model), hoisted }
     }
 
     /// The start as it is declared.
     pub fn declared(&self) -> Declared {
-        let values = self.plan.start.evaluate(&self.model.values(|_| f64::NAN), &[]);
+        let values = self.plan.programs[FunctionId::Start].evaluate(&self.model.values(|_| f64::NAN), &[]);
         let n = self.model.coordinates.len();
         let (q, rest) = values.split_at(n);
         let (velocities, time) = rest.split_at(n);
@@ -57,9 +58,8 @@ impl<'a> Programs<'a> {
     }
 
     fn phi(&self, at: &Position) -> Vec<f64> {
-        self.plan
-            .phi
-            .evaluate(&self.plan.inputs.values(self.model, |input| known(input, at, &[], &[])), &self.hoisted)
+        let values = self.plan.inputs.values(self.model, |input| known(input, at, &[], &[]));
+        self.plan.programs[FunctionId::Phi].evaluate(&values, &self.hoisted)
     }
 
     /// Positions on Φ = 0 near `start`, by the iteration that the runtime makes.
@@ -108,7 +108,7 @@ impl<'a> Programs<'a> {
     fn position_correction(&self, at: &Position, phi: &[f64]) -> Option<Vec<f64>> {
         let residual: Vec<f64> = phi.iter().map(|x| -x).collect();
         let values = self.plan.inputs.values(self.model, |input| known(input, at, &[], &residual));
-        regular(self.plan.position_correction.evaluate(&values, &self.hoisted))
+        regular(self.plan.programs[FunctionId::PositionCorrection].evaluate(&values, &self.hoisted))
     }
 
     /// Velocities on Φ̇ = 0 near those declared, by the runtime's solve and its
@@ -125,17 +125,17 @@ impl<'a> Programs<'a> {
     /// Δv; `None` where its elimination is singular.
     fn velocity_correction(&self, at: &Position, v: &[f64]) -> Option<Vec<f64>> {
         let values = self.plan.inputs.values(self.model, |input| known(input, at, v, &[]));
-        let phi_dot = self.plan.phi_dot.evaluate(&values, &self.hoisted);
+        let phi_dot = self.plan.programs[FunctionId::PhiDot].evaluate(&values, &self.hoisted);
         let residual: Vec<f64> = phi_dot.iter().map(|x| -x).collect();
         let values = self.plan.inputs.values(self.model, |input| known(input, at, v, &residual));
-        regular(self.plan.velocity_correction.evaluate(&values, &self.hoisted))
+        regular(self.plan.programs[FunctionId::VelocityCorrection].evaluate(&values, &self.hoisted))
     }
 
     /// The constraint and the coordinate of the pivot that the equations of motion
     /// lose at a position, if they lose any.
     pub fn lost_pivot(&self, at: &Position) -> Option<(Option<usize>, Option<usize>)> {
         let values = self.plan.inputs.values(self.model, |input| known(input, at, &[], &[]));
-        let growths = self.plan.pivots.evaluate(&values, &self.hoisted);
+        let growths = self.plan.programs[FunctionId::Pivots].evaluate(&values, &self.hoisted);
         let (worst, growth) = largest(&growths);
         let is_lost = growth >= GROWTH_LIMIT;
         is_lost.then(|| self.plan.pivot_names.get(worst).copied().unwrap_or_default())

@@ -7,6 +7,7 @@ mod bodies;
 mod functions;
 mod solutions;
 
+use mbs_interface::FunctionId;
 use mbs_symbolic::{Expr, Operand, Program, Symbol, Tape};
 
 use self::bodies::{Bodies, evaluate};
@@ -37,7 +38,7 @@ pub fn check_programs(
         return Ok(());
     }
     let tape = Tape::new(&model.arena, &model.constraints.iter().map(|c| c.phi).collect::<Vec<_>>());
-    let hoisted = run(&plan.prepare, &model.values(|_| f64::NAN), &[]);
+    let hoisted = run(&plan.programs[FunctionId::Hoisted], &model.values(|_| f64::NAN), &[]);
     // Redundant constraints repeat the others on Φ = 0 only.
     let assembled = (!plan.rows.redundant.is_empty()).then(|| {
         let assembly = Assembly::new(model, equations);
@@ -72,7 +73,7 @@ fn completed<'a>(
         _ => sample(symbol),
     };
     let hoisted: Vec<f64> = hoisted.iter().map(|hoisted| hoisted.value).collect();
-    let all = plan.complete.evaluate(&given, &hoisted);
+    let all = plan.programs[FunctionId::Complete].evaluate(&given, &hoisted);
     let n = model.coordinates.len();
     move |symbol| match model.meanings.get(symbol.index()) {
         Some(Meaning::Coordinate(at)) => all[*at],
@@ -85,7 +86,13 @@ fn completed<'a>(
 /// double: what comes of that tells nothing.
 fn has_extreme_numbers(model: &Model, plan: &Plan) -> bool {
     let is_extreme = |x: f64| x != 0.0 && !(1e-100..1e100).contains(&x.abs());
-    let programs = [&plan.prepare, &plan.phi, &plan.gamma, &plan.forces, &plan.mass];
+    let programs = [
+        &plan.programs[FunctionId::Hoisted],
+        &plan.programs[FunctionId::Phi],
+        &plan.programs[FunctionId::Gamma],
+        &plan.programs[FunctionId::Forces],
+        &plan.programs[FunctionId::Mass],
+    ];
     let numbers = programs.iter().flat_map(|program| &program.instructions).flat_map(|i| [i.a, i.b]);
     let in_code = numbers.into_iter().any(|operand| match operand {
         Operand::Number(number) => is_extreme(number.to_f64()),

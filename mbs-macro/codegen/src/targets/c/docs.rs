@@ -15,11 +15,6 @@ pub fn comment(text: &str, indent: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{indent}/** {text} */\n") }
 }
 
-/// The lines of a text that begin with a name and a colon.
-pub fn entries(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    text.lines().filter_map(|line| line.split_once(": "))
-}
-
 /// The documentation of a constraint: its doc comment and its equation.
 pub fn constraint(constraint: &Constraint) -> String {
     format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)

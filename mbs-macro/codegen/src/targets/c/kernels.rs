@@ -3,10 +3,10 @@
 use mbs_symbolic::{Block, Inconsistency, Operations, Program};
 
 use super::Target;
-use super::docs::{comment, entries};
+use super::docs::comment;
 use super::instructions::{Kept, Printer};
 use super::loops;
-use crate::compiled::{Argument, Count, FunctionId, Kinds, Results};
+use crate::compiled::{Argument, Count, FunctionId, Kinds, Property, Results};
 
 /// A function of C.
 pub struct Kernel {
@@ -43,26 +43,22 @@ struct Output {
 /// # Errors
 /// A program is not written as it was checked.
 pub fn all(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
-    FunctionId::all().filter(|id| *id != FunctionId::Implicit).map(|id| kernel(target, id)).collect()
+    target.compiled.functions().map(|id| kernel(target, id)).collect()
 }
 
 fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
     let program = target.compiled.program(id);
     let Count { operations, watch, .. } = target.compiled.count(id);
     let is_public = !matches!(id, FunctionId::Hoisted | FunctionId::Conditions);
-    let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
-    let outputs: Vec<Output> = outputs.collect();
-    // a last single number is returned
-    let returns = outputs.len() < id.results().len();
-    let doc = entries(include_str!("text/kernels.txt")).find(|(name, _)| *name == id.name());
-    let doc = doc.map_or("", |(_, doc)| doc);
+    let outputs: Vec<Output> = id.written().map(|(name, kind)| Output { name, kind }).collect();
+    let returns = id.returns();
     let name = if id == FunctionId::Hoisted { "hoisted" } else { id.name() };
     let is_static = if is_public { "" } else { "static " };
     let result = if returns { "NAME_real" } else { "void" };
     let arguments = id.arguments().iter().map(|&argument| argument_of(argument));
     let statements = statements(target, program, &outputs, returns)?;
     Ok(Kernel {
-        doc: documented(doc, &operations, watch, id.solves()),
+        doc: documented(id.row().doc.trim(), &operations, watch, id.solves()),
         is_public,
         ..function(
             target,
@@ -74,27 +70,17 @@ fn kernel(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> 
     })
 }
 
-/// The functions that have tangents: what a state and inputs lead to.
-const DIFFERENTIATED: [FunctionId; 5] = [
-    FunctionId::Stabilized,
-    FunctionId::Reactions,
-    FunctionId::Outputs,
-    FunctionId::Events,
-    FunctionId::Complete,
-];
-
 /// The derivatives of functions along a direction, in their order.
 ///
 /// # Errors
 /// A program is not written as it was checked.
 pub fn tangents(target: &Target<'_>) -> Result<Vec<Kernel>, Inconsistency> {
-    DIFFERENTIATED.into_iter().map(|id| tangent(target, id)).collect()
+    target.compiled.functions().filter(|id| id.is(Property::Tangent)).map(|id| tangent(target, id)).collect()
 }
 
 fn tangent(target: &Target<'_>, id: FunctionId) -> Result<Kernel, Inconsistency> {
     let program = target.compiled.tangent(id)?;
-    let outputs = id.results().iter().zip(results(id)).map(|(&kind, &name)| Output { name, kind });
-    let outputs: Vec<Output> = outputs.collect();
+    let outputs: Vec<Output> = id.written().map(|(name, kind)| Output { name, kind }).collect();
     let arguments = id.arguments().iter().map(|&argument| argument_of(argument));
     let arguments = arguments.chain([("const NAME_real *".to_owned(), "direction")]);
     let statements = statements(target, &program, &outputs, false)?;
@@ -235,16 +221,4 @@ fn documented(doc: &str, operations: &Operations, watch: u32, solves: bool) -> S
     let returns = if solves { "\nReturns the pivot growth." } else { "" };
     let watch = if watch > 0 { format!(", and {watch} to watch pivots") } else { String::new() };
     comment(&format!("{doc}{returns}\nCost: {operations}{watch}."), "")
-}
-
-/// The names of what a function writes, one kind after the other.
-fn results(id: FunctionId) -> &'static [&'static str] {
-    match id {
-        FunctionId::Stabilized => &["acceleration", "feedback"],
-        FunctionId::Reactions => &["acceleration", "multipliers"],
-        FunctionId::Start => &["q", "v"],
-        FunctionId::Complete => &["q_all", "v_all"],
-        FunctionId::KineticEnergy | FunctionId::PotentialEnergy => &[],
-        _ => &["result"],
-    }
 }

@@ -77,30 +77,20 @@ impl<'a> Functions<'a> {
 
     /// The documentation of a function: its results, its formulas and its cost.
     pub fn of(&self, function: FunctionId) -> String {
+        self.with_text(function, function.row().doc.trim())
+    }
+
+    /// The same with another text for its results.
+    pub fn with_text(&self, function: FunctionId, text: &str) -> String {
         let Derivation { phi, phi_q, phi_t, gamma, mass, forces, .. } = self.derivation;
-        let (text, formulas): (_, &[Formula]) = match function {
-            FunctionId::Phi => ("Constraints Φ(q, t): 0 where the mechanism is assembled.", phi),
-            FunctionId::PhiQ => (
-                "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:",
-                phi_q,
-            ),
-            FunctionId::PhiT => ("Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.", phi_t),
-            FunctionId::Gamma => {
-                ("γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).", gamma)
-            }
-            FunctionId::BaumgarteRhs => (
-                "γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.",
-                &[],
-            ),
-            FunctionId::Mass => ("Mass matrix M. Its diagonal, all that is not 0:", mass),
-            FunctionId::Forces => ("Generalized forces Q: gravity and applied loads.", forces),
-            FunctionId::Reactions => (
-                "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.\n\n\
-                 In a singular position the result is not finite or its `growth` exceeds \
-                 the runtime's `growth_limit`.",
-                &[],
-            ),
-            _ => ("", &[]),
+        let formulas: &[Formula] = match function {
+            FunctionId::Phi => phi,
+            FunctionId::PhiQ => phi_q,
+            FunctionId::PhiT => phi_t,
+            FunctionId::Gamma => gamma,
+            FunctionId::Mass => mass,
+            FunctionId::Forces => forces,
+            _ => &[],
         };
         let mut text = text.to_owned();
         if !formulas.is_empty() {

@@ -14,7 +14,7 @@ use super::sketch;
 use super::solver;
 use super::stages;
 use super::step;
-use crate::compiled::{Compiled, FunctionId};
+use crate::compiled::{Argument, Compiled, FunctionId, Property, Results};
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
@@ -49,59 +49,31 @@ fn inlining(compiled: &Compiled) -> TokenStream {
 /// The public functions that compute one thing each.
 pub fn inherent(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, state, reactions, .. } = names;
-    let (q, rows, inputs) = (&names.coordinates.of_t, &names.constraints.of_t, &names.inputs.of_t);
+    let (rows, inputs) = (&names.constraints.of_t, &names.inputs.of_t);
     let fields = Fields::new(compiled);
-    let (n, m) = (fields.coordinates.len(), fields.rows.len());
-    let position = Access::of_position();
-    let at_state = Access::of_state();
-
-    let rows_of = |function: FunctionId, access: &Access| {
-        let body = body(compiled, names, function, access);
-        let (statements, value) = (&body.statements, body.vector(rows, &fields.rows, 0..m));
+    let docs = docs::Functions::new(compiled);
+    let methods = compiled.functions().filter(|function| function.is(Property::Method));
+    let methods = methods.map(|function| method(compiled, names, &fields, &docs, function));
+    let baumgarte_rhs = {
+        let body = body(compiled, names, FunctionId::BaumgarteRhs, &Access::of_state());
+        let (statements, value) = (&body.statements, body.vector(rows, &fields.rows, 0..fields.rows.len()));
         quote!(#statements #value)
     };
-    let phi = rows_of(FunctionId::Phi, &position);
-    let phi_t = rows_of(FunctionId::PhiT, &position);
-    let phi_dot = rows_of(FunctionId::PhiDot, &at_state);
-    let gamma = rows_of(FunctionId::Gamma, &at_state);
-    let baumgarte_rhs = rows_of(FunctionId::BaumgarteRhs, &at_state);
-    let forces = {
-        let body = body(compiled, names, FunctionId::Forces, &at_state);
-        let (statements, value) = (&body.statements, body.vector(q, &fields.coordinates, 0..n));
-        quote!(#statements #value)
-    };
-    let scalar = |function: FunctionId| {
-        let Body { statements, outputs, .. } = body(compiled, names, function, &at_state);
-        quote!(#statements #(#outputs)*)
-    };
-    let (kinetic, potential) = (scalar(FunctionId::KineticEnergy), scalar(FunctionId::PotentialEnergy));
-    let inline = inlining(compiled);
-    let d = docs::Functions::new(compiled);
-    let (phi_doc, phi_t_doc, gamma_doc) =
-        (d.of(FunctionId::Phi), d.of(FunctionId::PhiT), d.of(FunctionId::Gamma));
-    let (rhs_doc, forces_doc, accelerations_doc) =
-        (d.of(FunctionId::BaumgarteRhs), d.of(FunctionId::Forces), d.of(FunctionId::Reactions));
-    let matrices = matrices::emit(compiled, names, &d);
+    let rhs_doc = docs.of(FunctionId::BaumgarteRhs);
+    let accelerations_doc = docs.with_text(
+        FunctionId::Reactions,
+        "Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.\n\n\
+         In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.",
+    );
+    let matrices = matrices::emit(compiled, names, &docs);
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl<T: #runtime::Real> #mechanism<T> {
-            #[doc = #phi_doc]
-            #inline
-            pub fn phi(&self, t: T, q: &#q) -> #rows { #phi }
-
-            #[doc = #phi_t_doc]
-            #[inline]
-            pub fn phi_t(&self, t: T, q: &#q) -> #rows { #phi_t }
-
-            /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
-            #inline
-            pub fn phi_dot(&self, at: &#state) -> #rows { #phi_dot }
-
-            #[doc = #gamma_doc]
-            #[inline]
-            pub fn gamma(&self, at: &#state) -> #rows { #gamma }
+            #(#methods)*
 
             #[doc = #rhs_doc]
+            ///
+            /// The gains α and β are in 1/s.
             #[inline]
             pub fn baumgarte_rhs(&self, at: &#state, alpha: T, beta: T) -> #rows {
                 let gains =
@@ -111,25 +83,48 @@ pub fn inherent(compiled: &Compiled, names: &Names) -> TokenStream {
 
             #matrices
 
-            #[doc = #forces_doc]
-            #[inline]
-            pub fn forces(&self, at: &#state, inputs: &#inputs) -> #q { #forces }
-
             #[doc = #accelerations_doc]
             #[inline]
             pub fn accelerations(&self, at: &#state, inputs: &#inputs) -> #reactions {
                 let none = <#rows as #runtime::Components>::splat(T::from_f64(0.0));
                 #runtime::Mechanism::reactions(self, at, inputs, &none)
             }
-
-            /// Kinetic energy ½ vᵀMv in J.
-            #inline
-            pub fn kinetic_energy(&self, at: &#state) -> T { #kinetic }
-
-            /// Potential energy of gravity (0 at the origin) and springs in J.
-            #inline
-            pub fn potential_energy(&self, at: &#state) -> T { #potential }
         }
+    }
+}
+
+/// A function of the motion that gives one vector or one number.
+fn method(
+    compiled: &Compiled,
+    names: &Names,
+    fields: &Fields,
+    docs: &docs::Functions<'_>,
+    function: FunctionId,
+) -> TokenStream {
+    let (q, rows) = (&names.coordinates.of_t, &names.constraints.of_t);
+    let (state, inputs) = (&names.state, &names.inputs.of_t);
+    let reads = |argument| function.arguments().contains(&argument);
+    let (access, mut given) = match reads(Argument::Velocities) {
+        true => (Access::of_state(), quote!(at: &#state)),
+        false => (Access::of_position(), quote!(t: T, q: &#q)),
+    };
+    if reads(Argument::Inputs) {
+        given.extend(quote!(, inputs: &#inputs));
+    }
+    let body = body(compiled, names, function, &access);
+    let (statements, outputs) = (&body.statements, &body.outputs);
+    let (of, value) = match function.results() {
+        [Results::Constraints] => (quote!(#rows), body.vector(rows, &fields.rows, 0..fields.rows.len())),
+        [Results::Coordinates] => {
+            (quote!(#q), body.vector(q, &fields.coordinates, 0..fields.coordinates.len()))
+        }
+        _ => (quote!(T), quote!(#(#outputs)*)),
+    };
+    let (doc, name, inline) = (docs.of(function), field(function.name()), inlining(compiled));
+    quote! {
+        #[doc = #doc]
+        #inline
+        pub fn #name(&self, #given) -> #of { #statements #value }
     }
 }
 

@@ -36,7 +36,11 @@ pub fn emit(compiled: &Compiled, names: &Names, docs: &docs::Functions<'_>) -> T
         let matrix = matrix(nalgebra, (n, n), &diagonal);
         quote!(#statements #matrix)
     };
-    let (phi_q_doc, mass_doc) = (docs.of(FunctionId::PhiQ), docs.of(FunctionId::Mass));
+    let phi_q_doc = docs.with_text(
+        FunctionId::PhiQ,
+        "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:",
+    );
+    let mass_doc = docs.with_text(FunctionId::Mass, "Mass matrix M. Its diagonal, all that is not 0:");
     quote! {
         #[doc = #phi_q_doc]
         #[inline]

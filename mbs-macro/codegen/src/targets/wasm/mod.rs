@@ -27,7 +27,7 @@ use wasm_encoder::{
     GlobalSection, GlobalType, ImportSection, MemorySection, MemoryType, Module, TypeSection, ValType,
 };
 
-use crate::compiled::{Argument, Compiled, FunctionId, Kinds, Results, Vector};
+use crate::compiled::{Argument, Compiled, FunctionId, Kinds, Vector};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use memory::Memory;
 use program::body;
@@ -126,7 +126,7 @@ fn module(compiled: &Compiled) -> Result<Vec<u8>, Inconsistency> {
 /// The functions of a mechanism.
 fn planned(compiled: &Compiled) -> Result<Vec<Planned<'_>>, Inconsistency> {
     let mut planned = Vec::new();
-    for id in FunctionId::all().filter(|id| *id != FunctionId::Implicit) {
+    for id in compiled.functions() {
         let (signature, program) = (Signature::of(compiled, id), compiled.program(id));
         let blocks = compiled.blocks(program);
         let is_long = !matches!(blocks[..], [] | [Block::Straight(_)]);
@@ -146,10 +146,8 @@ impl Signature {
     fn of(compiled: &Compiled, id: FunctionId) -> Self {
         let slots =
             [Slot::Mechanism].into_iter().chain(id.arguments().iter().map(|&argument| Slot::of(argument)));
-        let returns = matches!(id.results().last(), Some(Results::Growth | Results::Scalar));
-        let written = &id.results()[..id.results().len() - usize::from(returns)];
-        let lengths = written.iter().map(|&kind| compiled.length(kind)).collect();
-        Self { name: id.name(), slots: slots.collect(), lengths, returns }
+        let lengths = id.written().map(|(_, kind)| compiled.length(kind)).collect();
+        Self { name: id.name(), slots: slots.collect(), lengths, returns: id.returns() }
     }
 
     /// Of a whole step, which gives the next positions and velocities and returns the growth.

@@ -1,6 +1,7 @@
 //! Functions against their definitions, evaluated with jets. They agree within
 //! their running error bounds.
 
+use mbs_interface::FunctionId;
 use mbs_symbolic::Program;
 
 use super::super::jets::Jet;
@@ -14,27 +15,31 @@ impl Point<'_> {
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
         let in_time = self.phi(&|_| 0.0, &|_| 0.0, 1.0);
         let rows = |of: &dyn Fn(&Jet) -> Rounded| motion.iter().map(of).collect::<Vec<_>>();
-        self.agree("phi", &plan.phi, &rows(&|row| row.value))?;
-        self.agree("phi_dot", &plan.phi_dot, &rows(&|row| row.first))?;
-        self.agree("gamma", &plan.gamma, &rows(&|row| -row.second))?;
-        self.agree("phi_t", &plan.phi_t, &in_time.iter().map(|row| row.first).collect::<Vec<_>>())?;
+        self.agree("phi", &plan.programs[FunctionId::Phi], &rows(&|row| row.value))?;
+        self.agree("phi_dot", &plan.programs[FunctionId::PhiDot], &rows(&|row| row.first))?;
+        self.agree("gamma", &plan.programs[FunctionId::Gamma], &rows(&|row| -row.second))?;
+        self.agree(
+            "phi_t",
+            &plan.programs[FunctionId::PhiT],
+            &in_time.iter().map(|row| row.first).collect::<Vec<_>>(),
+        )?;
         let feedback = self.feedback(&motion);
         let rhs: Vec<_> = motion.iter().zip(&feedback).map(|(row, &f)| f - row.second).collect();
-        self.agree("baumgarte_rhs", &plan.baumgarte_rhs, &rhs)?;
+        self.agree("baumgarte_rhs", &plan.programs[FunctionId::BaumgarteRhs], &rhs)?;
         self.jacobian()?;
         let forces = self.known_forces();
-        self.agree("mass", &plan.mass, &self.bodies.masses)?;
+        self.agree("mass", &plan.programs[FunctionId::Mass], &self.bodies.masses)?;
         // what depends on reactions is judged by the balance that it keeps
         if model.reactive_loads.is_empty() {
-            self.agree("forces", &plan.forces, &forces)?;
+            self.agree("forces", &plan.programs[FunctionId::Forces], &forces)?;
         }
         let (kinetic, potential) = self.energies();
-        self.agree("kinetic_energy", &plan.kinetic_energy, &[kinetic])?;
-        self.agree("potential_energy", &plan.potential_energy, &[potential])?;
+        self.agree("kinetic_energy", &plan.programs[FunctionId::KineticEnergy], &[kinetic])?;
+        self.agree("potential_energy", &plan.programs[FunctionId::PotentialEnergy], &[potential])?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
-        self.agree("outputs", &plan.outputs, &outputs)?;
+        self.agree("outputs", &plan.programs[FunctionId::Outputs], &outputs)?;
         let events: Vec<_> = model.events.iter().map(|event| self.value(event.value)).collect();
-        self.agree("events", &plan.events, &events)
+        self.agree("events", &plan.programs[FunctionId::Events], &events)
     }
 
     /// A program gives what is expected, as far as rounding lets one tell.
@@ -55,7 +60,7 @@ impl Point<'_> {
 
     /// Φ_q w along random w.
     fn jacobian(&self) -> Check {
-        let entries = self.run(&self.plan.phi_q);
+        let entries = self.run(&self.plan.programs[FunctionId::PhiQ]);
         for direction in 0..DIRECTIONS {
             let along = self.phi(&|at| self.weight(at, direction), &|_| 0.0, 0.0);
             let mut products = vec![Rounded::default(); along.len()];

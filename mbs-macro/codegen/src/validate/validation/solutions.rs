@@ -8,6 +8,7 @@
 
 use std::cell::Cell;
 
+use mbs_interface::FunctionId;
 use mbs_symbolic::{Program, Symbol};
 
 use super::super::rounding::{Rounded, run};
@@ -40,7 +41,8 @@ impl Point<'_> {
             let (least, largest) = sizes.fold((f64::INFINITY, 0.0_f64), ends);
             largest / least
         };
-        let entries = range(&mut self.run(&self.plan.phi_q).into_iter().map(|entry| entry.value));
+        let entries =
+            range(&mut self.run(&self.plan.programs[FunctionId::PhiQ]).into_iter().map(|entry| entry.value));
         let masses = range(&mut (0..self.model.coordinates.len()).map(|at| self.mass(at).value));
         let forces = self.known_forces();
         let largest = forces.iter().fold(0.0_f64, |largest, force| largest.max(force.value.abs()));
@@ -69,7 +71,7 @@ impl Point<'_> {
             plan.inputs.states.iter().map(|state| all[state.coordinate]).collect()
         };
         let s = plan.inputs.states.len();
-        let reactions = self.solved(&plan.reactions, &given);
+        let reactions = self.solved(&plan.programs[FunctionId::Reactions], &given);
         if let Some(values) = &reactions {
             self.accelerated("reactions", &values[..n], &given)?;
         }
@@ -77,26 +79,29 @@ impl Point<'_> {
         // of them are solved for with an error that is bounded elsewhere.
         let feedback =
             if self.model.reactive_loads.is_empty() { given.clone() } else { vec![0.0; given.len()] };
-        if let Some(values) = self.solved(&plan.reactions, &feedback)
+        if let Some(values) = self.solved(&plan.programs[FunctionId::Reactions], &feedback)
             && self.model.reactive_loads.len() <= 1
         {
             self.balance(&values[..n], &values[n..])?;
         }
         let (given_in_steps, own) = (in_steps(&given), in_steps(&own));
-        let constrained =
-            self.solved(&plan.constrained, &given).zip(self.solved(&plan.reactions, &given_in_steps));
+        let constrained = self
+            .solved(&plan.programs[FunctionId::Constrained], &given)
+            .zip(self.solved(&plan.programs[FunctionId::Reactions], &given_in_steps));
         if let Some((values, reactions)) = constrained {
             same("constrained", &values[..s], &states(&reactions))?;
         }
-        let stabilized = self.solved(&plan.stabilized, &given).zip(self.solved(&plan.reactions, &own));
+        let stabilized = self
+            .solved(&plan.programs[FunctionId::Stabilized], &given)
+            .zip(self.solved(&plan.programs[FunctionId::Reactions], &own));
         if let Some((values, reactions)) = stabilized {
             same("stabilized", &values[..s], &states(&reactions))?;
             same("feedback", &values[s..s + own.len()], &fed_back)?;
         }
         for (name, program) in [
-            ("position_correction", &plan.position_correction),
-            ("velocity_correction", &plan.velocity_correction),
-            ("projection", &plan.projection),
+            ("position_correction", &plan.programs[FunctionId::PositionCorrection]),
+            ("velocity_correction", &plan.programs[FunctionId::VelocityCorrection]),
+            ("projection", &plan.programs[FunctionId::Projection]),
         ] {
             if let Some(values) = self.solved(program, &given) {
                 let along = self.phi(&|at| values[at].value, &|_| 0.0, 0.0);
@@ -109,7 +114,7 @@ impl Point<'_> {
 
     /// Coordinates and velocities meet the rows that give them.
     fn rows_are_met(&self, motion: &[Jet]) -> Check {
-        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.complete));
+        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.programs[FunctionId::Complete]));
         let (places, rates) = all.split_at(self.model.coordinates.len());
         for &row in &self.plan.reduction.rows {
             for (rest, given) in [(motion[row].value, places), (motion[row].first, rates)] {
@@ -124,7 +129,7 @@ impl Point<'_> {
 
     /// −2αΦ̇ − β²Φ where the coordinates are completed, with what the rounding of those does to it.
     fn feedback_in_steps(&self, motion: &[Jet]) -> Vec<Rounded> {
-        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.complete));
+        let (coefficients, all) = (self.coefficients(), self.run(&self.plan.programs[FunctionId::Complete]));
         let (places, rates) = all.split_at(self.model.coordinates.len());
         let inputs = &self.plan.inputs;
         let errors = [(inputs.minus_two_alpha, rates), (inputs.minus_beta_squared, places)];
@@ -137,7 +142,9 @@ impl Point<'_> {
     /// The largest entry of each row of Φ_q.
     fn coefficients(&self) -> Vec<f64> {
         let mut coefficients = vec![0.0_f64; self.model.constraints.len()];
-        for ((row, _), entry) in self.plan.phi_q_places.iter().zip(self.run(&self.plan.phi_q)) {
+        for ((row, _), entry) in
+            self.plan.phi_q_places.iter().zip(self.run(&self.plan.programs[FunctionId::PhiQ]))
+        {
             coefficients[*row] = coefficients[*row].max(entry.value.abs());
         }
         coefficients

@@ -1,5 +1,6 @@
 //! Programs that are right are accepted, and every wrong instruction is caught.
 
+use mbs_interface::FunctionId;
 use mbs_symbolic::{Operand, Operation, Program};
 
 use super::check_programs;
@@ -99,19 +100,19 @@ fn every_wrong_instruction_is_caught() {
     let mut planned = Planned::new(DECLARATION);
     assert!(planned.is_accepted());
     let programs: [(&str, Choose, bool); 13] = [
-        ("phi", |plan| &mut plan.phi, false),
-        ("phi_dot", |plan| &mut plan.phi_dot, false),
-        ("phi_q", |plan| &mut plan.phi_q, false),
-        ("phi_t", |plan| &mut plan.phi_t, false),
-        ("gamma", |plan| &mut plan.gamma, false),
-        ("baumgarte_rhs", |plan| &mut plan.baumgarte_rhs, false),
-        ("forces", |plan| &mut plan.forces, false),
-        ("kinetic_energy", |plan| &mut plan.kinetic_energy, false),
-        ("potential_energy", |plan| &mut plan.potential_energy, false),
-        ("stabilized", |plan| &mut plan.stabilized, true),
-        ("constrained", |plan| &mut plan.constrained, true),
-        ("reactions", |plan| &mut plan.reactions, true),
-        ("outputs", |plan| &mut plan.outputs, false),
+        ("phi", |plan| &mut plan.programs[FunctionId::Phi], false),
+        ("phi_dot", |plan| &mut plan.programs[FunctionId::PhiDot], false),
+        ("phi_q", |plan| &mut plan.programs[FunctionId::PhiQ], false),
+        ("phi_t", |plan| &mut plan.programs[FunctionId::PhiT], false),
+        ("gamma", |plan| &mut plan.programs[FunctionId::Gamma], false),
+        ("baumgarte_rhs", |plan| &mut plan.programs[FunctionId::BaumgarteRhs], false),
+        ("forces", |plan| &mut plan.programs[FunctionId::Forces], false),
+        ("kinetic_energy", |plan| &mut plan.programs[FunctionId::KineticEnergy], false),
+        ("potential_energy", |plan| &mut plan.programs[FunctionId::PotentialEnergy], false),
+        ("stabilized", |plan| &mut plan.programs[FunctionId::Stabilized], true),
+        ("constrained", |plan| &mut plan.programs[FunctionId::Constrained], true),
+        ("reactions", |plan| &mut plan.programs[FunctionId::Reactions], true),
+        ("outputs", |plan| &mut plan.programs[FunctionId::Outputs], false),
     ];
     for (name, choose, is_solving) in programs {
         let (tried, missed) = missed(&mut planned, choose, is_solving);
@@ -124,7 +125,10 @@ fn every_wrong_instruction_is_caught() {
 #[test]
 fn corrections_that_miss_the_constraints_are_caught() {
     let mut planned = Planned::new(DECLARATION);
-    let corrections: [Choose; 2] = [|plan| &mut plan.position_correction, |plan| &mut plan.projection];
+    let corrections: [Choose; 2] = [
+        |plan| &mut plan.programs[FunctionId::PositionCorrection],
+        |plan| &mut plan.programs[FunctionId::Projection],
+    ];
     for correction in corrections {
         let (tried, missed) = missed(&mut planned, correction, true);
         assert!(missed * 4 < tried, "{missed} of {tried}");
@@ -152,6 +156,6 @@ fn every_function_is_accepted() {
     }";
     let mut planned = Planned::new(declaration);
     assert!(planned.is_accepted());
-    let (tried, missed) = missed(&mut planned, |plan| &mut plan.gamma, false);
+    let (tried, missed) = missed(&mut planned, |plan| &mut plan.programs[FunctionId::Gamma], false);
     assert!(tried > 0 && missed == 0, "{missed} of {tried} wrong instructions of gamma are accepted");
 }

@@ -1,0 +1,37 @@
+//! The cost of the functions of a compiled mechanism.
+
+use mbs_interface::{FunctionId, Property};
+use mbs_symbolic::Operations;
+
+use super::Compiled;
+
+/// The cost of a call of a function.
+pub struct Count {
+    /// The function.
+    pub function: FunctionId,
+    /// Its operations, without those that watch pivots.
+    pub operations: Operations,
+    /// The operations that watch pivots.
+    pub watch: u32,
+}
+
+impl Compiled {
+    /// The functions that the mechanism has.
+    pub fn functions(&self) -> impl Iterator<Item = FunctionId> {
+        FunctionId::all().filter(|function| self.has_stiffness || !function.is(Property::Stiff))
+    }
+
+    /// The costs of the functions that people ask for.
+    pub fn counts(&self) -> Vec<Count> {
+        self.functions().filter(|it| it.is(Property::Counted)).map(|function| self.count(function)).collect()
+    }
+
+    /// The cost of a function.
+    pub fn count(&self, function: FunctionId) -> Count {
+        let program = self.program(function);
+        let outputs = program.outputs.len();
+        let operations = program.operations_for(outputs - usize::from(function.solves()));
+        let watch = program.operations_for(outputs).total() - operations.total();
+        Count { function, operations, watch }
+    }
+}
