@@ -36,7 +36,6 @@ pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;
-pub mod sample;
 pub mod swing;
 
 /// The README's example compiles and runs.

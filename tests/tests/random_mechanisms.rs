@@ -6,10 +6,10 @@
 
 use std::time::Duration;
 
+use paths::STRIDE;
 use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::linkages::declaration;
-use tests::sample::stride;
 
 const MECHANISMS: u64 = 300;
 
@@ -21,7 +21,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 #[test]
 fn random_mechanisms_compile_or_are_refused_with_a_reason() {
     let count = std::env::var("MECHANISMS")
-        .map_or(MECHANISMS / stride() as u64, |text| text.parse().expect("a number"));
+        .map_or(MECHANISMS / STRIDE as u64, |text| text.parse().expect("a number"));
     let compiles = |number: u64| {
         let text = declaration(number);
         let verdict = judge(&text, LIMIT);

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
+use paths::STRIDE;
 use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::fuzzing::{input, seeds};
-use tests::sample::stride;
 
 const INPUTS: u64 = 5_000;
 
@@ -23,7 +23,7 @@ fn made_up_declarations_do_not_panic() {
         assert!(!verdict.is_failure(), "{verdict:?} of\n{text}");
         verdict == Verdict::Compiled
     };
-    let inputs = INPUTS / stride() as u64;
+    let inputs = INPUTS / STRIDE as u64;
     let compiled =
         (0..inputs).into_par_iter().map_init(seeds::all, compiles).filter(|compiled| *compiled).count()
             as u64;

@@ -20,6 +20,8 @@ use models::{
     SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
+use paths::STRIDE;
+
 use crate::model::{Model, model};
 
 /// How a mechanism is to be tested.
@@ -51,8 +53,14 @@ macro_rules! library {
 
         const NAMES: &[&str] = &[$(stringify!($Name)),*];
 
+        enum Place {
+            $($Name),*
+        }
+
         fn texts() {
-            $(texts::same::<$Name>(stringify!($Name));)*
+            $(if const { Place::$Name as usize % STRIDE == 0 } {
+                texts::same::<$Name>(stringify!($Name));
+            })*
         }
 
         fn reactions() {
@@ -168,7 +176,8 @@ fn no_mechanism_is_left_out() {
 }
 
 /// Compiled by rustc or run from its text, a mechanism does the same to the last bit, and
-/// says the same of itself.
+/// says the same of itself. The code of those that are not tried is not made: it takes
+/// rustc two seconds each.
 #[test]
 fn a_text_is_its_type() {
     texts();

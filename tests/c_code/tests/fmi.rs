@@ -12,9 +12,6 @@ use mbs_live::{Experiment, Run, Text};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
-#[path = "../../src/sample.rs"]
-mod sample;
-
 /// With drives and without, tables, redundant constraints and loops of long programs.
 const MECHANISMS: [&str; 6] =
     ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
@@ -35,7 +32,7 @@ fn text(name: &str) -> Text {
 fn texts() -> impl Iterator<Item = (&'static str, Text)> {
     let sparse =
         SPARSE.into_iter().map(|declaration| (declaration, Text::declaration("sparse.mbs", declaration)));
-    MECHANISMS.into_iter().map(|name| (name, text(name))).chain(sparse).step_by(sample::stride())
+    MECHANISMS.into_iter().map(|name| (name, text(name))).chain(sparse).step_by(paths::STRIDE)
 }
 
 /// The sources of a unit in a folder, with a program around them that makes so many instances four times.

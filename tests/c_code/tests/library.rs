@@ -11,8 +11,6 @@ use mbs_codegen::{Compiled, analyse};
 #[path = "../../src/chains.rs"]
 #[macro_use]
 mod chains;
-#[path = "../../src/sample.rs"]
-mod sample;
 
 /// The files of mechanisms that are also compiled with reduced states.
 const REDUCED: [&str; 5] =
@@ -41,7 +39,7 @@ fn some() -> Vec<(String, Compiled)> {
         let compiled = analyse(tokens).unwrap_or_else(|error| panic!("{name}: {error}"));
         (name, compiled)
     };
-    texts.into_iter().step_by(sample::stride()).map(compiled).collect()
+    texts.into_iter().step_by(paths::STRIDE).map(compiled).collect()
 }
 
 #[test]

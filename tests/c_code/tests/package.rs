@@ -11,9 +11,6 @@ use mbs_live::{Run, Scalar};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
-#[path = "../../src/sample.rs"]
-mod sample;
-
 /// With drives and without, with redundant constraints, tables, friction and loops of long programs.
 const MECHANISMS: [&str; 6] =
     ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
@@ -101,7 +98,7 @@ fn cpp_reads_the_header_and_the_source() {
         if ![c, cpp].iter().all(|tool| is_there(tool)) {
             continue;
         }
-        for name in MECHANISMS.into_iter().step_by(sample::stride()) {
+        for name in MECHANISMS.into_iter().step_by(paths::STRIDE) {
             let (folder, prefix) = exported(name);
             let at = folder.path();
             std::fs::write(at.join("mine.cpp"), consumer(&prefix)).unwrap();
@@ -118,7 +115,7 @@ fn cpp_reads_the_header_and_the_source() {
 #[test]
 fn sanitizers_find_nothing() {
     for compiler in compilers() {
-        for name in MECHANISMS.into_iter().step_by(sample::stride()) {
+        for name in MECHANISMS.into_iter().step_by(paths::STRIDE) {
             let (folder, prefix) = exported(name);
             let flags = "-std=c99 -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all";
             run(folder.path(), &format!("{compiler} {flags} {prefix}.c main.c -lm -o checked"));
@@ -132,7 +129,7 @@ fn valgrind_finds_nothing() {
     if !["valgrind", "gcc"].iter().all(|tool| is_there(tool)) {
         return;
     }
-    for name in MECHANISMS.into_iter().step_by(sample::stride()) {
+    for name in MECHANISMS.into_iter().step_by(paths::STRIDE) {
         let (folder, prefix) = exported(name);
         run(folder.path(), &format!("gcc -std=c99 -g -O1 {prefix}.c main.c -lm -o plain"));
         run(folder.path(), "valgrind --quiet --error-exitcode=9 --leak-check=full ./plain");

@@ -9,14 +9,12 @@
 use c_code::{Choice, Fault, build, compilers};
 use mbs_live::{Live, Run, Scalar, Text};
 use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, System};
-use sample::stride;
+use paths::STRIDE;
 
 #[path = "../../src/linkages.rs"]
 mod linkages;
 #[path = "../../src/random.rs"]
 mod random;
-#[path = "../../src/sample.rs"]
-mod sample;
 
 const MECHANISMS: u64 = 24;
 const STEPS: usize = 1000;
@@ -103,7 +101,7 @@ fn compare(name: &str, text: &Text, step: f64, compiler: &str) -> bool {
 #[test]
 fn mechanisms_of_the_library() {
     let Some(&compiler) = compilers().first() else { return };
-    for entry in mbs::library().iter().step_by(stride()) {
+    for entry in mbs::library().iter().step_by(STRIDE) {
         let step = if entry.name == "andrews-squeezer" { 1e-5 } else { 1e-4 };
         assert!(compare(entry.name, &entry.text(), step, compiler), "{} starts", entry.name);
     }
@@ -113,7 +111,7 @@ fn mechanisms_of_the_library() {
 fn random_mechanisms() {
     let Some(&compiler) = compilers().first() else { return };
     let count = std::env::var("MECHANISMS")
-        .map_or(MECHANISMS / stride() as u64, |text| text.parse().expect("a number"));
+        .map_or(MECHANISMS / STRIDE as u64, |text| text.parse().expect("a number"));
     let (mut number, mut compared) = (0, 0);
     while compared < count {
         let text = Text::declaration(format!("random {number}"), linkages::declaration(number));

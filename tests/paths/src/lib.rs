@@ -1,13 +1,16 @@
 //! The paths that a step can take: in stages, fused, in single precision, in lanes.
-//! A reference states what it compares once, and is held to it on each of them.
+//! A reference states what it compares once, and is held to it on each of them, or where somebody waits
+//! ([`EXHAUSTIVE`]) on the fused one.
 #![allow(clippy::panic, reason = "a test says by panicking what is wrong")]
 
 mod compare;
 mod run;
+mod sample;
 mod steps;
 
 pub use compare::{Case, bisect};
 pub use run::{Instant, Run};
+pub use sample::{EXHAUSTIVE, STRIDE};
 
 use compare::Widening;
 use mbs_runtime::{Error, Mechanism, Method, Simulation};
@@ -40,6 +43,9 @@ pub fn through_every_path<M: Mechanism<Real = f64>, X: Method>(
     start: impl Fn(f64) -> Result<Simulation<M, X>, Error>,
     comparison: impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
 ) -> Result<(), Error> {
+    if !EXHAUSTIVE {
+        return through_fused_path(name, step, start, comparison);
+    }
     let of_rounding = f64::from(f32::EPSILON) / f64::EPSILON;
     let (longer, of_truncation) = match single {
         Single::Longer(factor) => (factor, factor * factor),
@@ -66,6 +72,9 @@ pub fn through_double_paths<M: Mechanism<Real = f64>, X: Method>(
     start: impl Fn(f64) -> Result<Simulation<M, X>, Error>,
     comparison: impl Fn(&mut Case, &mut Run<M, X>) -> Result<(), Error>,
 ) -> Result<(), Error> {
+    if !EXHAUSTIVE {
+        return through_fused_path(name, step, start, comparison);
+    }
     compare_along(&double(), name, Widening::NONE, || start(step), &comparison)
 }
 

@@ -14,6 +14,18 @@ use mbs_runtime::{
 macro_rules! each {
     ($call:ident) => {
         some!($call);
+        if paths::EXHAUSTIVE {
+            others!($call);
+        }
+    };
+    ($call:ident: $Name:ident, $file:literal, $step:literal) => {
+        $call(models::$Name::declared(), reduced::$Name::declared(), $file, $step)
+    };
+}
+
+/// The same for those that are like one of `some`.
+macro_rules! others {
+    ($call:ident) => {
         each!($call: DoublePendulum, "double_pendulum", 0.5e-3);
         each!($call: FourBar, "four_bar", 0.5e-3);
         each!($call: CartPendulum, "cart_pendulum", 0.5e-3);
@@ -23,9 +35,6 @@ macro_rules! each {
         each!($call: VEngine, "v_engine", 0.1e-3);
         each!($call: QuickReturn, "quick_return", 0.5e-3);
         each!($call: Metronome, "metronome", 0.5e-3);
-    };
-    ($call:ident: $Name:ident, $file:literal, $step:literal) => {
-        $call(models::$Name::declared(), reduced::$Name::declared(), $file, $step)
     };
 }
 

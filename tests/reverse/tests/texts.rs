@@ -10,6 +10,7 @@ use mbs_live::{Live, Run, Text};
 use mbs_runtime::gradients::{Sum, Variable};
 use mbs_runtime::reverse::{Moment, Transposed};
 use mbs_runtime::{Error, Held, Heun, Info, Method, PerStage, Projected, Rk4, Simulation};
+use paths::EXHAUSTIVE;
 use reverse::block_on_incline::BlockOnIncline;
 use reverse::cam_follower::CamFollower;
 use reverse::four_bar_free::FourBarFree;
@@ -91,10 +92,12 @@ fn the_statement_is_enough() {
 #[test]
 fn every_method() {
     let live = text("slider_crank_free.rs", "gradients = reverse;").compile().unwrap();
-    same::<SliderCrankFree, PerStage<Heun>>(&live);
-    same::<SliderCrankFree, Held<Rk4>>(&live);
     same::<SliderCrankFree, PerStage<Rk4>>(&live);
-    same::<SliderCrankFree, Projected<Heun>>(&live);
+    if EXHAUSTIVE {
+        same::<SliderCrankFree, PerStage<Heun>>(&live);
+        same::<SliderCrankFree, Held<Rk4>>(&live);
+        same::<SliderCrankFree, Projected<Heun>>(&live);
+    }
 }
 
 #[test]
@@ -102,17 +105,21 @@ fn every_kind_of_mechanism() {
     let live = |file| text(file, "gradients = reverse;").compile().unwrap();
     same::<BlockOnIncline, Held<Heun>>(&live("block_on_incline.rs"));
     same::<CamFollower, Held<Heun>>(&live("cam_follower.rs"));
-    same::<FourBarFree, Held<Heun>>(&live("four_bar_free.rs"));
-    same::<SliderCrank, Held<Heun>>(&live("slider_crank.rs"));
-    same::<SpringMassDamper, Held<Heun>>(&live("spring_mass_damper.rs"));
-    same::<Tipper, Held<Heun>>(&live("tipper.rs"));
+    if EXHAUSTIVE {
+        same::<FourBarFree, Held<Heun>>(&live("four_bar_free.rs"));
+        same::<SliderCrank, Held<Heun>>(&live("slider_crank.rs"));
+        same::<SpringMassDamper, Held<Heun>>(&live("spring_mass_damper.rs"));
+        same::<Tipper, Held<Heun>>(&live("tipper.rs"));
+    }
 }
 
 #[test]
 fn long_programs() {
     let live = text("n_four_bar.rs", "gradients = reverse;").compile().unwrap();
-    same::<NFourBar10, Held<Heun>>(&live);
     same::<NFourBar10, Projected<Heun>>(&live);
+    if EXHAUSTIVE {
+        same::<NFourBar10, Held<Heun>>(&live);
+    }
 }
 
 #[test]
@@ -121,7 +128,9 @@ fn reduced_states() {
     let live = |file| text(file, "states = reduced; gradients = reverse;").compile().unwrap();
     let crank = live("slider_crank_free.rs");
     assert!(crank.declared_info().states.len() < crank.declared_info().coordinates.len());
-    same::<reduced_slider_crank_free::SliderCrankFree, Held<Heun>>(&crank);
     same::<reduced_slider_crank_free::SliderCrankFree, Projected<Heun>>(&crank);
-    same::<reduced_four_bar_free::FourBarFree, Held<Heun>>(&live("four_bar_free.rs"));
+    if EXHAUSTIVE {
+        same::<reduced_slider_crank_free::SliderCrankFree, Held<Heun>>(&crank);
+        same::<reduced_four_bar_free::FourBarFree, Held<Heun>>(&live("four_bar_free.rs"));
+    }
 }
