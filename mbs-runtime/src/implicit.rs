@@ -55,7 +55,7 @@
 //! ```
 #![doc = include_str!("implicit.svg")]
 
-use mbs_interface::{ESDIRK4, Estimate, Implicit, Interpolant, Row, TRBDF2};
+use mbs_interface::{Estimate, Implicit, Interpolant, Row};
 
 use crate::adaptive::{AdaptiveScheme, Moment, copy};
 use crate::explicit::Slopes;
@@ -72,7 +72,7 @@ pub trait Visitor {
 
 /// The types of schemes.
 macro_rules! schemes {
-    ($($(#[$doc:meta])* $name:ident = $scheme:ident;)*) => {
+    ($($(#[$doc:meta])* $name:ident = $scheme:path;)*) => {
         $($(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum $name {}
@@ -147,12 +147,7 @@ macro_rules! schemes {
     };
 }
 
-schemes! {
-    /// TR-BDF2: second order, two implicit stages. For coarse tolerances.
-    TrBdf2 = TRBDF2;
-    /// The implicit part of ARK4(3)6L\[2\]SA of Kennedy and Carpenter: fourth order, five implicit stages.
-    Esdirk4 = ESDIRK4;
-}
+mbs_interface::implicit_schemes!(schemes);
 
 /// The stages of a step, the last of which is its end. Behind the slopes of the stages, the last corrections of
 /// Newton's method are added up.

@@ -172,17 +172,14 @@ pub use error::Error;
 pub use info::{Constraint, DeclaredEvent, Dimension, Function, Info, Operations, Pivot, Quantity};
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
+pub use mbs_interface::implicit::*;
+pub use mbs_interface::schemes::*;
 pub use mbs_interface::sine::Octant;
-pub use mbs_interface::{
-    BS3, COMPOSITIONS, Composition, DOP853, DOPRI5, ESDIRK4, Explicit, HEUN, IMPLICIT, Implicit, RATTLE,
-    RATTLE4, RK4, Row, SCHEMES, Stabilization, TRBDF2, Tableau,
-};
+pub use mbs_interface::{COMPOSITIONS, Composition, Explicit, RATTLE, RATTLE4, Row, Stabilization, Tableau};
 #[cfg(feature = "macro")]
 pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
-pub use method::{
-    Bs3, Dop853, Dopri5, Held, Heun, Method, MethodVisitor, PerStage, Projected, Rk4, Scheme, with_type,
-};
+pub use method::*;
 pub use pack::Pack;
 pub use pair::{NoTerm, Pair, Single, Term, Two};
 pub use real::Real;

@@ -1,12 +1,12 @@
 //! Methods of integration as types: a scheme, and what keeps the constraints with it.
 //!
-//! A method is a type, so that each becomes a straight line of its own. A new scheme needs a line of
-//! `schemes!` here.
+//! A method is a type, so that each becomes a straight line of its own. The types of schemes are those of the
+//! tables of `mbs-interface`.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use mbs_interface::{BS3, DOP853, DOPRI5, Explicit, HEUN, RK4, Stabilization, Tableau};
+use mbs_interface::{Explicit, Stabilization, Tableau};
 
 mod sealed {
     pub trait Sealed {}
@@ -15,7 +15,7 @@ mod sealed {
     impl<S> Sealed for super::Projected<S> {}
 }
 
-/// An explicit Runge–Kutta scheme: [`Heun`], [`Bs3`], [`Rk4`], [`Dopri5`] or [`Dop853`].
+/// An explicit Runge–Kutta scheme, such as [`Heun`] or [`Dopri5`].
 pub trait Scheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     /// Its coefficients.
     const TABLEAU: &'static Tableau;
@@ -39,7 +39,7 @@ pub trait Scheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
 
 /// The types of schemes.
 macro_rules! schemes {
-    ($($(#[$doc:meta])* $name:ident = $tableau:ident;)*) => {
+    ($($(#[$doc:meta])* $name:ident = $tableau:path;)*) => {
         $($(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum $name {}
@@ -78,22 +78,7 @@ macro_rules! schemes {
     };
 }
 
-schemes! {
-    /// Heun's method: second order, two evaluations of the right-hand side per step. The
-    /// scheme of a mechanism that declares none.
-    Heun = HEUN;
-    /// The pair 3(2) of Bogacki and Shampine: third order, three evaluations per step. For
-    /// coarse tolerances.
-    Bs3 = BS3;
-    /// The classical Runge–Kutta method: fourth order, four evaluations per step.
-    Rk4 = RK4;
-    /// The pair 5(4) of Dormand and Prince: fifth order, six evaluations per step. The scheme
-    /// of runs to a tolerance that ask for no other.
-    Dopri5 = DOPRI5;
-    /// The scheme 8(5,3) of Dormand and Prince: eighth order, twelve evaluations per step. For
-    /// fine tolerances.
-    Dop853 = DOP853;
-}
+mbs_interface::explicit_schemes!(schemes);
 
 /// A method of integration: a [`Scheme`] with what keeps the constraints. That is Baumgarte's
 /// feedback of their violation, [`Held`] over a step or [`PerStage`], or a projection

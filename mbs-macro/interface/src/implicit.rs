@@ -36,8 +36,27 @@ pub struct Implicit {
     pub source: &'static str,
 }
 
-/// All of them.
-pub const IMPLICIT: [&Implicit; 2] = [&TRBDF2, &ESDIRK4];
+/// Calls a macro with a line per implicit scheme: the documentation and the name of its type, and its table.
+#[macro_export]
+macro_rules! implicit_schemes {
+    ($call:ident) => {
+        $call! {
+            /// TR-BDF2: second order, two implicit stages. For coarse tolerances.
+            TrBdf2 = $crate::implicit::TRBDF2;
+            /// The implicit part of ARK4(3)6L\[2\]SA of Kennedy and Carpenter: fourth order, five implicit stages.
+            Esdirk4 = $crate::implicit::ESDIRK4;
+        }
+    };
+}
+
+macro_rules! list {
+    ($($(#[$doc:meta])* $name:ident = $scheme:path;)*) => {
+        /// All of them.
+        pub const IMPLICIT: [&Implicit; [$(stringify!($name)),*].len()] = [$(&$scheme),*];
+    };
+}
+
+implicit_schemes!(list);
 
 /// 1 − 1/√2
 const OWN_OF_TRBDF2: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;

@@ -2,19 +2,45 @@
 //!
 //! # A new scheme
 //!
-//! A scheme is a constant here and its entry in `SCHEMES`. The runtime has a type for it by a line of
-//! `schemes!` in its `method.rs`. A test derives the conditions of its order from all rooted trees. Stability
-//! of feedback, and the gains that remove a violation fastest, follow from the table.
+//! A scheme is a constant here and its line in `explicit_schemes!`, by which the runtime has a type for it.
+//! A test derives the conditions of its order from all rooted trees. Stability of feedback, and the gains
+//! that remove a violation fastest, follow from the table.
 
 use crate::interpolant::OF_DOP853;
 use crate::response::Response;
 use crate::{Estimate, Row, Tableau};
 
-/// The most stages that a scheme has.
-pub const MOST_STAGES: usize = 12;
+/// Calls a macro with a line per explicit scheme: the documentation and the name of its type, and its table.
+#[macro_export]
+macro_rules! explicit_schemes {
+    ($call:ident) => {
+        $call! {
+            /// Heun's method: second order, two evaluations of the right-hand side per step. The
+            /// scheme of a mechanism that declares none.
+            Heun = $crate::schemes::HEUN;
+            /// The pair 3(2) of Bogacki and Shampine: third order, three evaluations per step. For
+            /// coarse tolerances.
+            Bs3 = $crate::schemes::BS3;
+            /// The classical Runge–Kutta method: fourth order, four evaluations per step.
+            Rk4 = $crate::schemes::RK4;
+            /// The pair 5(4) of Dormand and Prince: fifth order, six evaluations per step. The scheme
+            /// of runs to a tolerance that ask for no other.
+            Dopri5 = $crate::schemes::DOPRI5;
+            /// The scheme 8(5,3) of Dormand and Prince: eighth order, twelve evaluations per step. For
+            /// fine tolerances.
+            Dop853 = $crate::schemes::DOP853;
+        }
+    };
+}
 
-/// All schemes.
-pub const SCHEMES: [&Tableau; 5] = [&HEUN, &BS3, &RK4, &DOPRI5, &DOP853];
+macro_rules! list {
+    ($($(#[$doc:meta])* $name:ident = $tableau:path;)*) => {
+        /// All schemes.
+        pub const SCHEMES: [&Tableau; [$(stringify!($name)),*].len()] = [$(&$tableau),*];
+    };
+}
+
+explicit_schemes!(list);
 
 pub(crate) const fn row(share: f64, weights: &'static [f64]) -> Row {
     Row { share, weights }
@@ -253,6 +279,7 @@ mod tests {
     use std::vec::Vec;
 
     use super::*;
+    use crate::MOST_STAGES;
     use crate::trees::{order, rows, trees};
 
     #[test]

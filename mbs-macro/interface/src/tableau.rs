@@ -4,6 +4,9 @@ use crate::SCHEMES;
 use crate::interpolant::Interpolant;
 use crate::response::Response;
 
+/// The most stages that a scheme has.
+pub const MOST_STAGES: usize = 12;
+
 /// A combination of slopes: (share · h) Σ weights · slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
