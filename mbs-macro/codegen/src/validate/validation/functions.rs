@@ -2,7 +2,6 @@
 //! their running error bounds.
 
 use mbs_interface::FunctionId;
-use mbs_symbolic::Program;
 
 use super::super::jets::Jet;
 use super::super::rounding::Rounded;
@@ -11,40 +10,36 @@ use super::{Check, DIRECTIONS, Point};
 impl Point<'_> {
     /// Every function gives what its definition does.
     pub(super) fn functions(&self) -> Check {
-        let (plan, model) = (self.plan, self.model);
+        let model = self.model;
         let motion = self.phi(&|at| self.velocity(at), &|_| 0.0, 1.0);
         let in_time = self.phi(&|_| 0.0, &|_| 0.0, 1.0);
         let rows = |of: &dyn Fn(&Jet) -> Rounded| motion.iter().map(of).collect::<Vec<_>>();
-        self.agree("phi", &plan.programs[FunctionId::Phi], &rows(&|row| row.value))?;
-        self.agree("phi_dot", &plan.programs[FunctionId::PhiDot], &rows(&|row| row.first))?;
-        self.agree("gamma", &plan.programs[FunctionId::Gamma], &rows(&|row| -row.second))?;
-        self.agree(
-            "phi_t",
-            &plan.programs[FunctionId::PhiT],
-            &in_time.iter().map(|row| row.first).collect::<Vec<_>>(),
-        )?;
+        self.agree(FunctionId::Phi, &rows(&|row| row.value))?;
+        self.agree(FunctionId::PhiDot, &rows(&|row| row.first))?;
+        self.agree(FunctionId::Gamma, &rows(&|row| -row.second))?;
+        self.agree(FunctionId::PhiT, &in_time.iter().map(|row| row.first).collect::<Vec<_>>())?;
         let feedback = self.feedback(&motion);
         let rhs: Vec<_> = motion.iter().zip(&feedback).map(|(row, &f)| f - row.second).collect();
-        self.agree("baumgarte_rhs", &plan.programs[FunctionId::BaumgarteRhs], &rhs)?;
+        self.agree(FunctionId::BaumgarteRhs, &rhs)?;
         self.jacobian()?;
         let forces = self.known_forces();
-        self.agree("mass", &plan.programs[FunctionId::Mass], &self.bodies.masses)?;
+        self.agree(FunctionId::Mass, &self.bodies.masses)?;
         // what depends on reactions is judged by the balance that it keeps
         if model.reactive_loads.is_empty() {
-            self.agree("forces", &plan.programs[FunctionId::Forces], &forces)?;
+            self.agree(FunctionId::Forces, &forces)?;
         }
         let (kinetic, potential) = self.energies();
-        self.agree("kinetic_energy", &plan.programs[FunctionId::KineticEnergy], &[kinetic])?;
-        self.agree("potential_energy", &plan.programs[FunctionId::PotentialEnergy], &[potential])?;
+        self.agree(FunctionId::KineticEnergy, &[kinetic])?;
+        self.agree(FunctionId::PotentialEnergy, &[potential])?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
-        self.agree("outputs", &plan.programs[FunctionId::Outputs], &outputs)?;
+        self.agree(FunctionId::Outputs, &outputs)?;
         let events: Vec<_> = model.events.iter().map(|event| self.value(event.value)).collect();
-        self.agree("events", &plan.programs[FunctionId::Events], &events)
+        self.agree(FunctionId::Events, &events)
     }
 
-    /// A program gives what is expected, as far as rounding lets one tell.
-    fn agree(&self, name: &str, program: &Program, expected: &[Rounded]) -> Check {
-        let found = self.run(program);
+    /// A function gives what is expected, as far as rounding lets one tell.
+    fn agree(&self, function: FunctionId, expected: &[Rounded]) -> Check {
+        let (name, found) = (function.name(), self.run(&self.plan.programs[function]));
         if found.len() != expected.len() {
             return Err(format!("`{name}` has {} results instead of {}", found.len(), expected.len()));
         }

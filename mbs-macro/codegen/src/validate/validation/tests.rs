@@ -79,18 +79,16 @@ pub(crate) fn needed(program: &Program, is_solving: bool) -> Vec<usize> {
     (0..needed.len()).filter(|&at| needed[at]).collect()
 }
 
-type Choose = fn(&mut Plan) -> &mut Program;
-
 /// How many wrong instructions there can be, and how many of them are accepted.
-fn missed(planned: &mut Planned, choose: Choose, is_solving: bool) -> (usize, usize) {
+fn missed(planned: &mut Planned, function: FunctionId) -> (usize, usize) {
     let (mut tried, mut missed) = (0, 0);
-    for at in needed(choose(&mut planned.plan), is_solving) {
-        let right = choose(&mut planned.plan).instructions[at].operation;
+    for at in needed(&planned.plan.programs[function], function.solves()) {
+        let right = planned.plan.programs[function].instructions[at].operation;
         let Some(wrong) = corrupted(right) else { continue };
-        choose(&mut planned.plan).instructions[at].operation = wrong;
+        planned.plan.programs[function].instructions[at].operation = wrong;
         tried += 1;
         missed += usize::from(planned.is_accepted());
-        choose(&mut planned.plan).instructions[at].operation = right;
+        planned.plan.programs[function].instructions[at].operation = right;
     }
     (tried, missed)
 }
@@ -99,23 +97,22 @@ fn missed(planned: &mut Planned, choose: Choose, is_solving: bool) -> (usize, us
 fn every_wrong_instruction_is_caught() {
     let mut planned = Planned::new(DECLARATION);
     assert!(planned.is_accepted());
-    let programs: [(&str, Choose, bool); 13] = [
-        ("phi", |plan| &mut plan.programs[FunctionId::Phi], false),
-        ("phi_dot", |plan| &mut plan.programs[FunctionId::PhiDot], false),
-        ("phi_q", |plan| &mut plan.programs[FunctionId::PhiQ], false),
-        ("phi_t", |plan| &mut plan.programs[FunctionId::PhiT], false),
-        ("gamma", |plan| &mut plan.programs[FunctionId::Gamma], false),
-        ("baumgarte_rhs", |plan| &mut plan.programs[FunctionId::BaumgarteRhs], false),
-        ("forces", |plan| &mut plan.programs[FunctionId::Forces], false),
-        ("kinetic_energy", |plan| &mut plan.programs[FunctionId::KineticEnergy], false),
-        ("potential_energy", |plan| &mut plan.programs[FunctionId::PotentialEnergy], false),
-        ("stabilized", |plan| &mut plan.programs[FunctionId::Stabilized], true),
-        ("constrained", |plan| &mut plan.programs[FunctionId::Constrained], true),
-        ("reactions", |plan| &mut plan.programs[FunctionId::Reactions], true),
-        ("outputs", |plan| &mut plan.programs[FunctionId::Outputs], false),
-    ];
-    for (name, choose, is_solving) in programs {
-        let (tried, missed) = missed(&mut planned, choose, is_solving);
+    for function in [
+        FunctionId::Phi,
+        FunctionId::PhiDot,
+        FunctionId::PhiQ,
+        FunctionId::PhiT,
+        FunctionId::Gamma,
+        FunctionId::BaumgarteRhs,
+        FunctionId::Forces,
+        FunctionId::KineticEnergy,
+        FunctionId::PotentialEnergy,
+        FunctionId::Stabilized,
+        FunctionId::Constrained,
+        FunctionId::Reactions,
+        FunctionId::Outputs,
+    ] {
+        let ((tried, missed), name) = (missed(&mut planned, function), function.name());
         assert!(tried > 0 && missed == 0, "{missed} of {tried} wrong instructions of {name} are accepted");
     }
 }
@@ -125,12 +122,8 @@ fn every_wrong_instruction_is_caught() {
 #[test]
 fn corrections_that_miss_the_constraints_are_caught() {
     let mut planned = Planned::new(DECLARATION);
-    let corrections: [Choose; 2] = [
-        |plan| &mut plan.programs[FunctionId::PositionCorrection],
-        |plan| &mut plan.programs[FunctionId::Projection],
-    ];
-    for correction in corrections {
-        let (tried, missed) = missed(&mut planned, correction, true);
+    for correction in [FunctionId::PositionCorrection, FunctionId::Projection] {
+        let (tried, missed) = missed(&mut planned, correction);
         assert!(missed * 4 < tried, "{missed} of {tried}");
     }
 }
@@ -156,6 +149,6 @@ fn every_function_is_accepted() {
     }";
     let mut planned = Planned::new(declaration);
     assert!(planned.is_accepted());
-    let (tried, missed) = missed(&mut planned, |plan| &mut plan.programs[FunctionId::Gamma], false);
+    let (tried, missed) = missed(&mut planned, FunctionId::Gamma);
     assert!(tried > 0 && missed == 0, "{missed} of {tried} wrong instructions of gamma are accepted");
 }
