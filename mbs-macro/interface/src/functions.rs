@@ -184,6 +184,8 @@ functions! {
     /// Accelerations of what is integrated in an implicit stage, by one step of Newton's method from predicted ones.
     Implicit = "implicit"(Time, StatePositions, StateVelocities, Inputs, Shift, Predicted)
         -> [result: States, growth: Growth], [Counted, Stiff];
+    /// The kinetic momentum p = Mv; ½ pᵀv is the kinetic energy.
+    KineticMomentum = "kinetic_momentum"(Time, Positions, Velocities) -> [result: Coordinates], [Method];
 }
 
 impl FunctionId {

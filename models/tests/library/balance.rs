@@ -62,7 +62,7 @@ pub fn reactions<M: Model>(case: &Case<M>) {
     assert!(constraints < ROUNDINGS_TIMES_GROWTH, "{}: constraints {constraints}", case.name);
 }
 
-/// dE/dt = λᵀ(Φ_t − Φ̇) + power of inputs and dampers.
+/// 2T = pᵀv, and dE/dt = λᵀ(Φ_t − Φ̇) + power of inputs and dampers.
 ///
 /// It is vᵀ times the equations of motion: vᵀΦ_qᵀ λ = λᵀ(Φ̇ − Φ_t). On the
 /// constraints λᵀΦ_t is left, the power of the drives.
@@ -75,6 +75,11 @@ pub fn power<M: Model>(case: &Case<M>) {
         let rates = mechanism.energy_rates(at, &solved.acceleration);
         let applied = (case.power)(mechanism.parameters(), at, inputs);
         let mut balance = Balance::default();
+        let v = at.v.into_array();
+        let mut kinetic = Balance::default();
+        let parts = mechanism.momentum(at).into_iter().zip(v.as_ref()).map(|(p, v)| p * v);
+        kinetic.add(parts.chain([-2.0 * mechanism.kinetic_energy(at)]));
+        worst = worst.max(kinetic.roundings());
         let drives = lambda.as_ref().iter().zip(phi_dot.as_ref()).zip(&phi_t);
         let drives = drives.flat_map(|((l, dot), t)| [l * dot, -l * t]);
         balance.add(rates.into_iter().chain(drives).chain([-applied]));

@@ -16,6 +16,8 @@ pub trait Model: Mechanism<Real = f64> {
     fn mass(&self, q: &Self::Coordinates) -> Vec<Vec<f64>>;
     /// Q
     fn forces(&self, at: &State<Self::Coordinates>, inputs: &Self::Inputs) -> Vec<f64>;
+    /// p = Mv
+    fn momentum(&self, at: &State<Self::Coordinates>) -> Vec<f64>;
     /// Time derivatives of kinetic and potential energy for q̇ = v and v̇ =
     /// `acceleration`, by differentiating the code that computes the energies.
     fn energy_rates(&self, at: &State<Self::Coordinates>, acceleration: &Self::Coordinates) -> [f64; 2];
@@ -42,6 +44,9 @@ macro_rules! model {
             }
             fn forces(&self, at: &State<Self::Coordinates>, inputs: &Self::Inputs) -> Vec<f64> {
                 $Name::forces(self, at, inputs).into_array().to_vec()
+            }
+            fn momentum(&self, at: &State<Self::Coordinates>) -> Vec<f64> {
+                $Name::kinetic_momentum(self, at).into_array().to_vec()
             }
             fn energy_rates(
                 &self,

@@ -48,6 +48,11 @@ pub fn roots(
             system::implicit(model, problem, stiffness, solver.strategy)?.without_feedback(model, problem)
         }
     };
+    let momentum = model.coordinates.iter().zip(&equations.mass).map(|(coordinate, &mass)| {
+        let velocity = model.arena.variable(coordinate.velocity);
+        model.arena.mul(mass, velocity)
+    });
+    let momentum = momentum.collect();
     let entries = equations.phi_q.iter().flat_map(|row| row.values().copied());
     let growths = solver.factorization.pivots.iter().map(|pivot| pivot.growth);
     for (function, values) in [
@@ -73,6 +78,7 @@ pub fn roots(
         (FunctionId::Conditions, requirements(model, equations)),
         (FunctionId::Start, declared_start(model)),
         (FunctionId::Points, model.sketch.places(&mut model.arena)),
+        (FunctionId::KineticMomentum, momentum),
     ] {
         roots.set(function, values);
     }

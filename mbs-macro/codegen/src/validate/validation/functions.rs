@@ -31,6 +31,9 @@ impl Point<'_> {
         let (kinetic, potential) = self.energies();
         self.agree(FunctionId::KineticEnergy, &[kinetic])?;
         self.agree(FunctionId::PotentialEnergy, &[potential])?;
+        let momentum = |at| self.mass(at) * Rounded::exact(self.velocity(at));
+        let momentum: Vec<_> = (0..model.coordinates.len()).map(momentum).collect();
+        self.agree(FunctionId::KineticMomentum, &momentum)?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
         self.agree(FunctionId::Outputs, &outputs)?;
         let events: Vec<_> = model.events.iter().map(|event| self.value(event.value)).collect();
