@@ -68,7 +68,13 @@ fn order(miss: impl Fn(u32) -> f64, steps: u32) -> f64 {
 /// fall with the tenth power and faster until they are rounding.
 #[test]
 fn every_scheme_has_its_order_with_feedback_and_with_projection() {
-    let steps = [("heun", 1600, 3200), ("bs3", 1600, 800), ("rk4", 1600, 3200), ("dopri5", 800, 200)];
+    let steps = [
+        ("heun", 1600, 3200),
+        ("bs3", 1600, 800),
+        ("ssp3", 1600, 800),
+        ("rk4", 1600, 3200),
+        ("dopri5", 800, 200),
+    ];
     for (word, on_lever, on_swing) in steps {
         let scheme = Tableau::find(word).expect("a scheme");
         for method in [Explicit::held(scheme), Explicit::projected(scheme)] {

@@ -21,6 +21,9 @@ macro_rules! explicit_schemes {
             /// The pair 3(2) of Bogacki and Shampine: third order, three evaluations per step. For
             /// coarse tolerances.
             Bs3 = $crate::schemes::BS3;
+            /// The scheme of Shu and Osher: third order, three evaluations per step. Each stage is a mean of Euler's
+            /// steps, so that a bound that these keep (of a friction force, of a flow that only falls) is kept by it.
+            Ssp3 = $crate::schemes::SSP3;
             /// The classical Runge–Kutta method: fourth order, four evaluations per step.
             Rk4 = $crate::schemes::RK4;
             /// The pair 5(4) of Dormand and Prince: fifth order, six evaluations per step. The scheme
@@ -72,6 +75,21 @@ pub const BS3: Tableau = Tableau {
     estimate: Some(Estimate { differences: &[row(1.0 / 72.0, &[-5.0, 6.0, 8.0, -9.0])], power: 3 }),
     interpolant: None,
     source: "P. Bogacki, L. F. Shampine, Appl. Math. Lett. 2 (1989) 321-325",
+    response: Response::UNKNOWN,
+}
+.completed();
+
+/// The third-order scheme of Shu and Osher that preserves strong stability.
+pub const SSP3: Tableau = Tableau {
+    word: "ssp3",
+    type_name: "Ssp3",
+    title: "the strong-stability-preserving scheme of Shu and Osher",
+    order: 3,
+    stages: &[row(1.0, &[1.0]), row(0.25, &[1.0, 1.0])],
+    update: row(1.0 / 6.0, &[1.0, 1.0, 4.0]),
+    estimate: None,
+    interpolant: None,
+    source: "C.-W. Shu, S. Osher, J. Comput. Phys. 77 (1988) 439-471",
     response: Response::UNKNOWN,
 }
 .completed();

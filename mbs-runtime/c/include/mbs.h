@@ -289,8 +289,8 @@ MBS_API mbs_status mbs_describe(const mbs_mechanism *mechanism, mbs_kind kind, s
  * @brief A run that is not started yet.
  *
  * A method is one or two words, a scheme and what keeps the constraints, with a space between them; a word that is left
- * out is as declared. Schemes are `heun` (second order, unless the text declares another), `bs3`, `rk4`, `dopri5`,
- * `dop853`; constraints are kept by feedback, `held` over a step or `per-stage`, or by `projection`. Methods that keep
+ * out is as declared. Schemes are `heun` (second order, unless the text declares another), `bs3`, `ssp3`, `rk4`,
+ * `dopri5`, `dop853`; constraints are kept by feedback, `held` over a step or `per-stage`, or by `projection`. Methods that keep
  * the constraints themselves stand alone: `rattle` and `rattle4` for conservative mechanisms, `trbdf2` and `esdirk4`
  * for stiff ones, the latter always to a tolerance.
  *
