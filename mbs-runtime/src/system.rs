@@ -47,19 +47,27 @@ use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Real
 /// ```
 pub trait System<T: Real = f64>: Send {
     /// Names, dimensions and the equations of the mechanism.
-    fn equations(&self) -> &dyn Equations<T>;
+    fn equations(&self) -> &dyn Equations<T> {
+        self.described()
+    }
 
     /// The reactions, outputs, energies and picture of the mechanism, in any state.
     fn described(&self) -> &dyn Described<T>;
 
     /// The equations and their elimination, for people to read.
-    fn derivation(&self) -> &Derivation;
+    fn derivation(&self) -> &Derivation {
+        self.described().derivation()
+    }
 
     /// The picture of the mechanism.
-    fn sketch(&self) -> &Sketch;
+    fn sketch(&self) -> &Sketch {
+        self.described().sketch()
+    }
 
     /// Writes the parameters that it was made with.
-    fn parameters(&self, parameters: &mut [T]);
+    fn parameters(&self, parameters: &mut [T]) {
+        self.described().parameters(parameters);
+    }
 
     /// Time in s.
     fn time(&self) -> T;
@@ -135,11 +143,16 @@ pub trait System<T: Real = f64>: Send {
     fn violations(&self) -> [T; 2];
 
     /// Kinetic and potential energy in J, of another state of the mechanism too.
-    fn energies(&self, at: At<'_, T>) -> [T; 2];
+    fn energies(&self, at: At<'_, T>) -> [T; 2] {
+        let mechanism = self.described();
+        [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
+    }
 
     /// Writes x and y of every point of the [sketch](Self::sketch) in m, one after the
     /// other.
-    fn points(&self, t: T, q: &[T], points: &mut [T]);
+    fn points(&self, t: T, q: &[T], points: &mut [T]) {
+        self.described().points(t, q, points);
+    }
 
     /// The steps of a run to a tolerance, of which [`steps`](Self::steps) counts the samples;
     /// nothing of one with a constant step.
@@ -197,24 +210,8 @@ impl<T: Real, S: System<T> + Clone + 'static> SystemClone<T> for S {
 }
 
 impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
-    fn equations(&self) -> &dyn Equations<M::Real> {
-        self.mechanism()
-    }
-
     fn described(&self) -> &dyn Described<M::Real> {
         self.mechanism()
-    }
-
-    fn derivation(&self) -> &Derivation {
-        M::DERIVATION
-    }
-
-    fn sketch(&self) -> &Sketch {
-        M::SKETCH
-    }
-
-    fn parameters(&self, parameters: &mut [M::Real]) {
-        Described::parameters(self.mechanism(), parameters);
     }
 
     fn time(&self) -> M::Real {
@@ -276,14 +273,6 @@ impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
 
     fn violations(&self) -> [M::Real; 2] {
         [self.violation(), self.velocity_violation()]
-    }
-
-    fn energies(&self, at: At<'_, M::Real>) -> [M::Real; 2] {
-        [Equations::kinetic_energy(self.mechanism(), at), Described::potential_energy(self.mechanism(), at)]
-    }
-
-    fn points(&self, t: M::Real, q: &[M::Real], points: &mut [M::Real]) {
-        Described::points(self.mechanism(), t, q, points);
     }
 
     fn worst_growth(&self) -> M::Real {

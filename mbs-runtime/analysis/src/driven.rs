@@ -76,10 +76,6 @@ impl<D: Dynamics> Dynamics for Driven<D> {
     type Constraints = D::Constraints;
     type Inputs = D::Inputs;
 
-    fn equations(&self) -> &dyn Equations<D::Real> {
-        self
-    }
-
     fn described(&self) -> &dyn Described<D::Real> {
         self
     }
@@ -168,166 +164,59 @@ impl<D: Dynamics> Dynamics for Driven<D> {
     }
 }
 
+/// Methods that are those of the mechanism, with the inputs of the table.
+macro_rules! driven {
+    ($($name:ident($($argument:ident: $Type:ty),*) $(-> $Result:ty)?;)*) => {$(
+        fn $name(&self, at: At<'_, D::Real>, inputs: &[D::Real], $($argument: $Type),*) $(-> $Result)? {
+            self.dynamics.described().$name(at, &self.at(at.t, inputs), $($argument),*)
+        }
+    )*};
+}
+
+/// Methods that are those of the mechanism, since they depend on no input.
+macro_rules! unchanged {
+    ($($name:ident($($argument:ident: $Type:ty),*) $(-> $Result:ty)?;)*) => {$(
+        fn $name(&self, $($argument: $Type),*) $(-> $Result)? {
+            self.dynamics.described().$name($($argument),*)
+        }
+    )*};
+}
+
 impl<D: Dynamics> Equations<D::Real> for Driven<D> {
-    fn info(&self) -> &Info {
-        self.dynamics.equations().info()
+    driven! {
+        stabilized(gains: &Gains<D::Real>, a: &mut [D::Real], feedback: &mut [D::Real]) -> D::Real;
+        constrained(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
+        implicit(shift: D::Real, predicted: &[D::Real], a: &mut [D::Real]) -> D::Real;
+        accelerations(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
     }
-
-    fn phi(&self, t: D::Real, q: &[D::Real], phi: &mut [D::Real]) {
-        self.dynamics.equations().phi(t, q, phi);
-    }
-
-    fn phi_dot(&self, at: At<'_, D::Real>, phi_dot: &mut [D::Real]) {
-        self.dynamics.equations().phi_dot(at, phi_dot);
-    }
-
-    fn complete(&self, states: At<'_, D::Real>, q: &mut [D::Real], v: &mut [D::Real]) {
-        self.dynamics.equations().complete(states, q, v);
-    }
-
-    fn stabilized(
-        &self,
-        states: At<'_, D::Real>,
-        inputs: &[D::Real],
-        gains: &Gains<D::Real>,
-        acceleration: &mut [D::Real],
-        feedback: &mut [D::Real],
-    ) -> D::Real {
-        let inputs = self.at(states.t, inputs);
-        self.dynamics.equations().stabilized(states, &inputs, gains, acceleration, feedback)
-    }
-
-    fn constrained(
-        &self,
-        states: At<'_, D::Real>,
-        inputs: &[D::Real],
-        feedback: &[D::Real],
-        acceleration: &mut [D::Real],
-    ) -> D::Real {
-        let inputs = self.at(states.t, inputs);
-        self.dynamics.equations().constrained(states, &inputs, feedback, acceleration)
-    }
-
-    fn implicit(
-        &self,
-        states: At<'_, D::Real>,
-        inputs: &[D::Real],
-        shift: D::Real,
-        predicted: &[D::Real],
-        acceleration: &mut [D::Real],
-    ) -> D::Real {
-        let inputs = self.at(states.t, inputs);
-        self.dynamics.equations().implicit(states, &inputs, shift, predicted, acceleration)
-    }
-
-    fn accelerations(
-        &self,
-        at: At<'_, D::Real>,
-        inputs: &[D::Real],
-        feedback: &[D::Real],
-        acceleration: &mut [D::Real],
-    ) -> D::Real {
-        let inputs = self.at(at.t, inputs);
-        self.dynamics.equations().accelerations(at, &inputs, feedback, acceleration)
-    }
-
-    fn position_correction(
-        &self,
-        t: D::Real,
-        q: &[D::Real],
-        residual: &[D::Real],
-        correction: &mut [D::Real],
-    ) -> D::Real {
-        self.dynamics.equations().position_correction(t, q, residual, correction)
-    }
-
-    fn velocity_correction(
-        &self,
-        t: D::Real,
-        q: &[D::Real],
-        residual: &[D::Real],
-        correction: &mut [D::Real],
-    ) -> D::Real {
-        self.dynamics.equations().velocity_correction(t, q, residual, correction)
-    }
-
-    fn projection(
-        &self,
-        t: D::Real,
-        q: &[D::Real],
-        violation: &[D::Real],
-        correction: &mut [D::Real],
-    ) -> D::Real {
-        self.dynamics.equations().projection(t, q, violation, correction)
-    }
-
-    fn worst_pivot(&self, t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)> {
-        self.dynamics.equations().worst_pivot(t, q)
-    }
-
-    fn worst_start_pivot(&self, t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)> {
-        self.dynamics.equations().worst_start_pivot(t, q)
-    }
-
-    fn kinetic_energy(&self, at: At<'_, D::Real>) -> D::Real {
-        self.dynamics.equations().kinetic_energy(at)
-    }
-
-    fn states(&self, all: &[D::Real], states: &mut [D::Real]) {
-        self.dynamics.equations().states(all, states);
+    unchanged! {
+        info() -> &Info;
+        phi(t: D::Real, q: &[D::Real], phi: &mut [D::Real]);
+        phi_dot(at: At<'_, D::Real>, phi_dot: &mut [D::Real]);
+        complete(states: At<'_, D::Real>, q: &mut [D::Real], v: &mut [D::Real]);
+        position_correction(t: D::Real, q: &[D::Real], residual: &[D::Real], correction: &mut [D::Real]) -> D::Real;
+        velocity_correction(t: D::Real, q: &[D::Real], residual: &[D::Real], correction: &mut [D::Real]) -> D::Real;
+        projection(t: D::Real, q: &[D::Real], violation: &[D::Real], correction: &mut [D::Real]) -> D::Real;
+        worst_pivot(t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)>;
+        worst_start_pivot(t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)>;
+        kinetic_energy(at: At<'_, D::Real>) -> D::Real;
+        states(all: &[D::Real], states: &mut [D::Real]);
     }
 }
 
 impl<D: Dynamics> Described<D::Real> for Driven<D> {
-    fn reactions(
-        &self,
-        at: At<'_, D::Real>,
-        inputs: &[D::Real],
-        acceleration: &mut [D::Real],
-        multipliers: &mut [D::Real],
-    ) -> D::Real {
-        let inputs = self.at(at.t, inputs);
-        self.dynamics.described().reactions(at, &inputs, acceleration, multipliers)
+    driven! {
+        reactions(a: &mut [D::Real], multipliers: &mut [D::Real]) -> D::Real;
+        outputs(reactions: [&[D::Real]; 2], outputs: &mut [D::Real]);
+        events(values: &mut [D::Real]);
     }
-
-    fn outputs(
-        &self,
-        at: At<'_, D::Real>,
-        inputs: &[D::Real],
-        reactions: [&[D::Real]; 2],
-        outputs: &mut [D::Real],
-    ) {
-        let inputs = self.at(at.t, inputs);
-        self.dynamics.described().outputs(at, &inputs, reactions, outputs);
-    }
-
-    fn events(&self, at: At<'_, D::Real>, inputs: &[D::Real], values: &mut [D::Real]) {
-        let inputs = self.at(at.t, inputs);
-        self.dynamics.described().events(at, &inputs, values);
-    }
-
-    fn potential_energy(&self, at: At<'_, D::Real>) -> D::Real {
-        self.dynamics.described().potential_energy(at)
-    }
-
-    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
-        self.dynamics.described().points(t, q, points);
-    }
-
-    fn parameters(&self, parameters: &mut [D::Real]) {
-        self.dynamics.described().parameters(parameters);
-    }
-
-    fn derivation(&self) -> &Derivation {
-        self.dynamics.described().derivation()
-    }
-
-    fn sketch(&self) -> &Sketch {
-        self.dynamics.described().sketch()
-    }
-
-    /// The mechanism alone, with the inputs that are handed over.
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        self.dynamics.described().differentiable()
+    // equations over duals are of the mechanism alone, with the inputs that are handed over
+    unchanged! {
+        potential_energy(at: At<'_, D::Real>) -> D::Real;
+        points(t: D::Real, q: &[D::Real], points: &mut [D::Real]);
+        parameters(parameters: &mut [D::Real]);
+        derivation() -> &Derivation;
+        sketch() -> &Sketch;
+        differentiable() -> Option<&dyn Differentiable>;
     }
 }

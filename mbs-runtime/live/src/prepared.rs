@@ -83,10 +83,6 @@ impl<T: Real> Dynamics for Prepared<T> {
     type Constraints = Vec<T>;
     type Inputs = Vec<T>;
 
-    fn equations(&self) -> &dyn Equations<T> {
-        &self.live
-    }
-
     fn described(&self) -> &dyn Described<T> {
         &self.live
     }

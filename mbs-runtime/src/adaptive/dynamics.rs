@@ -29,7 +29,9 @@ pub trait Dynamics: Clone + Send {
     type Inputs: Clone + Send;
 
     /// Its equations on slices.
-    fn equations(&self) -> &dyn Equations<Self::Real>;
+    fn equations(&self) -> &dyn Equations<Self::Real> {
+        self.described()
+    }
 
     /// Its reactions, outputs, energies, texts and picture.
     fn described(&self) -> &dyn Described<Self::Real>;
@@ -126,10 +128,6 @@ impl<M: Mechanism> Dynamics for M {
     type States = arrays::States<M>;
     type Constraints = arrays::Constraints<M>;
     type Inputs = M::Inputs;
-
-    fn equations(&self) -> &dyn Equations<M::Real> {
-        self
-    }
 
     fn described(&self) -> &dyn Described<M::Real> {
         self

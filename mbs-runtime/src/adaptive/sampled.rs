@@ -6,11 +6,11 @@ use core::fmt;
 
 use super::events::Watched;
 use super::{Adaptive, AdaptiveScheme, Direction, Dynamics, Effort, Event, MOST_EVENTS};
-use crate::equations::{At, Described, Equations};
+use crate::equations::{At, Described};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Error, Real, Sketch, System, vectors};
+use crate::{Error, Real, System, vectors};
 
 /// A sample is at the end of a run that is nearer to it than this share of an interval.
 const AT_END: f64 = 1e-6;
@@ -237,24 +237,8 @@ impl<D: Dynamics, S: AdaptiveScheme> fmt::Debug for Sampled<D, S> {
 }
 
 impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
-    fn equations(&self) -> &dyn Equations<D::Real> {
-        self.run.dynamics.equations()
-    }
-
     fn described(&self) -> &dyn Described<D::Real> {
         self.run.dynamics.described()
-    }
-
-    fn derivation(&self) -> &Derivation {
-        self.run.dynamics.described().derivation()
-    }
-
-    fn sketch(&self) -> &Sketch {
-        self.run.dynamics.described().sketch()
-    }
-
-    fn parameters(&self, parameters: &mut [D::Real]) {
-        self.run.dynamics.described().parameters(parameters);
     }
 
     fn time(&self) -> D::Real {
@@ -350,15 +334,6 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
 
     fn violations(&self) -> [D::Real; 2] {
         self.view().violations()
-    }
-
-    fn energies(&self, at: At<'_, D::Real>) -> [D::Real; 2] {
-        let mechanism = self.run.dynamics.described();
-        [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
-    }
-
-    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
-        self.run.dynamics.described().points(t, q, points);
     }
 
     fn effort(&self) -> Option<Effort> {

@@ -1,11 +1,11 @@
 //! Runs with a constant step as a [`System`].
 
 use super::{ConstantStep, Kernel};
-use crate::equations::{At, Described, Equations};
+use crate::equations::{At, Described};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Derivation, Dynamics, Error, Real, Sketch, System, vectors};
+use crate::{Dynamics, Error, Real, System, vectors};
 
 impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// The mechanism in its present state.
@@ -17,24 +17,8 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 }
 
 impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
-    fn equations(&self) -> &dyn Equations<D::Real> {
-        self.dynamics.equations()
-    }
-
     fn described(&self) -> &dyn Described<D::Real> {
         self.dynamics.described()
-    }
-
-    fn derivation(&self) -> &Derivation {
-        self.dynamics.described().derivation()
-    }
-
-    fn sketch(&self) -> &Sketch {
-        self.dynamics.described().sketch()
-    }
-
-    fn parameters(&self, parameters: &mut [D::Real]) {
-        self.dynamics.described().parameters(parameters);
     }
 
     fn time(&self) -> D::Real {
@@ -88,15 +72,6 @@ impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
 
     fn violations(&self) -> [D::Real; 2] {
         self.view().violations()
-    }
-
-    fn energies(&self, at: At<'_, D::Real>) -> [D::Real; 2] {
-        let mechanism = self.dynamics.described();
-        [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
-    }
-
-    fn points(&self, t: D::Real, q: &[D::Real], points: &mut [D::Real]) {
-        self.dynamics.described().points(t, q, points);
     }
 
     fn worst_growth(&self) -> D::Real {

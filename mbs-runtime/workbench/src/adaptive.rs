@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use mbs_analysis::{Driven, Trials};
-use mbs_runtime::equations::{At, Correction, Described, Equations, Partials, Room, correction};
+use mbs_runtime::equations::{At, Correction, Described, Partials, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
     Adaptive, AdaptiveScheme, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method,
@@ -174,10 +174,6 @@ impl<T: Real> Dynamics for Erased<T> {
     type States = Vec<T>;
     type Constraints = Vec<T>;
     type Inputs = Vec<T>;
-
-    fn equations(&self) -> &dyn Equations<T> {
-        &*self.mechanism
-    }
 
     fn described(&self) -> &dyn Described<T> {
         &*self.mechanism

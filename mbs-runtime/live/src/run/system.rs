@@ -1,29 +1,13 @@
 //! A run as tools see it.
 
 use mbs_runtime::equations::{self, At, Described, Equations, Room, check_outputs};
-use mbs_runtime::{Derivation, Error, Real, Sketch, System, WorstPlace};
+use mbs_runtime::{Error, Real, System, WorstPlace};
 
 use super::{Run, copy};
 
 impl<T: Real> System<T> for Run<T> {
-    fn equations(&self) -> &dyn Equations<T> {
-        &self.mechanism
-    }
-
     fn described(&self) -> &dyn Described<T> {
         &self.mechanism
-    }
-
-    fn derivation(&self) -> &Derivation {
-        self.mechanism.derivation()
-    }
-
-    fn sketch(&self) -> &Sketch {
-        self.mechanism.sketch()
-    }
-
-    fn parameters(&self, parameters: &mut [T]) {
-        copy(parameters, self.mechanism.parameters());
     }
 
     fn time(&self) -> T {
@@ -92,14 +76,6 @@ impl<T: Real> System<T> for Run<T> {
         let violation = norm(&rows);
         self.mechanism.phi_dot(At { t: self.t, q: &q, v: &v }, &mut rows);
         [violation, norm(&rows)]
-    }
-
-    fn energies(&self, at: At<'_, T>) -> [T; 2] {
-        [self.mechanism.kinetic_energy(at), self.mechanism.potential_energy(at)]
-    }
-
-    fn points(&self, t: T, q: &[T], points: &mut [T]) {
-        self.mechanism.points(t, q, points);
     }
 
     fn worst_growth(&self) -> T {
