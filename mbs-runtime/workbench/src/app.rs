@@ -4,23 +4,16 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
-use clap::{ArgMatches, Command};
+use clap::{ArgMatches, Command, FromArgMatches, Subcommand};
 use mbs_runtime::Mechanism;
 
 #[cfg(feature = "live")]
 use crate::Settings;
-use crate::command::{
-    bode, completions, equilibrium, explain, fit, inverse, linearize, list, merge, modes, new, simulate,
-    sweep, synthesize, travel,
-};
-#[cfg(feature = "live")]
-use crate::command::{check, export, import, watch};
-use crate::console::complain;
+use crate::command::Builtin;
+use crate::command::{list, simulate};
+use crate::console::{Warnings, complain};
 use crate::models::Models;
 use crate::{Error, Model, interrupt, model};
-
-/// Warnings about the results of a command that gave them nevertheless.
-pub(crate) type Warnings = Vec<String>;
 
 /// The exit code of a command that has warnings.
 const DOUBTFUL: u8 = 3;
@@ -153,61 +146,19 @@ impl App {
             Some(name) => format!("Compiled mechanisms at a desk. Without a command: {name}."),
             None => "Compiled mechanisms at a desk. Without a command: simulates the first.".into(),
         };
-        let parser = Command::new("mbs").about(about).version(env!("CARGO_PKG_VERSION"));
-        #[cfg(feature = "live")]
-        let parser = parser
-            .subcommand(check::command())
-            .subcommand(watch::command())
-            .subcommand(import::command())
-            .subcommand(export::command());
-        parser
-            .subcommand(list::command())
-            .subcommand(equilibrium::command())
-            .subcommand(linearize::command())
-            .subcommand(modes::command())
-            .subcommand(bode::command())
-            .subcommand(inverse::command())
-            .subcommand(travel::command())
-            .subcommand(fit::command())
-            .subcommand(synthesize::command())
-            .subcommand(explain::command())
-            .subcommand(simulate::command())
-            .subcommand(sweep::command())
-            .subcommand(merge::command())
-            .subcommand(new::command())
-            .subcommand(completions::command())
+        Builtin::augment_subcommands(Command::new("mbs"))
+            .about(about)
+            .version(env!("CARGO_PKG_VERSION"))
             .subcommands(self.commands.iter().map(|(command, _)| command.clone()))
     }
 
     fn dispatch(&self, matches: &ArgMatches) -> Result<Warnings, Error> {
-        let silent = |()| Warnings::new();
         match matches.subcommand() {
-            Some(("list", matches)) => list::run(&self.models, matches.get_flag("json")).map(silent),
-            Some(("equilibrium", matches)) => equilibrium::run(&self.models, matches).map(silent),
-            Some(("linearize", matches)) => linearize::run(&self.models, matches),
-            Some(("modes", matches)) => modes::run(&self.models, matches),
-            Some(("bode", matches)) => bode::run(&self.models, matches),
-            Some(("inverse", matches)) => inverse::run(&self.models, matches).map(silent),
-            Some(("travel", matches)) => travel::run(&self.models, matches).map(silent),
-            Some(("fit", matches)) => fit::run(&self.models, matches),
-            Some(("synthesize", matches)) => synthesize::run(&self.models, matches).map(silent),
-            Some(("explain", matches)) => explain::run(&self.models, matches).map(silent),
-            Some(("simulate", matches)) => simulate::run(&self.models, matches),
-            Some(("sweep", matches)) => sweep::run(&self.models, matches),
-            Some(("merge", matches)) => merge::run(matches).map(silent),
-            #[cfg(feature = "live")]
-            Some(("check", matches)) => check::run(matches).map(silent),
-            #[cfg(feature = "live")]
-            Some(("export", matches)) => export::run(&self.models, matches).map(silent),
-            #[cfg(feature = "live")]
-            Some(("import", matches)) => import::run(matches).map(silent),
-            #[cfg(feature = "live")]
-            Some(("watch", matches)) => watch::run(matches).map(silent),
-            Some(("new", matches)) => new::run(matches).map(silent),
-            Some(("completions", matches)) => {
-                completions::run(&self.models, self.parser(), matches).map(silent)
-            }
-            Some((name, matches)) => self.added(name, matches).map(silent),
+            Some((name, _)) if Builtin::has_subcommand(name) => match Builtin::from_arg_matches(matches) {
+                Ok(command) => command.run(&self.models, || self.parser()),
+                Err(error) => Err(Error::Command(Box::new(error))),
+            },
+            Some((name, matches)) => self.added(name, matches).map(|()| Warnings::new()),
             None => self.without_command(),
         }
     }
@@ -235,7 +186,16 @@ impl App {
         let first = self.models.names().next();
         match first {
             Some(name) => simulate::by_default(name, self.models.get(name)?),
-            None => list::run(&self.models, false).map(|()| Warnings::new()),
+            None => list::Arguments { json: false }.run(&self.models).map(|()| Warnings::new()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    /// Clap checks here that arguments which exclude or ask for each other exist.
+    #[test]
+    fn arguments_name_each_other_rightly() {
+        crate::app().parser().debug_assert();
     }
 }

@@ -5,6 +5,9 @@ use std::io::Write;
 
 use crate::Error;
 
+/// Warnings about the results of a command that gave them nevertheless.
+pub(crate) type Warnings = Vec<String>;
+
 /// Writes a line to standard output.
 ///
 /// # Errors

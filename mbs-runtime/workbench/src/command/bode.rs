@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use clap::{ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_runtime::Dimension;
 
-use super::operating;
-use super::options::{self, option};
+use super::operating::{self, Point, Ports};
+use super::options;
 use super::responses::Bode;
-use crate::app::Warnings;
+use crate::console::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::{Error, quantity, say, write_csv};
@@ -22,52 +22,55 @@ Examples:
 
 const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    Command::new("bode")
-        .about("Find magnitude and phase of the outputs about an operating point, over the frequency of the inputs")
-        .after_help(EXAMPLES)
-        .args(operating::of_a_point())
-        .args(operating::of_ports())
-        .arg(option(
-            "range",
-            "LOW..HIGH",
-            "Frequencies in Hz, or with a unit: 0.1Hz..50Hz, 1rad/s..300rad/s [default: that of the modes]",
-        ))
-        .arg(file("plot", "FILE.svg|.png", "Draw magnitude and phase"))
-        .arg(file("out", "FILE.csv", "Write magnitude and phase"))
+#[derive(Args)]
+#[command(
+    about = "Find magnitude and phase of the outputs about an operating point, over the frequency of the inputs",
+    after_help = EXAMPLES,
+    mut_args(options::signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    ports: Ports,
+    /// Frequencies in Hz, or with a unit: 0.1Hz..50Hz, 1rad/s..300rad/s [default: that of the modes]
+    #[arg(long, value_name = "LOW..HIGH")]
+    range: Option<String>,
+    /// Draw magnitude and phase
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Write magnitude and phase
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let found = operating::named(models, matches)?;
-    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
-    options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
-    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let range = matches.get_one::<String>("range").map(|text| range(text)).transpose()?;
-    let operating = operating::operating(found.name(), found.model(), matches)?;
-    let linear = operating::linearized(&operating, matches)?;
-    if linear.inputs.is_empty() {
-        let reason = "it has no inputs, so nothing can answer to them; declare one, such as `input force [N];`, or \
-                      take parameters as inputs with --parameters";
-        return Err(Error::Name { name: operating.name.to_owned(), reason: reason.into() });
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.point.find(models)?;
+        let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
+        options::check_files([plot, out])?;
+        plot.map_or(Ok(()), Figure::check_ending)?;
+        let range = self.range.as_ref().map(|text| range(text)).transpose()?;
+        let operating = self.point.operating(&found)?;
+        let linear = operating::linearized(&operating, &(&self.ports).into())?;
+        if linear.inputs.is_empty() {
+            let reason = "it has no inputs, so nothing can answer to them; declare one, such as `input force [N];`, or \
+                          take parameters as inputs with --parameters";
+            return Err(Error::Name { name: operating.name.to_owned(), reason: reason.into() });
+        }
+        let bode = Bode::of(operating.info(), &linear, range)?;
+        if let Some(path) = plot {
+            bode.figure(&format!("{}: frequency response", operating.name)).save(path)?;
+        }
+        if let Some(path) = out {
+            write_csv(path, &bode.columns())?;
+        }
+        say(format_args!("about {}", operating::words(&operating)))?;
+        say(bode.table(operating.name).to_string().trim_end())?;
+        bode.remark().map_or(Ok(()), say)?;
+        options::say_written([plot, out])?;
+        Ok(operating::warnings(&linear))
     }
-    let bode = Bode::of(operating.info(), &linear, range)?;
-    if let Some(path) = plot {
-        bode.figure(&format!("{}: frequency response", operating.name)).save(path)?;
-    }
-    if let Some(path) = out {
-        write_csv(path, &bode.columns())?;
-    }
-    say(format_args!("about {}", operating::words(&operating)))?;
-    say(bode.table(operating.name).to_string().trim_end())?;
-    bode.remark().map_or(Ok(()), say)?;
-    [plot, out]
-        .into_iter()
-        .flatten()
-        .try_for_each(|path| say(format_args!("written: {}", path.display())))?;
-    Ok(operating::warnings(&linear))
 }
 
 /// `LOW..HIGH` in Hz.

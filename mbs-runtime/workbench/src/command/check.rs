@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_live::{Live, Location, Problem, Text, Warnings};
 use serde_json::{Value, json};
 
@@ -11,16 +11,18 @@ use crate::console::complain;
 use crate::number::{counted, significant};
 use crate::{Error, declarations, say};
 
-pub(crate) fn command() -> Command {
-    let file = Arg::new("file").value_name("FILE").required(true).num_args(1..);
-    Command::new("check")
-        .about("Check the declarations in files, and show all of their errors, and what nothing uses")
-        .after_help(EXAMPLES)
-        .arg(
-            file.value_parser(value_parser!(PathBuf))
-                .help("A declaration (.mbs), or a Rust file with one `mechanism! { … }`"),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print what was found as JSON"))
+#[derive(Args)]
+#[command(
+    about = "Check the declarations in files, and show all of their errors, and what nothing uses",
+    after_help = EXAMPLES,
+)]
+pub(crate) struct Arguments {
+    /// A declaration (.mbs), or a Rust file with one `mechanism! { … }`
+    #[arg(value_name = "FILE", required = true)]
+    file: Vec<PathBuf>,
+    /// Print what was found as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -28,30 +30,30 @@ Examples:
   mbs check my.mbs
   mbs check --json my.mbs    # messages with their places, for editors";
 
-pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
-    let files: Vec<&PathBuf> = matches.get_many("file").unwrap_or_default().collect();
-    let is_json = matches.get_flag("json");
-    let (mut found, mut refused) = (Vec::new(), 0);
-    for file in &files {
-        let start = Instant::now();
-        let result = Text::read(file).map_err(Error::file("read", *file))?.check();
-        let name = file.display().to_string();
-        refused += usize::from(result.is_err());
-        match result {
-            result if is_json => found.push(as_json(&name, &result)),
-            Ok((live, warnings)) => {
-                if !warnings.problems().is_empty() {
-                    complain(declarations::shown_warnings(&warnings));
+impl Arguments {
+    pub fn run(&self) -> Result<(), Error> {
+        let (mut found, mut refused) = (Vec::new(), 0);
+        for file in &self.file {
+            let start = Instant::now();
+            let result = Text::read(file).map_err(Error::file("read", file))?.check();
+            let name = file.display().to_string();
+            refused += usize::from(result.is_err());
+            match result {
+                result if self.json => found.push(as_json(&name, &result)),
+                Ok((live, warnings)) => {
+                    if !warnings.problems().is_empty() {
+                        complain(declarations::shown_warnings(&warnings));
+                    }
+                    say(summary(&name, &live, start.elapsed().as_secs_f64()))?;
                 }
-                say(summary(&name, &live, start.elapsed().as_secs_f64()))?;
+                Err(error) => complain(declarations::shown(&error)),
             }
-            Err(error) => complain(declarations::shown(&error)),
         }
+        if self.json {
+            say(Value::Array(found))?;
+        }
+        if refused == 0 { Ok(()) } else { Err(Error::Refused { refused, of: self.file.len() }) }
     }
-    if is_json {
-        say(Value::Array(found))?;
-    }
-    if refused == 0 { Ok(()) } else { Err(Error::Refused { refused, of: files.len() }) }
 }
 
 /// A declaration in a line: its name, its size, and the time that the check took.

@@ -1,24 +1,14 @@
 //! Runs of one mechanism that differ in one value, side by side.
 
-use clap::{Arg, ArgMatches};
 use mbs_runtime::Info;
 
 use super::curves::compared;
+use super::options;
 use super::simulate::{Request, recorded};
 use super::{json, page};
-use crate::app::Warnings;
-use crate::console::complain;
+use crate::console::{Warnings, complain};
 use crate::figure::SERIES_COLOURS;
 use crate::{Column, Error, Recording, Settings, Table, Unit, quantity, say, write_csv};
-
-pub(super) fn option() -> Arg {
-    super::options::option(
-        "compare",
-        "NAME=VALUE,…",
-        "Run once for each of these values of a parameter or input, in one picture",
-    )
-    .conflicts_with_all(["sketch", "report"])
-}
 
 /// The value that differs.
 pub(super) struct Comparison {
@@ -30,9 +20,8 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    /// The comparison that the options ask for, if they ask for one.
-    pub fn of(info: &'static Info, settings: &Settings, matches: &ArgMatches) -> Result<Option<Self>, Error> {
-        let Some(text) = matches.get_one::<String>("compare") else { return Ok(None) };
+    /// Reads `NAME=VALUE,…`.
+    pub fn of(info: &'static Info, settings: &Settings, text: &str) -> Result<Self, Error> {
         let (name, list) = quantity::split_setting(text)?;
         let known = || info.parameters.iter().chain(info.inputs);
         let quantity = known()
@@ -58,7 +47,7 @@ impl Comparison {
             settings
         };
         let runs = values.iter().map(with).collect();
-        Ok(Some(Self { name: name.to_owned(), unit: Unit::of(quantity), values, runs }))
+        Ok(Self { name: name.to_owned(), unit: Unit::of(quantity), values, runs })
     }
 }
 
@@ -69,7 +58,7 @@ pub(super) fn carry_out(request: &Request<'_>, comparison: &Comparison) -> Resul
         let name = format!("{} = {}", comparison.name.replace('_', " "), comparison.unit.text(*value, 6));
         runs.push((name, recorded(request.model, settings)?));
     }
-    if let Some(path) = &request.files.csv {
+    if let Some(path) = &request.files.out {
         write_csv(path, &one_table(request, comparison, &runs)?)?;
     }
     if let Some(path) = &request.files.plot {
@@ -81,7 +70,7 @@ pub(super) fn carry_out(request: &Request<'_>, comparison: &Comparison) -> Resul
         say(serde_json::Value::Array(each))?;
     } else {
         say(table(request, &runs)?.to_string().trim_end())?;
-        request.files.all().try_for_each(|path| say(format_args!("written: {}", path.display())))?;
+        options::say_written(request.files.all())?;
     }
     let notes = runs.first().map_or(&[][..], |(_, run)| &run.notes);
     notes.iter().for_each(|note| complain(format_args!("note: {note}")));

@@ -2,20 +2,19 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_analysis::{Equilibrium, Stability, equilibrium};
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 use serde_json::{Map, Value, json};
 
 use super::json::number;
-use super::operating::{self, refuse_signals};
-use super::options::{self, option};
+use super::options::{self, Named, Values, pairs, signed};
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::number::significant;
 use crate::settings::Start;
-use crate::{Error, Motion, Picture, Table, Unit, say};
+use crate::{About, Error, Motion, Picture, Table, Unit, say};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,50 +22,56 @@ Examples:
   mbs equilibrium double-pendulum --from angle1=170deg --sketch rest.svg
   mbs equilibrium my.mbs --set k=2N/mm --relax";
 
-pub(crate) fn command() -> Command {
-    Command::new("equilibrium")
-        .about("Find where a mechanism rests, its reactions there, and whether that is stable")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_values())
-        .arg(
-            option("from", "NAME=VALUE", "Begin with this value of a coordinate; repeatable")
-                .action(ArgAction::Append),
-        )
-        .arg(option("at", "TIME", "Hold drives and forces where they are at this time [default: 0s]"))
-        .arg(
-            Arg::new("relax")
-                .long("relax")
-                .action(ArgAction::SetTrue)
-                .help("Go where the mechanism would come to rest, past unstable equilibria"),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(
-            option("sketch", "FILE.svg|.png", "Draw the mechanism where it rests")
-                .value_parser(value_parser!(PathBuf)),
-        )
+#[derive(Args)]
+#[command(
+    about = "Find where a mechanism rests, its reactions there, and whether that is stable",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// Begin with this value of a coordinate; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    from: Vec<String>,
+    /// Hold drives and forces where they are at this time [default: 0s]
+    #[arg(long, value_name = "TIME")]
+    at: Option<String>,
+    /// Go where the mechanism would come to rest, past unstable equilibria
+    #[arg(long)]
+    relax: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the mechanism where it rests
+    #[arg(long, value_name = "FILE.svg|.png")]
+    sketch: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let name = matches.get_one::<String>("model").map_or("", String::as_str);
-    let found = models.find(name)?;
-    let (name, model) = (found.name(), found.model());
-    let sketch = matches.get_one::<PathBuf>("sketch");
-    sketch.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    refuse_signals(matches, "inputs that change with time have no equilibrium")?;
-    let start = Start::of(model, &options::values(model, matches)?)?;
-    let run = model.start(&start)?;
-    let search = operating::about(matches)?.search(&*run)?;
-    let rest = equilibrium(run.described(), &search)?;
-    let shown = Found::of(name, model.info(), &*run, &rest);
-    if let Some(path) = sketch {
-        Figure::mechanism(name, Picture::of(&still(&*run, model.sketch(), &rest))).save(path)?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let sketch = self.sketch.as_deref();
+        sketch.map_or(Ok(()), Figure::check_ending)?;
+        let values = self.values.constants("inputs that change with time have no equilibrium")?;
+        let start = Start::of(model, &values.settings(model)?)?;
+        let run = model.start(&start)?;
+        let from = pairs(&self.from)?;
+        let about = About { from, at: self.at.clone(), is_relaxed: self.relax, ..About::default() };
+        let rest = equilibrium(run.described(), &about.search(&*run)?)?;
+        let shown = Found::of(name, model.info(), &*run, &rest);
+        if let Some(path) = sketch {
+            Figure::mechanism(name, Picture::of(&still(&*run, model.sketch(), &rest))).save(path)?;
+        }
+        if self.json {
+            return say(shown.json());
+        }
+        say(shown.table().to_string().trim_end())?;
+        options::say_written([sketch])
     }
-    if matches.get_flag("json") {
-        return say(shown.json());
-    }
-    say(shown.table().to_string().trim_end())?;
-    sketch.map_or(Ok(()), |path| say(format_args!("written: {}", path.display())))
 }
 
 /// A motion of one instant.

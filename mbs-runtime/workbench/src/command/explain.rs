@@ -5,38 +5,38 @@
 
 use std::fmt::Write;
 
-use clap::{Arg, ArgAction, ArgMatches, Command};
+use clap::Args;
 use mbs_runtime::{Derivation, Info};
 
+use super::options::Named;
 use crate::StartValue;
 use crate::derivation::{GIVEN, energies, escaped, sections, typeset};
 use crate::models::Models;
 use crate::number::{counted, significant};
 use crate::{Error, Model, Table, say};
 
-pub(crate) fn command() -> Command {
-    Command::new("explain")
-        .about("Print a mechanism's equations, their elimination and its cost")
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .arg(
-            Arg::new("latex")
-                .long("latex")
-                .action(ArgAction::SetTrue)
-                .help("Print the equations as a LaTeX document"),
-        )
+#[derive(Args)]
+#[command(about = "Print a mechanism's equations, their elimination and its cost")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    /// Print the equations as a LaTeX document
+    #[arg(long)]
+    latex: bool,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let name = matches.get_one::<String>("model").map_or("", String::as_str);
-    let found = models.find(name)?;
-    let model = found.model();
-    let (info, derivation) = (model.info(), model.derivation());
-    let text = if matches.get_flag("latex") {
-        latex(info, derivation)
-    } else {
-        plain(info, derivation) + &start(&model.start_values()?)
-    };
-    say(text.trim_end())
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let model = found.model();
+        let (info, derivation) = (model.info(), model.derivation());
+        let text = if self.latex {
+            latex(info, derivation)
+        } else {
+            plain(info, derivation) + &start(&model.start_values()?)
+        };
+        say(text.trim_end())
+    }
 }
 
 impl dyn Model + '_ {

@@ -11,44 +11,53 @@ mod motion;
 mod page;
 mod svg;
 
-use clap::{ArgMatches, Command};
+use clap::{Args, Subcommand};
 
 use crate::{Error, Model, Models, RunOptions, Settings};
 
-pub(crate) fn command() -> Command {
-    Command::new("export")
-        .about("Write a mechanism as a program, for another program, as a page in which it runs, or as a drawing")
-        .subcommand_required(true)
-        .arg_required_else_help(true)
-        .subcommand(c::command())
-        .subcommand(fmu::command())
-        .subcommand(page::command())
-        .subcommand(dxf::command())
-        .subcommands(motion::FORMATS.iter().map(motion::command))
+#[derive(Args)]
+#[command(
+    about = "Write a mechanism as a program, for another program, as a page in which it runs, or as a drawing"
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    target: Target,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    match matches.subcommand() {
-        Some(("c", matches)) => c::run(models, matches),
-        Some(("fmu", matches)) => fmu::run(models, matches),
-        Some(("page", matches)) => page::run(models, matches),
-        Some(("dxf", matches)) => dxf::run(models, matches),
-        Some((name, matches)) => match motion::FORMATS.iter().find(|format| motion::is(format, name)) {
-            Some(format) => motion::run(format, models, matches),
-            // the parser requires one that it knows
-            None => Ok(()),
-        },
-        None => Ok(()),
+#[derive(Subcommand)]
+enum Target {
+    C(c::Arguments),
+    Fmu(fmu::Arguments),
+    Page(page::Arguments),
+    Dxf(dxf::Arguments),
+    #[command(about = motion::SVG.about, after_help = motion::SVG.examples, mut_args(motion::SVG.ends()))]
+    Svg(motion::Arguments),
+    #[command(about = motion::GIF.about, after_help = motion::GIF.examples, mut_args(motion::GIF.ends()))]
+    Gif(motion::Arguments),
+}
+
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        match &self.target {
+            Target::C(target) => target.run(models),
+            Target::Fmu(target) => target.run(models),
+            Target::Page(target) => target.run(models),
+            Target::Dxf(target) => target.run(models),
+            Target::Svg(target) => target.run(&motion::SVG, models),
+            Target::Gif(target) => target.run(&motion::GIF, models),
+        }
     }
 }
 
-/// The settings of a run with the step and the end that are asked for.
-fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    let mut options = RunOptions::default();
-    for name in ["step", "end"] {
-        if let Some(text) = matches.get_one::<String>(name) {
-            options.set(name, text)?;
-        }
+/// The settings of a run with these options, and the step and the end that are asked for.
+fn settings(
+    model: &dyn Model,
+    mut options: RunOptions,
+    step: Option<&String>,
+    end: Option<&String>,
+) -> Result<Settings, Error> {
+    for (name, text) in [("step", step), ("end", end)] {
+        text.map_or(Ok(()), |text| options.set(name, text))?;
     }
     options.settings(model)
 }

@@ -6,15 +6,14 @@ mod result;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, value_parser};
 use indicatif::ProgressBar;
 use mbs_analysis::{Fit, Trials};
 
 use self::request::Request;
 use self::result::Shown;
-use super::operating;
-use super::options::{self, option};
-use crate::app::Warnings;
+use super::options::{self, Named, Values, signed};
+use crate::console::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::{Error, say, write_csv};
@@ -34,82 +33,77 @@ clock of their own, at 646 s for instance, are those of runs that begin then. A 
 /// Nobody is told of a fit that is over within this time.
 const SOON: Duration = Duration::from_millis(700);
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    let list = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_delimiter(',').action(ArgAction::Append)
-    };
-    Command::new("fit")
-        .about(
-            "Find parameters with which a mechanism moves as measured, and how well the data determine them",
-        )
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_values())
-        .arg(file("data", "FILE.csv", "The measured motion").required(true))
-        .arg(list("param", "NAME[=GUESS],…", "Parameters to be found [guess: as declared or by --set]"))
-        .arg(list("start", "NAME[=GUESS],…", "Start values to be found: a coordinate x or a rate der(x)"))
-        .arg(
-            option("bounds", "NAME=LOW..HIGH", "Where to look; an end may be left out; repeatable")
-                .action(ArgAction::Append),
-        )
-        .arg(list(
-            "columns",
-            "NAME,…",
-            "Columns to be compared, also patterns with * [default: coordinates, rates and outputs]",
-        ))
-        .arg(
-            option(
-                "sigma",
-                "NAME=VALUE",
-                "The standard deviation of the noise of a column [default: estimated]; repeatable",
-            )
-            .action(ArgAction::Append),
-        )
-        .arg(option(
-            "confidence",
-            "PERCENT",
-            "The probability with which an interval contains the true value [default: 95%]",
-        ))
-        .arg(
-            option("starts", "N", "Look from so many starts at most")
-                .value_parser(value_parser!(u16).range(1..))
-                .default_value("12"),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(file("plot", "FILE.svg|.png", "Draw the data, the fitted motion and what is left over"))
-        .arg(file("out", "FILE.csv", "Write the data, the fitted motion and what is left over"))
+#[derive(Args)]
+#[command(
+    about = "Find parameters with which a mechanism moves as measured, and how well the data determine them",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// The measured motion
+    #[arg(long, value_name = "FILE.csv")]
+    data: PathBuf,
+    /// Parameters to be found [guess: as declared or by --set]
+    #[arg(long, value_name = "NAME[=GUESS],…", value_delimiter = ',')]
+    param: Vec<String>,
+    /// Start values to be found: a coordinate x or a rate der(x)
+    #[arg(long, value_name = "NAME[=GUESS],…", value_delimiter = ',')]
+    start: Vec<String>,
+    /// Where to look; an end may be left out; repeatable
+    #[arg(long, value_name = "NAME=LOW..HIGH")]
+    bounds: Vec<String>,
+    /// Columns to be compared, also patterns with * [default: coordinates, rates and outputs]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    columns: Vec<String>,
+    /// The standard deviation of the noise of a column [default: estimated]; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    sigma: Vec<String>,
+    /// The probability with which an interval contains the true value [default: 95%]
+    #[arg(long, value_name = "PERCENT")]
+    confidence: Option<String>,
+    /// Look from so many starts at most
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), default_value = "12")]
+    starts: u16,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the data, the fitted motion and what is left over
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Write the data, the fitted motion and what is left over
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let found = operating::named(models, matches)?;
-    let (name, model) = (found.name(), found.model());
-    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
-    let data = matches.get_one::<PathBuf>("data");
-    options::check_files([data, plot, out].into_iter().flatten().map(PathBuf::as_path))?;
-    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let trials = found.trials()?;
-    let request = Request::of(model, matches)?;
-    let fit = fitted(&request, &*trials)?;
-    let shown = Shown { name, info: model.info(), request: &request, fit: &fit };
-    if let Some(path) = plot {
-        shown.figure().save(path)?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
+        options::check_files([Some(self.data.as_path()), plot, out])?;
+        plot.map_or(Ok(()), Figure::check_ending)?;
+        let trials = found.trials()?;
+        let request = Request::of(model, self)?;
+        let fit = fitted(&request, &*trials)?;
+        let shown = Shown { name, info: model.info(), request: &request, fit: &fit };
+        if let Some(path) = plot {
+            shown.figure().save(path)?;
+        }
+        if let Some(path) = out {
+            write_csv(path, &shown.columns())?;
+        }
+        if self.json {
+            say(shown.json())?;
+        } else {
+            say(shown.tables().trim_end())?;
+            options::say_written([plot, out])?;
+        }
+        Ok(shown.warnings())
     }
-    if let Some(path) = out {
-        write_csv(path, &shown.columns())?;
-    }
-    if matches.get_flag("json") {
-        say(shown.json())?;
-    } else {
-        say(shown.tables().trim_end())?;
-        [plot, out]
-            .into_iter()
-            .flatten()
-            .try_for_each(|path| say(format_args!("written: {}", path.display())))?;
-    }
-    Ok(shown.warnings())
 }
 
 /// The fit, with a word about its progress where it takes long.

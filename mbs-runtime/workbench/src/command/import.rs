@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, ArgMatches, Command, value_parser};
 
-use super::options::option;
+use super::options::signed;
 use crate::import::{self, FORMATS, Format, Imported, Known, LONGEST};
 use crate::number::counted;
 use crate::{Error, files, say};
@@ -15,30 +15,33 @@ use crate::{Error, files, say};
 /// The units that lengths of a file may have.
 const UNITS: [&str; 6] = ["m", "cm", "mm", "um", "inch", "ft"];
 
-pub(crate) fn command() -> Command {
-    Command::new("import")
-        .about("Write the declaration of a linkage or a planar robot from the file of another program")
-        .after_help(EXAMPLES)
-        .arg(
-            Arg::new("file")
-                .value_name("FILE")
-                .required(true)
-                .value_parser(value_parser!(PathBuf))
-                .help("A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), PMKS and PMKS+ (texts, addresses, .pmks), MuJoCo (MJCF), ROS (URDF) or Gazebo (SDF)"),
-        )
-        .arg(
-            option("out", "NAME.mbs", "The file to write [default: standard output]")
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(
-            option("format", "FORMAT", "The program that wrote the file [default: as its content shows]")
-                .value_parser(PossibleValuesParser::new(FORMATS.map(|(name, _)| name))),
-        )
-        .arg(
-            option("unit", "UNIT", "The unit of lengths in the file [default: m for pylinkage, else mm; files of PMKS+ and of robots say it]")
-                .value_parser(PossibleValuesParser::new(UNITS)),
-        )
-        .arg(option("model", "NAME", "The model to import of a file of SDF that has several"))
+#[derive(Args)]
+#[command(
+    about = "Write the declaration of a linkage or a planar robot from the file of another program",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    /// A file of pylinkage (JSON), Linkage (.linkage2), Pyslvs (an expression M[…]), PMKS and PMKS+ (texts,
+    /// addresses, .pmks), MuJoCo (MJCF), ROS (URDF) or Gazebo (SDF)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The file to write [default: standard output]
+    #[arg(long, value_name = "NAME.mbs")]
+    out: Option<PathBuf>,
+    /// The program that wrote the file [default: as its content shows]
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        value_parser = PossibleValuesParser::new(FORMATS.map(|(name, _)| name)),
+    )]
+    format: Option<String>,
+    /// The unit of lengths in the file [default: m for pylinkage, else mm; files of PMKS+ and of robots say it]
+    #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(UNITS))]
+    unit: Option<String>,
+    /// The model to import of a file of SDF that has several
+    #[arg(long, value_name = "NAME")]
+    model: Option<String>,
 }
 
 const EXAMPLES: &str = "\
@@ -49,27 +52,31 @@ Examples:
   mbs import mechanism.pmks --out mechanism.mbs    # saved by PMKS+
   mbs import double_pendulum.sdf --out double_pendulum.mbs    # a model of Gazebo";
 
-pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
-    let path = matches.get_one::<PathBuf>("file").cloned().unwrap_or_default();
-    let out = matches.get_one::<PathBuf>("out");
-    if let Some(out) = out.filter(|out| out.extension().is_none_or(|ending| ending != "mbs")) {
-        let reason = "a file with a declaration ends in .mbs".into();
-        return Err(Error::Name { name: out.display().to_string(), reason });
+impl Arguments {
+    pub fn run(&self) -> Result<(), Error> {
+        let path = &self.file;
+        let out = self.out.as_ref();
+        if let Some(out) = out.filter(|out| out.extension().is_none_or(|ending| ending != "mbs")) {
+            let reason = "a file with a declaration ends in .mbs".into();
+            return Err(Error::Name { name: out.display().to_string(), reason });
+        }
+        let refused = |reason: String| Error::Import { file: path.clone(), reason };
+        let text = read(path)?.ok_or_else(|| refused(format!("it has more than {LONGEST} bytes")))?;
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("file");
+        let known = Known {
+            format: self.format.as_ref().and_then(|wanted| format(wanted)),
+            unit: self.unit.as_deref(),
+            model: self.model.as_deref(),
+        };
+        let imported = import::import(name, &text, known).map_err(|refusal| refused(refusal.0))?;
+        let Some(out) = out else { return say(imported.text.trim_end()) };
+        files::write(out, imported.text.as_bytes())?;
+        summary(out, &imported)
     }
-    let refused = |reason: String| Error::Import { file: path.clone(), reason };
-    let text = read(&path)?.ok_or_else(|| refused(format!("it has more than {LONGEST} bytes")))?;
-    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("file");
-    let text_of = |option: &str| matches.get_one::<String>(option).map(String::as_str);
-    let known = Known { format: format(matches), unit: text_of("unit"), model: text_of("model") };
-    let imported = import::import(name, &text, known).map_err(|refusal| refused(refusal.0))?;
-    let Some(out) = out else { return say(imported.text.trim_end()) };
-    files::write(out, imported.text.as_bytes())?;
-    summary(out, &imported)
 }
 
-fn format(matches: &ArgMatches) -> Option<Format> {
-    let wanted = matches.get_one::<String>("format")?;
-    FORMATS.iter().find(|(name, _)| name == wanted).map(|(_, format)| *format)
+fn format(wanted: &str) -> Option<Format> {
+    FORMATS.iter().find(|(name, _)| *name == wanted).map(|(_, format)| *format)
 }
 
 /// The text of a file; nothing of one that is too long.

@@ -2,21 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, value_parser};
 use mbs_analysis::{By, Curve, Instant, Prescription, inverse};
 use mbs_runtime::{Info, Quantity};
 use serde_json::json;
 
 use super::extremes;
-use super::operating;
-use super::options::{self, option};
+use super::options::{self, Named, Values, pairs, signed};
 use crate::figure::axis;
 use crate::figure::{Axis, Figure, Panel, Series};
 use crate::models::Models;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
 use crate::sheet::Sheet;
-use crate::{Column, Error, Unit, names, say, write_csv};
+use crate::{About, Column, Error, Unit, names, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,105 +26,97 @@ Examples:
 
 Without --inputs it is the force or the torque along each prescribed coordinate that is found.";
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    Command::new("inverse")
-        .about("Find the inputs, or the forces along coordinates, that a prescribed motion takes")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_values())
-        .arg(
-            option("from", "NAME=VALUE", "Begin on the branch of this value of a coordinate; repeatable")
-                .action(ArgAction::Append),
-        )
-        .arg(
-            option(
-                "move",
-                "NAME=FROM..TO",
-                "Move a coordinate from rest to rest by a 3-4-5 polynomial; repeatable",
-            )
-            .action(ArgAction::Append),
-        )
-        .arg(file(
-            "motion",
-            "FILE.csv",
-            "Move coordinates by splines through samples, with time and coordinates in columns",
-        ))
-        .arg(option("over", "TIME", "How long it lasts [default: 1s, or as long as the file]"))
-        .arg(
-            option("samples", "COUNT", "At how many instants [default: 201]")
-                .value_parser(value_parser!(u32).range(2..=1_000_000)),
-        )
-        .arg(
-            option("inputs", "NAME,…", "The inputs that produce the motion, also patterns with *")
-                .value_delimiter(',')
-                .action(ArgAction::Append),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(file("plot", "FILE.svg|.png", "Draw the motion and what it takes"))
-        .arg(file("out", "FILE.csv", "Write positions, rates, accelerations, inputs, forces and outputs"))
+#[derive(Args)]
+#[command(
+    about = "Find the inputs, or the forces along coordinates, that a prescribed motion takes",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// Begin on the branch of this value of a coordinate; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    from: Vec<String>,
+    /// Move a coordinate from rest to rest by a 3-4-5 polynomial; repeatable
+    #[arg(long = "move", value_name = "NAME=FROM..TO")]
+    moves: Vec<String>,
+    /// Move coordinates by splines through samples, with time and coordinates in columns
+    #[arg(long, value_name = "FILE.csv")]
+    motion: Option<PathBuf>,
+    /// How long it lasts [default: 1s, or as long as the file]
+    #[arg(long, value_name = "TIME")]
+    over: Option<String>,
+    /// At how many instants [default: 201]
+    #[arg(long, value_name = "COUNT", value_parser = value_parser!(u32).range(2..=1_000_000))]
+    samples: Option<u32>,
+    /// The inputs that produce the motion, also patterns with *
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    inputs: Option<Vec<String>>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the motion and what it takes
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Write positions, rates, accelerations, inputs, forces and outputs
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let found = operating::named(models, matches)?;
-    let (name, model) = (found.name(), found.model());
-    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
-    options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
-    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    operating::refuse_signals(matches, "inputs are found here, or keep their values")?;
-    let info = model.info();
-    let start = Start::of(model, &options::values(model, matches)?)?;
-    let run = model.start(&start)?;
-    let t = run.time();
-    let over = matches.get_one::<String>("over").map(|text| duration(text)).transpose()?;
-    let wanted = Wanted::of(info, matches, [t, over.unwrap_or(1.0)], over)?;
-    let count = matches.get_one::<u32>("samples").copied().unwrap_or(SAMPLES);
-    let search = operating::about(matches)?.search(&*run)?;
-    let prescription = Prescription {
-        curves: wanted.curves,
-        by: by(info, matches)?,
-        inputs: Some(start.inputs.clone()),
-        from: search.from,
-        t,
-    };
-    let [from, to] = wanted.span;
-    let times: Vec<f64> =
-        (0..count).map(|at| from + (to - from) * f64::from(at) / f64::from(count - 1)).collect();
-    let instants = inverse(run.described(), &prescription, &times)?;
-    let shown = Shown::of(info, &prescription, &instants);
-    if let Some(path) = plot {
-        shown.figure(&format!("{name}: what the motion takes")).save(path)?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
+        options::check_files([plot, out])?;
+        plot.map_or(Ok(()), Figure::check_ending)?;
+        let values = self.values.constants("inputs are found here, or keep their values")?;
+        let info = model.info();
+        let start = Start::of(model, &values.settings(model)?)?;
+        let run = model.start(&start)?;
+        let t = run.time();
+        let over = self.over.as_ref().map(|text| duration(text)).transpose()?;
+        let wanted = self.wanted(info, [t, over.unwrap_or(1.0)], over)?;
+        let count = self.samples.unwrap_or(SAMPLES);
+        let about = About { from: pairs(&self.from)?, ..About::default() };
+        let search = about.search(&*run)?;
+        let prescription = Prescription {
+            curves: wanted.curves,
+            by: self.inputs.as_ref().map_or(Ok(By::Efforts), |patterns| by(info, patterns))?,
+            inputs: Some(start.inputs.clone()),
+            from: search.from,
+            t,
+        };
+        let [from, to] = wanted.span;
+        let times: Vec<f64> =
+            (0..count).map(|at| from + (to - from) * f64::from(at) / f64::from(count - 1)).collect();
+        let instants = inverse(run.described(), &prescription, &times)?;
+        let shown = Shown::of(info, &prescription, &instants);
+        if let Some(path) = plot {
+            shown.figure(&format!("{name}: what the motion takes")).save(path)?;
+        }
+        if let Some(path) = out {
+            write_csv(path, &shown.columns)?;
+        }
+        if self.json {
+            return say(json!({
+                "mechanism": name, "from_s": from, "to_s": to, "samples": count,
+                "prescribed": shown.prescribed, "takes": extremes::json(shown.takes()),
+                "outputs": extremes::json(shown.outputs()),
+            }));
+        }
+        say(extremes::table(name, shown.takes().chain(shown.outputs())).to_string().trim_end())?;
+        options::say_written([plot, out])
     }
-    if let Some(path) = out {
-        write_csv(path, &shown.columns)?;
-    }
-    if matches.get_flag("json") {
-        return say(json!({
-            "mechanism": name, "from_s": from, "to_s": to, "samples": count,
-            "prescribed": shown.prescribed, "takes": extremes::json(shown.takes()),
-            "outputs": extremes::json(shown.outputs()),
-        }));
-    }
-    say(extremes::table(name, shown.takes().chain(shown.outputs())).to_string().trim_end())?;
-    let files = [plot, out].into_iter().flatten();
-    files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
-}
 
-const SAMPLES: u32 = 201;
-
-/// The motion that a command line prescribes.
-struct Wanted {
-    curves: Vec<(String, Curve)>,
-    span: [f64; 2],
-}
-
-impl Wanted {
-    fn of(info: &Info, matches: &ArgMatches, [t, usual]: [f64; 2], over: Option<f64>) -> Result<Self, Error> {
+    /// The motion that is prescribed, of this usual span.
+    fn wanted(&self, info: &Info, [t, usual]: [f64; 2], over: Option<f64>) -> Result<Wanted, Error> {
         let mut curves = Vec::new();
         let mut span = [t, t + usual];
-        if let Some(path) = matches.get_one::<PathBuf>("motion") {
+        if let Some(path) = &self.motion {
             let (times, columns) = samples(path, info)?;
             if let [first, .., last] = times.as_slice() {
                 span = [*first, over.map_or(*last, |over| first + over)];
@@ -138,13 +129,21 @@ impl Wanted {
                 curves.push((name, curve));
             }
         }
-        for text in matches.get_many::<String>("move").unwrap_or_default() {
+        for text in &self.moves {
             let (coordinate, [from, to]) = coordinate_range(info, text)?;
             let curve = Curve::rest_to_rest(from, to, span[0], span[1] - span[0])?;
             curves.push((coordinate.name.to_owned(), curve));
         }
-        Ok(Self { curves, span })
+        Ok(Wanted { curves, span })
     }
+}
+
+const SAMPLES: u32 = 201;
+
+/// The motion that a command line prescribes.
+struct Wanted {
+    curves: Vec<(String, Curve)>,
+    span: [f64; 2],
 }
 
 /// Times in s, and the coordinates over them by name.
@@ -193,8 +192,7 @@ pub(super) fn coordinate_range<'a>(info: &'a Info, text: &str) -> Result<(&'a Qu
 }
 
 /// The causes of the motion: the inputs that fit the patterns, or nothing but forces along coordinates.
-fn by(info: &Info, matches: &ArgMatches) -> Result<By, Error> {
-    let Some(patterns) = matches.get_many::<String>("inputs") else { return Ok(By::Efforts) };
+fn by(info: &Info, patterns: &[String]) -> Result<By, Error> {
     let mut found: Vec<String> = Vec::new();
     for pattern in patterns {
         let mut fitting = info.inputs.iter().filter(|input| names::fits(pattern, input.name)).peekable();

@@ -45,7 +45,7 @@ pub(super) fn run(request: &Request<'_>, settings: &Settings, recording: &Record
         "error": recording.ended.map(|error| error.to_string()),
         "warnings": recording.doubts.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "notes": recording.notes,
-        "files": request.files.all().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        "files": request.files.all().into_iter().flatten().map(|path| path.display().to_string()).collect::<Vec<_>>(),
     })
 }
 

@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_analysis::nalgebra::DMatrix;
 use mbs_analysis::{Linearization, Signal};
 use mbs_runtime::Info;
 use serde_json::{Value, json};
 
 use super::json::number;
-use super::operating;
-use super::options::{self, option};
+use super::operating::{self, Point, Ports};
+use super::options;
 use super::responses::Steps;
-use crate::app::Warnings;
+use crate::console::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::npz::{Array, npz};
@@ -31,60 +31,62 @@ Matrices are in SI units and rad. Files end in .json or .npz (NumPy); step respo
 /// Matrices with more columns are not printed.
 const MOST_COLUMNS: usize = 12;
 
-pub(crate) fn command() -> Command {
-    Command::new("linearize")
-        .about("Find the linear system of small motions, A, B, C and D, about an equilibrium or any state")
-        .after_help(EXAMPLES)
-        .args(operating::of_a_point())
-        .args(operating::of_ports())
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(
-            option("out", "FILE.json|.npz", "Write the matrices with their names and units")
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(
-            option(
-                "step-response",
-                "FILE.svg|.png|.csv",
-                "Draw or write the responses to a unit step of each input",
-            )
-            .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(option("end", "TIME", "Until when [default: as long as the modes take]"))
+#[derive(Args)]
+#[command(
+    about = "Find the linear system of small motions, A, B, C and D, about an equilibrium or any state",
+    after_help = EXAMPLES,
+    mut_args(options::signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    ports: Ports,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Write the matrices with their names and units
+    #[arg(long, value_name = "FILE.json|.npz")]
+    out: Option<PathBuf>,
+    /// Draw or write the responses to a unit step of each input
+    #[arg(long, value_name = "FILE.svg|.png|.csv")]
+    step_response: Option<PathBuf>,
+    /// Until when [default: as long as the modes take]
+    #[arg(long, value_name = "TIME")]
+    end: Option<String>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let found = operating::named(models, matches)?;
-    let [out, step] = ["out", "step-response"].map(|name| matches.get_one::<PathBuf>(name));
-    options::check_files([out, step].into_iter().flatten().map(PathBuf::as_path))?;
-    out.map_or(Ok(()), |path| check_out(path))?;
-    step.filter(|path| !is(path, "csv")).map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let end = matches.get_one::<String>("end").map(|text| quantity::parse("end", text, TIME)).transpose()?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.point.find(models)?;
+        let [out, step] = [&self.out, &self.step_response].map(Option::as_deref);
+        options::check_files([out, step])?;
+        out.map_or(Ok(()), check_out)?;
+        step.filter(|path| !is(path, "csv")).map_or(Ok(()), Figure::check_ending)?;
+        let end = self.end.as_ref().map(|text| quantity::parse("end", text, TIME)).transpose()?;
 
-    let operating = operating::operating(found.name(), found.model(), matches)?;
-    let linear = operating::linearized(&operating, matches)?;
-    let shown = Shown { operating: &operating, linear: &linear, info: operating.info() };
-    if let Some(path) = out {
-        shown.write(path)?;
-    }
-    if let Some(path) = step {
-        let steps = Steps::of(shown.info, &linear, end)?;
-        if is(path, "csv") {
-            write_csv(path, &steps.columns())?;
-        } else {
-            steps.figure(&format!("{}: response to unit steps", operating.name)).save(path)?;
+        let operating = self.point.operating(&found)?;
+        let linear = operating::linearized(&operating, &(&self.ports).into())?;
+        let shown = Shown { operating: &operating, linear: &linear, info: operating.info() };
+        if let Some(path) = out {
+            shown.write(path)?;
         }
+        if let Some(path) = step {
+            let steps = Steps::of(shown.info, &linear, end)?;
+            if is(path, "csv") {
+                write_csv(path, &steps.columns())?;
+            } else {
+                steps.figure(&format!("{}: response to unit steps", operating.name)).save(path)?;
+            }
+        }
+        if self.json {
+            say(shown.json())?;
+        } else {
+            shown.tables().iter().try_for_each(say)?;
+            options::say_written([out, step])?;
+        }
+        Ok(operating::warnings(&linear))
     }
-    if matches.get_flag("json") {
-        say(shown.json())?;
-    } else {
-        shown.tables().iter().try_for_each(say)?;
-        [out, step]
-            .into_iter()
-            .flatten()
-            .try_for_each(|path| say(format_args!("written: {}", path.display())))?;
-    }
-    Ok(operating::warnings(&linear))
 }
 
 fn is(path: &Path, ending: &str) -> bool {

@@ -1,19 +1,24 @@
 //! `mbs list`: the mechanisms and what can be set on them.
 
+use clap::Args;
+
 use super::json;
 use crate::models::Models;
 use crate::{Error, Model, Table, Unit, say};
-use clap::{Arg, ArgAction, Command};
 
-pub(crate) fn command() -> Command {
-    Command::new("list")
-        .about("List the mechanisms, their parameters, inputs and outputs")
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the list as JSON"))
+#[derive(Args)]
+#[command(about = "List the mechanisms, their parameters, inputs and outputs")]
+pub(crate) struct Arguments {
+    /// Print the list as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
-pub(crate) fn run(models: &Models, as_json: bool) -> Result<(), Error> {
-    let models = models.all()?;
-    if as_json { say(json::list(&models)) } else { say(text(&models).trim_end()) }
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let models = models.all()?;
+        if self.json { say(json::list(&models)) } else { say(text(&models).trim_end()) }
+    }
 }
 
 fn text(models: &[(&str, &dyn Model)]) -> String {

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgMatches, Command, value_parser};
+use clap::Args;
 
-use super::options::{self, option};
+use super::options;
 use super::sweep::checked::Next;
 use super::sweep::shard::{Head, Shard};
 use crate::files::Output;
@@ -19,20 +19,19 @@ Example:
 The table is the one that a sweep without --shard writes, to the byte. Shares that are missing, damaged, given twice
 or of another sweep are refused.";
 
-pub(crate) fn command() -> Command {
-    let path = || value_parser!(PathBuf);
-    Command::new("merge")
-        .about("Put the shares of a sweep together, which `sweep --shard` wrote")
-        .after_help(EXAMPLE)
-        .arg(
-            Arg::new("share")
-                .value_name("SHARE")
-                .required(true)
-                .num_args(1..)
-                .value_parser(path())
-                .help("The shares, in any order"),
-        )
-        .arg(option("out", "FILE.csv", "Write the table").required(true).value_parser(path()))
+#[derive(Args)]
+#[command(
+    about = "Put the shares of a sweep together, which `sweep --shard` wrote",
+    after_help = EXAMPLE,
+    mut_args(options::signed),
+)]
+pub(crate) struct Arguments {
+    /// The shares, in any order
+    #[arg(value_name = "SHARE", required = true)]
+    share: Vec<PathBuf>,
+    /// Write the table
+    #[arg(long, value_name = "FILE.csv")]
+    out: PathBuf,
 }
 
 /// A share of a sweep, read up to its rows.
@@ -42,23 +41,25 @@ struct Share {
     rows: BufReader<File>,
 }
 
-pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
-    let paths = matches.get_many::<PathBuf>("share").unwrap_or_default();
-    let mut shares = paths.map(|path| Share::open(path)).collect::<Result<Vec<_>, _>>()?;
-    shares.sort_by_key(|share| share.head.heading.shard.number);
-    check(&shares)?;
-    let Some(out) = matches.get_one::<PathBuf>("out") else { return Ok(()) };
-    if shares.iter().any(|share| options::is_same(&share.path, out)) {
-        return Err(refused(out, "it is one of the shares; give the table another name"));
+impl Arguments {
+    pub fn run(&self) -> Result<(), Error> {
+        let shares = self.share.iter().map(|path| Share::open(path));
+        let mut shares = shares.collect::<Result<Vec<_>, _>>()?;
+        shares.sort_by_key(|share| share.head.heading.shard.number);
+        check(&shares)?;
+        let out = self.out.as_path();
+        if shares.iter().any(|share| options::is_same(&share.path, out)) {
+            return Err(refused(out, "it is one of the shares; give the table another name"));
+        }
+        let mut output = table_file::create(out)?;
+        let columns = shares.first().map_or("", |share| &share.head.columns);
+        output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;
+        let mut count = 0;
+        for share in shares {
+            count += share.copy(&mut output, out)?;
+        }
+        say(format_args!("written: {}, {count} runs", output.finish()?.display()))
     }
-    let mut output = table_file::create(out)?;
-    let columns = shares.first().map_or("", |share| &share.head.columns);
-    output.write_all(columns.as_bytes()).map_err(Error::file("write", out))?;
-    let mut count = 0;
-    for share in shares {
-        count += share.copy(&mut output, out)?;
-    }
-    say(format_args!("written: {}, {count} runs", output.finish()?.display()))
 }
 
 impl Share {

@@ -3,23 +3,23 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_analysis::nalgebra::Complex;
 use mbs_analysis::{Linearization, Mode, Ports, Sensitivities, Variable, sensitivities};
 use mbs_runtime::Info;
 use serde_json::{Map, Value, json};
 
 use super::json::number;
-use super::operating;
-use super::options::{self, option};
+use super::operating::{self, Point};
+use super::options;
 use super::responses::{Bode, Steps};
 use super::shapes::{self, Shapes};
-use crate::app::Warnings;
+use crate::console::Warnings;
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::number::significant;
 use crate::report::{Block, Report, Section};
-use crate::{Error, Operating, Table, Unit, names, say};
+use crate::{Error, Operating, PortNames, Table, Unit, names, say};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,71 +33,71 @@ const MOST_COORDINATES: usize = 12;
 /// More modes are neither drawn nor shown in motion.
 const MOST_PICTURES: usize = 12;
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    Command::new("modes")
-        .about("Find natural frequencies, damping ratios and mode shapes about an equilibrium or any state")
-        .after_help(EXAMPLES)
-        .args(operating::of_a_point())
-        .arg(
-            option(
-                "sensitivity",
-                "NAME,…",
-                "How frequencies and damping follow these parameters; '*' for all",
-            )
-            .value_delimiter(',')
-            .action(ArgAction::Append),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(file("sketch", "FILE.svg|.png", "Draw the mode shapes"))
-        .arg(file("report", "FILE.html", "Write a page with the modes in motion and the responses"))
+#[derive(Args)]
+#[command(
+    about = "Find natural frequencies, damping ratios and mode shapes about an equilibrium or any state",
+    after_help = EXAMPLES,
+    mut_args(options::signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    point: Point,
+    /// How frequencies and damping follow these parameters; '*' for all
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    sensitivity: Option<Vec<String>>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the mode shapes
+    #[arg(long, value_name = "FILE.svg|.png")]
+    sketch: Option<PathBuf>,
+    /// Write a page with the modes in motion and the responses
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let found = operating::named(models, matches)?;
-    let [sketch, report] = ["sketch", "report"].map(|name| matches.get_one::<PathBuf>(name));
-    options::check_files([sketch, report].into_iter().flatten().map(PathBuf::as_path))?;
-    sketch.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    let operating = operating::operating(found.name(), found.model(), matches)?;
-    let linear = operating::linearized(&operating, matches)?;
-    let modes = linear.modes()?;
-    let sensitivities = asked(&operating, matches)?;
-    let shown = Shown {
-        operating: &operating,
-        info: operating.info(),
-        linear: &linear,
-        modes: &modes,
-        sensitivities,
-    };
-    if let Some(path) = sketch {
-        shown.sketch()?.save(path)?;
-    }
-    if let Some(path) = report {
-        shown.report()?.save(path)?;
-    }
-    if matches.get_flag("json") {
-        say(shown.json())?;
-    } else {
-        say(format_args!("{}, about {}\n", operating.name, operating::words(&operating)))?;
-        let tables = [Some(shown.table()), shown.shapes(), shown.slopes()];
-        let texts: Vec<String> = tables.into_iter().flatten().map(|table| table.to_string()).collect();
-        say(texts.join("\n").trim_end())?;
-        if modes.len() > MOST_SHAPES {
-            say("\n--json, --sketch and --report show the shapes")?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.point.find(models)?;
+        let [sketch, report] = [&self.sketch, &self.report].map(Option::as_deref);
+        options::check_files([sketch, report])?;
+        sketch.map_or(Ok(()), Figure::check_ending)?;
+        let operating = self.point.operating(&found)?;
+        let linear = operating::linearized(&operating, &PortNames::default())?;
+        let modes = linear.modes()?;
+        let sensitivities = self.sensitivity.as_ref();
+        let sensitivities = sensitivities.map(|patterns| asked(&operating, patterns)).transpose()?;
+        let shown = Shown {
+            operating: &operating,
+            info: operating.info(),
+            linear: &linear,
+            modes: &modes,
+            sensitivities,
+        };
+        if let Some(path) = sketch {
+            shown.sketch()?.save(path)?;
         }
-        [sketch, report]
-            .into_iter()
-            .flatten()
-            .try_for_each(|path| say(format_args!("written: {}", path.display())))?;
+        if let Some(path) = report {
+            shown.report()?.save(path)?;
+        }
+        if self.json {
+            say(shown.json())?;
+        } else {
+            say(format_args!("{}, about {}\n", operating.name, operating::words(&operating)))?;
+            let tables = [Some(shown.table()), shown.shapes(), shown.slopes()];
+            let texts: Vec<String> = tables.into_iter().flatten().map(|table| table.to_string()).collect();
+            say(texts.join("\n").trim_end())?;
+            if modes.len() > MOST_SHAPES {
+                say("\n--json, --sketch and --report show the shapes")?;
+            }
+            options::say_written([sketch, report])?;
+        }
+        Ok(operating::warnings(&linear))
     }
-    Ok(operating::warnings(&linear))
 }
 
 /// The sensitivities to parameters that fit the patterns of a command line.
-fn asked(operating: &Operating<'_>, matches: &ArgMatches) -> Result<Option<Sensitivities>, Error> {
-    let Some(patterns) = matches.get_many::<String>("sensitivity") else { return Ok(None) };
+fn asked(operating: &Operating<'_>, patterns: &[String]) -> Result<Sensitivities, Error> {
     if operating.rest.is_none() {
         let reason = "sensitivities are those about an equilibrium, which moves with the parameters; leave --here \
                       and --after out";
@@ -123,7 +123,7 @@ fn asked(operating: &Operating<'_>, matches: &ArgMatches) -> Result<Option<Sensi
         strategy: mbs_analysis::Strategy::Newton,
         ..operating.search.clone()
     };
-    Ok(Some(sensitivities(operating, &values, &search, &Ports::default(), &chosen)?))
+    Ok(sensitivities(operating, &values, &search, &Ports::default(), &chosen)?)
 }
 
 struct Shown<'a> {

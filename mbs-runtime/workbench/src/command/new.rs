@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgMatches, Command, value_parser};
+use clap::Args;
 
 use crate::html::filled;
 use crate::{Error, say};
@@ -22,36 +22,30 @@ const FILES: [(&str, &str); 6] = [
 /// The mechanism of a new crate.
 const LIBRARY: &str = include_str!("../../template/lib.rs.in");
 
-pub(crate) fn command() -> Command {
-    let path = |name: &'static str| Arg::new(name).value_parser(value_parser!(PathBuf));
-    Command::new("new")
-        .about("Write a crate for a mechanism of your own, or a declaration, ready to run")
-        .arg(
-            path("path")
-                .value_name("NAME")
-                .required_unless_present("file")
-                .help("The folder to make; its last part is the crate's name"),
-        )
-        .arg(
-            path("file")
-                .long("file")
-                .value_name("FILE.mbs")
-                .conflicts_with("path")
-                .help("Write a declaration by itself to this file instead, for check, watch and simulate"),
-        )
+#[derive(Args)]
+#[command(about = "Write a crate for a mechanism of your own, or a declaration, ready to run")]
+pub(crate) struct Arguments {
+    /// The folder to make; its last part is the crate's name
+    #[arg(value_name = "NAME", required_unless_present = "file")]
+    path: Option<PathBuf>,
+    /// Write a declaration by itself to this file instead, for check, watch and simulate
+    #[arg(long, value_name = "FILE.mbs", conflicts_with = "path")]
+    file: Option<PathBuf>,
 }
 
-pub(crate) fn run(matches: &ArgMatches) -> Result<(), Error> {
-    if let Some(path) = matches.get_one::<PathBuf>("file") {
-        write_declaration(path)?;
+impl Arguments {
+    pub fn run(&self) -> Result<(), Error> {
+        if let Some(path) = &self.file {
+            write_declaration(path)?;
+            say(format_args!("written: {}", path.display()))?;
+            return say(format_args!("next:    mbs watch {}", path.display()));
+        }
+        let Some(path) = &self.path else { return Ok(()) };
+        let name = crate_name(path)?;
+        write(path, &name)?;
         say(format_args!("written: {}", path.display()))?;
-        return say(format_args!("next:    mbs watch {}", path.display()));
+        say(format_args!("next:    cd {} && cargo run --release", path.display()))
     }
-    let path = matches.get_one::<PathBuf>("path").cloned().unwrap_or_default();
-    let name = crate_name(&path)?;
-    write(&path, &name)?;
-    say(format_args!("written: {}", path.display()))?;
-    say(format_args!("next:    cd {} && cargo run --release", path.display()))
 }
 
 /// Crates that the new one needs, or that every program has.

@@ -3,96 +3,95 @@
 //! `mbs linearize`, `mbs modes` and `mbs bode` share these options, responses (`responses`) and pictures of
 //! modes (`shapes`).
 
-use clap::{Arg, ArgAction, ArgMatches};
+use clap::Args;
 use mbs_analysis::{Equilibrium, Linearization, Stability};
 
-use super::options::{self, option};
-use crate::app::Warnings;
-use crate::console::complain;
-use crate::models::Models;
+use super::options::{Named, Values, pairs};
+use crate::console::{Warnings, complain};
+use crate::models::{Found, Models};
 use crate::operating::doubt;
-use crate::{About, Error, Model, Operating, PortNames, quantity};
+use crate::{About, Error, Operating, PortNames};
 
 /// Which mechanism, with which values, and about what it is linearized.
-pub(super) fn of_a_point() -> Vec<Arg> {
-    let flag = |name: &'static str, help: &'static str| {
-        Arg::new(name).long(name).action(ArgAction::SetTrue).help(help)
-    };
-    let mut arguments =
-        vec![Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file")];
-    arguments.extend(options::of_values());
-    arguments.extend([
-        option("from", "NAME=VALUE", "Look for the equilibrium from this value of a coordinate; repeatable")
-            .action(ArgAction::Append),
-        option("at", "TIME", "Hold drives and forces where they are at this time [default: 0s]"),
-        flag("relax", "Go where the mechanism would come to rest, past unstable equilibria"),
-        flag("here", "Linearize at rest at the start or at --from, in equilibrium or not")
-            .conflicts_with("relax"),
-        option("after", "TIME", "Linearize in motion, this time after the start, with drives that move on")
-            .conflicts_with_all(["from", "at", "relax", "here"]),
-    ]);
-    arguments
+#[derive(Args)]
+pub(crate) struct Point {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// Look for the equilibrium from this value of a coordinate; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    from: Vec<String>,
+    /// Hold drives and forces where they are at this time [default: 0s]
+    #[arg(long, value_name = "TIME")]
+    at: Option<String>,
+    /// Go where the mechanism would come to rest, past unstable equilibria
+    #[arg(long)]
+    relax: bool,
+    /// Linearize at rest at the start or at --from, in equilibrium or not
+    #[arg(long, conflicts_with = "relax")]
+    here: bool,
+    /// Linearize in motion, this time after the start, with drives that move on
+    #[arg(long, value_name = "TIME", conflicts_with_all = ["from", "at", "relax", "here"])]
+    after: Option<String>,
 }
 
 /// Options that choose states, inputs and outputs of the linear system.
-pub(super) fn of_ports() -> [Arg; 4] {
-    let list = |name: &'static str, help: &'static str| {
-        option(name, "NAME,…", help).value_delimiter(',').action(ArgAction::Append)
-    };
-    [
-        list("states", "The coordinates that are states [default: those that move most, angles first]"),
-        list("inputs", "The inputs of the linear system [default: all]"),
-        list("parameters", "Parameters that are inputs of the linear system too"),
-        list(
-            "outputs",
-            "Its outputs, also x, der(x), lambda(row), and patterns with * \
-             [default: the declared ones, or all coordinates]",
-        ),
-    ]
+#[derive(Args)]
+pub(crate) struct Ports {
+    /// The coordinates that are states [default: those that move most, angles first]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    states: Option<Vec<String>>,
+    /// The inputs of the linear system [default: all]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    inputs: Option<Vec<String>>,
+    /// Parameters that are inputs of the linear system too
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    parameters: Vec<String>,
+    /// Its outputs, also x, der(x), lambda(row), and patterns with * [default: the declared ones, or all
+    /// coordinates]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    outputs: Option<Vec<String>>,
 }
 
-/// The state that a command line names.
-pub(super) fn about(matches: &ArgMatches) -> Result<About, Error> {
-    // not every command has all of them
-    let text = |name: &str| matches.try_get_one::<String>(name).ok().flatten().cloned();
-    let flag = |name: &str| matches.try_get_one::<bool>(name).ok().flatten().copied().unwrap_or(false);
-    let from = matches.get_many::<String>("from").unwrap_or_default();
-    let split =
-        |text: &String| quantity::split_setting(text).map(|(name, value)| (name.into(), value.into()));
-    Ok(About {
-        from: from.map(split).collect::<Result<_, Error>>()?,
-        at: text("at"),
-        is_relaxed: flag("relax"),
-        is_here: flag("here"),
-        after: text("after"),
-    })
+impl Point {
+    pub fn find<'a>(&self, models: &'a Models) -> Result<Found<'a>, Error> {
+        self.model.find(models)
+    }
+
+    /// The mechanism at the point.
+    pub fn operating<'a>(&self, found: &'a Found<'_>) -> Result<Operating<'a>, Error> {
+        let values = self.values.constants("inputs are constants of an operating point")?;
+        let options = values.asked(found.model().info())?;
+        let about = About {
+            from: pairs(&self.from)?,
+            at: self.at.clone(),
+            is_relaxed: self.relax,
+            is_here: self.here,
+            after: self.after.clone(),
+        };
+        Operating::of(found.name(), found.model(), &options, &about).map_err(|error| match error {
+            Error::Analysis(error @ mbs_analysis::Error::NoEquilibrium { .. }) => Error::NoEquilibrium(error),
+            other => other,
+        })
+    }
 }
 
-/// The mechanism at the point that a command line asks for.
-pub(super) fn operating<'a>(
-    name: &'a str,
-    model: &'a dyn Model,
-    matches: &ArgMatches,
-) -> Result<Operating<'a>, Error> {
-    refuse_signals(matches, "inputs are constants of an operating point")?;
-    let options = options::asked(model.info(), matches)?;
-    Operating::of(name, model, &options, &about(matches)?).map_err(|error| match error {
-        Error::Analysis(error @ mbs_analysis::Error::NoEquilibrium { .. }) => Error::NoEquilibrium(error),
-        other => other,
-    })
+impl From<&Ports> for PortNames {
+    fn from(ports: &Ports) -> Self {
+        let Ports { states, inputs, parameters, outputs } = ports;
+        Self {
+            states: states.clone(),
+            inputs: inputs.clone(),
+            parameters: parameters.clone(),
+            outputs: outputs.clone(),
+        }
+    }
 }
 
-/// The linear system with the ports that a command line asks for.
-pub(super) fn linearized(operating: &Operating<'_>, matches: &ArgMatches) -> Result<Linearization, Error> {
-    let list = |name: &str| -> Option<Vec<String>> {
-        Some(matches.try_get_many::<String>(name).ok().flatten()?.cloned().collect())
-    };
-    let linear = operating.linearized(&PortNames {
-        states: list("states"),
-        inputs: list("inputs"),
-        parameters: list("parameters").unwrap_or_default(),
-        outputs: list("outputs"),
-    })?;
+/// The linear system with these ports.
+pub(super) fn linearized(operating: &Operating<'_>, ports: &PortNames) -> Result<Linearization, Error> {
+    let linear = operating.linearized(ports)?;
     for output in &linear.left_out {
         complain(format_args!(
             "note: the output `{}` has no value or no derivative at this position and is left out",
@@ -116,18 +115,4 @@ pub(super) fn words(operating: &Operating<'_>) -> String {
 /// A warning about a linear system whose derivatives are not known well.
 pub(super) fn warnings(linear: &Linearization) -> Warnings {
     doubt(linear).into_iter().collect()
-}
-
-/// Refuses inputs that change with time.
-pub(super) fn refuse_signals(matches: &ArgMatches, why: &str) -> Result<(), Error> {
-    if matches.get_many::<String>("input").unwrap_or_default().any(|text| text.starts_with('@')) {
-        let reason = format!("{why}; give a value, such as force=3N");
-        return Err(Error::Name { name: "--input @FILE".into(), reason });
-    }
-    Ok(())
-}
-
-/// The mechanism that a command line names.
-pub(super) fn named<'a>(models: &'a Models, matches: &ArgMatches) -> Result<crate::models::Found<'a>, Error> {
-    models.find(matches.get_one::<String>("model").map_or("", String::as_str))
 }

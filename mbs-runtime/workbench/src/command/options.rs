@@ -1,147 +1,176 @@
-//! The options that say how a mechanism is run.
+//! Arguments that several commands share: which mechanism, with which values, and how it is run.
 
 use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, ArgAction, ArgMatches};
+use clap::{Arg, Args};
 use mbs_runtime::{Info, Stabilization};
 
-use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, start_state};
+use crate::models::{Found, Models};
+use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, say, start_state};
 
-/// An option with a value, which may begin with a minus sign.
-pub(crate) fn option(name: &'static str, value: &'static str, help: &'static str) -> Arg {
-    Arg::new(name).long(name).value_name(value).help(help).allow_hyphen_values(true)
+/// The mechanism.
+#[derive(Args)]
+pub(crate) struct Named {
+    /// A name from `list`, or a file
+    model: String,
 }
 
-/// Those that give parameters and inputs their values.
-pub(super) fn of_values() -> [Arg; 2] {
-    [
-        option(
-            "set",
-            "NAME=VALUE",
-            "A parameter, such as omega=300rpm; a bare number is in the unit of `list`; repeatable",
-        )
-        .action(ArgAction::Append),
-        option(
-            "input",
-            "NAME=VALUE|[NAME=]@FILE.csv",
-            "An input, in the same way; NAME=@FILE.csv with time and the input in columns, or @FILE.csv for all inputs \
-             that it has; repeatable",
-        )
-        .action(ArgAction::Append),
-    ]
+/// The values of parameters and inputs.
+#[derive(Args)]
+pub(crate) struct Values {
+    /// A parameter, such as omega=300rpm; a bare number is in the unit of `list`; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// An input, in the same way; NAME=@FILE.csv with time and the input in columns, or @FILE.csv for all inputs
+    /// that it has; repeatable
+    #[arg(long, value_name = "NAME=VALUE|[NAME=]@FILE.csv")]
+    input: Vec<String>,
 }
 
-/// Those that every command with runs has.
-pub(super) fn of_a_run() -> Vec<Arg> {
-    let others = [
-        option(
-            "step",
-            "TIME",
-            "Step in s, or with a unit; with --rtol or --atol the time between samples \
-             [default: as declared, 0.5ms, or what a fast mechanism asks for]",
-        ),
-        option("end", "TIME", "End time in s, or with a unit [default: 1s]"),
-        option(
-            "alpha",
-            "RATE",
-            "Feedback of the velocity violation in 1/s [default: as declared, or deadbeat]",
-        ),
-        option(
-            "beta",
-            "RATE",
-            "Feedback of the position violation in 1/s [default: as declared, or deadbeat]",
-        ),
-        option(
-            "method",
-            "SCHEME",
-            "The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]; rattle and \
-             rattle4 keep the energy where no force depends on velocities, trbdf2 and esdirk4 take stiff \
-             forces, esdirk4 to a tolerance always",
-        )
-        .value_parser(PossibleValuesParser::new(RunOptions::methods())),
-        option(
-            "rtol",
-            "NUMBER",
-            "Steps as long as this relative error of a step permits, with projection [default: 1e-6]",
-        ),
-        option("atol", "NUMBER", "The same for its absolute error, in SI units [default: 1e-9]"),
-        option("max-step", "TIME", "The longest step of a run to a tolerance"),
-        option(
-            "feedback",
-            "KIND",
-            "What keeps the constraints: the violation is fed back, or the state projected \
-             [default: as declared, or held]",
-        )
-        .value_parser(PossibleValuesParser::new(Stabilization::ALL.map(Stabilization::word))),
-        option("start", "WHERE", "The declared start, made consistent or as it is")
-            .value_parser(PossibleValuesParser::new(RunOptions::STARTS))
-            .default_value("consistent"),
-        Arg::new("allow-unstable")
-            .long("allow-unstable")
-            .action(ArgAction::SetTrue)
-            .help("Accept gains under which the violation grows"),
-    ];
-    of_values().into_iter().chain(others).collect()
+/// The options of every command with runs.
+#[derive(Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    values: Values,
+    /// Step in s, or with a unit; with --rtol or --atol the time between samples [default: as declared, 0.5ms, or
+    /// what a fast mechanism asks for]
+    #[arg(long, value_name = "TIME")]
+    step: Option<String>,
+    /// End time in s, or with a unit [default: 1s]
+    #[arg(long, value_name = "TIME")]
+    end: Option<String>,
+    /// Feedback of the velocity violation in 1/s [default: as declared, or deadbeat]
+    #[arg(long, value_name = "RATE")]
+    alpha: Option<String>,
+    /// Feedback of the position violation in 1/s [default: as declared, or deadbeat]
+    #[arg(long, value_name = "RATE")]
+    beta: Option<String>,
+    /// The scheme of the steps [default: as declared, heun, or dopri5 to a tolerance]; rattle and rattle4 keep the
+    /// energy where no force depends on velocities, trbdf2 and esdirk4 take stiff forces, esdirk4 to a tolerance
+    /// always
+    #[arg(long, value_name = "SCHEME", value_parser = PossibleValuesParser::new(RunOptions::methods()))]
+    method: Option<String>,
+    /// Steps as long as this relative error of a step permits, with projection [default: 1e-6]
+    #[arg(long, value_name = "NUMBER")]
+    rtol: Option<String>,
+    /// The same for its absolute error, in SI units [default: 1e-9]
+    #[arg(long, value_name = "NUMBER")]
+    atol: Option<String>,
+    /// The longest step of a run to a tolerance
+    #[arg(long, value_name = "TIME")]
+    max_step: Option<String>,
+    /// What keeps the constraints: the violation is fed back, or the state projected [default: as declared, or held]
+    #[arg(
+        long,
+        value_name = "KIND",
+        value_parser = PossibleValuesParser::new(Stabilization::ALL.map(Stabilization::word)),
+    )]
+    feedback: Option<String>,
+    /// The declared start, made consistent or as it is
+    #[arg(
+        long,
+        value_name = "WHERE",
+        value_parser = PossibleValuesParser::new(RunOptions::STARTS),
+        default_value = "consistent",
+    )]
+    start: String,
+    /// Accept gains under which the violation grows
+    #[arg(long)]
+    allow_unstable: bool,
 }
 
-/// The mechanism's defaults with the parameters and inputs that are given.
-pub(super) fn values(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    asked(model.info(), matches)?.values(model)
+/// The value of an option may begin with a minus sign.
+pub(super) fn signed(argument: Arg) -> Arg {
+    let has_value = !argument.is_positional() && argument.get_action().takes_values();
+    argument.allow_hyphen_values(has_value)
 }
 
-/// Settings of a run that looks for no declared events: what the options say, else the defaults of the mechanism.
-pub(super) fn settings(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    of_a_run_with(false, model, matches)
+impl Named {
+    pub fn name(&self) -> &str {
+        &self.model
+    }
+
+    pub fn find<'a>(&self, models: &'a Models) -> Result<Found<'a>, Error> {
+        models.find(&self.model)
+    }
 }
 
-/// The same of a run in which declared events are looked for.
-pub(super) fn settings_with_events(model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    of_a_run_with(true, model, matches)
-}
+impl Values {
+    /// The mechanism's defaults with the parameters and inputs that are given.
+    pub fn settings(&self, model: &dyn Model) -> Result<Settings, Error> {
+        self.asked(model.info())?.values(model)
+    }
 
-fn of_a_run_with(finds_events: bool, model: &dyn Model, matches: &ArgMatches) -> Result<Settings, Error> {
-    let mut asked = asked(model.info(), matches)?;
-    for name in RunOptions::NAMES {
-        // not every command has all of them
-        if let Some(text) = matches.try_get_one::<String>(name).ok().flatten() {
-            asked.set(name, text)?;
+    /// The same where inputs are constant, for this reason.
+    pub fn constants(&self, why: &str) -> Result<&Self, Error> {
+        if self.input.iter().any(|text| text.starts_with('@')) {
+            let reason = format!("{why}; give a value, such as force=3N");
+            return Err(Error::Name { name: "--input @FILE".into(), reason });
         }
+        Ok(self)
     }
-    let from = matches.try_get_many::<String>("from").ok().flatten().unwrap_or_default();
-    asked.from = from.map(|text| split(text)).collect::<Result<_, _>>()?;
-    asked.every = matches.try_get_one::<u64>("every").ok().flatten().copied();
-    asked.finds_events = finds_events;
-    asked.allow_unstable =
-        matches.try_get_one::<bool>("allow-unstable").ok().flatten().copied() == Some(true);
-    asked.settings(model)
+
+    /// The parameters and inputs that are given.
+    pub fn asked(&self, info: &Info) -> Result<RunOptions, Error> {
+        let is_file = |text: &&String| text.starts_with('@') || text.split('=').nth(1).is_some_and(is_table);
+        let (files, inputs): (Vec<&String>, Vec<&String>) = self.input.iter().partition(is_file);
+        let mut signals: Option<Signals> = None;
+        for text in files {
+            let read = match text.strip_prefix('@') {
+                Some(path) => Signals::read(Path::new(path), info)?,
+                None => {
+                    let (name, path) = quantity::split_setting(text)?;
+                    Signals::read_input(Path::new(path.trim_start_matches('@')), info, name)?
+                }
+            };
+            signals = Some(match signals.take() {
+                Some(others) => others.with(read)?,
+                None => read,
+            });
+        }
+        Ok(RunOptions {
+            parameters: pairs(&self.set)?,
+            inputs: pairs(inputs)?,
+            signals,
+            ..RunOptions::default()
+        })
+    }
 }
 
-/// The parameters and inputs that are given.
-pub(super) fn asked(info: &Info, matches: &ArgMatches) -> Result<RunOptions, Error> {
-    let texts = |name: &str| matches.get_many::<String>(name).unwrap_or_default().map(String::as_str);
-    let is_file = |text: &&str| text.starts_with('@') || text.split('=').nth(1).is_some_and(is_table);
-    let (files, inputs): (Vec<&str>, Vec<&str>) = texts("input").partition(is_file);
-    let mut signals: Option<Signals> = None;
-    for text in files {
-        let read = match text.strip_prefix('@') {
-            Some(path) => Signals::read(Path::new(path), info)?,
-            None => {
-                let (name, path) = quantity::split_setting(text)?;
-                Signals::read_input(Path::new(path.trim_start_matches('@')), info, name)?
-            }
-        };
-        signals = Some(match signals.take() {
-            Some(others) => others.with(read)?,
-            None => read,
-        });
+impl Run {
+    /// Settings of a run that looks for no declared events: what the options say, else the defaults of the
+    /// mechanism.
+    pub fn settings(&self, model: &dyn Model) -> Result<Settings, Error> {
+        self.asked(model.info())?.settings(model)
     }
-    Ok(RunOptions {
-        parameters: texts("set").map(split).collect::<Result<_, _>>()?,
-        inputs: inputs.into_iter().map(split).collect::<Result<_, _>>()?,
-        signals,
-        ..RunOptions::default()
-    })
+
+    /// The options that are given.
+    pub fn asked(&self, info: &Info) -> Result<RunOptions, Error> {
+        let mut asked = self.values.asked(info)?;
+        let texts = [
+            ("step", self.step.as_ref()),
+            ("end", self.end.as_ref()),
+            ("alpha", self.alpha.as_ref()),
+            ("beta", self.beta.as_ref()),
+            ("method", self.method.as_ref()),
+            ("rtol", self.rtol.as_ref()),
+            ("atol", self.atol.as_ref()),
+            ("max-step", self.max_step.as_ref()),
+            ("feedback", self.feedback.as_ref()),
+            ("start", Some(&self.start)),
+        ];
+        for (name, text) in texts {
+            text.map_or(Ok(()), |text| asked.set(name, text))?;
+        }
+        asked.allow_unstable = self.allow_unstable;
+        Ok(asked)
+    }
+}
+
+/// The names and the values of texts `NAME=VALUE`.
+pub(super) fn pairs<'t>(texts: impl IntoIterator<Item = &'t String>) -> Result<Vec<(String, String)>, Error> {
+    texts.into_iter().map(|text| split(text)).collect()
 }
 
 /// The name and the value of `NAME=VALUE`.
@@ -168,9 +197,9 @@ pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
 }
 
 /// Every file is written once.
-pub(super) fn check_files<'a>(files: impl IntoIterator<Item = &'a Path>) -> Result<(), Error> {
+pub(super) fn check_files<'a>(files: impl IntoIterator<Item = Option<&'a Path>>) -> Result<(), Error> {
     let mut seen: Vec<&Path> = Vec::new();
-    for file in files {
+    for file in files.into_iter().flatten() {
         if seen.iter().any(|other| is_same(other, file)) {
             let reason = "two options write to it".into();
             return Err(Error::Name { name: file.display().to_string(), reason });
@@ -178,6 +207,12 @@ pub(super) fn check_files<'a>(files: impl IntoIterator<Item = &'a Path>) -> Resu
         seen.push(file);
     }
     Ok(())
+}
+
+/// Says which files were written.
+pub(super) fn say_written<'a>(files: impl IntoIterator<Item = Option<&'a Path>>) -> Result<(), Error> {
+    let mut files = files.into_iter().flatten();
+    files.try_for_each(|path| say(format_args!("written: {}", path.display())))
 }
 
 /// Whether two names are those of one plain file.

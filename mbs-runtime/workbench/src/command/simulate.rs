@@ -1,64 +1,70 @@
 //! `mbs simulate`: one run of one mechanism, or some that are compared.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::compare::{self, Comparison};
 use super::curves::{Choice, curves};
-use super::options::{self, option, settings_with_events};
+use super::options::{self, Named, Run, pairs, signed};
 use super::{json, page};
-use crate::app::Warnings;
-use crate::console::complain;
+use crate::console::{Warnings, complain};
 use crate::figure::Figure;
 use crate::models::Models;
-use crate::{Error, Model, Picture, Recording, Settings, say, write_csv};
+use crate::{Error, Model, Picture, Recording, RunOptions, Settings, say, write_csv};
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    let flag = |name: &'static str, help: &'static str| {
-        Arg::new(name).long(name).action(ArgAction::SetTrue).help(help)
-    };
-    Command::new("simulate")
-        .about("Simulate a mechanism and record its motion")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_a_run())
-        .arg(option(
-            "until",
-            "CONDITION",
-            "End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a \
-             tolerance",
-        ))
-        .arg(
-            option(
-                "from",
-                "NAME=VALUE",
-                "Start with this value of a coordinate x or a rate der(x), the others following; repeatable",
-            )
-            .action(ArgAction::Append),
-        )
-        .arg(
-            option("every", "N", "Record every N-th step")
-                .value_parser(value_parser!(u64).range(1..))
-                .default_value("1"),
-        )
-        .arg(
-            option("columns", "NAME,…", "Record, draw and print these: x1, der(theta*), lambda(pin*), …")
-                .value_delimiter(',')
-                .action(ArgAction::Append),
-        )
-        .arg(option("x", "NAME", "Draw over this instead of time"))
-        .arg(compare::option())
-        .arg(flag("all", "Print all coordinates, however many there are"))
-        .arg(flag("json", "Print the summary as JSON"))
-        .arg(file("out", "FILE.csv", "Write what was recorded"))
-        .arg(file("plot", "FILE.svg|.png", "Draw coordinates, outputs and violation, or --columns"))
-        .arg(file("sketch", "FILE.svg|.png", "Draw the mechanism, its later poses and its paths"))
-        .arg(file("report", "FILE.html", "Write a page with the mechanism in motion and all curves"))
+#[derive(Args)]
+#[command(about = "Simulate a mechanism and record its motion", after_help = EXAMPLES, mut_args(signed))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    run: Run,
+    /// End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a
+    /// tolerance
+    #[arg(long, value_name = "CONDITION")]
+    until: Option<String>,
+    /// Start with this value of a coordinate x or a rate der(x), the others following; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    from: Vec<String>,
+    /// Record every N-th step
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..), default_value = "1")]
+    every: u64,
+    /// Record, draw and print these: x1, der(theta*), lambda(pin*), …
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    columns: Vec<String>,
+    /// Draw over this instead of time
+    #[arg(long, value_name = "NAME")]
+    x: Option<String>,
+    /// Run once for each of these values of a parameter or input, in one picture
+    #[arg(long, value_name = "NAME=VALUE,…", conflicts_with_all = ["sketch", "report"])]
+    compare: Option<String>,
+    /// Print all coordinates, however many there are
+    #[arg(long)]
+    all: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    files: Files,
+}
+
+/// The files that a run is written to.
+#[derive(Args, Clone)]
+pub(super) struct Files {
+    /// Write what was recorded
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Draw coordinates, outputs and violation, or --columns
+    #[arg(long, value_name = "FILE.svg|.png")]
+    pub plot: Option<PathBuf>,
+    /// Draw the mechanism, its later poses and its paths
+    #[arg(long, value_name = "FILE.svg|.png")]
+    pub sketch: Option<PathBuf>,
+    /// Write a page with the mechanism in motion and all curves
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "\
@@ -70,30 +76,28 @@ Examples:
 
 A run whose numbers are in doubt is written as any other, with a warning and exit code 3.";
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
-    let name = text("model").unwrap_or_default();
-    let found = models.find(name)?;
-    let (name, model) = (found.name(), found.model());
-    let settings = settings_with_events(model, matches)?;
-    let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
-    let request = Request {
-        name,
-        model,
-        files: Files { csv: path("out"), plot: path("plot"), sketch: path("sketch"), report: path("report") },
-        choice: Choice {
-            columns: matches.get_many::<String>("columns").unwrap_or_default().cloned().collect(),
-            x: text("x").map(str::to_owned),
-        },
-        all: matches.get_flag("all"),
-        json: matches.get_flag("json"),
-    };
-    request.files.check()?;
-    // Whether there are such columns.
-    request.choice.written(&Recording::empty(model.info()))?;
-    match Comparison::of(model.info(), &settings, matches)? {
-        Some(comparison) => compare::carry_out(&request, &comparison),
-        None => request.carry_out(&settings),
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let mut options = RunOptions {
+            from: pairs(&self.from)?,
+            every: Some(self.every),
+            finds_events: true,
+            ..self.run.asked(model.info())?
+        };
+        self.until.as_ref().map_or(Ok(()), |text| options.set("until", text))?;
+        let settings = options.settings(model)?;
+        let choice = Choice { columns: self.columns.clone(), x: self.x.clone() };
+        let request =
+            Request { name, model, files: self.files.clone(), choice, all: self.all, json: self.json };
+        request.files.check()?;
+        // Whether there are such columns.
+        request.choice.written(&Recording::empty(model.info()))?;
+        match &self.compare {
+            Some(text) => compare::carry_out(&request, &Comparison::of(model.info(), &settings, text)?),
+            None => request.carry_out(&settings),
+        }
     }
 }
 
@@ -102,7 +106,7 @@ pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Err
 pub(crate) fn by_default(name: &str, model: &dyn Model) -> Result<Warnings, Error> {
     let path = |ending: &str| Some(PathBuf::from(format!("{name}{ending}")));
     let files = Files {
-        csv: path(".csv"),
+        out: path(".csv"),
         plot: path(".svg"),
         sketch: path("-mechanism.svg"),
         report: path(".html"),
@@ -121,22 +125,14 @@ pub(super) struct Request<'a> {
     pub json: bool,
 }
 
-/// The files that a run is written to.
-pub(super) struct Files {
-    pub csv: Option<PathBuf>,
-    pub plot: Option<PathBuf>,
-    pub sketch: Option<PathBuf>,
-    pub report: Option<PathBuf>,
-}
-
 impl Files {
-    pub fn all(&self) -> impl Iterator<Item = &PathBuf> {
-        [&self.csv, &self.plot, &self.sketch, &self.report].into_iter().flatten()
+    pub fn all(&self) -> [Option<&Path>; 4] {
+        [&self.out, &self.plot, &self.sketch, &self.report].map(Option::as_deref)
     }
 
     /// Before the work, so that a bad name is told at once.
     fn check(&self) -> Result<(), Error> {
-        options::check_files(self.all().map(PathBuf::as_path))?;
+        options::check_files(self.all())?;
         [&self.plot, &self.sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))
     }
 }
@@ -155,16 +151,16 @@ impl Request<'_> {
         }
         if !self.json {
             say(self.table(settings, &recording)?.to_string().trim_end())?;
-            self.files.all().try_for_each(|path| say(format_args!("written: {}", path.display())))?;
+            options::say_written(self.files.all())?;
         }
         Ok(warnings)
     }
 
     /// Writes the files; says where the recording is, as a clause to append.
     fn write(&self, settings: &Settings, recording: &Recording) -> Result<String, Error> {
-        let Files { csv, plot, sketch, report } = &self.files;
+        let Files { out, plot, sketch, report } = &self.files;
         let mut kept = String::new();
-        if let Some(path) = csv {
+        if let Some(path) = out {
             write_csv(path, &self.choice.written(recording)?)?;
             kept = format!("; the motion up to there is in {}", path.display());
         }

@@ -10,15 +10,13 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use clap::builder::PossibleValuesParser;
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, ValueEnum};
 
 use self::axis::{Evenly, Grid, GridAxis};
 use self::rows::Rows;
 use self::shard::{Head, Heading, Shard, There};
-use super::options::{self, option, settings};
-use crate::app::Warnings;
-use crate::console::complain;
+use super::options::{self, Named, Run};
+use crate::console::{Warnings, complain};
 use crate::figure::Figure;
 use crate::members::{Extent, Member, Members, quantities};
 use crate::models::Models;
@@ -42,52 +40,38 @@ On many machines, each makes a share of the runs, in any order:
 The same command goes on where it was ended, makes again what is missing of a damaged file, and does nothing if
 its file is complete.";
 
-pub(crate) fn command() -> Command {
-    Command::new("sweep")
-        .about("Simulate a mechanism over a grid of one or two parameters")
-        .after_help(EXAMPLE)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .arg(
-            option(
-                "param",
-                "NAME=LOW..HIGH:COUNT",
-                "A parameter and its values, both ends included, such as l1=50mm..120mm:20; once or twice",
-            )
-            .action(ArgAction::Append)
-            .required(true),
-        )
-        .arg(
-            option(
-                "output",
-                "NAME",
-                "An output or a coordinate to look at; repeatable [default: all outputs]",
-            )
-            .action(ArgAction::Append),
-        )
-        .arg(
-            option("show", "WHAT", "What of it is drawn; a peak is the largest magnitude")
-                .value_parser(PossibleValuesParser::new(["peak", "max", "min", "final"]))
-                .default_value("peak"),
-        )
-        .args(options::of_a_run())
-        .arg(
-            option("out", "FILE.csv", "Write smallest, largest and final values, a row for every run")
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(
-            option("plot", "FILE.svg|.png", "Draw curves over one parameter, heat maps over two")
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(
-            option(
-                "shard",
-                "K/N",
-                "Make the K-th of N shares of the runs, and write it to --out; `mbs merge` puts the shares together",
-            )
-            .requires("out")
-            .conflicts_with_all(["plot", "json", "show"]),
-        )
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the summary as JSON"))
+#[derive(Args)]
+#[command(
+    about = "Simulate a mechanism over a grid of one or two parameters",
+    after_help = EXAMPLE,
+    mut_args(options::signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    /// A parameter and its values, both ends included, such as l1=50mm..120mm:20; once or twice
+    #[arg(long, value_name = "NAME=LOW..HIGH:COUNT", required = true)]
+    param: Vec<String>,
+    /// An output or a coordinate to look at; repeatable [default: all outputs]
+    #[arg(long, value_name = "NAME")]
+    output: Vec<String>,
+    /// What of it is drawn; a peak is the largest magnitude
+    #[arg(long, value_name = "WHAT", default_value = "peak")]
+    show: Shown,
+    #[command(flatten)]
+    run: Run,
+    /// Write smallest, largest and final values, a row for every run
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+    /// Draw curves over one parameter, heat maps over two
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Make the K-th of N shares of the runs, and write it to --out; `mbs merge` puts the shares together
+    #[arg(long, value_name = "K/N", requires = "out", conflicts_with_all = ["plot", "json", "show"])]
+    shard: Option<String>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 /// A quantity of a mechanism that a sweep looks at.
@@ -99,7 +83,7 @@ struct Watched {
 }
 
 /// The number of an extent that is drawn and summed up.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, ValueEnum)]
 enum Shown {
     Peak,
     Max,
@@ -114,6 +98,15 @@ impl Shown {
             Self::Max => extent.high,
             Self::Min => extent.low,
             Self::Final => extent.last,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Peak => "peak",
+            Self::Max => "max",
+            Self::Min => "min",
+            Self::Final => "final",
         }
     }
 }
@@ -164,52 +157,43 @@ fn start_notes(model: &dyn Model, settings: &Settings, grid: &Grid) -> Vec<Strin
     lost.chain(steps.and_then(|(steps, run)| end_note(&*run, steps, settings.end))).collect()
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<Warnings, Error> {
-    let text = |name: &str| matches.get_one::<String>(name).map_or("", String::as_str);
-    let name = text("model");
-    let found = models.find(name)?;
-    let (name, model) = (found.name(), found.model());
-    let settings = settings(model, matches)?;
-    let axes = matches.get_many::<String>("param").unwrap_or_default();
-    let grid = Grid::of(axes.map(|text| GridAxis::parse(text, model.info())).collect::<Result<_, _>>()?)?;
-    grid.check_against(&settings)?;
-    let notes = settings.signals.iter().flat_map(Signals::notes);
-    let notes = notes.chain(start_notes(model, &settings, &grid));
-    notes.for_each(|note| complain(format_args!("note: {note}")));
-    let named: Vec<&String> = matches.get_many("output").unwrap_or_default().collect();
-    let watched = watched(model, &named)?;
-    let shown = match text("show") {
-        "max" => Shown::Max,
-        "min" => Shown::Min,
-        "final" => Shown::Final,
-        _ => Shown::Peak,
-    };
-    let path = |name: &str| matches.get_one::<PathBuf>(name);
-    // before the work, so that a bad name is told at once
-    options::check_files(["out", "plot"].into_iter().filter_map(path).map(PathBuf::as_path))?;
-    if let Some(path) = path("plot") {
-        Figure::check_ending(path)?;
-    }
-    if let (Some(text), Some(path)) = (matches.get_one::<String>("shard"), path("out")) {
-        let heading = Heading::of(Shard::parse(text)?, model, &settings, &grid, &watched);
-        let columns = rows::columns(&grid, &watched).map_err(Error::file("write", path))?;
-        return share(name, model, &settings, (&grid, &watched), &Head { heading, columns }, path);
-    }
-    let mut sweep = Sweep {
-        rows: path("out").map(|path| Rows::create(path, &grid, &watched)).transpose()?,
-        members: 0..grid.count(),
-        values: vec![vec![f64::NAN; grid.count()]; watched.len()],
-        failures: 0,
-        first_failure: None,
-        grid: &grid,
-        watched: &watched,
-        shown,
-        json: matches.get_flag("json"),
-    };
-    match sweep.carry_out(name, model, &settings) {
-        Err(Error::Interrupted { finished, of, .. }) => sweep.give_up(text("show"), finished, of),
-        Err(error) => Err(error),
-        Ok(()) => sweep.finish(name, text("show"), path("plot").map(PathBuf::as_path)),
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let settings = self.run.settings(model)?;
+        let axes = self.param.iter().map(|text| GridAxis::parse(text, model.info()));
+        let grid = Grid::of(axes.collect::<Result<_, _>>()?)?;
+        grid.check_against(&settings)?;
+        let notes = settings.signals.iter().flat_map(Signals::notes);
+        let notes = notes.chain(start_notes(model, &settings, &grid));
+        notes.for_each(|note| complain(format_args!("note: {note}")));
+        let watched = watched(model, &self.output)?;
+        let [out, plot] = [&self.out, &self.plot].map(Option::as_deref);
+        // before the work, so that a bad name is told at once
+        options::check_files([out, plot])?;
+        plot.map_or(Ok(()), Figure::check_ending)?;
+        if let (Some(text), Some(path)) = (&self.shard, out) {
+            let heading = Heading::of(Shard::parse(text)?, model, &settings, &grid, &watched);
+            let columns = rows::columns(&grid, &watched).map_err(Error::file("write", path))?;
+            return share(name, model, &settings, (&grid, &watched), &Head { heading, columns }, path);
+        }
+        let mut sweep = Sweep {
+            rows: out.map(|path| Rows::create(path, &grid, &watched)).transpose()?,
+            members: 0..grid.count(),
+            values: vec![vec![f64::NAN; grid.count()]; watched.len()],
+            failures: 0,
+            first_failure: None,
+            grid: &grid,
+            watched: &watched,
+            shown: self.show,
+            json: self.json,
+        };
+        match sweep.carry_out(name, model, &settings) {
+            Err(Error::Interrupted { finished, of, .. }) => sweep.give_up(finished, of),
+            Err(error) => Err(error),
+            Ok(()) => sweep.finish(name, plot),
+        }
     }
 }
 
@@ -267,22 +251,22 @@ fn share(
 
 /// The named quantities; all outputs if none are named, all coordinates if there are
 /// no outputs.
-fn watched(model: &dyn Model, names: &[&String]) -> Result<Vec<Watched>, Error> {
+fn watched(model: &dyn Model, names: &[String]) -> Result<Vec<Watched>, Error> {
     let info = model.info();
     let all = quantities(info).into_iter().enumerate();
     let all: Vec<_> = all.map(|(at, (name, unit))| Watched { at, name, unit }).collect();
     for (at, name) in names.iter().enumerate() {
         if names.iter().take(at).any(|other| other == name) {
-            return Err(Error::Name { name: (*name).clone(), reason: "it is named twice".into() });
+            return Err(Error::Name { name: name.clone(), reason: "it is named twice".into() });
         }
-        if !all.iter().any(|quantity| quantity.name == **name) {
-            return Err(Error::unknown("output", *name, all.iter().map(|quantity| quantity.name)));
+        if !all.iter().any(|quantity| quantity.name == *name) {
+            return Err(Error::unknown("output", name, all.iter().map(|quantity| quantity.name)));
         }
     }
     let outputs = if info.outputs.is_empty() { 0 } else { info.coordinates.len() };
     let is_wanted = |quantity: &Watched| match names {
         [] => quantity.at >= outputs,
-        names => names.iter().any(|name| **name == quantity.name),
+        names => names.iter().any(|name| *name == quantity.name),
     };
     Ok(all.into_iter().filter(is_wanted).collect())
 }
@@ -345,19 +329,19 @@ impl Sweep<'_> {
     }
 
     /// Ends an interrupted sweep: keeps its rows, and prints the summary of the runs that it finished.
-    fn give_up(mut self, shown: &str, finished: usize, of: usize) -> Result<Warnings, Error> {
+    fn give_up(mut self, finished: usize, of: usize) -> Result<Warnings, Error> {
         let part = self.rows.take().map(Rows::give_up).transpose()?;
         if self.failures < finished {
-            self.say_summary(shown, &[])?;
+            self.say_summary(&[])?;
         }
         let kept = part.map_or_else(String::new, |path| format!("; their rows are in {}", path.display()));
         Err(Error::Interrupted { finished, of, kept })
     }
 
-    fn finish(mut self, name: &str, shown: &str, plot: Option<&Path>) -> Result<Warnings, Error> {
+    fn finish(mut self, name: &str, plot: Option<&Path>) -> Result<Warnings, Error> {
         let mut files = Vec::new();
         if let Some(path) = plot {
-            self.figure(name, shown).save(path)?;
+            self.figure(name).save(path)?;
             files.push(path.to_owned());
         }
         if let Some(rows) = self.rows.take() {
@@ -365,7 +349,7 @@ impl Sweep<'_> {
         }
         let count = self.grid.count();
         if self.failures < count {
-            self.say_summary(shown, &files)?;
+            self.say_summary(&files)?;
         }
         match self.failure() {
             Some(failure) if self.failures == count => Err(failure),

@@ -6,13 +6,12 @@ mod result;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, value_parser};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use self::request::task;
 use self::result::Shown;
-use super::operating;
-use super::options::{self, option};
+use super::options::{self, Named, Values, signed};
 use crate::figure::Figure;
 use crate::models::Models;
 use crate::{Error, interrupt, say, write_csv};
@@ -26,84 +25,100 @@ Each row of the table is a position, in the order in which they are to be passed
 names of coordinates and outputs, with units in brackets. An empty cell is free. With a column of the
 driving coordinate the timing is prescribed; without it the positions may be passed at any time.";
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    let number = |name: &'static str, help: &'static str, default: &'static str| {
-        option(name, "N", help).value_parser(value_parser!(u32).range(1..)).default_value(default)
-    };
-    Command::new("synthesize")
-        .about("Find dimensions with which a mechanism passes given positions, in order and without a defect")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_values())
-        .arg(file("through", "FILE.csv", "The positions").required(true))
-        .arg(
-            option("param", "NAME=LOW..HIGH,…", "Parameters to be found, between these values")
-                .required(true)
-                .value_delimiter(',')
-                .action(ArgAction::Append),
-        )
-        .arg(option("drive", "NAME", "The coordinate that drives, and must not turn back on the way"))
-        .arg(option("tolerance", "VALUE", "By how much a value may be missed: 0.1mm, 0.5deg [default: 1e-9]"))
-        .arg(number("starts", "Look from so many random starts at most", "20000"))
-        .arg(number("enough", "Stop when so many mechanisms are found", "1"))
-        .arg(option("seed", "N", "Other random starts").value_parser(value_parser!(u64)).default_value("0"))
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(file("plot", "FILE.svg|.png", "Draw what was asked for, and what the best mechanism does"))
-        .arg(file("sketch", "FILE.svg|.png", "Draw the best mechanism on its way"))
-        .arg(file("out", "FILE.csv", "Write the coordinates of the best mechanism on its way"))
+#[derive(Args)]
+#[command(
+    about = "Find dimensions with which a mechanism passes given positions, in order and without a defect",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// The positions
+    #[arg(long, value_name = "FILE.csv")]
+    through: PathBuf,
+    /// Parameters to be found, between these values
+    #[arg(long, value_name = "NAME=LOW..HIGH,…", required = true, value_delimiter = ',')]
+    param: Vec<String>,
+    /// The coordinate that drives, and must not turn back on the way
+    #[arg(long, value_name = "NAME")]
+    drive: Option<String>,
+    /// By how much a value may be missed: 0.1mm, 0.5deg [default: 1e-9]
+    #[arg(long, value_name = "VALUE")]
+    tolerance: Option<String>,
+    /// Look from so many random starts at most
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), default_value = "20000")]
+    starts: u32,
+    /// Stop when so many mechanisms are found
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), default_value = "1")]
+    enough: u32,
+    /// Other random starts
+    #[arg(long, value_name = "N", default_value = "0")]
+    seed: u64,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw what was asked for, and what the best mechanism does
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Draw the best mechanism on its way
+    #[arg(long, value_name = "FILE.svg|.png")]
+    sketch: Option<PathBuf>,
+    /// Write the coordinates of the best mechanism on its way
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let found = operating::named(models, matches)?;
-    let (name, model) = (found.name(), found.model());
-    let path = |name: &str| matches.get_one::<PathBuf>(name);
-    let [through, plot, sketch, out] = ["through", "plot", "sketch", "out"].map(path);
-    options::check_files([through, plot, sketch, out].into_iter().flatten().map(PathBuf::as_path))?;
-    [plot, sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))?;
-    let trials = found.trials()?;
-    let (task, units) = task(model, matches)?;
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} starts, {msg}");
-    let bar = ProgressBar::new(task.starts as u64)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let interrupted = interrupt::flag();
-    let synthesis = task.synthesize_while(&*trials, &mut |starts, found| {
-        bar.set_position(starts as u64);
-        bar.set_message(format!("{found} found"));
-        !interrupted.load(Ordering::Relaxed)
-    });
-    let is_over = interrupted.load(Ordering::Relaxed);
-    drop(interrupted);
-    bar.finish_and_clear();
-    let synthesis = synthesis?;
-    let shown = Shown { name, model, task: &task, units: &units, synthesis: &synthesis };
-    if is_over && synthesis.linkages.is_empty() {
-        return Err(Error::Stopped {
-            kept: format!(" after {} starts, which found nothing", synthesis.starts),
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let [plot, sketch, out] = [&self.plot, &self.sketch, &self.out].map(Option::as_deref);
+        options::check_files([Some(self.through.as_path()), plot, sketch, out])?;
+        [plot, sketch].into_iter().flatten().try_for_each(Figure::check_ending)?;
+        let trials = found.trials()?;
+        let (task, units) = task(model, self)?;
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} starts, {msg}");
+        let bar = ProgressBar::new(task.starts as u64)
+            .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let interrupted = interrupt::flag();
+        let synthesis = task.synthesize_while(&*trials, &mut |starts, found| {
+            bar.set_position(starts as u64);
+            bar.set_message(format!("{found} found"));
+            !interrupted.load(Ordering::Relaxed)
         });
+        let is_over = interrupted.load(Ordering::Relaxed);
+        drop(interrupted);
+        bar.finish_and_clear();
+        let synthesis = synthesis?;
+        let shown = Shown { name, model, task: &task, units: &units, synthesis: &synthesis };
+        if is_over && synthesis.linkages.is_empty() {
+            return Err(Error::Stopped {
+                kept: format!(" after {} starts, which found nothing", synthesis.starts),
+            });
+        }
+        let best = shown.best()?;
+        if let Some(path) = plot {
+            shown.figure(best)?.save(path)?;
+        }
+        if let Some(path) = sketch {
+            shown.sketch(best)?.save(path)?;
+        }
+        if let Some(path) = out {
+            write_csv(path, &shown.columns(best))?;
+        }
+        if self.json {
+            say(shown.json())?;
+        } else {
+            say(shown.table().trim_end())?;
+            options::say_written([plot, sketch, out])?;
+        }
+        if is_over {
+            let kept = format!(" after {} starts; what they found is told and written", synthesis.starts);
+            return Err(Error::Stopped { kept });
+        }
+        Ok(())
     }
-    let best = shown.best()?;
-    if let Some(path) = plot {
-        shown.figure(best)?.save(path)?;
-    }
-    if let Some(path) = sketch {
-        shown.sketch(best)?.save(path)?;
-    }
-    if let Some(path) = out {
-        write_csv(path, &shown.columns(best))?;
-    }
-    if matches.get_flag("json") {
-        say(shown.json())?;
-    } else {
-        say(shown.table().trim_end())?;
-        let mut files = [plot, sketch, out].into_iter().flatten();
-        files.try_for_each(|path| say(format_args!("written: {}", path.display())))?;
-    }
-    if is_over {
-        let kept = format!(" after {} starts; what they found is told and written", synthesis.starts);
-        return Err(Error::Stopped { kept });
-    }
-    Ok(())
 }

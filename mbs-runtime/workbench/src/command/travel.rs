@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use clap::{Args, value_parser};
 use mbs_analysis::{Along, Position, Travel, travel};
 use mbs_runtime::Info;
 use serde_json::{Value, json};
@@ -10,15 +10,14 @@ use serde_json::{Value, json};
 use super::extremes;
 use super::inverse::{column, coordinate_range, panels};
 use super::json::number;
-use super::operating;
-use super::options::{self, option};
+use super::options::{self, Named, Values, pairs, signed};
 use crate::figure::Figure;
 use crate::figure::axis;
 use crate::models::Models;
 use crate::number::{counted, significant};
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
-use crate::{Column, Error, Unit, say, write_csv};
+use crate::{About, Column, Error, Unit, say, write_csv};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,83 +32,84 @@ const DRAWN: f64 = 20.0;
 /// A change of a force that is no larger than this share of the largest one is rounding.
 const ROUNDING: f64 = 1e-12;
 
-pub(crate) fn command() -> Command {
-    let file = |name: &'static str, value: &'static str, help: &'static str| {
-        option(name, value, help).value_parser(value_parser!(PathBuf))
-    };
-    Command::new("travel")
-        .about("Find the force or the torque along a slow motion over position, and mechanical advantage")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .args(options::of_values())
-        .arg(
-            option(
-                "along",
-                "NAME=FROM..TO",
-                "Move this coordinate, or this drive between two times of its law",
-            )
-            .required(true),
-        )
-        .arg(
-            option("samples", "COUNT", "At how many positions [default: 201]")
-                .value_parser(value_parser!(u32).range(2..=1_000_000)),
-        )
-        .arg(
-            option(
-                "advantage",
-                "NAME,…",
-                "The coordinates along which a load acts, for mechanical advantage",
-            )
-            .value_delimiter(',')
-            .action(ArgAction::Append),
-        )
-        .arg(
-            option("from", "NAME=VALUE", "Begin on the branch of this value of a coordinate; repeatable")
-                .action(ArgAction::Append),
-        )
-        .arg(option("at", "TIME", "Hold drives and forces where they are at this time [default: 0s]"))
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("Print the result as JSON"))
-        .arg(file("plot", "FILE.svg|.png", "Draw the force over the position"))
-        .arg(file("out", "FILE.csv", "Write forces, positions, reactions and outputs"))
+#[derive(Args)]
+#[command(
+    about = "Find the force or the torque along a slow motion over position, and mechanical advantage",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    #[command(flatten)]
+    values: Values,
+    /// Move this coordinate, or this drive between two times of its law
+    #[arg(long, value_name = "NAME=FROM..TO")]
+    along: String,
+    /// At how many positions [default: 201]
+    #[arg(long, value_name = "COUNT", value_parser = value_parser!(u32).range(2..=1_000_000))]
+    samples: Option<u32>,
+    /// The coordinates along which a load acts, for mechanical advantage
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    advantage: Vec<String>,
+    /// Begin on the branch of this value of a coordinate; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    from: Vec<String>,
+    /// Hold drives and forces where they are at this time [default: 0s]
+    #[arg(long, value_name = "TIME")]
+    at: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the force over the position
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+    /// Write forces, positions, reactions and outputs
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
 }
 
-pub(crate) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let found = operating::named(models, matches)?;
-    let (name, model) = (found.name(), found.model());
-    let [plot, out] = ["plot", "out"].map(|name| matches.get_one::<PathBuf>(name));
-    options::check_files([plot, out].into_iter().flatten().map(PathBuf::as_path))?;
-    plot.map_or(Ok(()), |path| Figure::check_ending(path))?;
-    operating::refuse_signals(matches, "inputs are constants of a slow motion")?;
-    let info = model.info();
-    let lead = Lead::of(info, matches)?;
-    let loads = lead.loads(info, matches)?;
-    let start = Start::of(model, &options::values(model, matches)?)?;
-    let run = model.start(&start)?;
-    let search = operating::about(matches)?.search(&*run)?;
-    let request = Travel {
-        along: lead.along.clone(),
-        samples: lead.samples.clone(),
-        inputs: Some(start.inputs.clone()),
-        from: search.from,
-        t: search.t,
-    };
-    let found = travel(run.described(), &request)?;
-    let shown = Shown::of(info, &lead, &loads, &found);
-    if let Some(path) = plot {
-        shown.figure(&format!("{name}: effort over travel")).save(path)?;
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let (name, model) = (found.name(), found.model());
+        let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
+        options::check_files([plot, out])?;
+        plot.map_or(Ok(()), Figure::check_ending)?;
+        let values = self.values.constants("inputs are constants of a slow motion")?;
+        let info = model.info();
+        let lead = Lead::of(info, &self.along, self.samples.unwrap_or(SAMPLES))?;
+        let loads = lead.loads(info, &self.advantage)?;
+        let start = Start::of(model, &values.settings(model)?)?;
+        let run = model.start(&start)?;
+        let about = About { from: pairs(&self.from)?, at: self.at.clone(), ..About::default() };
+        let search = about.search(&*run)?;
+        let request = Travel {
+            along: lead.along.clone(),
+            samples: lead.samples.clone(),
+            inputs: Some(start.inputs.clone()),
+            from: search.from,
+            t: search.t,
+        };
+        let found = travel(run.described(), &request)?;
+        let shown = Shown::of(info, &lead, &loads, &found);
+        if let Some(path) = plot {
+            shown.figure(&format!("{name}: effort over travel")).save(path)?;
+        }
+        if let Some(path) = out {
+            write_csv(path, &shown.columns)?;
+        }
+        if self.json {
+            return say(shown.json(name));
+        }
+        let table = extremes::table(name, shown.first());
+        say(table.to_string().trim_end())?;
+        shown.rests.iter().try_for_each(|rest| say(rest.words(&shown.unit, &lead.name)))?;
+        options::say_written([plot, out])
     }
-    if let Some(path) = out {
-        write_csv(path, &shown.columns)?;
-    }
-    if matches.get_flag("json") {
-        return say(shown.json(name));
-    }
-    let table = extremes::table(name, shown.first());
-    say(table.to_string().trim_end())?;
-    shown.rests.iter().try_for_each(|rest| say(rest.words(&shown.unit, &lead.name)))?;
-    let files = [plot, out].into_iter().flatten();
-    files.into_iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
 }
+
+const SAMPLES: u32 = 201;
 
 /// The coordinate or the drive that is moved, with its values or its times.
 struct Lead {
@@ -119,9 +119,8 @@ struct Lead {
 }
 
 impl Lead {
-    fn of(info: &Info, matches: &ArgMatches) -> Result<Self, Error> {
-        let text = matches.get_one::<String>("along").map_or("", String::as_str);
-        let count = matches.get_one::<u32>("samples").copied().unwrap_or(201);
+    /// Reads `NAME=FROM..TO`, of so many samples.
+    fn of(info: &Info, text: &str, count: u32) -> Result<Self, Error> {
         let (name, range) = quantity::split_setting(text)?;
         let is_drive = info.constraints.iter().any(|row| row.name == name && row.is_drive);
         let [from, to] = if is_drive {
@@ -153,13 +152,12 @@ impl Lead {
     }
 
     /// The coordinates along which loads act.
-    fn loads(&self, info: &Info, matches: &ArgMatches) -> Result<Vec<usize>, Error> {
-        let names = matches.get_many::<String>("advantage").unwrap_or_default();
+    fn loads(&self, info: &Info, names: &[String]) -> Result<Vec<usize>, Error> {
         let place = |name: &String| {
             let found = info.coordinates.iter().position(|q| q.name == name);
             found.ok_or_else(|| Error::unknown("coordinate", name, info.coordinates.iter().map(|q| q.name)))
         };
-        let places = names.map(place).collect::<Result<Vec<_>, _>>()?;
+        let places = names.iter().map(place).collect::<Result<Vec<_>, _>>()?;
         // a drive takes the place of a degree of freedom
         let free = match self.along {
             Along::Coordinate(_) => info.dof - 1,

@@ -6,10 +6,10 @@
 use std::fmt::{Display, Write};
 use std::path::PathBuf;
 
-use clap::{Arg, ArgMatches, Command, value_parser};
+use clap::Args;
 use mbs_runtime::Sketch;
 
-use crate::command::options::{self, option};
+use crate::command::options::{Named, Values, signed};
 use crate::models::Models;
 use crate::picture::{Extent, Picture, Shape};
 use crate::{Error, Settings, files, say};
@@ -22,18 +22,23 @@ const LAYERS: [&str; 4] = ["joints", "ground", "rails", "rods"];
 
 type Point = [f64; 2];
 
-pub(super) fn command() -> Command {
-    Command::new("dxf")
-        .about("Write a mechanism as a DXF drawing in mm, at its start or at a time of its motion")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .arg(
-            option("out", "FILE.dxf", "The drawing to write")
-                .required(true)
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .arg(option("at", "TIME", "The time of the drawing in s, or with a unit [default: the start]"))
-        .args(options::of_values())
+#[derive(Args)]
+#[command(
+    about = "Write a mechanism as a DXF drawing in mm, at its start or at a time of its motion",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    /// The drawing to write
+    #[arg(long, value_name = "FILE.dxf")]
+    out: PathBuf,
+    /// The time of the drawing in s, or with a unit [default: the start]
+    #[arg(long, value_name = "TIME")]
+    at: Option<String>,
+    #[command(flatten)]
+    values: Values,
 }
 
 const EXAMPLES: &str = "\
@@ -43,32 +48,31 @@ Examples:
   mbs export dxf four-bar --out four_bar.dxf
   mbs export dxf jansen-walker --set omega=30rpm --at 0.4s --out walker.dxf";
 
-pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let text = |name: &str| matches.get_one::<String>(name).map(String::as_str);
-    let path = matches.get_one::<PathBuf>("out").cloned().unwrap_or_default();
-    if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("dxf")) {
-        let reason = "a drawing ends in .dxf".into();
-        return Err(Error::Name { name: path.display().to_string(), reason });
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let path = &self.out;
+        if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("dxf")) {
+            let reason = "a drawing ends in .dxf".into();
+            return Err(Error::Name { name: path.display().to_string(), reason });
+        }
+        let found = self.model.find(models)?;
+        let model = found.model();
+        let mut asked = self.values.asked(model.info())?;
+        self.at.as_ref().map_or(Ok(()), |at| asked.set("end", at))?;
+        let settings = asked.settings(model)?;
+        // The start is the first instant of a run of one step.
+        let end = if self.at.is_some() { settings.end } else { settings.step };
+        let settings = Settings { end, ..settings };
+        let recording = model.simulate(&settings, &mut |_, _| ())?;
+        if let Some(cause) = recording.ended {
+            return Err(Error::EndedEarly { cause, kept: String::new() });
+        }
+        let motion = model.motion(&settings, &recording)?;
+        let instant = if self.at.is_some() { motion.places.len().saturating_sub(1) } else { 0 };
+        let drawing = drawing(motion.sketch, &Picture::of(&motion), instant);
+        files::write(path, drawing.as_bytes())?;
+        say(format_args!("written: {}", path.display()))
     }
-    let found = models.find(text("model").unwrap_or_default())?;
-    let model = found.model();
-    let mut asked = options::asked(model.info(), matches)?;
-    if let Some(at) = text("at") {
-        asked.set("end", at)?;
-    }
-    let settings = asked.settings(model)?;
-    // The start is the first instant of a run of one step.
-    let end = if text("at").is_some() { settings.end } else { settings.step };
-    let settings = Settings { end, ..settings };
-    let recording = model.simulate(&settings, &mut |_, _| ())?;
-    if let Some(cause) = recording.ended {
-        return Err(Error::EndedEarly { cause, kept: String::new() });
-    }
-    let motion = model.motion(&settings, &recording)?;
-    let instant = if text("at").is_some() { motion.places.len().saturating_sub(1) } else { 0 };
-    let drawing = drawing(motion.sketch, &Picture::of(&motion), instant);
-    files::write(&path, drawing.as_bytes())?;
-    say(format_args!("written: {}", path.display()))
 }
 
 /// The file for an instant of a picture.

@@ -2,25 +2,33 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, ArgMatches, Command, value_parser};
+use clap::Args;
 
-use crate::command::options::{of_values, option, settings};
+use super::settings;
+use crate::command::options::{Named, Values, signed};
 use crate::console::complain;
 use crate::{Error, Models, files, say};
 
-pub(super) fn command() -> Command {
-    Command::new("page")
-        .about("Write a mechanism as one HTML file in which it runs, offline, to change and to drag")
-        .after_help(EXAMPLES)
-        .arg(Arg::new("model").value_name("MODEL").required(true).help("A name from `list`, or a file"))
-        .arg(
-            option("out", "FILE.html", "The file to write")
-                .required(true)
-                .value_parser(value_parser!(PathBuf)),
-        )
-        .args(of_values())
-        .arg(option("step", "TIME", "Step in s, or with a unit [default: as declared, 0.5ms, or its own]"))
-        .arg(option("end", "TIME", "The time that curves and speed are laid out for [default: 1s]"))
+#[derive(Args)]
+#[command(
+    about = "Write a mechanism as one HTML file in which it runs, offline, to change and to drag",
+    after_help = EXAMPLES,
+    mut_args(signed),
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    model: Named,
+    /// The file to write
+    #[arg(long, value_name = "FILE.html")]
+    out: PathBuf,
+    #[command(flatten)]
+    values: Values,
+    /// Step in s, or with a unit [default: as declared, 0.5ms, or its own]
+    #[arg(long, value_name = "TIME")]
+    step: Option<String>,
+    /// The time that curves and speed are laid out for [default: 1s]
+    #[arg(long, value_name = "TIME")]
+    end: Option<String>,
 }
 
 const EXAMPLES: &str = "\
@@ -33,20 +41,21 @@ The file needs no network and no server: the mechanism is in it as WebAssembly. 
 those of `simulate` to the bit, as far as functions of the browser agree with Rust's: those
 other than sine, cosine and square root may not.";
 
-pub(super) fn run(models: &Models, matches: &ArgMatches) -> Result<(), Error> {
-    let name = matches.get_one::<String>("model").map_or("", String::as_str);
-    let path = matches.get_one::<PathBuf>("out").cloned().unwrap_or_default();
-    let found = models.find(name)?;
-    let model = found.model();
-    let settings = settings(model, matches)?;
-    let html = model.interactive_page(found.name(), &settings)?;
-    files::write(&path, html.as_bytes())?;
-    say(format_args!("written: {}", path.display()))?;
-    if let [event, ..] = model.info().events {
-        let name = event.name;
-        complain(format_args!(
-            "note: the page makes constant steps and looks for no events such as `{name}`"
-        ));
+impl Arguments {
+    pub fn run(&self, models: &Models) -> Result<(), Error> {
+        let found = self.model.find(models)?;
+        let (model, path) = (found.model(), &self.out);
+        let options = self.values.asked(model.info())?;
+        let settings = settings(model, options, self.step.as_ref(), self.end.as_ref())?;
+        let html = model.interactive_page(found.name(), &settings)?;
+        files::write(path, html.as_bytes())?;
+        say(format_args!("written: {}", path.display()))?;
+        if let [event, ..] = model.info().events {
+            let name = event.name;
+            complain(format_args!(
+                "note: the page makes constant steps and looks for no events such as `{name}`"
+            ));
+        }
+        Ok(())
     }
-    Ok(())
 }

@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::ArgMatches;
 use mbs_analysis::{Experiment, Signal, Unknown, Variable, clock_of};
 use mbs_runtime::{Dimension, Info};
 
-use crate::command::options;
+use super::Arguments;
 use crate::measurements::Measurements;
 use crate::number::significant;
 use crate::quantity;
@@ -33,14 +32,11 @@ struct Place {
 }
 
 impl Request {
-    pub fn of(model: &dyn Model, matches: &ArgMatches) -> Result<Self, Error> {
+    pub fn of(model: &dyn Model, asked: &Arguments) -> Result<Self, Error> {
         let info = model.info();
-        let texts = |name: &str| -> Vec<String> {
-            matches.get_many::<String>(name).unwrap_or_default().cloned().collect()
-        };
-        let mut settings = options::values(model, matches)?;
-        let path = matches.get_one::<PathBuf>("data").cloned().unwrap_or_default();
-        let mut data = Measurements::read(&path, info, &texts("columns"))?;
+        let mut settings = asked.values.settings(model)?;
+        let path = asked.data.clone();
+        let mut data = Measurements::read(&path, info, &asked.columns)?;
         settings.signals = inputs(settings.signals, &mut data, &path)?;
         let start = Start { start_time: clock_of(&data.measured), ..Start::of(model, &settings)? };
         let mut request = Self {
@@ -50,18 +46,18 @@ impl Request {
             unknown: Vec::new(),
             units: Vec::new(),
             start,
-            starts: matches.get_one::<u16>("starts").copied().map_or(1, usize::from),
-            confidence: confidence(matches.get_one::<String>("confidence"))?,
+            starts: usize::from(asked.starts),
+            confidence: confidence(asked.confidence.as_ref())?,
         };
-        request.look_for("param", &texts("param"))?;
-        request.look_for("start", &texts("start"))?;
+        request.look_for("param", &asked.param)?;
+        request.look_for("start", &asked.start)?;
         if request.unknown.is_empty() {
             let reason =
                 "nothing is to be found; name parameters with --param k,c or start values with --start x";
             return Err(Error::Name { name: "fit".into(), reason: reason.into() });
         }
-        texts("bounds").iter().try_for_each(|text| request.bound(text))?;
-        texts("sigma").iter().try_for_each(|text| request.deviate(text))?;
+        asked.bounds.iter().try_for_each(|text| request.bound(text))?;
+        asked.sigma.iter().try_for_each(|text| request.deviate(text))?;
         Ok(request)
     }
 

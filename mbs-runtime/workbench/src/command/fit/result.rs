@@ -5,8 +5,8 @@ use mbs_runtime::Info;
 use serde_json::{Value, json};
 
 use super::request::Request;
-use crate::app::Warnings;
 use crate::command::json::number;
+use crate::console::Warnings;
 use crate::figure::axis;
 use crate::figure::{Figure, Panel, Series, Stroke};
 use crate::names::some_of;

@@ -7,18 +7,19 @@ use serde_json::json;
 
 use super::axis::GridAxis;
 use super::{Sweep, Watched};
+use crate::command::options::say_written;
 use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
 use crate::number::significant;
 use crate::{Error, Table, figure, say};
 
 impl Sweep<'_> {
     /// Prints where what is shown is smallest and largest, and which files were written.
-    pub(super) fn say_summary(&self, shown: &str, files: &[PathBuf]) -> Result<(), Error> {
+    pub(super) fn say_summary(&self, files: &[PathBuf]) -> Result<(), Error> {
         if self.json {
-            return say(self.json(shown, files));
+            return say(self.json(files));
         }
-        say(self.summary(shown).to_string().trim_end())?;
-        files.iter().try_for_each(|path| say(format_args!("written: {}", path.display())))
+        say(self.summary().to_string().trim_end())?;
+        say_written(files.iter().map(|path| Some(path.as_path())))
     }
 
     /// The quantity at the run where it is smallest, and where it is largest.
@@ -27,7 +28,7 @@ impl Sweep<'_> {
         [seen().min_by(|a, b| a.1.total_cmp(b.1)), seen().max_by(|a, b| a.1.total_cmp(b.1))]
     }
 
-    fn json(&self, shown: &str, files: &[PathBuf]) -> serde_json::Value {
+    fn json(&self, files: &[PathBuf]) -> serde_json::Value {
         let at = |(index, value): (usize, &f64)| {
             let place = self.grid.axes.iter().zip(self.grid.shown_values(index));
             let place = place.map(|(axis, x)| (axis.name, json!({ "value": x, "unit": axis.unit.name() })));
@@ -36,7 +37,10 @@ impl Sweep<'_> {
         let quantity = |(quantity, values): (&Watched, &Vec<f64>)| {
             let [low, high] = self.extremes(values).map(|place| place.map(at));
             let unit = quantity.unit.name();
-            (quantity.name, json!({ "shown": shown, "unit": unit, "smallest": low, "largest": high }))
+            (
+                quantity.name,
+                json!({ "shown": self.shown.word(), "unit": unit, "smallest": low, "largest": high }),
+            )
         };
         let quantities = self.watched.iter().zip(&self.values).map(quantity);
         json!({
@@ -47,8 +51,8 @@ impl Sweep<'_> {
     }
 
     /// Where what is shown is smallest and largest.
-    fn summary(&self, shown: &str) -> Table {
-        let heading = |which: &str| format!("{which} {shown}");
+    fn summary(&self) -> Table {
+        let heading = |which: &str| format!("{which} {}", self.shown.word());
         let mut table = Table::new(["", &heading("smallest"), "at", &heading("largest"), "at"]);
         for (quantity, values) in self.watched.iter().zip(&self.values) {
             let [low, high] = self.extremes(values);
@@ -65,8 +69,9 @@ impl Sweep<'_> {
     }
 
     /// Curves over one parameter, heat maps over two.
-    pub(super) fn figure(&self, name: &str, shown: &str) -> Figure {
+    pub(super) fn figure(&self, name: &str) -> Figure {
         let axis = |axis: &GridAxis| figure::axis(axis.name, axis.unit.name());
+        let shown = self.shown.word();
         let value =
             |quantity: &Watched| figure::axis(&format!("{shown} {}", quantity.name), quantity.unit.name());
         let panel = |(quantity, values): (&Watched, &Vec<f64>)| match self.grid.axes.as_slice() {

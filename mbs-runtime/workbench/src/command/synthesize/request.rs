@@ -1,12 +1,11 @@
 //! The task of a synthesis, read from a command line.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::ArgMatches;
 use mbs_analysis::{Signal, Task, Unknown, Variable};
 use mbs_runtime::{Dimension, Info};
 
-use crate::command::options;
+use super::Arguments;
 use crate::quantity;
 use crate::settings::Start;
 use crate::sheet::Sheet;
@@ -16,25 +15,22 @@ const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0 };
 const ANGLE: Dimension = Dimension { mass: 0, length: 0, time: 0 };
 
 /// The task, and the units of its columns.
-pub(super) fn task(model: &dyn Model, matches: &ArgMatches) -> Result<(Task, Vec<Unit>), Error> {
+pub(super) fn task(model: &dyn Model, asked: &Arguments) -> Result<(Task, Vec<Unit>), Error> {
     let info = model.info();
-    let settings = options::values(model, matches)?;
+    let settings = asked.values.settings(model)?;
     if let Some((name, _)) = settings.inputs.first() {
         let reason = "inputs push a mechanism and do not lead it; synthesis knows positions alone";
         return Err(Error::Name { name: name.clone(), reason: reason.into() });
     }
-    let texts = matches.get_many::<String>("param").unwrap_or_default();
-    let unknown = texts.map(|text| bounded(info, text)).collect::<Result<_, _>>()?;
-    let path = matches.get_one::<PathBuf>("through").cloned().unwrap_or_default();
-    let (columns, units, positions) = positions(&path, info)?;
-    let drive = matches.get_one::<String>("drive").cloned();
+    let unknown = asked.param.iter().map(|text| bounded(info, text)).collect::<Result<_, _>>()?;
+    let (columns, units, positions) = positions(&asked.through, info)?;
+    let drive = asked.drive.clone();
     let known = || info.coordinates.iter().map(|q| q.name);
     if let Some(name) = drive.as_ref().filter(|name| !known().any(|other| other == name.as_str())) {
         return Err(Error::unknown("coordinate", name, known()));
     }
-    let number = |name: &str| matches.get_one::<u32>(name).map_or(1, |number| *number as usize);
     let usual = Task::of(info);
-    let tolerance = matches.get_one::<String>("tolerance").map(|text| tolerance(text)).transpose()?;
+    let tolerance = asked.tolerance.as_ref().map(|text| tolerance(text)).transpose()?;
     let task = Task {
         parameters: Start::of(model, &settings)?.parameters,
         unknown,
@@ -42,9 +38,9 @@ pub(super) fn task(model: &dyn Model, matches: &ArgMatches) -> Result<(Task, Vec
         positions,
         drive,
         tolerance: tolerance.unwrap_or(usual.tolerance),
-        starts: number("starts"),
-        enough: number("enough"),
-        seed: matches.get_one::<u64>("seed").copied().unwrap_or(usual.seed),
+        starts: asked.starts as usize,
+        enough: asked.enough as usize,
+        seed: asked.seed,
         ..usual
     };
     Ok((task, units))
