@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{Mechanism, State, mechanism};
-use mbs_workbench::figure::Figure;
+use mbs_workbench::figure::{Figure, Save};
 use mbs_workbench::picture::Shape;
 use mbs_workbench::report::{Animation, Block, Report, Section};
 use mbs_workbench::{Motion, Picture, Settings, model};

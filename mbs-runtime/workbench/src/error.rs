@@ -224,6 +224,18 @@ impl Error {
     }
 }
 
+#[cfg(feature = "desk")]
+impl From<mbs_pictures::Error> for Error {
+    fn from(error: mbs_pictures::Error) -> Self {
+        match error {
+            mbs_pictures::Error::Ending { name } => {
+                Self::Name { name, reason: mbs_pictures::Error::ENDING.into() }
+            }
+            mbs_pictures::Error::Figure { title, reason } => Self::Figure { title, reason },
+        }
+    }
+}
+
 impl From<mbs_analysis::Error> for Error {
     fn from(error: mbs_analysis::Error) -> Self {
         match error {

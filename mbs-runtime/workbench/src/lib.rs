@@ -62,8 +62,6 @@ mod files;
 pub mod fmu;
 #[cfg(any(feature = "desk", feature = "live"))]
 pub mod html;
-#[cfg(all(feature = "desk", feature = "live"))]
-mod import;
 #[cfg(feature = "live")]
 mod interactive;
 #[cfg(feature = "desk")]
@@ -76,13 +74,10 @@ pub mod members;
 pub mod model;
 #[cfg(feature = "desk")]
 mod models;
-mod names;
 mod notes;
 #[cfg(feature = "desk")]
 mod npz;
-pub mod number;
 mod operating;
-pub mod picture;
 pub mod quantity;
 mod recording;
 #[cfg(feature = "desk")]
@@ -106,6 +101,8 @@ mod until;
 #[cfg(all(feature = "desk", feature = "live"))]
 mod watch;
 
+use mbs_words::names;
+
 #[cfg(feature = "desk")]
 pub use app::{App, app};
 #[cfg(feature = "desk")]
@@ -116,12 +113,14 @@ pub use doubt::Doubt;
 pub use error::Error;
 #[cfg(feature = "live")]
 pub use interactive::{Sources, packed, source_hash};
+pub use mbs_pictures::{Column, picture};
+pub use mbs_words::number;
 pub use model::Model;
 #[cfg(feature = "desk")]
 pub use models::Models;
 pub use operating::{About, Operating, PortNames, doubt};
 pub use picture::{Motion, Picture};
-pub use recording::{Column, MOST_OCCURRENCES, Recording, Summary};
+pub use recording::{MOST_OCCURRENCES, Recording, Summary};
 pub use run::StartValue;
 pub use run_options::RunOptions;
 pub use settings::{OtherMethod, Settings, Start, StartKind};

@@ -4,30 +4,7 @@ use mbs_runtime::{Constraint, Effort, Info};
 
 use crate::doubt::Doubt;
 use crate::until::Unmet;
-use crate::{Error, Occurrence, Unit, names, unit};
-
-/// A recorded quantity.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// Its name, such as `x1`, `der(x1)` or `lambda(guide)`.
-    pub name: String,
-    /// Its unit, such as `m` or `N*m`; empty for a bare number.
-    pub unit: String,
-    /// One value per recorded instant, in that unit.
-    pub values: Vec<f64>,
-}
-
-impl Column {
-    /// An empty column.
-    pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self { name: name.into(), unit: unit.into(), values: Vec::new() }
-    }
-
-    /// `name [unit]`, or the name alone where there is no unit.
-    pub fn heading(&self) -> String {
-        unit::heading(&self.name, &self.unit)
-    }
-}
+use crate::{Column, Error, Occurrence, Unit, names};
 
 /// The figures of a run that one looks at first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

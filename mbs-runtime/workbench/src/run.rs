@@ -7,11 +7,11 @@ use crate::digits::Reactions;
 use crate::doubt::{Watch, few_digits, size};
 use crate::model::Model;
 use crate::notes::{end_note, notes};
-use crate::recording::{Column, MOST_OCCURRENCES, Recording, Summary, columns};
+use crate::recording::{MOST_OCCURRENCES, Recording, Summary, columns};
 use crate::resolution::Resolution;
 use crate::settings::{Settings, Start, StartKind};
 use crate::until::{Ending, Unmet};
-use crate::{Error, Motion, Occurrence, Unit, Until, picture};
+use crate::{Column, Error, Motion, Occurrence, Unit, Until, picture};
 
 /// More rows than this are refused, before they fill the memory.
 const MAX_ROWS: u64 = 5_000_000;

@@ -49,6 +49,7 @@ impl Place {
 }
 
 /// The unit in which a coordinate `x` or a rate `der(x)` is shown.
+#[cfg(feature = "desk")]
 pub(crate) fn unit(info: &Info, name: &str) -> Option<Unit> {
     Place::find(info, name).ok().map(|(_, _, unit)| unit)
 }

@@ -95,11 +95,6 @@ impl Unit {
     }
 }
 
-/// The heading of a column: `name [unit]`, or the name alone where there is no unit.
-pub(crate) fn heading(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,6 +116,5 @@ mod tests {
         assert_eq!((ratio.name(), ratio.text(0.5, 3).as_str()), ("", "0.5"));
         let angle = Unit::of_coordinate(&quantity("", 1.0, [0, 0, 0]));
         assert_eq!((angle.name(), angle.per_second().name()), ("rad", "rad/s"));
-        assert_eq!((heading("mu", ""), heading("l1", "mm")), ("mu".into(), "l1 [mm]".into()));
     }
 }

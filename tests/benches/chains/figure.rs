@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series, Stroke};
 
 use crate::kernels::{Chain, Code, Kernel};
 use crate::timing::Time;

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use mbs_live::{Live, Run, Text};
 use mbs_runtime::{Components, Dual, Mechanism, Real, Simulation, System};
-use mbs_workbench::figure::{Axis, Figure, Panel, Series};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series};
 use models::{SliderCrankFree, SliderCrankFreeInputs};
 
 const STEPS: u64 = 600;

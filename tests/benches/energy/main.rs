@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use mbs_runtime::{Held, Heun, Method, Projected, RATTLE, RATTLE4, Rattle, Rk4, Simulation, System};
-use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series, Stroke};
 use models::DoublePendulum;
 
 const STEP: f64 = 2e-3;

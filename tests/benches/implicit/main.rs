@@ -11,7 +11,7 @@ use mbs_live::{Live, Prepared, Text};
 use mbs_runtime::{
     Adaptive, AdaptiveScheme, Dop853, Dopri5, Effort, Sampled, System, Tolerances, TrBdf2, implicit,
 };
-use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series, Stroke};
 use tests::bushing::CRANK;
 
 /// N/m and N s/m

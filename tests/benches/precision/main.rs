@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series, Stroke};
 use programs::{Program, SAMPLES};
 
 const REPETITIONS: usize = 41;

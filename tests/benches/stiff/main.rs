@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use mbs_runtime::{Adaptive, Dop853, Simulation, State, Tolerances, TrBdf2};
-use mbs_workbench::figure::{Axis, Figure, Panel, Series, Stroke};
+use mbs_workbench::figure::{Axis, Figure, Panel, Save, Series, Stroke};
 use tests::bushing::{Crank, CrankCoordinates, CrankParameters};
 
 /// N/m and N s/m

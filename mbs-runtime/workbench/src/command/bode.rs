@@ -10,7 +10,7 @@ use super::operating::{self, Point, Ports};
 use super::options;
 use super::responses::Bode;
 use crate::console::Warnings;
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::{Error, quantity, say, write_csv};
 

@@ -7,7 +7,7 @@ use super::options;
 use super::simulate::{Request, recorded};
 use super::{json, page};
 use crate::console::{Warnings, complain};
-use crate::figure::SERIES_COLOURS;
+use crate::figure::{SERIES_COLOURS, Save};
 use crate::{Column, Error, Recording, Settings, Table, Unit, quantity, say, write_csv};
 
 /// The value that differs.

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 use super::json::number;
 use super::options::{self, Named, Values, pairs, signed};
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::number::significant;
 use crate::settings::Start;

@@ -14,7 +14,7 @@ use self::request::Request;
 use self::result::Shown;
 use super::options::{self, Named, Values, signed};
 use crate::console::Warnings;
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::{Error, say, write_csv};
 

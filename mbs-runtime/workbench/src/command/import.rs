@@ -8,9 +8,9 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use super::options::signed;
-use crate::import::{self, FORMATS, Format, Imported, Known, LONGEST};
 use crate::number::counted;
 use crate::{Error, files, say};
+use mbs_import::{FORMATS, Format, Imported, Known, LONGEST, import};
 
 /// The units that lengths of a file may have.
 const UNITS: [&str; 6] = ["m", "cm", "mm", "um", "inch", "ft"];
@@ -68,7 +68,7 @@ impl Arguments {
             unit: self.unit.as_deref(),
             model: self.model.as_deref(),
         };
-        let imported = import::import(name, &text, known).map_err(|refusal| refused(refusal.0))?;
+        let imported = import(name, &text, known).map_err(|refusal| refused(refusal.0))?;
         let Some(out) = out else { return say(imported.text.trim_end()) };
         files::write(out, imported.text.as_bytes())?;
         summary(out, &imported)

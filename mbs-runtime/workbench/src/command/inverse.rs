@@ -10,7 +10,7 @@ use serde_json::json;
 use super::extremes;
 use super::options::{self, Named, Values, pairs, signed};
 use crate::figure::axis;
-use crate::figure::{Axis, Figure, Panel, Series};
+use crate::figure::{Axis, Figure, Panel, Save, Series};
 use crate::models::Models;
 use crate::quantity::{self, TIME};
 use crate::settings::Start;

@@ -13,7 +13,7 @@ use super::operating::{self, Point, Ports};
 use super::options;
 use super::responses::Steps;
 use crate::console::Warnings;
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::npz::{Array, npz};
 use crate::number::significant;

@@ -15,7 +15,7 @@ use super::options;
 use super::responses::{Bode, Steps};
 use super::shapes::{self, Shapes};
 use crate::console::Warnings;
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::number::significant;
 use crate::report::{Block, Report, Section};

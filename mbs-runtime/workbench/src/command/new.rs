@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use mbs_words::names::KEYWORDS;
+
 use crate::html::filled;
 use crate::{Error, say};
 
@@ -62,15 +64,6 @@ const TAKEN: [&str; 12] = [
     "mbs-symbolic",
     "mbs-ensemble",
     "models",
-];
-
-/// The keywords of Rust, reserved ones included.
-pub(crate) const KEYWORDS: [&str; 52] = [
-    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do",
-    "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
-    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
-    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
-    "where", "while", "yield",
 ];
 
 /// Folders in which cargo builds.

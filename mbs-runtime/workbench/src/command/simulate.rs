@@ -10,7 +10,7 @@ use super::curves::{Choice, curves};
 use super::options::{self, Named, Run, pairs, signed};
 use super::{json, page};
 use crate::console::{Warnings, complain};
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::{Error, Model, Picture, Recording, RunOptions, Settings, say, write_csv};
 
@@ -133,7 +133,8 @@ impl Files {
     /// Before the work, so that a bad name is told at once.
     fn check(&self) -> Result<(), Error> {
         options::check_files(self.all())?;
-        [&self.plot, &self.sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))
+        [&self.plot, &self.sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))?;
+        Ok(())
     }
 }
 

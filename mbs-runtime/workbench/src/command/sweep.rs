@@ -17,7 +17,7 @@ use self::rows::Rows;
 use self::shard::{Head, Heading, Shard, There};
 use super::options::{self, Named, Run};
 use crate::console::{Warnings, complain};
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::members::{Extent, Member, Members, quantities};
 use crate::models::Models;
 use crate::notes::{end_note, lost_start_values};

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use self::request::task;
 use self::result::Shown;
 use super::options::{self, Named, Values, signed};
-use crate::figure::Figure;
+use crate::figure::{Figure, Save};
 use crate::models::Models;
 use crate::{Error, interrupt, say, write_csv};
 

@@ -9,7 +9,7 @@ mod binary;
 use mbs_live::{Experiment, FmiVersion};
 use mbs_runtime::System;
 
-use crate::figure::icon;
+use crate::figure;
 use crate::model::without_text;
 use crate::{Error, Model, Motion, Picture, Settings, Start};
 
@@ -104,7 +104,7 @@ fn icon(model: &dyn Model, run: &dyn System) -> Result<Option<Vec<u8>>, Error> {
     run.points(run.time(), &q, &mut points);
     let places = points.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
     let motion = Motion { sketch, times: vec![run.time()], places: vec![places] };
-    icon::icon(model.info().name, &Picture::of(&motion)).map(Some)
+    Ok(Some(figure::icon(model.info().name, &Picture::of(&motion))?))
 }
 
 fn coordinates(model: &dyn Model) -> Vec<f64> {

@@ -14,6 +14,7 @@ mod verdict;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
+use mbs_workbench::figure::Save;
 use mbs_workbench::{Error, say, sweep, write_csv};
 
 use figures::Picture;

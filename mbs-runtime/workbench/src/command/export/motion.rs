@@ -7,10 +7,10 @@ use clap::{Arg, Args};
 use super::svg;
 use crate::command::options::{Named, Run, signed};
 use crate::command::simulate::recorded;
-use crate::figure::gif::gif;
+use crate::figure::gif;
 use crate::models::Models;
 use crate::picture::Picture;
-use crate::{Error, files, say};
+use crate::{Error, files, say, sweep};
 
 /// A format of pictures that move.
 pub(super) struct Format {
@@ -44,7 +44,7 @@ A slower motion is one of slower drives, as below.
 Examples:
   mbs export gif four-bar --set omega=60rpm --end 1s --out four_bar.gif
   mbs export gif jansen-walker --set omega=30rpm --end 2s --out walker.gif",
-    written: gif,
+    written: |name, picture| Ok(gif(name, picture, |frames, draw| sweep::map("frames", frames, draw))?),
 };
 
 #[derive(Args)]

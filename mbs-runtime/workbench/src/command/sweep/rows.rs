@@ -4,14 +4,16 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use mbs_pictures::heading;
+
 use super::Watched;
 use super::axis::Grid;
 use super::shard::{Head, Part};
+use crate::Error;
 use crate::csv_file::csv_number;
 use crate::files::Output;
 use crate::members::Member;
 use crate::table_file;
-use crate::{Error, unit};
 
 /// A process that ends at once loses the rows of this time.
 const SAFE: Duration = Duration::from_millis(500);
@@ -128,10 +130,10 @@ pub fn columns(grid: &Grid, watched: &[Watched]) -> io::Result<String> {
 }
 
 fn headings(grid: &Grid, watched: &[Watched]) -> Vec<String> {
-    let axes = grid.axes.iter().map(|axis| unit::heading(axis.name, axis.unit.name()));
+    let axes = grid.axes.iter().map(|axis| heading(axis.name, axis.unit.name()));
     let extents = |quantity: &Watched| {
         let Watched { name, unit, .. } = quantity;
-        ["min", "max", "final"].map(|what| unit::heading(&format!("{what} {name}"), unit.name()))
+        ["min", "max", "final"].map(|what| heading(&format!("{what} {name}"), unit.name()))
     };
     axes.chain(watched.iter().flat_map(extents)).chain(["error".into()]).collect()
 }
