@@ -27,21 +27,21 @@ mod pmks;
 mod pmks_plus;
 mod pylinkage;
 mod pyslvs;
+mod refusal;
 mod robot;
 mod values;
 mod xml;
 
 use std::time::Duration;
 
+pub use refusal::Refusal;
+use refusal::shown;
+
 /// A file may come from a stranger: compiling what it describes ends after this time.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A file is at most this many bytes, which is hundreds of times what a linkage takes.
 pub const LONGEST: usize = 1 << 22;
-
-/// Why a file cannot be imported, in the words of the file.
-#[derive(Debug)]
-pub struct Refusal(pub String);
 
 /// A program whose files are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -234,12 +234,6 @@ fn singular(written: &declaration::Written) -> Refusal {
          else; draw it a little away from there",
         freedom(drawn)
     ))
-}
-
-/// A part of a file as it is named in messages and comments: on one line, and not long.
-fn shown(name: &str) -> String {
-    let escaped: String = name.chars().take(60).flat_map(char::escape_debug).collect();
-    format!("`{escaped}`")
 }
 
 #[cfg(test)]

@@ -14,10 +14,9 @@ use mbs_runtime::{
     with_type,
 };
 
-use crate::model::components;
-use crate::settings::{OtherMethod, Start, StartKind};
+use crate::settings::{OtherMethod, Start, StartKind, StartState};
+use crate::simulated::components;
 use crate::stages::Stages;
-use crate::start_state::StartState;
 
 /// Dynamics of which runs are made here: coordinates and inputs are vectors of `f64`. Every mechanism has this
 /// form behind its equations on slices.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use crate::live::{as_declared, compiled};
+use crate::live::{as_declared, from_text};
 use crate::{Model, Settings};
 
 /// A file may come from a stranger: compiling it ends after this time.
@@ -32,7 +32,7 @@ impl Text {
         if let Some(model) = self.compiled.get() {
             return Ok(model.as_ref());
         }
-        let model = compiled(&self.text, self.defaults.clone())?;
+        let model = from_text(&self.text, self.defaults.clone())?;
         Ok(self.compiled.get_or_init(|| model).as_ref())
     }
 }

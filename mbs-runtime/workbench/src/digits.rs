@@ -4,7 +4,7 @@ use mbs_runtime::System;
 use mbs_runtime::equations::At;
 
 use crate::doubt::{DIGITS, Doubt};
-use crate::run::Instant;
+use crate::instant::Instant;
 
 /// Every position is moved by so many of its roundings.
 const ROUNDINGS: f64 = 2.0;

@@ -62,6 +62,7 @@ mod files;
 pub mod fmu;
 #[cfg(any(feature = "desk", feature = "live"))]
 pub mod html;
+mod instant;
 #[cfg(feature = "live")]
 mod interactive;
 #[cfg(feature = "desk")]
@@ -89,13 +90,16 @@ mod settings;
 #[cfg(feature = "desk")]
 mod sheet;
 mod signals;
+mod simulated;
 mod stages;
+mod start;
 mod start_state;
 #[cfg(feature = "desk")]
 pub mod sweep;
 mod table;
 #[cfg(feature = "desk")]
 mod table_file;
+mod typed;
 mod unit;
 mod until;
 #[cfg(all(feature = "desk", feature = "live"))]
@@ -123,9 +127,8 @@ pub use picture::{Motion, Picture};
 pub use recording::{MOST_OCCURRENCES, Recording, Summary};
 pub use run::StartValue;
 pub use run_options::RunOptions;
-pub use settings::{OtherMethod, Settings, Start, StartKind};
+pub use settings::{OtherMethod, Settings, Start, StartKind, StartState};
 pub use signals::Signals;
-pub use start_state::StartState;
 pub use table::Table;
 pub use unit::Unit;
 pub use until::{Ending, Occurrence, Unmet, Until};

@@ -12,23 +12,23 @@ use rayon::prelude::*;
 
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
-use crate::settings::{Settings, Start, StartKind};
-use crate::start_state::StartState;
+use crate::settings::{Settings, Start, StartKind, StartState};
 use crate::{Model, adaptive};
 
-/// The mechanism of a text.
+/// The mechanism that a text declares as a [`Model`] with these defaults: compiled in
+/// milliseconds, and slower to run than one whose type the compiler knew.
 ///
 /// # Errors
-/// Those of the declaration.
-pub(crate) fn compiled(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
+/// [`Declaration`](crate::Error::Declaration).
+pub fn from_text(text: &mbs_live::Text, defaults: Settings) -> Result<Box<dyn Model>, crate::Error> {
     Ok(Box::new(FromText { live: text.compile()?, text: text.clone(), defaults }))
 }
 
-/// The mechanism of a text, with the step and the feedback that it declares.
+/// The mechanism that a text declares as a [`Model`], with the step and the feedback that it declares.
 ///
 /// # Errors
-/// Those of the declaration.
-pub(crate) fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error> {
+/// [`Declaration`](crate::Error::Declaration).
+pub fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error> {
     let live = text.compile()?;
     let defaults = declared(&live, Settings::default());
     Ok(Box::new(FromText { live, text: text.clone(), defaults }))

@@ -5,6 +5,7 @@
 //! which costs compile time. Otherwise they run one by one on all cores. Ctrl-C ends a sweep and keeps the
 //! finished members.
 
+mod extent;
 pub mod lanes;
 
 use std::ops::Range;
@@ -15,10 +16,12 @@ use mbs_ensemble::Cancelled;
 use mbs_runtime::{Info, Quantity, System};
 use rayon::prelude::*;
 
+pub use self::extent::{Extent, Member};
 use self::lanes::Batch;
+use crate::instant::Instant;
 use crate::model::Model;
-use crate::run::Instant;
-use crate::settings::{Settings, Start, place};
+use crate::settings::{Settings, Start};
+use crate::start::place;
 use crate::{Error, Unit};
 
 /// The members of a sweep, and where their results go.
@@ -35,20 +38,6 @@ pub struct Members<'a> {
     pub progress: &'a (dyn Fn(usize) + Sync),
     /// Ends the sweep soon after it is set.
     pub cancel: &'a AtomicBool,
-}
-
-/// The extents of all [`quantities`], or why the run did not reach its end.
-pub type Member = Result<Vec<Extent>, mbs_runtime::Error>;
-
-/// The extent of a quantity over all steps of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extent {
-    /// The smallest value.
-    pub low: f64,
-    /// The largest value.
-    pub high: f64,
-    /// The value at the end.
-    pub last: f64,
 }
 
 /// Names and units of what a sweep looks at: coordinates, then outputs.
@@ -174,31 +163,4 @@ pub(crate) fn extents(
         }
     }
     Ok(Some(extents))
-}
-
-impl Extent {
-    /// Takes what each quantity is now; the first time there are none yet.
-    pub(crate) fn see_all(extents: &mut Vec<Self>, now: impl Iterator<Item = f64>) {
-        if extents.is_empty() {
-            extents.extend(now.map(|x| Self { low: x, high: x, last: x }));
-        } else {
-            extents.iter_mut().zip(now).for_each(|(extent, x)| extent.see(x));
-        }
-    }
-
-    fn see(&mut self, x: f64) {
-        // NaN stays.
-        if x < self.low || x.is_nan() {
-            self.low = x;
-        }
-        if x > self.high || x.is_nan() {
-            self.high = x;
-        }
-        self.last = x;
-    }
-
-    fn shown_in(self, unit: &Unit) -> Self {
-        let Self { low, high, last } = self;
-        Self { low: unit.shown(low), high: unit.shown(high), last: unit.shown(last) }
-    }
 }

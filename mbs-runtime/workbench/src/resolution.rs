@@ -6,7 +6,7 @@ use mbs_runtime::equations::At;
 use mbs_runtime::{Composition, DOP853, Info, Row, System, Tableau};
 
 use crate::doubt::Doubt;
-use crate::run::Instant;
+use crate::instant::Instant;
 use crate::settings::{OtherMethod, Start};
 
 /// A run is looked at so often, at equal distances, and at the first steps whose number is a power of two.

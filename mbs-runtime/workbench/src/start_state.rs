@@ -3,21 +3,7 @@
 use mbs_runtime::equations::{At, Room, assemble, check, project, project_velocities};
 use mbs_runtime::{Dimension, Info, System};
 
-use crate::settings::{Start, StartKind};
-use crate::{Error, Model, Unit, quantity};
-
-/// A state at which a run starts, in SI units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StartState {
-    /// The time in s at which the run started, which is that of the state if no step was taken.
-    pub start_time: f64,
-    /// Steps that the run has taken from there. A run to a tolerance counts none.
-    pub steps_taken: u64,
-    /// The coordinates, in the order of [`Info::coordinates`].
-    pub q: Vec<f64>,
-    /// Their rates.
-    pub v: Vec<f64>,
-}
+use crate::{Error, Model, Start, StartKind, StartState, Unit, quantity};
 
 /// A coordinate or its rate.
 #[derive(Clone, Copy)]

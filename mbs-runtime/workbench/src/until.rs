@@ -3,7 +3,7 @@
 use mbs_analysis::{Signal, Variable};
 use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
 
-use crate::run::Instant;
+use crate::instant::Instant;
 use crate::{Error, Unit, quantity};
 
 /// The condition or the event that ends a run.

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use mbs_runtime::{Info, Tolerances};
 
-use super::{Fit, Progress, Trials, search};
 use crate::{Error, InputTable, Signal, Variable, own_clock};
 
 /// A measured run of a mechanism and what is unknown of it.
@@ -143,29 +142,6 @@ impl Experiment {
     #[must_use]
     pub fn tolerances(self, tolerances: Tolerances) -> Self {
         Self { tolerances, ..self }
-    }
-
-    /// Looks for the values with which the mechanism moves as measured.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`] for a name that the mechanism does not have; [`Error::Sample`],
-    /// [`Error::FewSamples`], [`Error::Bounds`], [`Error::Range`] for data and values that cannot be used;
-    /// [`Error::Undetermined`] for unknowns that the data do not determine; [`Error::Mechanism`] where no run
-    /// from the start comes to the end of the data.
-    pub fn fit(&self, trials: &dyn Trials) -> Result<Fit, Error> {
-        self.fit_while(trials, &mut |_| true)
-    }
-
-    /// The same, as long as `goes_on` says so, which is asked after every run.
-    ///
-    /// # Errors
-    /// As [`fit`](Self::fit); [`Error::Interrupted`].
-    pub fn fit_while(
-        &self,
-        trials: &dyn Trials,
-        goes_on: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Fit, Error> {
-        search::fit(self, trials, goes_on)
     }
 
     /// The signals of what was measured.

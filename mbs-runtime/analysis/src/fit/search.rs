@@ -32,8 +32,33 @@ const NOTHING: f64 = 1e-7;
 /// A deviation is not estimated below this part of the range of the data: the error of the runs.
 const LEAST: f64 = 1e-9;
 
+impl Experiment {
+    /// Looks for the values with which the mechanism moves as measured.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a name that the mechanism does not have; [`Error::Sample`],
+    /// [`Error::FewSamples`], [`Error::Bounds`], [`Error::Range`] for data and values that cannot be used;
+    /// [`Error::Undetermined`] for unknowns that the data do not determine; [`Error::Mechanism`] where no run
+    /// from the start comes to the end of the data.
+    pub fn fit(&self, trials: &dyn Trials) -> Result<Fit, Error> {
+        self.fit_while(trials, &mut |_| true)
+    }
+
+    /// The same, as long as `goes_on` says so, which is asked after every run.
+    ///
+    /// # Errors
+    /// As [`fit`](Self::fit); [`Error::Interrupted`].
+    pub fn fit_while(
+        &self,
+        trials: &dyn Trials,
+        goes_on: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<Fit, Error> {
+        fit(self, trials, goes_on)
+    }
+}
+
 /// Looks for the smallest sum of squares.
-pub fn fit(
+fn fit(
     experiment: &Experiment,
     trials: &dyn Trials,
     goes_on: &mut dyn FnMut(&Progress) -> bool,

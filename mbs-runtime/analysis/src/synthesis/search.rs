@@ -26,8 +26,35 @@ enum End {
     There(Linkage, Option<Defect>),
 }
 
+impl Task {
+    /// Looks for mechanisms that pass the positions in their order, on one circuit and without a turn of the
+    /// drive.
+    ///
+    /// # Errors
+    /// [`Error::Freedom`] for a mechanism with another number of degrees of freedom than 1; [`Error::Unknown`]
+    /// for a name that it does not have; [`Error::NoBounds`], [`Error::Bounds`], [`Error::NoPositions`],
+    /// [`Error::Length`] for what cannot be looked for. That none was found is no error.
+    pub fn synthesize(&self, trials: &(dyn Trials + Sync)) -> Result<Synthesis, Error> {
+        self.synthesize_while(trials, &mut |_, _| true)
+    }
+
+    /// The same, as long as `goes_on` says so. It is asked now and then, with the starts that are done and the
+    /// mechanisms that are found; what was found until then is the result.
+    ///
+    /// # Errors
+    /// As [`synthesize`](Self::synthesize).
+    pub fn synthesize_while(
+        &self,
+        trials: &(dyn Trials + Sync),
+        goes_on: &mut dyn FnMut(usize, usize) -> bool,
+    ) -> Result<Synthesis, Error> {
+        self.check()?;
+        synthesize(self, trials, goes_on)
+    }
+}
+
 /// Looks for mechanisms until there are enough.
-pub fn synthesize(
+fn synthesize(
     task: &Task,
     trials: &(dyn Trials + Sync),
     goes_on: &mut dyn FnMut(usize, usize) -> bool,

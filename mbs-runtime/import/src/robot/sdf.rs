@@ -24,12 +24,6 @@ use values::{is_set, text};
 /// The oldest version that is read: older ones have another root.
 const OLDEST: u32 = 3;
 
-/// The version from which an axis is along the frame of its joint; before it was along that of the model.
-const AXES_OF_JOINTS: u32 = 5;
-
-/// The version from which an axis names the frame that it is along, if it is not that of its joint.
-const AXES_BY_NAME: u32 = 7;
-
 /// Reads a file.
 pub(super) fn read(text: &str, model: Option<&str>) -> Result<Robot, Refusal> {
     let document = parsed(text, "sdf")?;

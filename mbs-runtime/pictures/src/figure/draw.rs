@@ -1,9 +1,9 @@
 //! A figure on a canvas: title, frames, ticks, legends, curves.
 
-use plotters::prelude::{DrawingArea, DrawingBackend, IntoFont, PathElement, Rectangle, Text};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontTransform, RGBColor, ShapeStyle, TextStyle};
+use plotters::prelude::{DrawingArea, DrawingBackend};
+use plotters::style::RGBColor;
 
+use super::canvas::{Canvas, Drawn, INK, Place};
 use super::layout::{Area, SCALE, Span, ranges, with_equal_scales};
 use super::{Axis, Content, Figure, Panel, Series, Stroke, colour, lines, map, mechanism};
 use crate::picture::Picture;
@@ -17,7 +17,6 @@ const MARGINS: (i32, i32, i32, i32) = (84, 28, 20, 62);
 /// The right margin where a colour bar stands in it.
 const BAR_MARGIN: i32 = 140;
 
-pub(super) const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const TEXT: i32 = 16;
 /// Width of a curve.
@@ -28,94 +27,20 @@ pub(super) fn height(figure: &Figure) -> i32 {
     TITLE + figure.panels.len() as i32 * figure.panel_height as i32
 }
 
+impl Figure {
+    /// A figure of one mechanism, as high as its shape asks for.
+    pub fn mechanism(title: impl Into<String>, picture: Picture) -> Self {
+        let height = mechanism_height(&picture);
+        Self::new(title).panel(Panel::mechanism(picture)).panel_height(height)
+    }
+}
+
 /// The height of a panel in which a mechanism fills the width, within bounds.
-pub(super) fn mechanism_height(picture: &Picture) -> u32 {
+fn mechanism_height(picture: &Picture) -> u32 {
     let (left, right, above, below) = MARGINS;
     let [width, height] = picture.extent().size();
     let drawn = f64::from(WIDTH - left - right) * height / width;
     (drawn.clamp(240.0, 640.0) as i32 + above + below).unsigned_abs()
-}
-
-/// How a text is placed relative to its point.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Place {
-    Left,
-    Right,
-    Below,
-    /// Centred on the point and read from below.
-    Upwards,
-}
-
-/// A surface to draw on, in drawn pixels.
-pub(super) struct Canvas<'a, B: DrawingBackend> {
-    pub(super) surface: &'a DrawingArea<B, plotters::coord::Shift>,
-    /// By how much of their size vertically centred texts have to be lowered.
-    pub(super) lowered: f64,
-}
-
-type Drawn = Result<(), String>;
-
-impl<B: DrawingBackend> Canvas<'_, B> {
-    pub(super) fn line(&self, points: Vec<(i32, i32)>, colour: RGBColor, width: f64) -> Drawn {
-        let style = ShapeStyle::from(colour).stroke_width((width * f64::from(SCALE)).round() as u32);
-        self.surface.draw(&PathElement::new(points, style)).map_err(|e| e.to_string())
-    }
-
-    pub(super) fn fill(&self, area: Area, colour: RGBColor) -> Drawn {
-        let corners = [(area.left, area.top), (area.right, area.bottom)];
-        self.surface.draw(&Rectangle::new(corners, colour.filled())).map_err(|e| e.to_string())
-    }
-
-    pub(super) fn polygon(&self, corners: Vec<(i32, i32)>, colour: RGBColor) -> Drawn {
-        let polygon = plotters::element::Polygon::new(corners, colour.filled());
-        self.surface.draw(&polygon).map_err(|e| e.to_string())
-    }
-
-    pub(super) fn dot(&self, at: (i32, i32), radius: f64, colour: RGBColor) -> Drawn {
-        let radius = (radius * f64::from(SCALE)) as i32;
-        let dot = plotters::element::Circle::new(at, radius, colour.filled());
-        self.surface.draw(&dot).map_err(|e| e.to_string())
-    }
-
-    pub(super) fn text(&self, text: &str, at: (i32, i32), place: Place, size: i32) -> Drawn {
-        self.coloured_text(text, at, place, size, INK)
-    }
-
-    pub(super) fn coloured_text(
-        &self,
-        text: &str,
-        at: (i32, i32),
-        place: Place,
-        size: i32,
-        colour: RGBColor,
-    ) -> Drawn {
-        let sideways = matches!(place, Place::Left | Place::Right);
-        let drop = if sideways { (self.lowered * f64::from(size * SCALE)) as i32 } else { 0 };
-        let at = (at.0, at.1 + drop);
-        let (h, v) = match place {
-            Place::Left => (HPos::Right, VPos::Center),
-            Place::Right => (HPos::Left, VPos::Center),
-
-            Place::Below | Place::Upwards => (HPos::Center, VPos::Top),
-        };
-        let mut font = ("sans-serif", f64::from(size * SCALE)).into_font();
-        if let Place::Upwards = place {
-            font = font.transform(FontTransform::Rotate270);
-        }
-        let style = TextStyle::from(font).color(&colour).pos(Pos::new(h, v));
-        self.surface.draw(&Text::new(text.to_owned(), at, style)).map_err(|e| e.to_string())
-    }
-
-    pub(super) fn text_width(&self, text: &str, size: i32) -> i32 {
-        let style = TextStyle::from(("sans-serif", f64::from(size * SCALE)).into_font());
-        self.surface.estimate_text_size(text, &style).map_or(0, |(width, _)| width as i32)
-    }
-
-    pub(super) fn frame(&self, area: Area) -> Drawn {
-        let Area { left, top, right, bottom } = area;
-        let corners = vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
-        self.line(corners, INK, 1.0)
-    }
 }
 
 /// Draws the whole figure.

@@ -6,7 +6,7 @@
 use ::gif::{Encoder, EncodingError, Frame, Repeat};
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
-use super::draw::Canvas;
+use super::canvas::Canvas;
 use super::layout::{Area, SCALE, Span};
 use super::output::{OVERSAMPLING, averaged, with_font};
 use super::palette::Palette;

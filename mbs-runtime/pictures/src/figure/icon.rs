@@ -2,7 +2,7 @@
 
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
-use super::draw::Canvas;
+use super::canvas::Canvas;
 use super::layout::{Area, SCALE, Span, with_equal_scales};
 use super::output::{OVERSAMPLING, averaged, encoded, with_font};
 use super::{Axis, mechanism};

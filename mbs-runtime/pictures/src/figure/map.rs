@@ -3,7 +3,8 @@
 use plotters::prelude::DrawingBackend;
 use plotters::style::RGBColor;
 
-use super::draw::{Canvas, INK, Place, heading};
+use super::canvas::{Canvas, INK, Place};
+use super::draw::heading;
 use super::layout::{Area, SCALE, Span, range};
 use super::{HeatMap, colour_map, contour};
 

@@ -4,7 +4,7 @@
 use plotters::prelude::DrawingBackend;
 use plotters::style::RGBColor;
 
-use super::draw::{Canvas, INK, Place};
+use super::canvas::{Canvas, INK, Place};
 use super::labels::{self, Label};
 use super::layout::{Area, SCALE, Span};
 use super::{Stroke, colour, lines};

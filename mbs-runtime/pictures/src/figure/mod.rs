@@ -4,6 +4,7 @@
 //! [`Panel`] is a pair of axes with lines or a heat map. [`Figure::save`]
 //! draws it to SVG or PNG.
 
+mod canvas;
 mod colour;
 mod columns;
 mod contour;
@@ -47,12 +48,6 @@ impl Figure {
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
-    }
-
-    /// A figure of one mechanism, as high as its shape asks for.
-    pub fn mechanism(title: impl Into<String>, picture: Picture) -> Self {
-        let height = draw::mechanism_height(&picture);
-        Self::new(title).panel(Panel::mechanism(picture)).panel_height(height)
     }
 
     /// With this height of every panel, in pixels.

@@ -5,6 +5,7 @@ pub(super) mod checked;
 mod rows;
 pub(super) mod shard;
 mod shown;
+mod watched;
 
 use std::fmt;
 use std::ops::Range;
@@ -15,14 +16,15 @@ use clap::{Args, ValueEnum};
 use self::axis::{Evenly, Grid, GridAxis};
 use self::rows::Rows;
 use self::shard::{Head, Heading, Shard, There};
+use self::watched::{Watched, watched};
 use super::options::{self, Named, Run};
 use crate::console::{Warnings, complain};
 use crate::figure::{Figure, Save};
-use crate::members::{Extent, Member, Members, quantities};
+use crate::members::{Extent, Member, Members};
 use crate::models::Models;
 use crate::notes::{end_note, lost_start_values};
 use crate::sweep::Progress;
-use crate::{Error, Model, Settings, Signals, Start, Unit, interrupt, say};
+use crate::{Error, Model, Settings, Signals, Start, interrupt, say};
 
 const EXAMPLE: &str = "\
 Example:
@@ -72,14 +74,6 @@ pub(crate) struct Arguments {
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
-}
-
-/// A quantity of a mechanism that a sweep looks at.
-struct Watched {
-    /// Its place among all [`quantities`].
-    at: usize,
-    name: &'static str,
-    unit: Unit,
 }
 
 /// The number of an extent that is drawn and summed up.
@@ -247,28 +241,6 @@ fn share(
     let failure = sweep.failure();
     // a row says why a run failed, and other shares may do better
     Ok(failure.map(|failure| failure.to_string()).into_iter().collect())
-}
-
-/// The named quantities; all outputs if none are named, all coordinates if there are
-/// no outputs.
-fn watched(model: &dyn Model, names: &[String]) -> Result<Vec<Watched>, Error> {
-    let info = model.info();
-    let all = quantities(info).into_iter().enumerate();
-    let all: Vec<_> = all.map(|(at, (name, unit))| Watched { at, name, unit }).collect();
-    for (at, name) in names.iter().enumerate() {
-        if names.iter().take(at).any(|other| other == name) {
-            return Err(Error::Name { name: name.clone(), reason: "it is named twice".into() });
-        }
-        if !all.iter().any(|quantity| quantity.name == *name) {
-            return Err(Error::unknown("output", name, all.iter().map(|quantity| quantity.name)));
-        }
-    }
-    let outputs = if info.outputs.is_empty() { 0 } else { info.coordinates.len() };
-    let is_wanted = |quantity: &Watched| match names {
-        [] => quantity.at >= outputs,
-        names => names.iter().any(|name| *name == quantity.name),
-    };
-    Ok(all.into_iter().filter(is_wanted).collect())
 }
 
 struct Sweep<'a> {

@@ -8,9 +8,9 @@ use mbs_ensemble::lanes::{Lane, Lanes, ManyCoordinates, ManyOutputs, Snapshot, u
 use mbs_ensemble::{Cancelled, Ensemble, Observe};
 use mbs_runtime::{Components, Explicit, Held, Mechanism, Method};
 
-use super::{Extent, Member};
-use crate::model::simulation;
+use super::extent::{Extent, Member};
 use crate::settings::Start;
+use crate::simulated::simulation;
 
 /// Runs with constant inputs, many at once.
 pub trait InLanes: Send + Sync {

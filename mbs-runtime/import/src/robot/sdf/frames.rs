@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::xml::Node;
 
-use super::joints::WORLD;
 use super::values::pose;
 use crate::robot::space::{Pose, Vector};
 
 use crate::{Refusal, shown};
 
+/// The name of what does not move.
+pub(super) const WORLD: &str = "world";
 /// The name of the model's own frame.
 const MODEL: &str = "__model__";
 

@@ -2,16 +2,18 @@
 
 use crate::xml::Node;
 
-use super::frames::Frames;
+use super::frames::{Frames, WORLD};
 use super::values::{is_set, number, text};
-use super::{AXES_BY_NAME, AXES_OF_JOINTS};
 use crate::robot::numbers::{exactly, not_negative};
 use crate::robot::space::{Pose, Rotation, Vector, dot, unit};
 use crate::robot::{Coupling, Joint, Kind, Robot};
 use crate::{Refusal, shown};
 
-/// The name of what does not move.
-pub(super) const WORLD: &str = "world";
+/// The version from which an axis is along the frame of its joint; before it was along that of the model.
+const AXES_OF_JOINTS: u32 = 5;
+
+/// The version from which an axis names the frame that it is along, if it is not that of its joint.
+const AXES_BY_NAME: u32 = 7;
 
 /// A limit from here on is none.
 const UNLIMITED: f64 = 1e16;

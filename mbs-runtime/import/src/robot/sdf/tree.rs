@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::xml::Node;
 
-use super::frames::Frames;
-use super::joints::{Edge, Hold, WORLD};
+use super::frames::{Frames, WORLD};
+use super::joints::{Edge, Hold};
 use super::links;
 use crate::robot::space::{Pose, scaled};
 

@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 
 use mbs_pictures::heading;
 
-use super::Watched;
 use super::axis::Grid;
 use super::shard::{Head, Part};
+use super::watched::Watched;
 use crate::Error;
 use crate::csv_file::csv_number;
 use crate::files::Output;

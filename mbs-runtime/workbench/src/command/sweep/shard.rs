@@ -11,9 +11,9 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::Watched;
 use super::axis::{Evenly, Grid, places};
 use super::checked::{self, CheckedRows, Next};
+use super::watched::Watched;
 use crate::{Error, Model, Settings, table_file};
 
 /// Which share of how many, from 1 on.

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::Sweep;
 use super::axis::GridAxis;
-use super::{Sweep, Watched};
+use super::watched::Watched;
 use crate::command::options::say_written;
 use crate::figure::{Figure, HeatMap, Panel, Series, Stroke};
 use crate::number::significant;

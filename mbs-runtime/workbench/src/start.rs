@@ -1,0 +1,140 @@
+//! The start that settings mean for a mechanism.
+
+use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Tolerances};
+
+use crate::{Error, Model, OtherMethod, Settings, Signals, Start, Until, start_state};
+
+impl Start {
+    /// The start that these settings mean for a mechanism.
+    ///
+    /// # Errors
+    /// A step that is not positive, a name that the mechanism does not have, feedback or gains
+    /// where the constraints are kept by projection, a method of another kind and what it has no use for.
+    pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
+        let info = model.info();
+        let step = settings.step;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(mbs_runtime::Error::Step { step }.into());
+        }
+        if let Some(other) = settings.other {
+            has_no_other(other, settings)?;
+        }
+        let method = method(model.scheme(), settings)?;
+        let [alpha, beta] = method.deadbeat(step);
+        let start = Self {
+            parameters: assigned("parameter", info.parameters, &settings.parameters)?,
+            inputs: assigned("input", info.inputs, &settings.inputs)?,
+            table: settings
+                .signals
+                .as_ref()
+                .map(|signals| signals.table(info))
+                .transpose()?
+                .unwrap_or_default(),
+            start_time: settings.signals.as_ref().and_then(Signals::start_time),
+            method,
+            other: settings.other,
+            alpha: settings.alpha.unwrap_or(alpha),
+            beta: settings.beta.unwrap_or(beta),
+            step,
+            // a longer step would leave the run
+            tolerances: settings.tolerances_of_run().map(|tolerances| Tolerances {
+                max_step: tolerances.max_step.min(settings.end.max(step)),
+                ..tolerances
+            }),
+            threshold: settings.until.as_ref().and_then(Until::threshold),
+            kind: settings.start,
+            state: None,
+            allow_unstable: settings.allow_unstable,
+        };
+        if settings.from.is_empty() { Ok(start) } else { start.with_values(model, &settings.from) }
+    }
+
+    /// The same with these start values of coordinates `x` and rates `der(x)` in place of the declared ones, made
+    /// consistent: what is given keeps its value, the others move to the constraints.
+    ///
+    /// # Errors
+    /// Names that the mechanism does not have, a start from which it cannot be assembled.
+    pub fn with_values(self, model: &dyn Model, values: &[(String, f64)]) -> Result<Self, Error> {
+        let state = Some(start_state::with_values(model, &self, values)?);
+        Ok(Self { state, ..self })
+    }
+}
+
+/// Refuses what methods of another kind have no use for, since they keep the constraints themselves.
+fn has_no_other(method: OtherMethod, settings: &Settings) -> Result<(), Error> {
+    let Settings { stabilization, alpha, beta, tolerances, until, .. } = settings;
+    let is_rattle = matches!(method, OtherMethod::Rattle(_));
+    let refused = [
+        (stabilization.is_some(), "feedback"),
+        (alpha.is_some(), "alpha"),
+        (beta.is_some(), "beta"),
+        (tolerances.is_some() && is_rattle, "rtol"),
+        (until.is_some() && is_rattle, "until"),
+    ];
+    match refused.into_iter().find(|(is_given, _)| *is_given) {
+        None => Ok(()),
+        Some((_, name)) => Err(Error::Name {
+            name: name.into(),
+            reason: format!(
+                "the method `{}` {}; leave it out, or take another method",
+                method.word(),
+                if is_rattle {
+                    "takes constant steps and keeps the constraints itself, so it has no use for feedback, \
+                     gains, tolerances or events"
+                } else {
+                    "keeps the constraints itself, so it has no use for feedback or gains"
+                }
+            ),
+        }),
+    }
+}
+
+/// The method that settings ask for, of a mechanism with this scheme.
+fn method(declared: &'static Tableau, settings: &Settings) -> Result<Explicit, Error> {
+    let Settings { scheme, stabilization, alpha, beta, .. } = settings;
+    let is_adaptive = settings.tolerances_of_run().is_some();
+    let (tableau, stabilization) = match (is_adaptive, stabilization) {
+        (true, Some(Stabilization::Held | Stabilization::PerStage)) => {
+            let reason = "a run to a tolerance keeps the constraints by projection; leave the feedback out, \
+                          or the tolerances for a constant step";
+            return Err(Error::Name { name: "feedback".into(), reason: reason.into() });
+        }
+        (true, _) => {
+            let declared = if declared.is_adaptive() { declared } else { &DOPRI5 };
+            (scheme.unwrap_or(declared), Stabilization::Projection)
+        }
+        (false, stabilization) => (scheme.unwrap_or(declared), stabilization.unwrap_or_default()),
+    };
+    let method = Explicit { tableau, stabilization };
+    for (name, gain) in [("alpha", alpha), ("beta", beta)] {
+        if let (true, Some(value)) = (method.is_projected(), *gain) {
+            return Err(mbs_runtime::Error::NoUseOfGain { name, value }.into());
+        }
+    }
+    Ok(method)
+}
+
+/// The declared values with those that are set.
+fn assigned(
+    kind: &'static str,
+    quantities: &[Quantity],
+    settings: &[(String, f64)],
+) -> Result<Vec<f64>, Error> {
+    let mut values: Vec<f64> = quantities.iter().map(|quantity| quantity.default).collect();
+    for (name, value) in settings {
+        *place(kind, quantities, name, &mut values)? = *value;
+    }
+    Ok(values)
+}
+
+/// The value of the quantity with a name.
+pub(crate) fn place<'a>(
+    kind: &'static str,
+    quantities: &[Quantity],
+    name: &str,
+    values: &'a mut [f64],
+) -> Result<&'a mut f64, Error> {
+    let at = quantities.iter().position(|quantity| quantity.name == name);
+    let known = || quantities.iter().map(|quantity| quantity.name);
+    at.and_then(|at| values.get_mut(at)).ok_or_else(|| Error::unknown(kind, name, known()))
+}
