@@ -8,8 +8,9 @@
 //! cross-checks, order, allocation, a freestanding link, operation counts, and published references. Each
 //! test file starts with what it holds.
 //!
-//! * `compile_fail` has compile errors. It is a crate of its own, since every case is compiled with all that
-//!   its crate depends on. `ui/designers` there has whole mechanisms, wrong as designers get them wrong.
+//! * `mbs-runtime/live/tests/mistakes` has mistakes in declarations with their answers.
+//! * `compile_fail` has what rustc shows of some. It is a crate of its own, since every case is compiled with all
+//!   that its crate depends on.
 //! * `paths` has the paths of a step: in stages, fused, in single precision, in lanes of four kinds. A
 //!   reference is stated once and held on each of them, and as loops. The references of `models` use it too.
 //! * `mbs-macro/symbolic/tests` tests algebra with random expressions.
