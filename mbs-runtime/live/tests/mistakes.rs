@@ -24,7 +24,7 @@
 //! `BLESS=1 cargo test --release -p mbs-live --test mistakes`, which writes all answers. They are not edited by hand:
 //! after a change of wording the difference is what to review.
 //!
-//! `designers` has whole mechanisms, wrong as designers get them wrong. `tests/compile_fail` holds what rustc shows
+//! `designers` has mechanisms that are wrong as designers get them wrong. `tests/compile_fail` holds what rustc shows
 //! of answers.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
