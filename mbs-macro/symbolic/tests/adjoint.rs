@@ -5,10 +5,9 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, every_operator, points, trees};
+use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Number, Operand, Program, Stage, Symbol, lower, lower_whole};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 /// The program of a tree and its symbols.
 fn program(tree: &Tree) -> Option<(Program, Vec<Symbol>)> {
@@ -42,18 +41,8 @@ fn check(tree: &Tree, x: [f64; VARIABLES]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 500,
-        max_global_rejects: 100_000,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(2),
-        ..Default::default()
-    }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(config(2))]
 
     #[test]
     fn random_programs_have_the_gradients_of_jets(tree in trees(), x in points()) {

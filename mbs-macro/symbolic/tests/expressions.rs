@@ -8,12 +8,11 @@ mod common;
 
 use std::collections::{BTreeSet, HashSet};
 
-use common::{Jet, Num, Tree, VARIABLES, every_operator, points, trees};
+use common::{Jet, Num, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{
     Arena, Expr, FUNCTIONS, Hoisted, Number, Operand, Operation, Program, Stage, Symbol, lower, lower_whole,
 };
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use rustc_hash::FxHashMap as HashMap;
 
 struct Setting {
@@ -167,19 +166,8 @@ fn check_programs(
     Ok(())
 }
 
-/// The same cases in every run.
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 500,
-        max_global_rejects: 100_000,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(1),
-        ..Default::default()
-    }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(config(1))]
 
     #[test]
     fn random_expressions_keep_values_and_have_the_derivatives_of_jets(

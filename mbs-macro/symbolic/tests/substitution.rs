@@ -4,10 +4,9 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, every_operator, points, trees};
+use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use rustc_hash::FxHashMap as HashMap;
 
 struct Setting {
@@ -55,18 +54,8 @@ fn check_values(outer: &Tree, inner: &Tree, x: [f64; VARIABLES]) -> Result<(), T
     Ok(())
 }
 
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 500,
-        max_global_rejects: 100_000,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(2),
-        ..Default::default()
-    }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(config(2))]
 
     #[test]
     fn substituted_expressions_have_the_values_of_compositions(

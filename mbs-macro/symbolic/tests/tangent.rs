@@ -5,10 +5,9 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, every_operator, points, trees};
+use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Hoisted, Number, Operand, Spline, Stage, lower, lower_whole};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 fn check(tree: &Tree, x: [f64; VARIABLES], rates: [f64; VARIABLES]) -> Result<(), TestCaseError> {
     let mut arena = Arena::new();
@@ -32,18 +31,8 @@ fn check(tree: &Tree, x: [f64; VARIABLES], rates: [f64; VARIABLES]) -> Result<()
     Ok(())
 }
 
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 500,
-        max_global_rejects: 100_000,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(3),
-        ..Default::default()
-    }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(config(3))]
 
     #[test]
     fn random_programs_have_the_slopes_of_jets(tree in trees(), x in points(), rates in points()) {

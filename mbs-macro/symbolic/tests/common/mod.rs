@@ -10,7 +10,7 @@ use mbs_symbolic::{Arena, Expr, Function, Number};
 
 pub use self::jet::Jet;
 pub use self::number::Num;
-pub use self::trees::{VARIABLES, every_operator, points, trees};
+pub use self::trees::{VARIABLES, config, every_operator, points, trees};
 
 /// An expression as it was written.
 #[derive(Clone, Debug)]

@@ -2,6 +2,7 @@
 
 use mbs_symbolic::Function;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 use super::Tree;
 
@@ -96,4 +97,15 @@ pub fn every_operator() -> Tree {
 /// Values or directions of all variables.
 pub fn points() -> impl Strategy<Value = [f64; VARIABLES]> {
     prop::array::uniform4(-3.0..3.0)
+}
+
+/// The same cases in every run.
+pub fn config(seed: u64) -> ProptestConfig {
+    ProptestConfig {
+        cases: 500,
+        max_global_rejects: 100_000,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(seed),
+        ..Default::default()
+    }
 }
