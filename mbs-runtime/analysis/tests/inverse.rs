@@ -4,6 +4,9 @@
 
 #![allow(clippy::expect_used, reason = "a test says by panicking what is wrong")]
 
+#[macro_use]
+mod common;
+
 use mbs_analysis::{By, Curve, Error, Instant, Prescription, Time, inverse};
 use mbs_runtime::equations::Described;
 use mbs_runtime::{Components, Dual, Real, Simulation, mechanism};
@@ -45,57 +48,25 @@ mechanism! {
     }
 }
 
-mechanism! {
-    /// A crank that turns a rocker, free or driven.
-    pub FourBar {
-        dof = 1;
-        method = rk4;
-        input torque [N*m];
-        input force [N];
-        gravity = (0, -9.81) [m/s^2];
-        body crank (x1, y1, t1) { mass = 1 [kg]; inertia = 0.02 [kg*m^2]; }
-        body coupler (x2, y2, t2) { mass = 2 [kg]; inertia = 0.05 [kg*m^2]; }
-        body rocker (x3, y3, t3) { mass = 1.5 [kg]; inertia = 0.03 [kg*m^2]; }
-        point a on crank = (-0.1, 0) [m];  point b on crank = (0.1, 0) [m];
-        point a on coupler = (-0.25, 0) [m];  point b on coupler = (0.25, 0) [m];
-        point a on rocker = (-0.15, 0) [m];  point b on rocker = (0.15, 0) [m];
-        point bearing on ground = (0.5, 0) [m];
-        revolute o (crank.a, ground);
-        revolute p (crank.b, coupler.a);
-        revolute r (coupler.b, rocker.b);
-        revolute s (rocker.a, ground.bearing);
-        torque hand on crank = torque;
-        force push on coupler = (force, 0);
-        torque damper on rocker = -0.3 [N*m*s]*der(t3);
-        start { t1 = 1; guess t2 = 0.3; guess t3 = 1.2; guess x1 = 0.05 [m]; guess y1 = 0.08 [m];
-                guess x2 = 0.3 [m]; guess y2 = 0.25 [m]; guess x3 = 0.55 [m]; guess y3 = 0.14 [m]; }
-        output load [N] = lambda(r_x);
-    }
+four_bar! { FourBar;
+    dof = 1;
+    method = rk4;
+    input torque [N*m];
+    input force [N];
+    point bearing on ground = (0.5, 0) [m];
+    torque hand on crank = torque;
+    force push on coupler = (force, 0);
+    torque damper on rocker = -0.3 [N*m*s]*der(t3);
+    output load [N] = lambda(r_x);
 }
 
-mechanism! {
-    /// The same with a declared drive.
-    pub DrivenFourBar {
-        dof = 0;
-        gravity = (0, -9.81) [m/s^2];
-        body crank (x1, y1, t1) { mass = 1 [kg]; inertia = 0.02 [kg*m^2]; }
-        body coupler (x2, y2, t2) { mass = 2 [kg]; inertia = 0.05 [kg*m^2]; }
-        body rocker (x3, y3, t3) { mass = 1.5 [kg]; inertia = 0.03 [kg*m^2]; }
-        point a on crank = (-0.1, 0) [m];  point b on crank = (0.1, 0) [m];
-        point a on coupler = (-0.25, 0) [m];  point b on coupler = (0.25, 0) [m];
-        point a on rocker = (-0.15, 0) [m];  point b on rocker = (0.15, 0) [m];
-        point bearing on ground = (0.5, 0) [m];
-        revolute o (crank.a, ground);
-        revolute p (crank.b, coupler.a);
-        revolute r (coupler.b, rocker.b);
-        revolute s (rocker.a, ground.bearing);
-        torque damper on rocker = -0.3 [N*m*s]*der(t3);
-        drive motor: t1 = 1 + 0.4*sin(5 [rad/s]*t);
-        start { t1 = 1; guess t2 = 0.3; guess t3 = 1.2; guess x1 = 0.05 [m]; guess y1 = 0.08 [m];
-                guess x2 = 0.3 [m]; guess y2 = 0.25 [m]; guess x3 = 0.55 [m]; guess y3 = 0.14 [m]; }
-        output torque [N*m] = effort(motor);
-        output load [N] = lambda(r_x);
-    }
+four_bar! { DrivenFourBar;
+    dof = 0;
+    point bearing on ground = (0.5, 0) [m];
+    torque damper on rocker = -0.3 [N*m*s]*der(t3);
+    drive motor: t1 = 1 + 0.4*sin(5 [rad/s]*t);
+    output torque [N*m] = effort(motor);
+    output load [N] = lambda(r_x);
 }
 
 mechanism! {
@@ -311,15 +282,7 @@ fn redundant_rails() {
 
 #[test]
 fn a_text_as_the_type() {
-    let text = mbs_live::Text::declaration(
-        "arm.mbs",
-        "Arm { dof = 1; input torque [N*m]; gravity = (0, -9.81) [m/s^2];
-         body bob (x, y, theta) { mass = 2 [kg]; inertia = 0; }
-         point pivot on bob = (0, 0.7) [m];
-         revolute hinge (bob.pivot, ground);
-         torque motor on bob = torque;
-         start { theta = 0; guess y = -0.7 [m]; } }",
-    );
+    let text = mbs_live::Text::rust(file!(), include_str!("inverse.rs")).named("Pendulum");
     let live = text.compile().expect("it is a declaration");
     let request = || asked("theta", swing(0.3, 2.5, 4.0), By::AllInputs);
     let of_text = inverse(&live, &request(), &times(1.0, 10)).expect("it turns");

@@ -138,20 +138,10 @@ fn a_cart_and_a_rod_are_coupled() -> Result<(), Error> {
 /// The same numbers, to the last bit, of the type and of its text.
 #[test]
 fn a_text_is_linearized_as_its_type() -> Result<(), Error> {
-    const TEXT: &str = "CartRod {
-        dof = 2;
-        param m = 3 [kg];
-        param l = 0.5 [m];
-        input push [N];
-        gravity = (0, -9.81) [m/s^2];
-        body cart (x) { mass = m; }
-        body rod (xr, yr, phi) { mass = 1 [kg]; inertia = 1/12*1 [kg]*l^2; }
-        point hinge on rod = (0, l/2);
-        revolute pin (cart, rod.hinge);
-        force spring on x = push - 40 [N/m]*x - 0.3 [N*s/m]*der(x);
-        start { phi = 0; guess yr = -0.25 [m]; }
-    }";
-    let live = Text::declaration("cart-rod.mbs", TEXT).compile().expect("it compiles");
+    let live = Text::rust(file!(), include_str!("linearization.rs"))
+        .named("CartRod")
+        .compile()
+        .expect("it compiles");
     let point = OperatingPoint::in_motion(
         0.0,
         &[0.1, 0.1 + 0.25 * 0.4_f64.sin(), -0.25 * 0.4_f64.cos(), 0.4],

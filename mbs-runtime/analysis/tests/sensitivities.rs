@@ -145,19 +145,8 @@ fn equal_frequencies_part() -> Result<(), Error> {
 /// To the last bit, with the same equations over duals.
 #[test]
 fn a_text_has_the_sensitivities_of_its_type() -> Result<(), Error> {
-    const TEXT: &str = "Flap {
-        dof = 1;
-        param k = 3 [N*m];
-        param l = 0.2 [m];
-        param m = 2 [kg];
-        gravity = (0, -9.81) [m/s^2];
-        body bar (x, y, phi) { mass = m; inertia = m*l^2/12; }
-        point hinge on bar = (-l/2, 0);
-        revolute pivot (bar.hinge, ground);
-        torque coil on bar = -k*phi;
-        start { phi = -0.3; guess x = 0.1 [m]; }
-    }";
-    let live = Text::declaration("flap.mbs", TEXT).compile().expect("it compiles");
+    let live =
+        Text::rust(file!(), include_str!("sensitivities.rs")).named("Flap").compile().expect("it compiles");
     let of_a_text = |p: &[f64]| live.with_parameters(|parameters| parameters.copy_from_slice(p));
     let of_a_type = |p: &[f64]| of_type::<Flap>()(p).map(Differentiated);
     let (parameters, search, ports) = (declared::<Flap>(), Search::default(), Ports::default());
