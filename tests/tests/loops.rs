@@ -7,6 +7,7 @@ use mbs_runtime::{
     Baumgarte, Components, Error, Held, Mechanism, Method, PerStage, Simulation, State, mechanism,
 };
 use models::{NFourBar40, NPendulum40};
+use tests::four_bar;
 
 /// The same declaration with loops wherever they pay, and without any.
 macro_rules! both {
@@ -38,30 +39,8 @@ both! { PendulumLoops, PendulumStraight;
     torque motor on rod[N] = torque;
 }
 
-both! { FourBarLoops, FourBarStraight;
-    dof = 1;
-    const N = 12;
-    param l = 1 [m] where l > 0;
-    param m = 1 [kg] where m > 0;
-    gravity = (0, -9.81) [m/s^2];
-    for i in 0..=N {
-        body rocker[i] (x[i], y[i], theta[i]) { mass = m; inertia = m*l^2/12; }
-        point foot on rocker[i] = (-l/2, 0);
-        point head on rocker[i] = (l/2, 0);
-        point pivot[i] on ground = (i*l, 0);
-        revolute foot[i] (rocker[i].foot, ground.pivot[i]);
-        start { theta[i] = 60 [deg]; guess x[i] = i*l + l/4; guess y[i] = 0.433*l; }
-    }
-    for i in 1..=N {
-        body coupler[i] (xc[i], yc[i], phi[i]) { mass = m; inertia = m*l^2/12; }
-        point left on coupler[i] = (-l/2, 0);
-        point right on coupler[i] = (l/2, 0);
-        revolute left[i] (rocker[i-1].head, coupler[i].left);
-        revolute right[i] (rocker[i].head, coupler[i].right);
-        start { guess xc[i] = i*l; guess yc[i] = 0.866*l; }
-    }
-    output speed = der(theta[0]);
-}
+four_bar!(mechanism; FourBarLoops 12 limit unrolled = 0; output speed = der(theta[0]););
+four_bar!(mechanism; FourBarStraight 12 limit unrolled = 1_000_000; output speed = der(theta[0]););
 
 /// Everything that generated code computes, along a run.
 fn run<M: Mechanism<Real = f64>>(steps: usize) -> Vec<u64> {
