@@ -52,20 +52,8 @@ fn jacobians_are_those_of_differences() {
     let mut of_type = FirstOrder::new(Differentiated(Swing::declared())).expect("derivatives");
     of_type.inputs_mut()[0] = 0.7;
     let start = of_type.state(&Simulation::new(Swing::declared(), 1e-3).expect("a start"));
-    let text = "Swing {
-        dof = 1;
-        states = reduced;
-        gravity = (0, -9.81) [m/s^2];
-        body crank (x1, y1, a) { mass = 1 [kg]; inertia = 0.01 [kg*m^2]; }
-        body rod (x2, y2, b) { mass = 2 [kg]; inertia = 0.06 [kg*m^2]; }
-        point pin on crank = (0.1, 0) [m];
-        point end on rod = (-0.3, 0) [m];
-        revolute bearing (crank, ground);
-        revolute joint (crank.pin, rod.end);
-        drive motor: a = 7 [rad/s]*t;
-        start { b = -0.8; guess x2 = 0.3 [m]; guess y2 = -0.2 [m]; }
-    }";
-    let live = Text::declaration("swing.mbs", text).compile().expect("a declaration");
+    let text = include_str!("first_order.rs").replacen("dof = 1;", "dof = 1; states = reduced;", 1);
+    let live = Text::rust(file!(), text).named("Swing").compile().expect("a declaration");
     let of_text = FirstOrder::new(live.clone()).expect("derivatives");
     let reduced = of_text.state(&Run::builder(&live, 1e-3).build().expect("a start"));
     assert!(of_type.dimension() == 12 && of_text.dimension() < 12);
