@@ -85,9 +85,10 @@ fn operation(operation: Operation, a: &str, b: &str) -> Result<String, &'static 
         Operation::Div => format!("{a} / {b}"),
         Operation::Neg => format!("-{a}"),
         Operation::Call(Function::Ln) => format!("log({a})"),
-        Operation::Call(function) => format!("{}({a})", function.row().name),
-        Operation::Call2(Function::Greater) => format!("float({a} > {b})"),
-        Operation::Call2(function) => format!("{}({a}, {b})", function.row().name),
+        Operation::Call(Function::Greater) => format!("float({a} > {b})"),
+        Operation::Call(function) => {
+            format!("{}({})", function.row().name, function.arguments(&[a, b]).join(", "))
+        }
         Operation::Spline(..) => return Err("this target has no splines"),
     })
 }

@@ -34,7 +34,7 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Algebra, Expr, Factorization, Node, Number, Scalar, Symbol, Unknown};
+use mbs_symbolic::{Algebra, Expr, Factorization, Node, Number, Pieces, Scalar, Symbol, Unknown};
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
@@ -112,7 +112,7 @@ fn steps(model: &mut Model, responses: &[Multipliers]) -> usize {
     }
     let has_kink = |node: &Expr| {
         let is_kinked = match arena.node(*node) {
-            Node::Call(function, _) | Node::Call2(function, ..) => function.row().is_piecewise,
+            Node::Call(function, _) => function.row().pieces != Pieces::One,
             _ => false,
         };
         is_kinked && arena.symbols_in(*node).iter().any(|symbol| response.contains_key(symbol))

@@ -117,13 +117,10 @@ impl Transpose {
             }
             Operation::Neg => [Some((a, grows.negative(weight))), None],
             Operation::Call(function) => {
-                let [slope, _] = grows.slopes(function, [a, a, result], [active.contains(&a), false])?;
-                [Some((a, grows.product(weight, slope))), None]
-            }
-            Operation::Call2(function) => {
                 let is_active = [a, b].map(|operand| active.contains(&operand));
-                let [along, across] = grows.slopes(function, [a, b, result], is_active)?;
-                [Some((a, grows.product(weight, along))), Some((b, grows.product(weight, across)))]
+                let slopes = grows.slopes(function, [a, b, result], is_active)?;
+                let [along, across] = slopes.map(|slope| grows.product(weight, slope));
+                [Some((a, along)), (function.row().arity > 1).then_some((b, across))]
             }
             Operation::Spline(spline, order) => {
                 let slope = grows.spline_slope(spline, order, a);

@@ -72,10 +72,8 @@ pub enum Node {
     Sum(Number, Vec<(Expr, Number)>),
     /// Π factor^exponent, exponents not 0
     Product(Vec<(Expr, i32)>),
-    /// f(x)
-    Call(Function, Expr),
-    /// f(x, y)
-    Call2(Function, Expr, Expr),
+    /// f(x, y), or f(x) with x twice
+    Call(Function, [Expr; 2]),
     /// The derivative of this order of a spline, 0 to 3, at x
     Spline(SplineId, u8, Expr),
     /// The same value, computed once.
@@ -211,12 +209,8 @@ impl Arena {
             if count > most {
                 return true;
             }
-            match self.node(expr) {
-                Node::Number(_) | Node::Symbol(_) | Node::Shared(_) => {}
-                Node::Sum(_, terms) => open.extend(terms.iter().map(|(term, _)| *term)),
-                Node::Product(factors) => open.extend(factors.iter().map(|(factor, _)| *factor)),
-                Node::Call(_, x) | Node::Spline(_, _, x) => open.push(*x),
-                Node::Call2(_, x, y) => open.extend([*x, *y]),
+            if !matches!(self.node(expr), Node::Shared(_)) {
+                self.for_each_operand(expr, |operand| open.push(operand));
             }
         }
         false
@@ -264,8 +258,8 @@ impl Arena {
             Node::Symbol(symbol) => self.symbols[symbol.index()].stage,
             Node::Sum(_, terms) => latest(&mut terms.iter().map(|(term, _)| self.stage(*term))),
             Node::Product(factors) => latest(&mut factors.iter().map(|(factor, _)| self.stage(*factor))),
-            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => self.stage(*x),
-            Node::Call2(_, x, y) => self.stage(*x).max(self.stage(*y)),
+            Node::Call(_, [x, y]) => self.stage(*x).max(self.stage(*y)),
+            Node::Spline(.., x) | Node::Shared(x) => self.stage(*x),
         }
     }
 
@@ -281,8 +275,8 @@ impl Arena {
             Node::Number(_) | Node::Symbol(_) => {}
             Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| each(*term)),
             Node::Product(factors) => factors.iter().for_each(|(factor, _)| each(*factor)),
-            Node::Call(_, x) | Node::Spline(.., x) | Node::Shared(x) => each(*x),
-            Node::Call2(_, x, y) => [*x, *y].into_iter().for_each(each),
+            Node::Call(function, both) => function.arguments(both).iter().for_each(|x| each(*x)),
+            Node::Spline(.., x) | Node::Shared(x) => each(*x),
         }
     }
 

@@ -97,7 +97,7 @@ impl Arena {
         let factors = factors.clone();
         let mut partners = Vec::new();
         for (at, &(factor, exponent)) in factors.iter().enumerate() {
-            if let Node::Call(Function::Cos, angle) = *self.node(factor)
+            if let Node::Call(Function::Cos, [angle, _]) = *self.node(factor)
                 && exponent >= 2
             {
                 let mut rest = factors.clone();
@@ -186,7 +186,9 @@ impl Arena {
         let roots: Vec<_> = collected
             .iter()
             .filter_map(|(factor, exponent)| match self.node(factor) {
-                Node::Call(Function::Sqrt, inner) if exponent.abs() >= 2 => Some((factor, *inner, exponent)),
+                Node::Call(Function::Sqrt, [inner, _]) if exponent.abs() >= 2 => {
+                    Some((factor, *inner, exponent))
+                }
                 _ => None,
             })
             .collect();
@@ -206,7 +208,7 @@ impl Arena {
                 Ok(small) if exponent.abs() <= LARGEST_EXPONENT => (factor, small),
                 _ => {
                     let exponent = self.number(Number::integer(exponent));
-                    (self.call2(Function::Pow, factor, exponent), 1)
+                    (self.apply_plainly(Function::Pow, [factor, exponent]), 1)
                 }
             };
             *factors.entry(factor, 0) += exponent;
@@ -223,37 +225,63 @@ impl Arena {
                 let root = self.call(Function::Sqrt, x);
                 self.powi(root, n as i32)
             }
-            _ => self.call2(Function::Pow, x, y),
+            _ => self.apply_plainly(Function::Pow, [x, y]),
         }
     }
 
     /// f(x), with f(−x) turned into ±f(x) where f is odd or even.
     pub fn call(&mut self, function: Function, x: Expr) -> Expr {
-        if let Some(value) = self.as_number(x)
-            && let Some(folded) = fold(function, value)
-        {
-            return self.number(folded);
-        }
-        if function.row().parity != Parity::Neither && self.leads_negative(x) {
-            let positive = self.neg(x);
-            let value = self.intern(Node::Call(function, positive));
-            return if function.row().parity == Parity::Odd { self.neg(value) } else { value };
-        }
-        self.intern(Node::Call(function, x))
+        self.apply(function, [x, x])
     }
 
     /// f(x, y)
     pub fn call2(&mut self, function: Function, x: Expr, y: Expr) -> Expr {
-        if let (Some(a), Some(b)) = (self.as_number(x), self.as_number(y)) {
-            let value = (function.row().value)(a.to_f64(), b.to_f64());
-            let exact = [a, b].into_iter().find(|n| n.to_f64() == value);
-            if value.is_finite() {
-                let name = function.row().name;
-                let result = || Real::of_function(value, name, &[a.real(), b.real()]).number();
-                return self.number(exact.unwrap_or_else(result));
-            }
+        self.apply(function, [x, y])
+    }
+
+    /// f of its arguments, x twice where it has one.
+    pub fn apply(&mut self, function: Function, [x, y]: [Expr; 2]) -> Expr {
+        let parity = function.row().parity;
+        if function == Function::Pow {
+            self.pow(x, y)
+        } else if parity != Parity::Neither && self.leads_negative(x) && self.fold(function, [x, y]).is_none()
+        {
+            let positive = self.neg(x);
+            let value = self.intern(Node::Call(function, [positive; 2]));
+            if parity == Parity::Odd { self.neg(value) } else { value }
+        } else {
+            self.apply_plainly(function, [x, y])
         }
-        self.intern(Node::Call2(function, x, y))
+    }
+
+    /// A call as it stands, or the number that it is.
+    fn apply_plainly(&mut self, function: Function, arguments: [Expr; 2]) -> Expr {
+        match self.fold(function, arguments) {
+            Some(number) => self.number(number),
+            None => self.intern(Node::Call(function, arguments)),
+        }
+    }
+
+    /// f of constants: exact where that exists; `None` where it is not finite.
+    fn fold(&self, function: Function, [x, y]: [Expr; 2]) -> Option<Number> {
+        let (row, both) = (function.row(), [self.as_number(x)?, self.as_number(y)?]);
+        if let Some(of_number) = row.of_number {
+            return of_number(both[0]);
+        }
+        let arguments = function.arguments(&both);
+        let value = (row.value)(both[0].to_f64(), both[1].to_f64());
+        if !value.is_finite() {
+            return None;
+        }
+        if let ([_, _], Some(same)) = (arguments, arguments.iter().find(|x| x.to_f64() == value)) {
+            return Some(*same);
+        }
+        let reals: Vec<Real> = arguments.iter().map(|x| x.real()).collect();
+        Some(match row.of_turn.and_then(|of_turn| of_turn(reals[0].turn()?)) {
+            Some(exact) if exact == Residue::ZERO => Number::ZERO,
+            Some(exact) => Real::known(value, &reals, exact).number(),
+            None => Real::of_function(value, row.name, &reals).number(),
+        })
     }
 
     /// The derivative of this order of a spline at x: 0 beyond the third.
@@ -272,32 +300,6 @@ impl Arena {
             Node::Number(value) => value.is_negative(),
             _ => false,
         }
-    }
-}
-
-/// f of a constant: exact where that exists; `None` where it is not finite.
-fn fold(function: Function, value: Number) -> Option<Number> {
-    match function {
-        Function::Sqrt => return value.sqrt(),
-        Function::Abs => return Some(value.abs()),
-        _ => {}
-    }
-    let result = (function.row().value)(value.to_f64(), 0.0);
-    result.is_finite().then(|| exact_result(function, value.real(), result))
-}
-
-/// The `result` of a function with its exact value, where a rule gives one.
-fn exact_result(function: Function, x: Real, result: f64) -> Number {
-    let of_turn = |turn: Residue| match function {
-        Function::Sin => turn.sine(),
-        Function::Cos => turn.cosine(),
-        Function::Tan => Some(turn.sine()? * turn.cosine()?.inverse()?),
-        _ => None,
-    };
-    match x.turn().and_then(of_turn) {
-        Some(exact) if exact == Residue::ZERO => Number::ZERO,
-        Some(exact) => Real::known(result, &[x], exact).number(),
-        None => Real::of_function(result, function.row().name, &[x]).number(),
     }
 }
 

@@ -51,19 +51,16 @@ impl Arena {
                 self.sum(&terms)
             }
             Node::Product(factors) => self.product_rule(&factors, known),
-            Node::Call(function, x) => {
-                if self.is_zero(known[&x]) {
-                    return self.zero();
-                }
-                let [dx, _] = self.partials(function, x, x, expr);
-                self.mul(dx, known[&x])
-            }
-            Node::Call2(function, x, y) => {
+            Node::Call(function, [x, y]) => {
                 if self.is_zero(known[&x]) && self.is_zero(known[&y]) {
                     return self.zero();
                 }
-                let [dx, dy] = self.partials(function, x, y, expr);
-                let (along_x, along_y) = (self.mul(dx, known[&x]), self.mul(dy, known[&y]));
+                let [dx, dy] = self.slopes(function, x, y, expr);
+                let along_x = self.mul(dx, known[&x]);
+                if function.row().arity == 1 {
+                    return along_x;
+                }
+                let along_y = self.mul(dy, known[&y]);
                 self.add(along_x, along_y)
             }
             Node::Spline(spline, order, x) => {
@@ -82,10 +79,10 @@ impl Arena {
     }
 
     /// ∂f/∂x and ∂f/∂y where f(x, y) is this value.
-    fn partials(&mut self, function: Function, x: Expr, y: Expr, value: Expr) -> [Expr; 2] {
+    fn slopes(&mut self, function: Function, x: Expr, y: Expr, value: Expr) -> [Expr; 2] {
         let algebra = Algebra::new(self);
         let [x, y, value] = [x, y, value].map(|expr| algebra.scalar(expr));
-        (function.row().partials)(x, y, value).map(Scalar::expr)
+        function.slopes(x, y, value).map(Scalar::expr)
     }
 
     /// (Π fᵢ^eᵢ)′ from the derivatives of the factors.

@@ -45,9 +45,8 @@ impl Arena {
             Node::Symbol(symbol) => out.push_str(self.name(*symbol)),
             Node::Sum(constant, terms) => self.write_sum(out, *constant, terms, names),
             Node::Product(factors) => self.write_product(out, factors, names),
-            Node::Call(function, x) => self.write_call(out, function.row().name, &[*x], names),
-            Node::Call2(function, x, y) => {
-                self.write_call(out, function.row().name, &[*x, *y], names);
+            Node::Call(function, both) => {
+                self.write_call(out, function.row().name, function.arguments(both), names);
             }
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
@@ -72,7 +71,7 @@ impl Arena {
             Node::Number(Number::Rational(_, d)) if *d != 1 => Binding::Product,
             // prints itself with the parentheses that its content needs
             Node::Shared(_) | Node::Number(_) | Node::Symbol(_) => Binding::Power,
-            Node::Call(..) | Node::Call2(..) | Node::Spline(..) => Binding::Power,
+            Node::Call(..) | Node::Spline(..) => Binding::Power,
         }
     }
 

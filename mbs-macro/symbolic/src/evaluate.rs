@@ -1,6 +1,9 @@
 //! Values of expressions, straight from the nodes.
 
 use crate::arena::{Arena, Expr, Node, Symbol};
+use crate::arithmetic::Numeric;
+use crate::moving::{Jet, Moving};
+use crate::number::Number;
 
 /// The nodes that some expressions are made of, operands before users: to
 /// evaluate the same expressions again and again, in any kind of number.
@@ -44,23 +47,27 @@ impl Tape {
     }
 
     /// The values of the roots where symbols have the values that `symbol` gives.
-    pub fn evaluate(&self, arena: &Arena, symbol: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
-        self.run(arena, |node, values: &Values<f64>| match node {
-            Node::Number(number) => number.to_f64(),
+    pub fn evaluate<T: Numeric>(&self, arena: &Arena, symbol: &dyn Fn(Symbol) -> T) -> Vec<T> {
+        self.run(arena, |node, values: &Values<T>| match node {
+            Node::Number(number) => T::number(*number),
             Node::Symbol(s) => symbol(*s),
-            Node::Sum(constant, terms) => {
-                terms.iter().fold(constant.to_f64(), |sum, (term, c)| sum + c.to_f64() * values.of(*term))
-            }
-            Node::Product(factors) => {
-                factors.iter().fold(1.0, |product, (factor, e)| product * values.of(*factor).powi(*e))
-            }
-            Node::Call(function, x) => (function.row().value)(values.of(*x), 0.0),
-            Node::Call2(function, x, y) => (function.row().value)(values.of(*x), values.of(*y)),
-            Node::Spline(spline, order, x) => {
-                arena.splines()[spline.index()].derivative(*order, values.of(*x))
-            }
+            Node::Sum(constant, terms) => terms
+                .iter()
+                .fold(T::number(*constant), |sum, (term, c)| sum + T::number(*c) * values.of(*term)),
+            Node::Product(factors) => factors
+                .iter()
+                .fold(T::number(Number::ONE), |product, (factor, e)| product * values.of(*factor).powi(*e)),
+            Node::Call(function, [x, y]) => values.of(*x).call(*function, values.of(*y)),
+            Node::Spline(spline, order, x) => values.of(*x).spline(&arena.splines()[spline.index()], *order),
             Node::Shared(x) => values.of(*x),
         })
+    }
+
+    /// The roots with their derivatives where symbols move along a curve. The derivatives come from the chain
+    /// rule on numbers, not from those of expressions.
+    pub fn jets<T: Numeric>(&self, arena: &Arena, curve: &dyn Fn(Symbol) -> Jet<T>) -> Vec<Jet<T>> {
+        let values: Vec<Moving<Moving<T>>> = self.evaluate(arena, &|symbol| curve(symbol).into());
+        values.into_iter().map(Jet::from).collect()
     }
 }
 

@@ -46,7 +46,7 @@ impl Growing {
                 Operand::Number(number) if at < 2 => algebra.number(number),
                 _ => algebra.variable(symbols[at]),
             });
-            (function.row().partials)(x, y, f).map(|partial| partial.expr())
+            function.slopes(x, y, f).map(|slope| slope.expr())
         };
         let mut found = [ZERO; 2];
         for (slope, (partial, is_asked)) in found.iter_mut().zip(partials.into_iter().zip(is_asked)) {
@@ -90,13 +90,9 @@ impl Growing {
                 }
                 if below == one { above } else { self.push(Operation::Div, above, below) }
             }
-            Node::Call(function, x) => {
-                let x = self.expression(arena, *x, given)?;
-                self.push(Operation::Call(*function), x, x)
-            }
-            Node::Call2(function, x, y) => {
+            Node::Call(function, [x, y]) => {
                 let (x, y) = (self.expression(arena, *x, given)?, self.expression(arena, *y, given)?);
-                self.push(Operation::Call2(*function), x, y)
+                self.push(Operation::Call(*function), x, y)
             }
             Node::Shared(x) => self.expression(arena, *x, given)?,
             Node::Spline(..) => return Err(broken("no slope of the table is a spline")),
@@ -163,8 +159,7 @@ impl Growing {
 
 /// Sums and products are the same in either order.
 fn key(operation: Operation, a: Operand, b: Operand) -> (Operation, Operand, Operand) {
-    let is_symmetric = matches!(operation, Operation::Add | Operation::Mul);
-    if is_symmetric && b < a { (operation, b, a) } else { (operation, a, b) }
+    if operation.commutes() && b < a { (operation, b, a) } else { (operation, a, b) }
 }
 
 /// A rule that a derivative of a program keeps.

@@ -39,8 +39,9 @@ impl Arena {
             Node::Symbol(symbol) => (symbol_name(self.name(*symbol)), Binding::Power),
             Node::Sum(constant, terms) => self.typeset_sum(*constant, terms, names),
             Node::Product(factors) => self.typeset_product(factors, names),
-            Node::Call(function, x) => return self.typeset_call(*function, &[*x], names),
-            Node::Call2(function, x, y) => return self.typeset_call(*function, &[*x, *y], names),
+            Node::Call(function, both) => {
+                return self.typeset_call(*function, function.arguments(both), names);
+            }
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
                 let name = symbol_name(&self.splines()[spline.index()].name);
@@ -108,7 +109,7 @@ impl Arena {
             }
             // sin^2 θ, as it is read
             _ => match self.node(base) {
-                Node::Call(function, x) if matches!(function.row().name, "sin" | "cos" | "tan") => {
+                Node::Call(function, [x, _]) if function.row().of_turn.is_some() => {
                     format!(r"\{}^{{{exponent}}} {}", function.row().name, self.argument(*x, names))
                 }
                 _ => format!("{}^{{{exponent}}}", self.typeset(base, Binding::Power, names)),

@@ -40,6 +40,7 @@ mod abbreviated;
 mod adjoint;
 mod algebra;
 mod arena;
+mod arithmetic;
 mod collected;
 mod construct;
 mod differentiate;
@@ -52,12 +53,14 @@ mod inconsistency;
 mod latex;
 pub mod layout;
 mod lower;
+mod moving;
 mod number;
 mod operators;
 pub mod pairs;
 pub mod probe;
 mod program;
 mod repetition;
+mod rounding;
 mod sin_cos;
 mod spline;
 mod substitute;
@@ -66,6 +69,7 @@ pub mod units;
 
 pub use algebra::{Algebra, Scalar, Vector};
 pub use arena::{Arena, Expr, Node, Stage, Symbol};
+pub use arithmetic::{Arithmetic, Numeric};
 pub use eliminate::{
     Elimination, Factorization, Kkt, Strategy, Sums, Undetermined, Unknown, WatchedPivot, factor,
     factor_within,
@@ -75,9 +79,11 @@ pub use exact::{Exact, Point, Real, Residue};
 pub use inconsistency::Inconsistency;
 pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
+pub use moving::{Jet, Moving};
 pub use number::Number;
-pub use operators::{Function, Latex, Parity, Partials, Range, Row, TABLE as FUNCTIONS};
+pub use operators::{Function, Latex, Parity, Pieces, Range, Row, TABLE as FUNCTIONS, Wasm};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
+pub use rounding::Rounded;
 pub use sin_cos::SinCos;
 pub use spline::{Segment, Spline, SplineId};

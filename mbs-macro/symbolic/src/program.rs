@@ -8,6 +8,7 @@ use std::fmt;
 use std::rc::Rc;
 
 use crate::arena::Symbol;
+use crate::arithmetic::Numeric;
 use crate::number::Number;
 use crate::operators::Function;
 use crate::spline::{Spline, SplineId};
@@ -38,10 +39,8 @@ pub enum Operation {
     Div,
     /// −a
     Neg,
-    /// f(a)
+    /// f(a, b), or f(a)
     Call(Function),
-    /// f(a, b)
-    Call2(Function),
     /// the derivative of this order of a spline at a
     Spline(SplineId, u8),
 }
@@ -51,9 +50,37 @@ impl Operation {
     pub(crate) fn latency(self) -> u32 {
         match self {
             Self::Add | Self::Sub | Self::Mul => 4,
-            Self::Neg | Self::Call(Function::Abs) => 1,
+            Self::Neg => 1,
             Self::Div => 14,
-            Self::Call(_) | Self::Call2(_) | Self::Spline(..) => 50,
+            Self::Call(function) => function.row().latency,
+            Self::Spline(..) => 50,
+        }
+    }
+
+    /// How many operands it has.
+    pub fn arity(self) -> usize {
+        match self {
+            Self::Add | Self::Sub | Self::Mul | Self::Div => 2,
+            Self::Neg | Self::Spline(..) => 1,
+            Self::Call(function) => function.row().arity,
+        }
+    }
+
+    /// Reports whether it is a function, not one of the four operations or a sign.
+    pub fn is_function(self) -> bool {
+        matches!(self, Self::Call(_) | Self::Spline(..))
+    }
+
+    /// Whether it is the same, to the bit, with its operands exchanged.
+    pub(crate) fn commutes(self) -> bool {
+        matches!(self, Self::Add | Self::Mul)
+    }
+
+    /// The sine or cosine that it is.
+    pub fn turn(self) -> Option<Function> {
+        match self {
+            Self::Call(function) if function.is_turn() => Some(function),
+            _ => None,
         }
     }
 }
@@ -116,6 +143,13 @@ impl fmt::Display for Operations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} mul + {} add + {} div + {} sincos", self.mul, self.add, self.div, self.sin_cos)?;
         if self.other > 0 { write!(f, " + {} other", self.other) } else { Ok(()) }
+    }
+}
+
+impl Instruction {
+    /// The operands that it has.
+    pub fn operands(&self) -> impl Iterator<Item = Operand> {
+        [self.a, self.b].into_iter().take(self.operation.arity())
     }
 }
 
@@ -203,10 +237,10 @@ impl Program {
                 Operation::Mul => count.mul += 1,
                 Operation::Add | Operation::Sub | Operation::Neg => count.add += 1,
                 Operation::Div => count.div += 1,
-                Operation::Call(Function::Sin | Function::Cos) => {
+                Operation::Call(function) if function.is_turn() => {
                     angles.insert(instruction.a);
                 }
-                Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => count.other += 1,
+                Operation::Call(_) | Operation::Spline(..) => count.other += 1,
             }
         }
         count.sin_cos = angles.len() as u32;
@@ -246,16 +280,15 @@ impl Program {
     }
 
     /// An operation on numbers.
-    pub fn apply(&self, operation: Operation, a: f64, b: f64) -> f64 {
+    pub fn apply<T: Numeric>(&self, operation: Operation, a: T, b: T) -> T {
         match operation {
             Operation::Add => a + b,
             Operation::Sub => a - b,
             Operation::Mul => a * b,
             Operation::Div => a / b,
             Operation::Neg => -a,
-            Operation::Call(function) => (function.row().value)(a, 0.0),
-            Operation::Call2(function) => (function.row().value)(a, b),
-            Operation::Spline(spline, order) => self.splines[spline.index()].derivative(order, a),
+            Operation::Call(function) => a.call(function, b),
+            Operation::Spline(spline, order) => a.spline(&self.splines[spline.index()], order),
         }
     }
 
@@ -264,11 +297,15 @@ impl Program {
         self.evaluate_with(symbol, &|at| hoisted[at])
     }
 
-    /// Runs the program, with hoisted values from a function.
-    pub fn evaluate_with(&self, symbol: &dyn Fn(Symbol) -> f64, hoisted: &dyn Fn(usize) -> f64) -> Vec<f64> {
-        let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
-        let read = |operand: Operand, values: &[f64]| match operand {
-            Operand::Number(number) => number.to_f64(),
+    /// Runs the program in any kind of number, with hoisted values from a function.
+    pub fn evaluate_with<T: Numeric>(
+        &self,
+        symbol: &dyn Fn(Symbol) -> T,
+        hoisted: &dyn Fn(usize) -> T,
+    ) -> Vec<T> {
+        let mut values: Vec<T> = Vec::with_capacity(self.instructions.len());
+        let read = |operand: Operand, values: &[T]| match operand {
+            Operand::Number(number) => T::number(number),
             Operand::Symbol(s) => symbol(s),
             Operand::Hoisted(at) => hoisted(at),
             Operand::Value(at) => values[at],

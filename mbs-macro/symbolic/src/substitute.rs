@@ -5,7 +5,6 @@ use rustc_hash::FxHashMap;
 
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
-use crate::operators::Function;
 
 impl Arena {
     /// The expression with every symbol that `values` has replaced by its value
@@ -56,9 +55,7 @@ impl Arena {
                 let factors: Vec<_> = factors.iter().map(|(factor, e)| (known[factor], *e)).collect();
                 self.product(&factors)
             }
-            Node::Call(function, x) => self.call(function, known[&x]),
-            Node::Call2(Function::Pow, x, y) => self.pow(known[&x], known[&y]),
-            Node::Call2(function, x, y) => self.call2(function, known[&x], known[&y]),
+            Node::Call(function, both) => self.apply(function, both.map(|x| known[&x])),
             Node::Spline(spline, order, x) => self.spline_derivative(spline, order, known[&x]),
             Node::Shared(x) => self.share(known[&x]),
         }

@@ -102,10 +102,6 @@ impl Tangent {
             }
             Operation::Neg => grows.negative(along_a),
             Operation::Call(function) => {
-                let [slope, _] = grows.slopes(function, [a, a, result], [true, false])?;
-                grows.product(slope, along_a)
-            }
-            Operation::Call2(function) => {
                 let is_active = [a, b].map(|operand| active.contains(&operand));
                 let [slope_a, slope_b] = grows.slopes(function, [a, b, result], is_active)?;
                 let [first, second] = [grows.product(slope_a, along_a), grows.product(slope_b, along_b)];

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
+use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Number, Operand, Program, Stage, Symbol, lower, lower_whole};
 use proptest::prelude::*;
 

@@ -8,9 +8,10 @@ mod common;
 
 use std::collections::{BTreeSet, HashSet};
 
-use common::{Jet, Num, Tree, VARIABLES, config, every_operator, points, trees};
+use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{
-    Arena, Expr, FUNCTIONS, Hoisted, Number, Operand, Operation, Program, Stage, Symbol, lower, lower_whole,
+    Arena, Expr, FUNCTIONS, Hoisted, Number, Operand, Operation, Program, Rounded, Stage, Symbol, lower,
+    lower_whole,
 };
 use proptest::prelude::*;
 use rustc_hash::FxHashMap as HashMap;
@@ -50,7 +51,7 @@ fn values(x: [f64; VARIABLES], v: [f64; VARIABLES]) -> impl Fn(Symbol) -> f64 {
     move |symbol| if symbol.index() < VARIABLES { x[symbol.index()] } else { v[symbol.index() - VARIABLES] }
 }
 
-fn assert_agrees(what: &str, expected: Num, found: f64) -> Result<(), TestCaseError> {
+fn assert_agrees(what: &str, expected: Rounded, found: f64) -> Result<(), TestCaseError> {
     prop_assert!(
         expected.agrees_with(found),
         "{what}: {expected:?} and {found:e}, {:e}",

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
+use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proptest::prelude::*;
 use rustc_hash::FxHashMap as HashMap;
@@ -27,7 +27,7 @@ fn setting() -> Setting {
 /// magnifies; both bounds are added.
 fn check_values(outer: &Tree, inner: &Tree, x: [f64; VARIABLES]) -> Result<(), TestCaseError> {
     let Setting { mut arena, symbols, variables } = setting();
-    let point: Vec<_> = x.iter().map(|&x| Jet::constant(x)).collect();
+    let point: Vec<_> = x.iter().map(|&x| Jet::line(x, 0.0)).collect();
     let inner_value = inner.jet(&point);
     prop_assume!(inner_value.is_some());
     let inner_value = inner_value.unwrap().value;
@@ -86,7 +86,7 @@ proptest! {
     #[test]
     fn replacements_are_not_replaced_again(tree in trees(), x in points()) {
         let Setting { mut arena, symbols, variables } = setting();
-        let point: Vec<_> = x.iter().map(|&x| Jet::constant(x)).collect();
+        let point: Vec<_> = x.iter().map(|&x| Jet::line(x, 0.0)).collect();
         let Some(expected) = tree.jet(&point) else { return Ok(()) };
         let Some(expr) = tree.build(&mut arena, &variables) else { return Ok(()) };
         let exchange = HashMap::from_iter([(symbols[0], variables[1]), (symbols[1], variables[0])]);

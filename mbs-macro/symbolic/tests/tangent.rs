@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Jet, Tree, VARIABLES, config, every_operator, points, trees};
+use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Hoisted, Number, Operand, Spline, Stage, lower, lower_whole};
 use proptest::prelude::*;
 

@@ -114,7 +114,7 @@ impl Follower<'_> {
                 let partner = self.pairs.partner(at)?;
                 (self.holds(a, step.a).is_some(), [(cosine, at), (sine, partner)])
             }
-            (Operation::Call(f) | Operation::Call2(f), Instruction::Call(called, [to, a, b])) => {
+            (Operation::Call(f), Instruction::Call(called, [to, a, b])) => {
                 self.holds(b, step.b)?;
                 (f == called && self.holds(a, step.a).is_some(), [(to, at), (to, at)])
             }

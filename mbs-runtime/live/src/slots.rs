@@ -163,7 +163,7 @@ impl Allocator {
             (Operation::Mul, _) => Instruction::Mul(slots),
             (Operation::Div, _) => Instruction::Div(slots),
             (Operation::Neg, _) => Instruction::Neg([to, a]),
-            (Operation::Call(function) | Operation::Call2(function), _) => Instruction::Call(function, slots),
+            (Operation::Call(function), _) => Instruction::Call(function, slots),
             (Operation::Spline(spline, order), _) => {
                 Instruction::Spline { order, spline: spline.index() as u32, slots: [to, a] }
             }

@@ -45,8 +45,7 @@ pub fn sizes(arena: &Arena, roots: &[Expr], symbol: &dyn Fn(Symbol) -> f64) -> V
                 Sized { value, terms: value.abs(), size: product.size * size }
             })
         }
-        Node::Call(function, x) => Sized::of((function.row().value)(values.of(*x).value, 0.0)),
-        Node::Call2(function, x, y) => {
+        Node::Call(function, [x, y]) => {
             Sized::of((function.row().value)(values.of(*x).value, values.of(*y).value))
         }
         Node::Spline(spline, order, x) => {

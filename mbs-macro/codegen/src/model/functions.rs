@@ -109,7 +109,7 @@ impl Scope<'_> {
         let values: Vec<_> = arguments.iter().map(|argument| self.formula(argument, place, errors)).collect();
         let values: Vec<_> = values.into_iter().collect::<Option<_>>()?;
         let dimension = errors.take(function_dimension(function, name, arguments, &values))?;
-        if let (Function::Sin | Function::Cos | Function::Tan, [argument]) = (function, arguments) {
+        if let (Some(_), [argument]) = (function.row().of_turn, arguments) {
             errors.take(in_radians(argument))?;
         }
         let expr = match values[..] {
@@ -123,7 +123,6 @@ impl Scope<'_> {
                 return None;
             }
             [x] => self.arena.call(function, x.expr),
-            [x, y] if function == Function::Pow => self.arena.pow(x.expr, y.expr),
             [x, y] => self.arena.call2(function, x.expr, y.expr),
             _ => return None,
         };

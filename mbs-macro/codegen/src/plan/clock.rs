@@ -6,7 +6,7 @@
 //!
 //! Ensembles use this. A single run would not gain, since its sines are computed two at a time anyway.
 
-use mbs_symbolic::{Inconsistency, Operand, Operation, Program, probe};
+use mbs_symbolic::{Inconsistency, Operand, Program, probe};
 use rustc_hash::FxHashMap as HashMap;
 
 use super::step::{Fusion, Kinds};
@@ -101,10 +101,7 @@ impl Clock {
                 end: a.end.or(b.end),
             });
             if let Some(Timed { value, end: Some(end) }) = value
-                && matches!(
-                    instruction.operation,
-                    Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..)
-                )
+                && instruction.operation.is_function()
             {
                 functions.push(Function { instruction: at, at: self.place(value), end });
             }

@@ -6,9 +6,9 @@
 //! * `closure` assembles the mechanism from its start by `programs`, as the runtime will do it. `start`
 //!   holds declared values to a thousandth of the mechanism.
 //! * `span` follows the span that `closes` promises, by continuation from the start.
-//! * `validation` runs the programs at random points against `jets`, which take derivatives by the chain
-//!   rule on numbers. Bounds of running errors say how far they may differ (`rounding`). A disagreement is
-//!   an error that asks for a report.
+//! * `validation` runs the programs at random points against jets, which take derivatives by the chain
+//!   rule on numbers. Bounds of running errors say how far they may differ. A disagreement is an error that
+//!   asks for a report.
 //!
 //! Three more things are run as they are written and compared to the bit, each where it is made: a fused
 //! step against its stages (`plan/step.rs`), pairs against their program (`pairs` of `mbs-symbolic`), and
@@ -17,9 +17,7 @@
 //! Checks on equations, before the plan, stand in `independence`.
 
 mod closure;
-mod jets;
 mod programs;
-mod rounding;
 mod span;
 mod start;
 mod validation;

@@ -8,11 +8,9 @@ mod functions;
 mod solutions;
 
 use mbs_interface::FunctionId;
-use mbs_symbolic::{Expr, Operand, Program, Symbol, Tape};
+use mbs_symbolic::{Expr, Operand, Program, Rounded, Symbol, Tape};
 
 use self::bodies::{Bodies, evaluate};
-use super::jets::{self, Jet};
-use super::rounding::{Rounded, run};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::independence::Samples;
@@ -101,6 +99,14 @@ fn has_extreme_numbers(model: &Model, plan: &Plan) -> bool {
     in_code || model.parameters.iter().any(|parameter| is_extreme(parameter.value))
 }
 
+/// Rows and their derivatives along a curve.
+type Jet = mbs_symbolic::Jet<Rounded>;
+
+/// The results of a program with the bounds of their errors.
+fn run(program: &Program, symbol: &dyn Fn(Symbol) -> f64, hoisted: &[Rounded]) -> Vec<Rounded> {
+    program.evaluate_with(&|s| Rounded::exact(symbol(s)), &|at| hoisted[at])
+}
+
 /// The result of a check; its error is the fault in words.
 type Check = Result<(), String>;
 
@@ -121,13 +127,14 @@ impl Point<'_> {
 
     /// Φ along q + s·first + s²/2·second, t + s·rate.
     fn phi(&self, first: &dyn Fn(usize) -> f64, second: &dyn Fn(usize) -> f64, rate: f64) -> Vec<Jet> {
-        jets::evaluate(self.tape, &self.model.arena, &|symbol| {
-            let value = (self.symbol)(symbol);
-            match self.model.meanings.get(symbol.index()) {
-                Some(Meaning::Time) => Jet::curve(value, rate, 0.0),
-                Some(Meaning::Coordinate(at)) => Jet::curve(value, first(*at), second(*at)),
-                _ => Jet::curve(value, 0.0, 0.0),
-            }
+        self.tape.jets(&self.model.arena, &|symbol| {
+            let (first, second) = match self.model.meanings.get(symbol.index()) {
+                Some(Meaning::Time) => (rate, 0.0),
+                Some(Meaning::Coordinate(at)) => (first(*at), second(*at)),
+                _ => (0.0, 0.0),
+            };
+            let [value, first, second] = [(self.symbol)(symbol), first, second].map(Rounded::exact);
+            Jet { value, first, second }
         })
     }
 

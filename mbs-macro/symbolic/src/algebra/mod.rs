@@ -23,6 +23,7 @@ use rustc_hash::FxHashMap as HashMap;
 use std::cell::RefCell;
 
 use crate::arena::{Arena, Expr, Node, Symbol};
+use crate::arithmetic::Arithmetic;
 use crate::number::Number;
 use crate::operators::Function;
 
@@ -109,7 +110,7 @@ impl<'a> Scalar<'a> {
     /// The function of one argument whose value it is, if it is one.
     pub fn function(self) -> Option<Function> {
         self.algebra.read(self.expr, |arena, expr| match arena.node(expr) {
-            Node::Call(function, _) => Some(*function),
+            Node::Call(function, _) if function.row().arity == 1 => Some(*function),
             _ => None,
         })
     }
@@ -141,57 +142,57 @@ impl<'a> Scalar<'a> {
 
     /// √x
     pub fn sqrt(self) -> Self {
-        self.call(Function::Sqrt)
+        self.of(Function::Sqrt)
     }
 
     /// sin x
     pub fn sin(self) -> Self {
-        self.call(Function::Sin)
+        self.of(Function::Sin)
     }
 
     /// cos x
     pub fn cos(self) -> Self {
-        self.call(Function::Cos)
+        self.of(Function::Cos)
     }
 
     /// tanh x
     pub fn tanh(self) -> Self {
-        self.call(Function::Tanh)
+        self.of(Function::Tanh)
     }
 
     /// ln x
     pub fn ln(self) -> Self {
-        self.call(Function::Ln)
+        self.of(Function::Ln)
     }
 
     /// −1, 0 or 1
     pub fn sign(self) -> Self {
-        self.call(Function::Sign)
+        self.of(Function::Sign)
     }
 
     /// |x|
     pub fn abs(self) -> Self {
-        self.call(Function::Abs)
+        self.of(Function::Abs)
     }
 
     /// The angle of the vector (x, y), of y.
     pub fn atan2(self, x: Self) -> Self {
-        self.call2(Function::Atan2, x)
+        self.call(Function::Atan2, x)
     }
 
     /// The smaller one; at equal values, with the slope of the second.
     pub fn min(self, other: Self) -> Self {
-        self.call2(Function::Min, other)
+        self.call(Function::Min, other)
     }
 
     /// The larger one; at equal values, with the slope of the second.
     pub fn max(self, other: Self) -> Self {
-        self.call2(Function::Max, other)
+        self.call(Function::Max, other)
     }
 
     /// 1 if it is larger than the other one, else 0.
     pub fn greater(self, other: Self) -> Self {
-        self.call2(Function::Greater, other)
+        self.call(Function::Greater, other)
     }
 
     /// ∂x/∂symbol
@@ -208,14 +209,24 @@ impl<'a> Scalar<'a> {
     pub fn substitute(self, values: &HashMap<Symbol, Expr>) -> Self {
         self.algebra.make((self.expr, values), |arena, (x, values)| arena.substitute(x, values))
     }
+}
 
-    fn call(self, function: Function) -> Self {
-        self.algebra.make((function, self.expr), |arena, (function, x)| arena.call(function, x))
+impl Arithmetic for Scalar<'_> {
+    fn constant(self, value: i64) -> Self {
+        self.algebra.number(value)
     }
 
-    fn call2(self, function: Function, y: Self) -> Self {
-        let operands = (function, self.expr, y.expr);
-        self.algebra.make(operands, |arena, (function, x, y)| arena.call2(function, x, y))
+    fn half(self) -> Self {
+        self / 2
+    }
+
+    fn call(self, function: Function, y: Self) -> Self {
+        self.algebra
+            .make((function, [self.expr, y.expr]), |arena, (function, both)| arena.apply(function, both))
+    }
+
+    fn is_number(self) -> bool {
+        self.number().is_some()
     }
 }
 

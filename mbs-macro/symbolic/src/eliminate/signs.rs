@@ -103,7 +103,7 @@ impl Arena {
                 factors.iter().all(|(factor, exponent)| exponent % 2 == 0 || self.is_not_negative(*factor))
             }
             Node::Call(function, _) => function.row().range == Range::NotNegative,
-            Node::Call2(..) | Node::Spline(..) => false,
+            Node::Spline(..) => false,
             Node::Shared(x) => self.is_not_negative(x),
         }
     }

@@ -3,7 +3,6 @@
 use super::residue::Residue;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
-use crate::operators::Function;
 
 /// Angles are divided into this many parts, so that fractions of them are known too.
 const PARTS: i64 = 5040;
@@ -68,23 +67,23 @@ impl Point {
                     combined(product, self.values[factor.index()], |a, b| Some(a * b.power(exponent.into())?))
                 })
             }
-            Node::Call(Function::Sin, angle) => self.of_turn(arena, *angle, Residue::sine),
-            Node::Call(Function::Cos, angle) => self.of_turn(arena, *angle, Residue::cosine),
-            Node::Call(Function::Tan, angle) => {
-                self.of_turn(arena, *angle, |turn| Some(turn.sine()? * turn.cosine()?.inverse()?))
-            }
-            Node::Call(..) | Node::Call2(..) | Node::Spline(..) => Exact {
-                residue: Some(Residue::stand_in_integer(REASON_NODE, expr.index() as u64)),
-                is_whole: false,
+            Node::Call(function, [angle, _]) => match function.row().of_turn {
+                Some(of_turn) => {
+                    let turn = turn(arena, *angle);
+                    Exact { residue: turn.residue.and_then(of_turn), is_whole: turn.is_whole }
+                }
+                None => itself(expr),
             },
+            Node::Spline(..) => itself(expr),
             Node::Shared(inner) => self.values[inner.index()],
         }
     }
+}
 
-    fn of_turn(&self, arena: &Arena, angle: Expr, function: impl Fn(Residue) -> Option<Residue>) -> Exact {
-        let turn = turn(arena, angle);
-        Exact { residue: turn.residue.and_then(function), is_whole: turn.is_whole }
-    }
+/// A value without an exact rule.
+fn itself(expr: Expr) -> Exact {
+    let residue = Residue::stand_in_integer(REASON_NODE, expr.index() as u64);
+    Exact { residue: Some(residue), is_whole: false }
 }
 
 /// The turn exp(i x) by an angle: the product of those by its terms.

@@ -152,6 +152,11 @@ impl Residue {
         let twice = Self::turn(1, 2)? * Self::integer(2);
         Some((self - self.inverse()?) * twice.inverse()?)
     }
+
+    /// tan x of the turn exp(i x).
+    pub fn tangent(self) -> Option<Self> {
+        Some(self.sine()? * self.cosine()?.inverse()?)
+    }
 }
 
 impl Add for Residue {

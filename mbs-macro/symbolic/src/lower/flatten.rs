@@ -28,8 +28,8 @@ pub(super) enum Definition {
     Product(Vec<Value>),
     /// Sum of values, each negated or not, sorted, none of them with both signs.
     Sum(Vec<Signed>),
-    Call(Function, Value),
-    Call2(Function, Value, Value),
+    /// f(x, y), or f(x) with x twice
+    Call(Function, [Value; 2]),
     Spline(SplineId, u8, Value),
     Reciprocal(Value),
     Negative(Value),
@@ -41,8 +41,8 @@ impl Definition {
             Self::Leaf(_) => {}
             Self::Product(factors) => factors.iter().copied().for_each(each),
             Self::Sum(summands) => summands.iter().for_each(|summand| each(summand.value)),
-            Self::Call(_, x) | Self::Spline(.., x) | Self::Reciprocal(x) | Self::Negative(x) => each(*x),
-            Self::Call2(_, x, y) => [*x, *y].into_iter().for_each(each),
+            Self::Call(function, both) => function.arguments(both).iter().copied().for_each(each),
+            Self::Spline(.., x) | Self::Reciprocal(x) | Self::Negative(x) => each(*x),
         }
     }
 }
@@ -200,21 +200,16 @@ impl Flattening<'_> {
                 let terms = terms.clone();
                 self.sum(constant, terms)
             }
-            Node::Call(function, x) => {
-                let x = self.value(x);
+            Node::Call(function, both) => {
                 let is_even = function.row().parity == Parity::Even;
-                let x = if is_even { x.value } else { self.flat.settle(x) };
-                Signed::plus(self.flat.define(Definition::Call(function, x)))
+                let both = both.map(|x| self.value(x));
+                let both = both.map(|x| if is_even { x.value } else { self.flat.settle(x) });
+                Signed::plus(self.flat.define(Definition::Call(function, both)))
             }
             Node::Spline(spline, order, x) => {
                 let x = self.value(x);
                 let x = self.flat.settle(x);
                 Signed::plus(self.flat.define(Definition::Spline(spline, order, x)))
-            }
-            Node::Call2(function, x, y) => {
-                let (x, y) = (self.value(x), self.value(y));
-                let (x, y) = (self.flat.settle(x), self.flat.settle(y));
-                Signed::plus(self.flat.define(Definition::Call2(function, x, y)))
             }
         }
     }

@@ -14,8 +14,8 @@ pub(super) fn order(flat: &Flat, outputs: &[Value], unrolled: usize) -> Vec<Valu
     let order = depth_first(flat, outputs);
     let is_leaf = |value: Value| matches!(flat.definitions[value], Definition::Leaf(_));
     let of_inputs = |value: &Value| match flat.definitions[*value] {
-        Definition::Call(_, x) | Definition::Spline(.., x) => is_leaf(x),
-        Definition::Call2(_, x, y) => is_leaf(x) && is_leaf(y),
+        Definition::Call(_, [x, y]) => is_leaf(x) && is_leaf(y),
+        Definition::Spline(.., x) => is_leaf(x),
         _ => false,
     };
     let mut roots: Vec<Value> = order.iter().copied().filter(of_inputs).collect();
@@ -25,7 +25,7 @@ pub(super) fn order(flat: &Flat, outputs: &[Value], unrolled: usize) -> Vec<Valu
     }
     // sine and cosine of an angle side by side, the angles in the order of the components
     let input = |&value: &Value| match flat.definitions[value] {
-        Definition::Call(_, x) | Definition::Spline(.., x) => match flat.definitions[x] {
+        Definition::Call(_, [x, _]) | Definition::Spline(.., x) => match flat.definitions[x] {
             Definition::Leaf(Operand::Symbol(symbol)) => symbol.index(),
             _ => usize::MAX,
         },

@@ -91,13 +91,9 @@ impl Schedule<'_> {
                 Some(gathered) => self.positive(gathered),
                 None => self.sum(summands),
             },
-            Definition::Call(function, x) => {
-                let x = self.operands[*x];
-                self.push(Operation::Call(*function), x, x)
-            }
-            Definition::Call2(function, x, y) => {
-                let (x, y) = (self.operands[*x], self.operands[*y]);
-                self.push(Operation::Call2(*function), x, y)
+            Definition::Call(function, both) => {
+                let [x, y] = both.map(|x| self.operands[x]);
+                self.push(Operation::Call(*function), x, y)
             }
             Definition::Spline(spline, order, x) => {
                 let x = self.operands[*x];

@@ -137,7 +137,7 @@ pub(crate) fn kind(instruction: &Instruction) -> Option<Kind> {
 }
 
 pub(crate) fn is_sine_or_cosine(instruction: &Instruction) -> bool {
-    matches!(instruction.operation, Operation::Call(Function::Sin | Function::Cos))
+    instruction.operation.turn().is_some()
 }
 
 /// The ways to line up the operands of two instructions of one kind beside first with first
@@ -168,7 +168,7 @@ fn matchings<'a>(
 }
 
 fn commutes(instruction: &Instruction) -> bool {
-    matches!(instruction.operation, Operation::Add | Operation::Mul)
+    instruction.operation.commutes()
 }
 
 impl Woven {

@@ -74,7 +74,7 @@ impl Weaver<'_> {
             (Some(Partner { other, lane: Lane::Second }), _) => {
                 Scalar::Lane(self.pair((Operand::Value(other), operand), false), Lane::Second)
             }
-            (None, Operation::Call(function @ (Function::Sin | Function::Cos))) => {
+            (None, Operation::Call(function)) if function.is_turn() => {
                 self.sine_or_cosine(function, instruction.a)
             }
             (None, operation) => {

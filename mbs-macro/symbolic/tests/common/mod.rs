@@ -1,15 +1,11 @@
-//! Source expressions as plain trees, evaluated without the engine: with
-//! second-order jets whose every component knows a bound of its rounding error.
+//! Source expressions as plain trees, evaluated without the algebra of expressions: with second-order jets whose
+//! every component knows a bound of its rounding error.
 #![allow(dead_code, unused_imports, clippy::unwrap_used, reason = "each test uses its part of this")]
 
-mod jet;
-mod number;
 mod trees;
 
-use mbs_symbolic::{Arena, Expr, Function, Number};
+use mbs_symbolic::{Arena, Arithmetic, Expr, Function, Moving, Number, Numeric, Rounded};
 
-pub use self::jet::Jet;
-pub use self::number::Num;
 pub use self::trees::{VARIABLES, config, every_operator, points, trees};
 
 /// An expression as it was written.
@@ -61,10 +57,6 @@ impl Tree {
                 let a = a.build(arena, variables)?;
                 arena.call(*function, a)
             }
-            Self::Call2(Function::Pow, a, b) => {
-                let (a, b) = (a.build(arena, variables)?, b.build(arena, variables)?);
-                arena.pow(a, b)
-            }
             Self::Call2(function, a, b) => {
                 let (a, b) = (a.build(arena, variables)?, b.build(arena, variables)?);
                 arena.call2(*function, a, b)
@@ -75,19 +67,71 @@ impl Tree {
     /// Value and derivatives; `None` outside the smooth domain, or so near its
     /// edge that rounding decides.
     pub fn jet(&self, variables: &[Jet]) -> Option<Jet> {
-        let jet = match self {
-            Self::Number(n, d) => Jet::constant(*n as f64 / *d as f64),
+        let variables: Vec<_> = variables.iter().map(|&jet| jet.into()).collect();
+        self.moving(&variables).map(Jet::from)
+    }
+
+    fn moving(&self, variables: &[Moving<Moving<Rounded>>]) -> Option<Moving<Moving<Rounded>>> {
+        let of = |tree: &Self| tree.moving(variables);
+        let moving = match self {
+            Self::Number(n, d) => Jet::line(*n as f64 / *d as f64, 0.0).into(),
             Self::Variable(at) => variables[*at],
-            Self::Add(a, b) => a.jet(variables)? + b.jet(variables)?,
-            Self::Sub(a, b) => a.jet(variables)? - b.jet(variables)?,
-            Self::Mul(a, b) => a.jet(variables)? * b.jet(variables)?,
-            Self::Div(a, b) => a.jet(variables)? * b.jet(variables)?.power(-1)?,
-            Self::Neg(a) => -a.jet(variables)?,
-            Self::Power(a, e) => a.jet(variables)?.power(*e)?,
-            Self::Call(function, a) => a.jet(variables)?.call(*function)?,
-            Self::Call2(function, a, b) => a.jet(variables)?.call2(*function, b.jet(variables)?)?,
+            Self::Add(a, b) => of(a)? + of(b)?,
+            Self::Sub(a, b) => of(a)? - of(b)?,
+            Self::Mul(a, b) => of(a)? * of(b)?,
+            Self::Div(a, b) => of(a)? / of(b)?,
+            Self::Neg(a) => -of(a)?,
+            Self::Power(a, 0) => of(a)?.constant(1),
+            Self::Power(a, e) => of(a)?.powi(*e),
+            Self::Call(function, a) => of(a)?.of(*function),
+            Self::Call2(function, a, b) => {
+                let (a, b) = (of(a)?, of(b)?);
+                let [y, x] = [a, b].map(|x| Jet::from(x).value.value);
+                // where the angle of a vector jumps, −0 is not 0
+                if *function == Function::Atan2 && x <= 0.0 && y.abs() < 1e-2 {
+                    return None;
+                }
+                a.call(*function, b)
+            }
         };
-        let is_sane = |x: Num| x.value.abs() < 1e6 && x.tolerance() < 1e-3 * (1.0 + x.value.abs());
-        (is_sane(jet.value) && is_sane(jet.first) && is_sane(jet.second)).then_some(jet)
+        let Jet { value, first, second } = moving.into();
+        let is_sane = |x: Rounded| x.value.abs() < 1e6 && x.tolerance() < 1e-3 * (1.0 + x.value.abs());
+        [value, first, second].into_iter().all(is_sane).then_some(moving)
+    }
+}
+
+/// x, ẋ and ẍ with bounds of their errors.
+pub type Jet = mbs_symbolic::Jet<Rounded>;
+
+/// Jets along straight lines.
+pub trait Line {
+    /// x + s·slope of numbers that were rounded.
+    fn line(x: f64, slope: f64) -> Self;
+}
+
+impl Line for Jet {
+    fn line(x: f64, slope: f64) -> Self {
+        let [value, first] = [x, slope].map(|x| Rounded { value: x, error: f64::EPSILON * x.abs() });
+        Self { value, first, second: Rounded::default() }
+    }
+}
+
+/// Comparisons of numbers that know their rounding error.
+pub trait Tolerance {
+    /// How far another arrangement of the same formula may be from this one.
+    /// Both have errors of this size; canonical forms reorder and collect,
+    /// which changes the bound by a factor that 64 covers.
+    fn tolerance(&self) -> f64;
+    /// Whether another arrangement of the same formula may give this number.
+    fn agrees_with(&self, other: f64) -> bool;
+}
+
+impl Tolerance for Rounded {
+    fn tolerance(&self) -> f64 {
+        64.0 * (self.error + f64::EPSILON * self.value.abs())
+    }
+
+    fn agrees_with(&self, other: f64) -> bool {
+        (self.value - other).abs() <= self.tolerance()
     }
 }

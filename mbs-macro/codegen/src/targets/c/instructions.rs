@@ -187,8 +187,9 @@ impl Target<'_> {
             Operation::Mul => format!("{a} * {b}"),
             Operation::Div => format!("{a} / {b}"),
             Operation::Neg => format!("-{a}"),
-            Operation::Call(function) => format!("{}({a})", self.function(function)),
-            Operation::Call2(function) => format!("{}({a}, {b})", self.function(function)),
+            Operation::Call(function) => {
+                format!("{}({})", self.function(function), function.arguments(&[a, b]).join(", "))
+            }
             Operation::Spline(spline, order) => {
                 let prefix = &self.names.prefix;
                 format!("{prefix}_interpolate(&{prefix}_splines[{}], {order}, {a})", spline.index())
@@ -198,12 +199,9 @@ impl Target<'_> {
 
     /// The function of `math.h`, or one of those that are printed with the code.
     fn function(&self, function: Function) -> String {
-        let own = |name: &str| format!("{}_{name}", self.names.prefix);
-        match (function, function.row().c) {
-            (Function::Sin | Function::Cos, _) => own(function.row().name),
-            (Function::Greater, _) => own("greater"),
-            (_, Some(name)) => self.scalar.of_math(name),
-            (_, None) => own(function.row().name),
+        match function.row().c {
+            Some(name) => self.scalar.of_math(name),
+            None => format!("{}_{}", self.names.prefix, function.row().name),
         }
     }
 }

@@ -111,7 +111,7 @@ impl<'a> Writer<'a> {
     fn operation(&self, operation: Operation, a: Scalar, b: Scalar, read: Reader<'_>) -> TokenStream {
         let (a, b) = (self.scalar(a, read), self.scalar(b, read));
         match operation {
-            Operation::Call(_) | Operation::Call2(_) | Operation::Spline(..) => {
+            Operation::Call(_) | Operation::Spline(..) => {
                 let value =
                     tokens::operation(operation, &quote!(#a.get()), &quote!(#b.get()), self.mechanism);
                 single(&value)

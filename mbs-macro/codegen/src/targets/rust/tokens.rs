@@ -1,7 +1,7 @@
 //! Numbers, symbols and operations as tokens.
 
 use mbs_symbolic::layout::Component;
-use mbs_symbolic::{Function, Number, Operation, Symbol};
+use mbs_symbolic::{Number, Operation, Symbol};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -101,23 +101,16 @@ pub fn operation(
         Operation::Div => quote!(#a / #b),
         Operation::Neg => quote!(-#a),
         Operation::Call(function) => {
-            let method = method(function);
-            quote!(#a.#method())
-        }
-        Operation::Call2(function) => {
-            let method = method(function);
-            quote!(#a.#method(#b))
+            let method = Ident::new(function.row().name, Span::call_site());
+            let both = [a, b];
+            let others = function.arguments(&both).iter().skip(1);
+            quote!(#a.#method(#(#others),*))
         }
         Operation::Spline(spline, order) => {
             let (table, order) = (spline_name(spline.index()), Literal::u8_unsuffixed(order));
             quote!(#mechanism::#table.derivative(#order, #a))
         }
     }
-}
-
-/// The method of `Real` that computes a function.
-fn method(function: Function) -> Ident {
-    Ident::new(function.row().name, Span::call_site())
 }
 
 /// A number as a scalar.

@@ -1,7 +1,6 @@
 //! Functions that programs call: those of the host, and small ones of the module.
 
 use mbs_interface::sine::{COSINE, HALF_PI, RANGE, SHIFT, SINE};
-use mbs_symbolic::Function as Elementary;
 use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
 
 use super::memory::{HEAD, SEGMENT};
@@ -42,18 +41,17 @@ impl Helper {
     pub fn index(self) -> u32 {
         IMPORTS.len() as u32 + self as u32
     }
+
+    /// The one that computes the elementary function of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        [("min", Self::Min), ("max", Self::Max), ("sign", Self::Sign)]
+            .into_iter()
+            .find_map(|(of, helper)| (of == name).then_some(helper))
+    }
 }
 
-/// The position of an elementary function; nothing of those that are instructions.
-pub fn function_of(function: Elementary) -> Option<u32> {
-    let name = match function {
-        Elementary::Min => return Some(Helper::Min.index()),
-        Elementary::Max => return Some(Helper::Max.index()),
-        Elementary::Sign => return Some(Helper::Sign.index()),
-        Elementary::Sqrt | Elementary::Abs | Elementary::Greater => return None,
-        // the names of C are those of JavaScript
-        _ => function.row().c?,
-    };
+/// The position of a function of the host.
+pub fn import(name: &str) -> Option<u32> {
     IMPORTS.iter().position(|(import, _)| *import == name).map(|at| at as u32)
 }
 

@@ -6,7 +6,7 @@ use mbs_symbolic::{Inconsistency, Operation, Repetition};
 use wasm_encoder::{BlockType, MemArg};
 
 use super::Signature;
-use super::program::{Printer, fault, has_two, turn, word};
+use super::program::{Printer, fault, word};
 use super::slot::Slot;
 use crate::compiled::Vector;
 
@@ -100,7 +100,7 @@ impl<'a, 'b> Repeated<'a, 'b> {
         let step = &self.part.steps[at];
         let operation = self.printer.planned.program.instructions[self.part.repetition.start + at].operation;
         let local = self.steps[at];
-        if let Some(turn) = turn(operation) {
+        if let Some(turn) = operation.turn() {
             // the first of both brings the other
             if step.partner.is_some_and(|partner| partner < at) {
                 return Ok(());
@@ -109,7 +109,7 @@ impl<'a, 'b> Repeated<'a, 'b> {
             let partner = step.partner.map(|partner| self.steps[partner]);
             self.printer.turn(turn, local, partner);
         } else {
-            let count = 1 + usize::from(has_two(operation));
+            let count = operation.arity();
             self.operands(operation, &step.operands[..count])?;
             self.printer.sink().local_set(local);
         }

@@ -5,10 +5,12 @@
 use std::ops::Range;
 
 use mbs_symbolic::layout::{Array, Place as Kept};
-use mbs_symbolic::{Function as Elementary, Inconsistency, Instruction, Operand, Operation, Program, SinCos};
+use mbs_symbolic::{
+    Function as Elementary, Inconsistency, Instruction, Operand, Operation, Program, SinCos, Wasm,
+};
 use wasm_encoder::{Function, InstructionSink, MemArg, MemArgTarget, ValType};
 
-use super::helpers::{Helper, function_of};
+use super::helpers::{Helper, import};
 use super::memory::Memory;
 use super::slot::Slot;
 use super::{Planned, Signature, loops};
@@ -56,20 +58,7 @@ pub fn body(
 }
 
 fn operands_depth(instruction: &Instruction, depth_of: impl Fn(Operand) -> u32) -> u32 {
-    operands(instruction).map(depth_of).max().unwrap_or(0)
-}
-
-/// The operands that an instruction has.
-fn operands(instruction: &Instruction) -> impl Iterator<Item = Operand> {
-    [Some(instruction.a), has_two(instruction.operation).then_some(instruction.b)].into_iter().flatten()
-}
-
-/// Whether an operation has two operands.
-pub fn has_two(operation: Operation) -> bool {
-    match operation {
-        Operation::Add | Operation::Sub | Operation::Mul | Operation::Div | Operation::Call2(_) => true,
-        Operation::Neg | Operation::Call(_) | Operation::Spline(..) => false,
-    }
+    instruction.operands().map(depth_of).max().unwrap_or(0)
 }
 
 /// Writes instructions of a program.
@@ -133,7 +122,7 @@ impl Printer<'_> {
         let Program { instructions, outputs, .. } = self.planned.program;
         let start = self.range.start;
         let mut reads = vec![0_u32; self.range.len()];
-        let read = instructions[self.range.clone()].iter().flat_map(operands);
+        let read = instructions[self.range.clone()].iter().flat_map(Instruction::operands);
         let results = outputs.iter().copied().filter(|_| self.planned.layout.is_none());
         for operand in read.chain(results) {
             if let Operand::Value(at) = operand
@@ -150,7 +139,7 @@ impl Printer<'_> {
                 _ => 0,
             };
             let depth = 1 + operands_depth(instruction, depth_of);
-            if reads[at] == 1 && turn(instruction.operation).is_none() && depth < DEEPEST {
+            if reads[at] == 1 && instruction.operation.turn().is_none() && depth < DEEPEST {
                 depths[at] = depth;
                 self.places.push(Place::Stack);
             } else {
@@ -167,7 +156,7 @@ impl Printer<'_> {
         for at in self.range.clone() {
             let Place::Local(local) = self.place(at) else { continue };
             let instruction = &program.instructions[at];
-            let Some(turn) = turn(instruction.operation) else {
+            let Some(turn) = instruction.operation.turn() else {
                 self.value(at)?;
                 self.sink().local_set(local);
                 continue;
@@ -210,7 +199,7 @@ impl Printer<'_> {
     /// Leaves the result of an instruction on the stack.
     fn value(&mut self, at: usize) -> Result<(), Inconsistency> {
         let instruction = &self.planned.program.instructions[at];
-        for operand in operands(instruction) {
+        for operand in instruction.operands() {
             self.operand(operand)?;
         }
         self.operation(instruction.operation)
@@ -229,13 +218,18 @@ impl Printer<'_> {
             Operation::Mul => code.f64_mul(),
             Operation::Div => code.f64_div(),
             Operation::Neg => code.f64_neg(),
-            Operation::Call(Elementary::Sqrt) => code.f64_sqrt(),
-            Operation::Call(Elementary::Abs) => code.f64_abs(),
-            Operation::Call2(Elementary::Greater) => code.f64_gt().f64_convert_i32_u(),
-            Operation::Call(function) | Operation::Call2(function) => match function_of(function) {
-                Some(index) => code.call(index),
-                None => return Err(fault("every function has a code")),
-            },
+            Operation::Call(function) => {
+                let row = function.row();
+                let index = match row.wasm {
+                    Wasm::Code(bytes) => {
+                        self.code.extend(bytes);
+                        return Ok(());
+                    }
+                    Wasm::Host => row.c.and_then(import),
+                    Wasm::Module => Helper::named(row.name).map(Helper::index),
+                };
+                code.call(index.ok_or(fault("every function has a code"))?)
+            }
             Operation::Spline(_, order) => {
                 let address = spline.ok_or(fault("splines are in memory"))?;
                 code.i32_const(address as i32).i32_const(order.into()).call(Helper::Interpolate.index())
@@ -357,14 +351,6 @@ impl Printer<'_> {
             (true, None) => Err(fault("a function has the number that it returns")),
             (false, _) => Ok(()),
         }
-    }
-}
-
-/// Whether an operation is a sine or a cosine.
-pub fn turn(operation: Operation) -> Option<Elementary> {
-    match operation {
-        Operation::Call(turn @ (Elementary::Sin | Elementary::Cos)) => Some(turn),
-        _ => None,
     }
 }
 

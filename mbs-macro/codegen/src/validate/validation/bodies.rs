@@ -1,9 +1,7 @@
 //! The declared masses, inertias and gravity, in numbers.
 
-use mbs_symbolic::{Expr, Symbol, Tape};
+use mbs_symbolic::{Expr, Rounded, Symbol, Tape};
 
-use super::super::jets::{self, Jet};
-use super::super::rounding::Rounded;
 use crate::model::{Coordinate, Direction, Model};
 
 /// The mass or inertia of each coordinate, and gravity along x and y.
@@ -27,7 +25,5 @@ impl Bodies {
 
 /// The values of expressions.
 pub fn evaluate(model: &Model, roots: &[Expr], symbol: &dyn Fn(Symbol) -> f64) -> Vec<Rounded> {
-    let tape = Tape::new(&model.arena, roots);
-    let jets = jets::evaluate(&tape, &model.arena, &|s| Jet::curve(symbol(s), 0.0, 0.0));
-    jets.into_iter().map(|jet| jet.value).collect()
+    Tape::new(&model.arena, roots).evaluate(&model.arena, &|s| Rounded::exact(symbol(s)))
 }

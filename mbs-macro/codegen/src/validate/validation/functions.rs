@@ -2,10 +2,9 @@
 //! their running error bounds.
 
 use mbs_interface::FunctionId;
+use mbs_symbolic::Rounded;
 
-use super::super::jets::Jet;
-use super::super::rounding::Rounded;
-use super::{Check, DIRECTIONS, Point};
+use super::{Check, DIRECTIONS, Jet, Point};
 
 impl Point<'_> {
     /// Every function gives what its definition does.

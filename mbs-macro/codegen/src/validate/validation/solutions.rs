@@ -9,10 +9,9 @@
 use std::cell::Cell;
 
 use mbs_interface::FunctionId;
-use mbs_symbolic::{Program, Symbol};
+use mbs_symbolic::{Program, Rounded, Symbol};
 
-use super::super::rounding::{Rounded, run};
-use super::{Check, DIRECTIONS, Jet, Point};
+use super::{Check, DIRECTIONS, Jet, Point, run};
 use crate::inputs::Input;
 use crate::model::Meaning;
 
