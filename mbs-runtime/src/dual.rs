@@ -2,8 +2,9 @@
 //!
 //! # How derivatives get through a run
 //!
-//! A dual is a `Real`, so everything generic differentiates itself. At kinks it has the pieces of
-//! `operators.rs` of `mbs-symbolic`.
+//! A dual is a `Real`, so everything generic differentiates itself. Slopes are those of `operators.rs` of
+//! `mbs-symbolic`, at kinks too. They are written here once more, as the compiler is not there when a mechanism
+//! runs; `tests/tests/duals.rs` compares both.
 //!
 //! An iteration ends by its value, before its derivatives have converged. `Real::ORDER` more corrections are
 //! made then, in `start/assembly.rs` and `adaptive/attempt.rs`. The conjugate gradients of

@@ -27,7 +27,7 @@ pub trait Arithmetic:
     }
 }
 
-/// Numbers in which expressions and programs are evaluated.
+/// Numbers in which expressions and programs are evaluated; 0 by default.
 pub trait Numeric: Arithmetic + Default {
     /// A constant.
     fn number(number: Number) -> Self;

@@ -81,7 +81,7 @@ pub use latex::symbol_name as latex_name;
 pub use lower::{Hoisted, lower, lower_whole};
 pub use moving::{Jet, Moving};
 pub use number::Number;
-pub use operators::{Function, Latex, Parity, Pieces, Range, Row, TABLE as FUNCTIONS, Wasm};
+pub use operators::{Dimensions, Function, Latex, Parity, Pieces, Range, Row, TABLE as FUNCTIONS, Wasm};
 pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
 pub use rounding::Rounded;

@@ -24,6 +24,8 @@ pub struct Row {
     pub range: Range,
     /// What it is made of.
     pub pieces: Pieces,
+    /// The dimensions that its arguments and its value have.
+    pub dimensions: Dimensions,
     /// Its value of a constant, where it is as exact as the constant; of some none.
     pub of_number: Option<fn(Number) -> Option<Number>>,
     /// Its exact value at an angle, from the turn by that angle, where there is such a rule.
@@ -73,6 +75,19 @@ pub enum Pieces {
     Steps,
 }
 
+/// The dimensions of the arguments and the value of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimensions {
+    /// All are numbers or angles.
+    None,
+    /// All have the same.
+    Same,
+    /// The arguments have the same, the value none.
+    Lost,
+    /// The value has the root of that of the argument.
+    Root,
+}
+
 /// How a function is called in WebAssembly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wasm {
@@ -95,6 +110,7 @@ pub enum Latex {
     Name,
 }
 
+use Dimensions::{Lost, Root, Same};
 use Function as F;
 use Latex::{Around, Name, Operator};
 use Parity::{Even, Neither, Odd};
@@ -111,6 +127,7 @@ const UNARY: Row = Row {
     parity: Neither,
     range: All,
     pieces: One,
+    dimensions: Dimensions::None,
     of_number: None,
     of_turn: None,
     latency: 50,
@@ -157,10 +174,10 @@ macro_rules! functions {
 functions! {
     /// sin x
     Sin: "sin", |x, _| x.sin(), |x, _, _| one(x.of(F::Cos)),
-        { parity: Odd, range: Unit, of_turn: Some(Residue::sine), latex: Operator(r"\sin"), ..UNARY };
+        { parity: Odd, range: Unit, of_turn: Some(Residue::sine), wasm: Module, latex: Operator(r"\sin"), ..UNARY };
     /// cos x
     Cos: "cos", |x, _| x.cos(), |x, _, _| one(-x.of(F::Sin)),
-        { parity: Even, range: Unit, of_turn: Some(Residue::cosine), latex: Operator(r"\cos"), ..UNARY };
+        { parity: Even, range: Unit, of_turn: Some(Residue::cosine), wasm: Module, latex: Operator(r"\cos"), ..UNARY };
     /// tan x
     Tan: "tan", |x, _| x.tan(), |_, _, f| one(f.constant(1) + f * f),
         { parity: Odd, of_turn: Some(Residue::tangent), c: Some("tan"), latex: Operator(r"\tan"), ..UNARY };
@@ -175,7 +192,7 @@ functions! {
         { parity: Odd, c: Some("atan"), latex: Operator(r"\arctan"), ..UNARY };
     /// √x
     Sqrt: "sqrt", |x, _| x.sqrt(), |_, _, f| one(inverse(f).half()),
-        { range: NotNegative, of_number: Some(Number::sqrt), c: Some("sqrt"), wasm: Code(&[0x9f]),
+        { range: NotNegative, dimensions: Root, of_number: Some(Number::sqrt), c: Some("sqrt"), wasm: Code(&[0x9f]),
           latex: Around(r"\sqrt{", "}"), ..UNARY };
     /// eˣ
     Exp: "exp", |x, _| x.exp(), |_, _, f| one(f),
@@ -188,33 +205,33 @@ functions! {
         { parity: Odd, range: Unit, c: Some("tanh"), latex: Operator(r"\tanh"), ..UNARY };
     /// |x|
     Abs: "abs", |x, _| x.abs(), |x, _, _| one(x.of(F::Sign)),
-        { parity: Even, range: NotNegative, pieces: Kinked, of_number: Some(|x| Some(x.abs())), latency: 1, c: Some("fabs"),
-          wasm: Code(&[0x99]), latex: Around(r"\left|", r"\right|"), ..UNARY };
+        { parity: Even, range: NotNegative, pieces: Kinked, dimensions: Same, of_number: Some(|x| Some(x.abs())),
+          latency: 1, c: Some("fabs"), wasm: Code(&[0x99]), latex: Around(r"\left|", r"\right|"), ..UNARY };
     /// −1, 0, 1
     Sign: "sign", |x, _| if x == 0.0 || x.is_nan() { x } else { x.signum() }, |x, _, _| [x.constant(0); 2],
-        { parity: Odd, range: Unit, pieces: Steps, wasm: Module, ..UNARY };
+        { parity: Odd, range: Unit, pieces: Steps, dimensions: Lost, wasm: Module, ..UNARY };
     /// angle of the vector (second argument, first argument)
     Atan2: "atan2", f64::atan2, |y, x, _| {
             let inverse = inverse(y * y + x * x);
             [x * inverse, -(y * inverse)]
         },
-        { c: Some("atan2"), ..BINARY };
+        { dimensions: Lost, c: Some("atan2"), ..BINARY };
     /// smaller of two
     Min: "min", |x, y| if x < y || x.is_nan() { x } else { y }, |x, y, _| select(y, x),
-        { pieces: Kinked, wasm: Module, ..BINARY };
+        { pieces: Kinked, dimensions: Same, wasm: Module, ..BINARY };
     /// larger of two
     Max: "max", |x, y| if x > y || x.is_nan() { x } else { y }, |x, y, _| select(x, y),
-        { pieces: Kinked, wasm: Module, ..BINARY };
+        { pieces: Kinked, dimensions: Same, wasm: Module, ..BINARY };
     /// xʸ
     Pow: "pow", f64::powf, |x, y, f| {
             let along_x = y * x.call(F::Pow, y - y.constant(1));
-            // xʸ has no logarithm to offer where x < 0, and needs none where y is constant
+            // a constant exponent needs no logarithm, which a negative x does not have
             if y.is_number() { one(along_x) } else { [along_x, f * x.of(F::Ln)] }
         },
         { c: Some("pow"), ..BINARY };
     /// 1 if the first argument is larger, else 0
     Greater: "greater", |x, y| f64::from(u8::from(x > y)), |x, _, _| [x.constant(0); 2],
-        { is_word: false, range: Unit, pieces: Steps, wasm: Code(&[0x64, 0xb8]), ..BINARY };
+        { is_word: false, range: Unit, pieces: Steps, dimensions: Lost, wasm: Code(&[0x64, 0xb8]), ..BINARY };
 }
 
 impl Function {

@@ -7,16 +7,16 @@ use mbs_symbolic::{
     Row, Stage, Tape, lower_whole,
 };
 
-/// Arguments in the domain of every function, where no pieces meet.
+/// Arguments in the domain of every function, away from where pieces meet.
 const POINTS: [[f64; 2]; 3] = [[0.3, 0.7], [0.8, 0.2], [0.55, 0.6]];
 
-/// The arguments of a function of one argument are equal.
+/// The same, with equal arguments for a function of one.
 fn points(row: &Row) -> impl Iterator<Item = [f64; 2]> + use<> {
     let is_of_one = row.arity == 1;
     POINTS.into_iter().map(move |[x, y]| [x, if is_of_one { x } else { y }])
 }
 
-/// Values at a distance, and their mean slope to it: of the fourth order.
+/// f′(0) by differences of the fourth order.
 fn difference(f: impl Fn(f64) -> f64) -> f64 {
     let h = 1e-3;
     (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h)
@@ -39,7 +39,7 @@ fn slopes_are_those_of_values() {
     }
 }
 
-/// f of x + s and y − s/2 + s², of its program and of its jets, with their first and second derivatives by s.
+/// f(x + s, y − s/2 + s²) and two derivatives by s at s = 0: of expressions, programs, jets, tangents and transposes.
 #[test]
 fn all_ways_to_compute_agree() {
     for row in FUNCTIONS {
@@ -124,7 +124,6 @@ fn properties_hold() {
                     Range::Unit => assert!(value.abs() <= 1.0, "{}", row.name),
                 }
             }
-            // every third of a turn is known exactly, so that sums of them are numbers
             if let Some(of_turn) = row.of_turn {
                 let third = mbs_symbolic::Real::pi(2, 3);
                 assert!(third.turn().and_then(of_turn).is_some(), "{}", row.name);

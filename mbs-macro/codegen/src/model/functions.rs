@@ -1,7 +1,7 @@
 //! Function calls: the elementary ones, `der`, `lambda`, `effort` and `distance`.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Algebra, Function, Number, Symbol};
+use mbs_symbolic::{Algebra, Dimensions, Function, Number, Symbol};
 use proc_macro2::Ident;
 use rustc_hash::FxHashMap as HashMap;
 
@@ -278,10 +278,8 @@ fn function_dimension(
     values: &[Typed],
 ) -> Result<Option<Dimension>, Diagnostic> {
     let first = values.first().and_then(|value| value.dimension);
-    match function {
-        Function::Abs => Ok(first),
-        Function::Sign => Ok(Some(Dimension::NONE)),
-        Function::Sqrt => match first {
+    match function.row().dimensions {
+        Dimensions::Root => match first {
             None => Ok(None),
             Some(dimension) => dimension.power(Number::ratio(1, 2)).map(Some).ok_or_else(|| {
                 Diagnostic::new(
@@ -291,7 +289,7 @@ fn function_dimension(
                 .help("check the exponents of the argument")
             }),
         },
-        Function::Atan2 | Function::Min | Function::Max => {
+        lost_or_same @ (Dimensions::Lost | Dimensions::Same) => {
             let second = values.get(1).and_then(|value| value.dimension);
             if let (Some(a), Some(b)) = (first, second)
                 && a != b
@@ -302,10 +300,9 @@ fn function_dimension(
                 )
                 .help("both arguments need the same dimension"));
             }
-            let common = first.or(second);
-            Ok(if function == Function::Atan2 { Some(Dimension::NONE) } else { common })
+            Ok(if lost_or_same == Dimensions::Lost { Some(Dimension::NONE) } else { first.or(second) })
         }
-        _ => {
+        Dimensions::None => {
             for (argument, value) in arguments.iter().zip(values) {
                 if let Some(dimension) = value.dimension.filter(|d| *d != Dimension::NONE) {
                     return Err(Diagnostic::new(

@@ -41,7 +41,9 @@ impl Arena {
                 }
                 Some(self.product(&bounds))
             }
-            Node::Call(function, _) if function.row().range == Range::Unit => Some(self.one()),
+            Node::Call(function, _) if function.row().range == Range::Unit && function.row().arity == 1 => {
+                Some(self.one())
+            }
             Node::Shared(x) => self.bound(x),
             _ => None,
         }

@@ -300,7 +300,7 @@ impl<'a> Writer<'a> {
             is_plain.then(|| format!("{}_{argument}", function.row().name))
         };
         let suggested = instruction.name.clone().or_else(|| match instruction.operation {
-            Operation::Call(function) => of_call(function),
+            Operation::Call(function) if function.row().arity == 1 => of_call(function),
             _ => None,
         });
         let name = match suggested {
