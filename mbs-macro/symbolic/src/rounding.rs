@@ -130,6 +130,6 @@ impl Div for Rounded {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
-        self * other.recip()
+        self.mul(other.recip())
     }
 }
