@@ -7,18 +7,17 @@ mod minimum_norm;
 mod programs;
 mod step;
 mod system;
+mod unsolvable;
 
 use mbs_interface::FunctionId;
 use mbs_symbolic::{
-    Elimination, Expr, Hoisted, Inconsistency, Strategy, Undetermined, Unknown, WatchedPivot, lower,
-    lower_whole,
+    Elimination, Expr, Hoisted, Strategy, Undetermined, Unknown, WatchedPivot, lower, lower_whole,
 };
 
 use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
 use crate::inputs::Inputs;
 use crate::model::Model;
-use crate::reactive::Circular;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
 pub use clock::Clocked;
@@ -27,6 +26,7 @@ pub use programs::Programs;
 use programs::roots;
 pub use step::{FusedStep, Kinds};
 use system::{Problem, cheapest};
+pub use unsolvable::Unsolvable;
 
 /// The programs of all generated functions.
 pub struct Plan {
@@ -58,38 +58,6 @@ impl Plan {
     /// pivots included.
     pub fn operations(&self) -> u32 {
         self.programs[FunctionId::Stabilized].operations().total()
-    }
-}
-
-/// Why there is no plan.
-#[derive(Debug)]
-pub enum Unsolvable {
-    /// Unknowns that no pivot determines; `verify` has already seen to it that
-    /// there are none where the constraints are independent.
-    Unknowns(Undetermined),
-    /// A load that is undetermined by the reactions on which it depends.
-    Load(Circular),
-    /// A load that depends on reactions which redundant constraints share.
-    Shared,
-    /// A mistake of the compiler.
-    Inconsistent(Inconsistency),
-}
-
-impl From<Inconsistency> for Unsolvable {
-    fn from(mistake: Inconsistency) -> Self {
-        Self::Inconsistent(mistake)
-    }
-}
-
-impl From<Undetermined> for Unsolvable {
-    fn from(unknowns: Undetermined) -> Self {
-        Self::Unknowns(unknowns)
-    }
-}
-
-impl From<Circular> for Unsolvable {
-    fn from(load: Circular) -> Self {
-        Self::Load(load)
     }
 }
 

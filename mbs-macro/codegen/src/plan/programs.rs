@@ -6,8 +6,8 @@ use mbs_interface::{FunctionId, Property};
 use mbs_symbolic::{Expr, Hoisted, Inconsistency, Program, lower, lower_whole};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Unsolvable;
 use super::system::{self, Problem, Solver};
+use super::unsolvable::Unsolvable;
 use crate::derive::Equations;
 use crate::model::Model;
 use crate::stiff::Stiffness;

@@ -18,7 +18,8 @@ use mbs_symbolic::{
     Expr, Factorization, Hoisted, Kkt, Strategy, Sums, Undetermined, Unknown, factor, factor_within, lower,
 };
 
-use super::{Unsolvable, minimum_norm};
+use super::minimum_norm;
+use super::unsolvable::Unsolvable;
 use crate::derive::Equations;
 use crate::independence::Rows;
 use crate::inputs::Inputs;
