@@ -87,10 +87,6 @@ pub(super) fn signed(argument: Arg) -> Arg {
 }
 
 impl Named {
-    pub fn name(&self) -> &str {
-        &self.model
-    }
-
     pub fn find<'a>(&self, models: &'a Models) -> Result<Found<'a>, Error> {
         models.find(&self.model)
     }

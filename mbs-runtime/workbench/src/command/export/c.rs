@@ -40,7 +40,7 @@ Examples:
 impl Arguments {
     pub fn run(&self, models: &Models) -> Result<(), Error> {
         let found = self.model.find(models)?;
-        let text = found.model().text().ok_or_else(|| without_text(self.model.name()))?;
+        let text = found.model().text().ok_or_else(|| without_text(found.name()))?;
         let sources = text.c(match self.scalar {
             Type::Double => Scalar::Double,
             Type::Float => Scalar::Float,
