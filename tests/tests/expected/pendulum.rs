@@ -236,7 +236,7 @@ impl<T: ::mbs_runtime::Real> Pendulum<T> {
 }
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
-    /**Constraints Φ(q, t): 0 where the mechanism is assembled.
+    /**The constraints Φ(q, t): 0 where the mechanism is assembled.
 
 ```text
 rod: 1/2*(x^2 + y^2)/length - 1/2*length
@@ -246,7 +246,15 @@ rod: 1/2*(x^2 + y^2)/length - 1/2*length
 Cost: 3 mul + 2 add + 0 div + 0 sincos.*/
     #[inline(always)]
     pub fn phi(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {}
-    /**Partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
+    /**The constraint violation in velocities, Φ̇ = Φ_q v + Φ_t.
+
+Cost: 5 mul + 1 add + 0 div + 0 sincos.*/
+    #[inline(always)]
+    pub fn phi_dot(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> PendulumConstraints<T> {}
+    /**The partial time derivative Φ_t; velocities satisfy Φ_q v = −Φ_t.
 
 ```text
 rod: 0
@@ -254,14 +262,8 @@ rod: 0
 
 
 Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
-    #[inline]
-    pub fn phi_t(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {}
-    /// Φ̇ = Φ_q v + Φ_t, the constraint violation in velocities.
     #[inline(always)]
-    pub fn phi_dot(
-        &self,
-        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
-    ) -> PendulumConstraints<T> {}
+    pub fn phi_t(&self, t: T, q: &PendulumCoordinates<T>) -> PendulumConstraints<T> {}
     /**γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt, so that Φ_q q̈ = γ (Jiang 2025, Eq. 5).
 
 ```text
@@ -270,14 +272,53 @@ rod: -1/2*(2*der(x)^2 + 2*der(y)^2)/length
 
 
 Cost: 5 mul + 2 add + 0 div + 0 sincos.*/
-    #[inline]
+    #[inline(always)]
     pub fn gamma(
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> PendulumConstraints<T> {}
-    /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8); gains in 1/s.
+    /**The generalized forces Q: gravity and applied loads.
+
+```text
+x: 0
+y: -9.81*mass
+```
+
+
+Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
+    #[inline(always)]
+    pub fn forces(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+        inputs: &::mbs_runtime::NoComponents<T>,
+    ) -> PendulumCoordinates<T> {}
+    /**The kinetic energy ½ vᵀMv in J.
+
+Cost: 4 mul + 1 add + 0 div + 0 sincos.*/
+    #[inline(always)]
+    pub fn kinetic_energy(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> T {}
+    /**The potential energy of gravity and springs in J.
+
+Cost: 1 mul + 0 add + 0 div + 0 sincos.*/
+    #[inline(always)]
+    pub fn potential_energy(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> T {}
+    ///The kinetic momentum p = Mv; ½ pᵀv is the kinetic energy.
+    #[inline(always)]
+    pub fn kinetic_momentum(
+        &self,
+        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
+    ) -> PendulumCoordinates<T> {}
+    /**γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8).
 
 Cost: 13 mul + 6 add + 0 div + 0 sincos.*/
+    ///
+    /// The gains α and β are in 1/s.
     #[inline]
     pub fn baumgarte_rhs(
         &self,
@@ -314,21 +355,6 @@ Cost: 0 mul + 0 add + 0 div + 0 sincos.*/
         &self,
         q: &PendulumCoordinates<T>,
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 2usize, 2usize> {}
-    /**Generalized forces Q: gravity and applied loads.
-
-```text
-x: 0
-y: -9.81*mass
-```
-
-
-Cost: 0 mul + 1 add + 0 div + 0 sincos.*/
-    #[inline]
-    pub fn forces(
-        &self,
-        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
-        inputs: &::mbs_runtime::NoComponents<T>,
-    ) -> PendulumCoordinates<T> {}
     /**Accelerations q̈ and multipliers λ from M q̈ + Φ_qᵀ λ = Q, Φ_q q̈ = γ, without feedback terms.
 
 In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.
@@ -340,18 +366,6 @@ Cost: 13 mul + 6 add + 1 div + 0 sincos.*/
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
         inputs: &::mbs_runtime::NoComponents<T>,
     ) -> ::mbs_runtime::Reactions<PendulumCoordinates<T>, PendulumConstraints<T>> {}
-    /// Kinetic energy ½ vᵀMv in J.
-    #[inline(always)]
-    pub fn kinetic_energy(
-        &self,
-        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
-    ) -> T {}
-    /// Potential energy of gravity (0 at the origin) and springs in J.
-    #[inline(always)]
-    pub fn potential_energy(
-        &self,
-        at: &::mbs_runtime::State<PendulumCoordinates<T>>,
-    ) -> T {}
 }
 #[allow(unused_variables, clippy::all)]
 impl<T: ::mbs_runtime::Real> Pendulum<T> {
