@@ -121,10 +121,6 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Points: Copy + AsRef<[[Self::Real; 2]]>;
     /// An array of numbers, one per declared event.
     type Events: Copy + AsRef<[Self::Real]>;
-    /// An array of functions of time, those that a fused step needs at its end.
-    #[doc(hidden)]
-    type Clock: Copy + AsRef<[Self::Real]> + AsMut<[Self::Real]>;
-
     /// Names, units, equations and operation counts.
     const INFO: &'static Info;
 
@@ -242,27 +238,6 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
         _t_next: Self::Real,
     ) -> Option<(Stepped<Self::States>, Reactions<Self::Coordinates, Self::Constraints>)> {
         None
-    }
-
-    /// The functions of time that a fused step needs, at an instant.
-    #[doc(hidden)]
-    fn clock(&self, t: Self::Real) -> Self::Clock;
-
-    /// The [fused step](Self::fused_step), given the functions of time at its start and at its end.
-    /// Their values at the end of a step are those at the start of the next one, so that many
-    /// steps in a row compute each function once for a step.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn fused_step_with_clock<X: Method>(
-        &self,
-        at: &State<Self::States>,
-        _clock: [&Self::Clock; 2],
-        inputs: &Self::Inputs,
-        gains: &Gains<Self::Real>,
-        h: Self::Real,
-        t_next: Self::Real,
-    ) -> Option<Stepped<Self::States>> {
-        self.fused_step::<X>(at, inputs, gains, h, t_next)
     }
 
     /// The step of a mechanism with long vectors, in place, and its growth; nothing, and

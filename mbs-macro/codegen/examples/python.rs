@@ -72,7 +72,6 @@ fn read(compiled: &Compiled, operand: Operand) -> String {
             Input::HalfStep => "half_h".to_owned(),
             Input::NextTime => "t_next".to_owned(),
             Input::Weight(at) => format!("weights[{at}]"),
-            Input::Clock(at) => format!("clock[{at}]"),
         },
     }
 }

@@ -42,8 +42,6 @@ pub enum Input {
     HalfStep,
     /// t + h
     NextTime,
-    /// A function of time that a step is given: first those at its start, then those at its end.
-    Clock(usize),
     /// How much a result counts of a function that is transposed; how fast an argument changes of one whose tangent
     /// it is.
     Weight(usize),
@@ -133,15 +131,6 @@ impl Inputs {
             self.all.extend([Input::StatePosition(at), Input::StateVelocity(at), Input::Predicted(at)]);
             self.states.push(State { coordinate, position, velocity, predicted });
         }
-    }
-
-    /// Symbols for so many functions of time at both ends of a step.
-    pub fn add_clock(&mut self, model: &mut Model, functions: usize) -> Vec<Symbol> {
-        let add = |at| {
-            self.all.push(Input::Clock(at));
-            model.arena.symbol(&format!("clock({at})"), Stage::Variable)
-        };
-        (0..2 * functions).map(add).collect()
     }
 
     /// The meaning of a symbol.

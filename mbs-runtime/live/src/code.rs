@@ -131,8 +131,6 @@ pub fn role(compiled: &Compiled, operand: Operand) -> Role {
             Input::Predicted(at) => Given::Acceleration(at),
             Input::Shift => Given::Shift,
             Input::Weight(at) => Given::Weight(at),
-            // of steps that are not interpreted
-            Input::Clock(_) => return Role::Fixed(Fixed::Number(f64::NAN)),
         },
     };
     Role::Given(given)

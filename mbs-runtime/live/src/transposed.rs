@@ -48,7 +48,6 @@ fn place(compiled: &Compiled, operand: Operand) -> Option<(usize, usize)> {
         | Input::MinusBetaSquared
         | Input::Shift
         | Input::Predicted(_)
-        | Input::Clock(_)
         | Input::Weight(_) => return None,
     })
 }

@@ -31,9 +31,6 @@ pub type Many<M, const N: usize> = <M as Mechanism>::Over<Lanes<<M as Mechanism>
 /// The mechanism `M` in a loop over lanes.
 type Each<M> = <M as Mechanism>::Over<Straight<<M as Mechanism>::Real>>;
 
-/// The functions of time of `N` instances.
-type Clock<M, const N: usize> = <Many<M, N> as Mechanism>::Clock;
-
 /// The coordinates of `N` instances.
 pub type ManyCoordinates<M, const N: usize> = <Many<M, N> as Mechanism>::Coordinates;
 
@@ -163,12 +160,11 @@ where
     pub fn advance_and_look(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
         let Self { instances, pace, watches, .. } = self;
         let mut now = self.now;
-        let mut clock = instances.mechanism.clock(now.t);
         let mut taken = 0;
         while taken < steps {
             let mut next = now;
             let mut margin = Lanes::default();
-            step_all::<M, X, N>(instances, pace, watches, 1.0, &mut next, &mut clock, &mut margin);
+            step_all::<M, X, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
             next.count(1.0);
             if !is_calm(&margin, &next, watches) {
                 break;
@@ -196,10 +192,9 @@ where
         } else {
             // a float, because the conversion of an integer would take as long as ten operations
             let mut taken = 0.0;
-            let mut clock = instances.mechanism.clock(now.t);
             for _ in 0..steps {
                 taken += 1.0;
-                step_all::<M, X, N>(instances, pace, watches, taken, &mut now, &mut clock, &mut margin);
+                step_all::<M, X, N>(instances, pace, watches, taken, &mut now, &mut margin);
             }
         }
         now.count(steps as f64);
@@ -260,8 +255,7 @@ where
     }
 }
 
-/// A step of every lane, with the time after as many steps as `now` does not count yet. `clock` has
-/// the functions of time, before it and behind it.
+/// A step of every lane, with the time after as many steps as `now` does not count yet.
 /// `margin` keeps the worst distance of a growth from its alarm: as a magnitude, to which
 /// a growth over the alarm gives a minus sign.
 ///
@@ -274,7 +268,6 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     watches: &[Watch<M::Real>; N],
     uncounted: f64,
     now: &mut Moment<M, N>,
-    clock: &mut Clock<M, N>,
     margin: &mut Lanes<M::Real, N>,
 ) {
     if N > 1 && !is_fused_for::<M, X>() && !is_in_loops::<M>() {
@@ -289,11 +282,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         let at = now.state_of(lane);
         // without a closure, which may be a function of its own, of a target that has no such vectors
         let fused = match is_fused_for::<M, X>() {
-            true => {
-                let next = mechanism.clock(t);
-                let before = tick(clock, lane, next);
-                mechanism.fused_step_with_clock::<X>(&at, [&before, &next], &inputs, &gains, step, t)
-            }
+            true => mechanism.fused_step::<X>(&at, &inputs, &gains, step, t),
             false => None,
         };
         let (next, growth) = match fused {
@@ -311,23 +300,6 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         now.note(lane, growth, spare, margin);
         now.put(lane, next);
     }
-}
-
-/// Puts functions of time into a lane, and gives those that were there.
-#[inline(always)]
-fn tick<S, C, T, const N: usize>(clock: &mut C, lane: usize, next: S) -> S
-where
-    T: Lane,
-    S: Copy + AsRef<[Straight<T>]> + AsMut<[Straight<T>]>,
-    C: AsMut<[Lanes<T, N>]>,
-{
-    let mut before = next;
-    let functions = clock.as_mut().iter_mut().zip(before.as_mut());
-    for ((lanes, before), next) in functions.zip(next.as_ref()) {
-        before.0 = lanes.0[lane];
-        lanes.0[lane] = next.0;
-    }
-    before
 }
 
 /// Whether programs of a mechanism became loops, which go lane after lane.

@@ -117,7 +117,6 @@ impl<'a> Evaluator<'a> {
             | Input::NextTime
             | Input::Shift
             | Input::Predicted(_)
-            | Input::Clock(_)
             | Input::Weight(_) => f64::NAN,
         }
     }

@@ -58,7 +58,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use crate::diagnostics::Diagnostic;
 
 pub use crate::inputs::Input;
-pub use crate::plan::{Clocked, FusedStep, Kinds};
+pub use crate::plan::{FusedStep, Kinds};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
 pub use costs::Count;
 pub use derivation::{Derivation, Elimination, Formula};
@@ -279,11 +279,6 @@ impl Compiled {
     /// The program of a function.
     pub fn program(&self, function: FunctionId) -> &Program {
         &self.programs[function as usize]
-    }
-
-    /// The functions of time whose values a step of [`FusedStep::clocked`] is given.
-    pub fn clock(&self) -> Option<&Program> {
-        self.fused_step.as_ref()?.clocked.as_ref().map(|clocked| &clocked.clock)
     }
 
     /// The meaning of a symbol of the programs. The symbols behind those of the mechanism are the weights

@@ -54,8 +54,7 @@ impl Input {
             | Self::Step
             | Self::HalfStep
             | Self::Shift
-            | Self::NextTime
-            | Self::Clock(_) => return None,
+            | Self::NextTime => return None,
         };
         Some(Component { vector, place })
     }

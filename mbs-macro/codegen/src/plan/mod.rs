@@ -1,7 +1,6 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
-mod clock;
 mod correction;
 mod minimum_norm;
 mod programs;
@@ -20,7 +19,6 @@ use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
-pub use clock::Clocked;
 use correction::correction;
 pub use programs::Programs;
 use programs::roots;
@@ -112,8 +110,7 @@ pub fn plan(
         constrained: &programs[FunctionId::Constrained],
         reactions: &fused_reactions,
     };
-    let mut inputs = inputs;
-    let fused_step = step::fused(model, &mut inputs, stages)?;
+    let fused_step = step::fused(model, &inputs, stages)?;
     let entries = equations.phi_q.iter().enumerate();
     let phi_q_places = entries.flat_map(|(row, entries)| entries.keys().map(move |&column| (row, column)));
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();

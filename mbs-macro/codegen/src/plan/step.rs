@@ -7,14 +7,12 @@
 //! (`tests/tests/fused_step.rs`). A step of more than 3072 instructions is left in stages.
 //!
 //! A second pair of programs also gives the reactions at the start, without feedback: one more solution with
-//! the same factorization. In Rust these are generic functions, compiled where they are used. A third pair
-//! is given functions of time (`clock`).
+//! the same factorization. In Rust these are generic functions, compiled where they are used.
 
 use mbs_interface::Row;
 use mbs_symbolic::{Inconsistency, Instruction, Number, Operand, Operation, Program, Symbol, probe};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::clock::{Clocked, clocked};
 use crate::inputs::{Input, Inputs, State};
 use crate::model::Model;
 
@@ -28,9 +26,6 @@ pub struct FusedStep {
     pub alone: Kinds,
     /// That also give the reactions at their start.
     pub with_reactions: Option<Kinds>,
-    /// Those that are given the functions of time, for many steps in a row; `None` where a step
-    /// needs no function of time at its end.
-    pub clocked: Option<Clocked>,
 }
 
 /// The programs of a step with each kind of feedback: q⁺, v⁺ and the growths of all stages,
@@ -56,19 +51,14 @@ pub struct Stages<'a> {
 ///
 /// # Errors
 /// A step that does not compute what its stages do.
-pub fn fused(
-    model: &mut Model,
-    inputs: &mut Inputs,
-    stages: Stages<'_>,
-) -> Result<Option<FusedStep>, Inconsistency> {
+pub fn fused(model: &Model, inputs: &Inputs, stages: Stages<'_>) -> Result<Option<FusedStep>, Inconsistency> {
     // constraints give the whole motion
     if inputs.states.is_empty() {
         return Ok(None);
     }
     let Some(alone) = kinds(model, inputs, stages, None)? else { return Ok(None) };
     let with_reactions = kinds(model, inputs, stages, Some(stages.reactions))?;
-    let clocked = clocked(model, inputs, &alone)?;
-    Ok(Some(FusedStep { alone, with_reactions, clocked }))
+    Ok(Some(FusedStep { alone, with_reactions }))
 }
 
 fn kinds(
@@ -228,7 +218,7 @@ fn number(value: f64) -> Operand {
 
 /// Instructions one after the other, none of them twice.
 #[derive(Default)]
-pub(super) struct Fusion {
+struct Fusion {
     instructions: Vec<Instruction>,
     known: HashMap<(Operation, Operand, Operand), Operand>,
 }
@@ -240,13 +230,7 @@ impl From<Fusion> for Program {
 }
 
 impl Fusion {
-    pub(super) fn push(
-        &mut self,
-        operation: Operation,
-        a: Operand,
-        b: Operand,
-        name: Option<String>,
-    ) -> Operand {
+    fn push(&mut self, operation: Operation, a: Operand, b: Operand, name: Option<String>) -> Operand {
         if let Some(known) = self.without_zero(operation, a, b) {
             return known;
         }

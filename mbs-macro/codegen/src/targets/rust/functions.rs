@@ -149,7 +149,6 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
-    let clock = step::clock(compiled, names);
     let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(compiled, names) };
     let start = declared_start(compiled, names, &fields);
     let worst_start_pivot = worst_pivot(compiled, names, FunctionId::StartPivots);
@@ -203,7 +202,6 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             }
             #states
             #kernels
-            #clock
             #fused_step
             fn worst_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_pivot }
             fn worst_start_pivot(&self, t: T, q: &#q) -> ::core::option::Option<(::core::primitive::usize, T)> { #worst_start_pivot }

@@ -10,41 +10,31 @@ use quote::{format_ident, quote};
 use super::access::Access;
 use super::functions::Fields;
 use super::names::Names;
-use super::program::{body_of, named};
+use super::program::named;
 use super::tokens;
 use super::{on_pairs, weave};
 use crate::compiled::{Compiled, Kinds};
 
-/// A fused step with what else it gives or is given, for both kinds of feedback.
+/// A fused step with what else it gives, for both kinds of feedback.
 struct Variant<'a> {
     /// Of the names of its functions.
     suffix: &'static str,
     doc: &'static str,
     programs: &'a Kinds,
     gives_reactions: bool,
-    has_clock: bool,
 }
 
 /// Those of a mechanism; none if it is too large.
 fn variants(compiled: &Compiled) -> Vec<Variant<'_>> {
     let Some(step) = &compiled.fused_step else { return Vec::new() };
-    let alone =
-        Variant { suffix: "", doc: "", programs: &step.alone, gives_reactions: false, has_clock: false };
+    let alone = Variant { suffix: "", doc: "", programs: &step.alone, gives_reactions: false };
     let with_reactions = step.with_reactions.as_ref().map(|programs| Variant {
         suffix: "_with_reactions",
         doc: ", and the reactions at its start",
         programs,
         gives_reactions: true,
-        has_clock: false,
     });
-    let with_clock = step.clocked.as_ref().map(|clocked| Variant {
-        suffix: "_with_clock",
-        doc: ", given the functions of time at both of its ends",
-        programs: &clocked.step,
-        gives_reactions: false,
-        has_clock: true,
-    });
-    [Some(alone), with_reactions, with_clock].into_iter().flatten().collect()
+    [Some(alone), with_reactions].into_iter().flatten().collect()
 }
 
 impl Variant<'_> {
@@ -70,13 +60,12 @@ impl Variant<'_> {
         let Body { statements, stepped, reactions } =
             Body::new(compiled, names, &Fields::new(compiled), &woven);
         let value = if self.gives_reactions { quote!((#stepped, #reactions)) } else { stepped };
-        let clock = self.has_clock.then(|| quote!([now, next]: [&<Self as #runtime::Mechanism>::Clock; 2],));
         let name = format_ident!("{name}{}", self.suffix);
         let doc = format!("A step with feedback {feedback}{}.", self.doc);
         Ok(quote! {
             #[doc = #doc]
             #[inline(always)]
-            fn #name(&self, at: &#state, #clock inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #result {
+            fn #name(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> #result {
                 #statements #value
             }
         })
@@ -88,25 +77,20 @@ impl Variant<'_> {
         let (inputs, result) = (&names.inputs.of_t, self.result(names));
         let [name, held, per_stage] =
             ["fused_step", "step_held", "step_per_stage"].map(|name| format_ident!("{name}{}", self.suffix));
-        let (given, clock) = match self.has_clock {
-            true => (quote!(clock: [&Self::Clock; 2],), quote!(clock,)),
-            false => (TokenStream::new(), TokenStream::new()),
-        };
         quote! {
             #[inline(always)]
-            fn #name<X: #runtime::Method>(&self, at: &#state, #given inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
+            fn #name<X: #runtime::Method>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
                 ::core::option::Option::Some(if X::EXPLICIT.is_held() {
-                    self.#held(at, #clock inputs, gains, h, t_next)
+                    self.#held(at, inputs, gains, h, t_next)
                 } else {
-                    self.#per_stage(at, #clock inputs, gains, h, t_next)
+                    self.#per_stage(at, inputs, gains, h, t_next)
                 })
             }
         }
     }
 }
 
-/// The functions of both kinds of feedback, also with the reactions and with a clock; nothing
-/// if the mechanism is too large.
+/// The functions of both kinds of feedback, also with the reactions; nothing if the mechanism is too large.
 ///
 /// # Errors
 /// A step on pairs that does not compute what its program does.
@@ -131,26 +115,6 @@ pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inco
 /// The trait's functions.
 pub fn choice(compiled: &Compiled, names: &Names) -> TokenStream {
     variants(compiled).iter().map(|variant| variant.choice(names)).collect()
-}
-
-/// The type of the functions of time of a step, and their values.
-pub fn clock(compiled: &Compiled, names: &Names) -> TokenStream {
-    let Some(clock) = compiled.clock() else {
-        return quote! {
-            type Clock = [T; 0];
-            #[inline(always)]
-            fn clock(&self, t: T) -> [T; 0] { [] }
-        };
-    };
-    let body = body_of(compiled, names, clock, &Access::of_position());
-    let count = clock.outputs.len();
-    let (statements, values) = (&body.statements, body.array(0..count));
-    let count = Literal::usize_unsuffixed(count);
-    quote! {
-        type Clock = [T; #count];
-        #[inline(always)]
-        fn clock(&self, t: T) -> [T; #count] { #statements #values }
-    }
 }
 
 /// The statements of a step's function, and the values that it ends with.

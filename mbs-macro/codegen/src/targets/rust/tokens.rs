@@ -77,12 +77,6 @@ pub fn symbol(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStre
         Input::Step => quote!(h),
         Input::HalfStep => quote!(half_h),
         Input::NextTime => quote!(t_next),
-        Input::Clock(at) => {
-            let functions = compiled.clock().map_or(0, |clock| clock.outputs.len());
-            let (end, at) = if at < functions { (quote!(now), at) } else { (quote!(next), at - functions) };
-            let at = Literal::usize_unsuffixed(at);
-            quote!(#end[#at])
-        }
         Input::Weight(_) => internal("a weight is read that is not given"),
     }
 }

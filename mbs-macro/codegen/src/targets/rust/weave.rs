@@ -41,7 +41,6 @@ pub fn woven(compiled: &Compiled, program: &Program, with_reactions: bool) -> Re
             compiled.input(symbol),
             Input::Time
                 | Input::NextTime
-                | Input::Clock(_)
                 | Input::Position(_)
                 | Input::Velocity(_)
                 | Input::StatePosition(_)

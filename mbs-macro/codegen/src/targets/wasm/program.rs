@@ -313,7 +313,6 @@ impl Printer<'_> {
             Input::HalfStep => self.number(Slot::HalfStep),
             Input::NextTime => self.number(Slot::NextTime),
             Input::Weight(_) => Err(fault("a transposed program is not printed")),
-            Input::Clock(_) => Err(fault("a step with a clock is not printed")),
         }
     }
 
