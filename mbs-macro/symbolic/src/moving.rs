@@ -46,7 +46,7 @@ impl<T: Numeric> Moving<T> {
     }
 }
 
-/// What passes on of a rate by a slope. Where one of them is 0, the other one need not be a number: what does not
+/// The part of a rate that a slope passes on. Where one of them is 0, the other one need not be a number: what does not
 /// move may stand where a function has no slope.
 fn passed_on<T: Numeric>(slope: T, rate: T) -> T {
     if slope.is_zero() || rate.is_zero() { T::default() } else { slope * rate }

@@ -22,7 +22,7 @@ pub struct Row {
     pub parity: Parity,
     /// Where its values are.
     pub range: Range,
-    /// What it is made of.
+    /// Its pieces.
     pub pieces: Pieces,
     /// The dimensions that its arguments and its value have.
     pub dimensions: Dimensions,
