@@ -1,5 +1,5 @@
-//! What rustc shows of mistakes in declarations: the places to which it points, also through other macros and in
-//! several mechanisms, and what it finds itself in the code that it is given.
+//! Mistakes in declarations as rustc shows them: it points to their places, also through other macros and in several
+//! mechanisms, and finds faults itself in the code that it is given.
 //!
 //! The answers to all mistakes are in `mbs-runtime/live/tests/mistakes`.
 //!

@@ -1,4 +1,4 @@
-//! What formulas are computed in: expressions, floats, floats with bounds of their rounding errors
+//! The kinds of numbers that formulas are computed in: expressions, floats, floats with bounds of their rounding errors
 //! (`rounding.rs`), and numbers that move (`moving.rs`).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,7 +7,7 @@ use crate::number::Number;
 use crate::operators::Function;
 use crate::spline::Spline;
 
-/// What the slopes of functions can be written in.
+/// A kind of number that the slopes of functions can be written in.
 pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {

@@ -135,7 +135,7 @@ fn properties_hold() {
     }
 }
 
-/// What does not move may stand where a function has no slope.
+/// A number that does not move may stand where a function has no slope.
 #[test]
 fn still_numbers_have_no_derivative() {
     for function in [Function::Sqrt, Function::Asin] {

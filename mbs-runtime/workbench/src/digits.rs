@@ -28,7 +28,7 @@ struct Kind {
     largest: f64,
     /// The largest one when it was looked at last.
     seen: f64,
-    /// What counts as a load.
+    /// From this on a force counts as a load.
     loaded: f64,
     /// The largest change by rounding, when, and of which constraint.
     worst: Option<(f64, f64, &'static str)>,

@@ -1,4 +1,4 @@
-//! What rustc finds in the code that it is given.
+//! Faults that rustc finds in the code that it is given.
 
 use mbs_runtime::gradients::Sum;
 use mbs_runtime::{Simulation, mechanism};
