@@ -498,9 +498,6 @@ impl<T: ::mbs_runtime::Real> ::mbs_runtime::Mechanism for Pendulum<T> {
         q: &PendulumCoordinates<T>,
         feedback: &PendulumConstraints<T>,
     ) -> ::mbs_runtime::Accelerations<PendulumCoordinates<T>> {}
-    type Clock = [T; 0];
-    #[inline(always)]
-    fn clock(&self, t: T) -> [T; 0] {}
     #[inline(always)]
     fn fused_step<X: ::mbs_runtime::Method>(
         &self,
