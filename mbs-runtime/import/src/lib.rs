@@ -1,8 +1,8 @@
 //! Files of other mechanism programs as declarations.
 //!
-//! A reader makes a [`Linkage`](linkage::Linkage) of a file: pins, links, slots and drives, with
-//! the names and the numbers of the file. [`declaration`] writes it in the language. Files of
-//! [robots](robot), which have masses and stand in space, become declarations by a way of their
+//! A reader makes a `Linkage` of a file: pins, links, slots and drives, with
+//! the names and the numbers of the file. `declaration` writes it in the language. Files of
+//! robots, which have masses and stand in space, become declarations by a way of their
 //! own. Each declaration is compiled before anybody gets to see it.
 //!
 //! # How it works

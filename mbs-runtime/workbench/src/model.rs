@@ -13,7 +13,7 @@ use crate::settings::{Settings, Start};
 pub use crate::live::{as_declared, from_text};
 pub use crate::typed::{differentiated, in_lanes, of, with};
 
-/// A mechanism that commands can run: every [`Mechanism`] in `f64` by [`of`].
+/// A mechanism that commands can run: every [`Mechanism`](mbs_runtime::Mechanism) in `f64` by [`of`].
 ///
 /// The work of the commands ([`simulate`](#method.simulate), [`sweep`](#method.sweep) and so on) is written
 /// once for all mechanisms, on the runs that it starts.

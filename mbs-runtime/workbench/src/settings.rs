@@ -171,7 +171,7 @@ pub struct StartState {
     pub start_time: f64,
     /// Steps that the run has taken from there. A run to a tolerance counts none.
     pub steps_taken: u64,
-    /// The coordinates, in the order of [`Info::coordinates`].
+    /// The coordinates, in the order of [`Info::coordinates`](mbs_runtime::Info::coordinates).
     pub q: Vec<f64>,
     /// Their rates.
     pub v: Vec<f64>,

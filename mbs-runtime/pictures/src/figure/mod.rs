@@ -1,8 +1,8 @@
 //! Figures: what is shown, apart from how it is drawn.
 //!
 //! A [`Figure`] is a title and panels stacked on top of each other; a
-//! [`Panel`] is a pair of axes with lines or a heat map. [`Figure::save`]
-//! draws it to SVG or PNG.
+//! [`Panel`] is a pair of axes with lines or a heat map. It is drawn as SVG or
+//! PNG.
 
 mod canvas;
 mod colour;
