@@ -78,7 +78,7 @@ impl<X: Method> Baumgarte<X> {
         Self::from_gains(alpha, beta)
     }
 
-    /// Whether violations do not grow with steps of `h` seconds: both eigenvalues of the
+    /// True if violations do not grow with steps of `h` seconds: both eigenvalues of the
     /// step map of ë + 2αė + β²e = 0 lie in the closed unit disc; see
     /// [`Explicit::is_stable`](crate::Explicit::is_stable).
     ///

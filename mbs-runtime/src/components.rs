@@ -90,7 +90,7 @@ pub trait Components: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'stati
         vectors::largest(self.into_array().as_ref())
     }
 
-    /// Whether every component is finite.
+    /// True if every component is finite.
     #[inline(always)]
     fn is_finite(self) -> bool {
         vectors::is_finite(self.into_array().as_ref())

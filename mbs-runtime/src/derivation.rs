@@ -59,6 +59,6 @@ pub struct Elimination {
     pub pivot: &'static str,
     /// The pivot as LaTeX.
     pub latex: &'static str,
-    /// Whether the pivot may vanish, and is watched.
+    /// True if the pivot may vanish, and is watched.
     pub is_watched: bool,
 }

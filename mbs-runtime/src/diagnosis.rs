@@ -67,7 +67,7 @@ fn is_moderate<T: Real>(states: At<'_, T>) -> bool {
 /// Its square is finite in single precision too.
 const MODERATE: f64 = 1e18;
 
-/// Whether a growth reaches a limit; one that is no number does.
+/// True if a growth reaches a limit; one that is no number does.
 fn is_over<T: Real>(growth: T, limit: T) -> bool {
     let is_below = growth < limit;
     !is_below

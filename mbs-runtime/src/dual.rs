@@ -143,7 +143,7 @@ impl<T: Real, const N: usize> Default for Dual<T, N> {
 }
 
 impl<T: Real, const N: usize> PartialEq for Dual<T, N> {
-    /// Whether the values are equal.
+    /// True if the values are equal.
     #[inline(always)]
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value

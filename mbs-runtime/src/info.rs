@@ -93,7 +93,7 @@ pub struct Constraint {
     pub doc: &'static str,
     /// Φ as a formula.
     pub formula: &'static str,
-    /// Whether it was declared as a drive.
+    /// True if it was declared as a drive.
     pub is_drive: bool,
     /// Dimension of Φ.
     pub dimension: Dimension,
@@ -158,7 +158,7 @@ impl Info {
         coordinate.map_or("", |coordinate| coordinate.name)
     }
 
-    /// Whether constraints give some coordinates, which are not integrated.
+    /// True if constraints give some coordinates, which are not integrated.
     pub fn has_reduced_states(&self) -> bool {
         self.states.len() < self.coordinates.len()
     }

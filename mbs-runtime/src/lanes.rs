@@ -48,7 +48,7 @@ pub trait Lane: Real + sealed::Sealed {
     #[doc(hidden)]
     #[must_use]
     fn worse(self, other: Self) -> Self;
-    /// Whether `other` is [`worse`](Self::worse), and not the same.
+    /// True if `other` is [`worse`](Self::worse), and not the same.
     #[doc(hidden)]
     fn is_below(self, other: Self) -> bool;
     /// Sines and cosines of two angles, in turns.
@@ -129,7 +129,7 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
         Self(lanes)
     }
 
-    /// Whether f holds for a pair of lanes, for every pair.
+    /// True if f holds for a pair of lanes, for every pair.
     #[inline(always)]
     pub fn test(self, other: Self, f: impl Fn(T, T) -> bool) -> [bool; N] {
         let mut holds = [false; N];

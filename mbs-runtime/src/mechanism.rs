@@ -332,7 +332,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn points(&self, t: Self::Real, q: &Self::Coordinates) -> Self::Points;
 }
 
-/// Whether the fused step of a mechanism is one of this method: that of its scheme, with
+/// True if the fused step of a mechanism is one of this method: that of its scheme, with
 /// feedback.
 #[inline(always)]
 pub(crate) fn is_fused_for<M: Mechanism, X: Method>() -> bool {

@@ -111,7 +111,7 @@ pub trait Real:
         spline.derivative_at(order, self)
     }
 
-    /// Whether it is the other number with all of its derivatives.
+    /// True if it is the other number with all of its derivatives.
     #[doc(hidden)]
     #[inline(always)]
     fn is_same(self, other: Self) -> bool {

@@ -28,7 +28,7 @@ pub struct Run<'a, T> {
     pub step: T,
     /// The scheme, and what keeps the constraints.
     pub method: Explicit,
-    /// Whether violations of the constraints are meant to decay.
+    /// True if violations of the constraints are meant to decay.
     pub keeps_constraints: bool,
 }
 
@@ -72,7 +72,7 @@ impl<T: Real> Run<'_, T> {
         Ok(growth)
     }
 
-    /// Whether a step to `next` needs no examination: its growth has not risen, and
+    /// True if a step to `next` needs no examination: its growth has not risen, and
     /// redundant constraints, of which a step knows nothing, are met all the same. Whether
     /// the state is finite is another question.
     pub fn is_calm(&self, next: At<'_, T>, growth: T, watch: &Watch<T>, room: &mut Room<'_, T>) -> bool {
@@ -249,7 +249,7 @@ impl<T: Real> Run<'_, T> {
         completed(equations, [at, at], room, &mut look)
     }
 
-    /// Whether a state has accelerations, and its positions constraints at `t_next`.
+    /// True if a state has accelerations, and its positions constraints at `t_next`.
     fn is_good(&self, from: At<'_, T>, t_next: T, room: &mut Room<'_, T>) -> bool {
         let Self { equations, inputs, .. } = self;
         let [acceleration, ..] = &mut room.coordinates;

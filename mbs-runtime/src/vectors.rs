@@ -45,7 +45,7 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> (usize, T) {
     largest
 }
 
-/// Whether every component is finite.
+/// True if every component is finite.
 #[inline(always)]
 pub(crate) fn is_finite<T: Real>(x: &[T]) -> bool {
     let mut finite = true;

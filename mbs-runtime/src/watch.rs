@@ -81,7 +81,7 @@ impl<T: Real> Watch<T> {
         self.alarm = if is_first || self.alarm < before { self.alarm } else { before };
     }
 
-    /// Whether a growth is worth a name.
+    /// True if a growth is worth a name.
     pub fn is_new(&self, growth: T) -> bool {
         growth > self.remembered_from
     }

@@ -10,7 +10,7 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Whether a derivative is this one.
+    /// True if a derivative is this one.
     pub fn is(&self, derivative: f64) -> bool {
         (derivative - self.value).abs() <= self.error
     }

@@ -13,7 +13,7 @@ struct Placed {
     x: f64,
     y: f64,
     angle: f64,
-    /// Whether a pivot in its centre holds it to the ground.
+    /// True if a pivot in its centre holds it to the ground.
     is_pivoted: bool,
 }
 

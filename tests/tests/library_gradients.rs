@@ -93,7 +93,7 @@ fn growth(live: &Live, given: &Arguments<f64>) -> f64 {
     live.reactions(given.at(), given.inputs(), &mut a, &mut multipliers)
 }
 
-/// Whether derivatives are those of differences: apart by the error of their formula, and by the
+/// Asserts that derivatives are those of differences: apart by the error of their formula, and by the
 /// rounding of a vector, that of its largest number.
 fn agree(name: &str, found: &[f64], slopes: &[Slope], rounding: f64, step: f64) -> f64 {
     let mut worst = 0.0_f64;

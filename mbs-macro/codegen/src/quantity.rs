@@ -43,7 +43,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// Whether `difference` compares so with 0.
+    /// True if `difference` compares so with 0.
     pub fn holds(self, difference: f64) -> bool {
         match self {
             Self::Less => difference < 0.0,

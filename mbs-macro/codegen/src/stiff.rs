@@ -63,7 +63,7 @@ impl Stiffness {
         Self { entries, forces }
     }
 
-    /// Whether the stage is that of an explicit scheme.
+    /// True if the stage is that of an explicit scheme.
     pub fn is_none(&self) -> bool {
         self.entries.is_empty()
     }

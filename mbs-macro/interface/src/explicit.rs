@@ -67,12 +67,12 @@ impl Explicit {
         Self { tableau, stabilization: Stabilization::Projection }
     }
 
-    /// Whether all stages of a step are given the feedback of the first one.
+    /// True if all stages of a step are given the feedback of the first one.
     pub const fn is_held(&self) -> bool {
         matches!(self.stabilization, Stabilization::Held)
     }
 
-    /// Whether the state is projected onto the constraints.
+    /// True if the state is projected onto the constraints.
     pub const fn is_projected(&self) -> bool {
         matches!(self.stabilization, Stabilization::Projection)
     }
@@ -101,7 +101,7 @@ impl Explicit {
         [0.5 * a / h, sqrt(b) / h]
     }
 
-    /// Whether violations do not grow with steps of `h` seconds under the gains α and β: both
+    /// True if violations do not grow with steps of `h` seconds under the gains α and β: both
     /// eigenvalues of the step map of ë + 2αė + β²e = 0 lie in the closed unit disc.
     ///
     /// It counts as stable to rounding, so that the exact limit does. It is a statement on the linear
@@ -142,7 +142,7 @@ impl Explicit {
         self.does_not_grow([middle - distance, 0.0]) && self.does_not_grow([middle + distance, 0.0])
     }
 
-    /// Whether |R(x + iy)| ≤ 1, to rounding of the terms of R.
+    /// True if |R(x + iy)| ≤ 1, to rounding of the terms of R.
     const fn does_not_grow(&self, [x, y]: [f64; 2]) -> bool {
         let mut coefficients: &[f64] = &self.tableau.response.stability_function;
         let (mut real, mut imaginary, mut size) = (0.0, 0.0, 0.0);
@@ -159,7 +159,7 @@ impl Explicit {
 /// A handful of roundings.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
-/// Whether one number is at most as large as another, to their roundings; neither is infinite.
+/// True if one number is at most as large as another, to their roundings; neither is infinite.
 const fn is_at_most(one: f64, other: f64) -> bool {
     let size = one.abs() + other.abs();
     size.is_finite() && one - other <= ROUNDINGS * size

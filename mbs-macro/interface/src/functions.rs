@@ -215,12 +215,12 @@ impl FunctionId {
         self.row().results
     }
 
-    /// Whether it has a property.
+    /// True if it has a property.
     pub fn is(self, property: Property) -> bool {
         self.row().properties.contains(&property)
     }
 
-    /// Whether it solves a system: then its last result is the pivot growth.
+    /// True if it solves a system: then its last result is the pivot growth.
     pub fn solves(self) -> bool {
         self.results().last() == Some(&Results::Growth)
     }
@@ -232,7 +232,7 @@ impl FunctionId {
         row.result_names.iter().copied().zip(row.results.iter().copied()).take(written)
     }
 
-    /// Whether its last result is a single number, which is returned.
+    /// True if its last result is a single number, which is returned.
     pub fn returns(self) -> bool {
         matches!(self.results().last(), Some(Results::Growth | Results::Scalar))
     }

@@ -122,7 +122,7 @@ pub const ESDIRK4: Implicit = Implicit {
 };
 
 impl Implicit {
-    /// How many stages a step has.
+    /// The number of stages of a step.
     #[inline(always)]
     pub const fn stage_count(&self) -> usize {
         self.stages.len() + 1

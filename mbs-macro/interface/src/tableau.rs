@@ -82,7 +82,7 @@ impl Row {
 }
 
 impl Tableau {
-    /// How many stages a step has.
+    /// The number of stages of a step.
     #[inline(always)]
     pub const fn stage_count(&self) -> usize {
         self.stages.len() + 1
@@ -97,7 +97,7 @@ impl Tableau {
         }
     }
 
-    /// Whether both are the same scheme, which its word tells.
+    /// True if both are the same scheme, which its word tells.
     pub const fn is(&self, other: &Self) -> bool {
         let (mut a, mut b) = (self.word.as_bytes(), other.word.as_bytes());
         while let ([first, rest_a @ ..], [second, rest_b @ ..]) = (a, b) {
@@ -119,7 +119,7 @@ impl Tableau {
         Self { response: Response::of(self.stages, &self.update), ..self }
     }
 
-    /// Whether the length of its steps can follow from a tolerance.
+    /// True if the length of its steps can follow from a tolerance.
     pub const fn is_adaptive(&self) -> bool {
         self.estimate.is_some()
     }

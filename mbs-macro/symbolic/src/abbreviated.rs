@@ -44,7 +44,7 @@ impl Arena {
         format!(r"{}, \quad {}", self.latex_with(expr, &in_latex), definitions.join(r", \quad "))
     }
 
-    /// Whether the expression has at most `limit` nodes as it would be written.
+    /// True if the expression has at most `limit` nodes as it would be written.
     /// A value that is computed once is written out wherever it is used, so the text of
     /// an eliminated matrix can be longer than any memory.
     pub fn is_shorter(&self, expr: Expr, limit: usize) -> bool {

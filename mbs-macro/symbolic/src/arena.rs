@@ -95,7 +95,7 @@ pub struct Arena {
     /// The bounds of values at any position. They are kept, so that a part in several places is
     /// looked at once.
     pub(crate) bounds: HashMap<Expr, Option<Expr>>,
-    /// Whether values are never negative at any position; likewise.
+    /// True if values are never negative at any position; likewise.
     pub(crate) never_negative: HashMap<Expr, bool>,
     /// The exact values of expressions at a random point.
     point: Point,
@@ -149,7 +149,7 @@ impl Arena {
         (index < self.symbols.len()).then_some(Symbol(index as u32))
     }
 
-    /// How many symbols there are.
+    /// The number of symbols.
     pub fn symbol_count(&self) -> usize {
         self.symbols.len()
     }
@@ -187,7 +187,7 @@ impl Arena {
         }
     }
 
-    /// Whether it is the constant 0.
+    /// True if it is the constant 0.
     pub fn is_zero(&self, expr: Expr) -> bool {
         self.as_number(expr).is_some_and(Number::is_zero)
     }

@@ -21,7 +21,7 @@ pub trait Arithmetic:
     fn of(self, function: Function) -> Self {
         self.call(function, self)
     }
-    /// Whether it is a constant by its form.
+    /// True if it is a constant by its form.
     fn is_number(self) -> bool {
         false
     }

@@ -293,7 +293,7 @@ impl Arena {
         self.intern(Node::Spline(spline, order, x))
     }
 
-    /// Whether the first term has a negative coefficient: one of x and −x does.
+    /// True if the first term has a negative coefficient: one of x and −x does.
     fn leads_negative(&self, x: Expr) -> bool {
         match self.node(x) {
             Node::Sum(_, terms) => terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative()),

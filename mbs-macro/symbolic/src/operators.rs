@@ -14,7 +14,7 @@ pub struct Row {
     pub function: Function,
     /// Its name, in Rust too.
     pub name: &'static str,
-    /// Whether the language has it, by that name.
+    /// True if the language has it, by that name.
     pub is_word: bool,
     /// One or two.
     pub arity: usize,
@@ -36,7 +36,7 @@ pub struct Row {
     pub c: Option<&'static str>,
     /// How WebAssembly has it.
     pub wasm: Wasm,
-    /// How it is typeset.
+    /// The way in which it is typeset.
     pub latex: Latex,
     /// Its value; the second argument is ignored where `arity` is 1.
     pub value: fn(f64, f64) -> f64,
@@ -250,7 +250,7 @@ impl Function {
         if self.row().arity == 1 { &both[..1] } else { both }
     }
 
-    /// Whether it is a sine or a cosine, which are computed together.
+    /// True if it is a sine or a cosine, which are computed together.
     pub fn is_turn(self) -> bool {
         matches!(self, F::Sin | F::Cos)
     }

@@ -57,7 +57,7 @@ impl Operation {
         }
     }
 
-    /// How many operands it has.
+    /// The number of its operands.
     pub fn arity(self) -> usize {
         match self {
             Self::Add | Self::Sub | Self::Mul | Self::Div => 2,
@@ -71,7 +71,7 @@ impl Operation {
         matches!(self, Self::Call(_) | Self::Spline(..))
     }
 
-    /// Whether it is the same, to the bit, with its operands exchanged.
+    /// True if it is the same, to the bit, with its operands exchanged.
     pub(crate) fn commutes(self) -> bool {
         matches!(self, Self::Add | Self::Mul)
     }

@@ -34,7 +34,7 @@ pub struct Segment {
 /// continuous derivatives everywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
-    /// How it is called.
+    /// The way in which it is called.
     pub name: String,
     /// The argument of the first point.
     pub origin: f64,

@@ -59,7 +59,7 @@ pub enum Error {
     OffConstraints {
         /// The constraint that is violated most.
         constraint: &'static str,
-        /// Whether it is its rate Φ̇, and not Φ.
+        /// True if it is its rate Φ̇, and not Φ.
         is_rate: bool,
         /// By how much, in its own SI unit.
         violation: f64,
@@ -218,7 +218,7 @@ pub enum Error {
          may be free"
     )]
     NoPositions {
-        /// How many there are.
+        /// Their number.
         positions: usize,
     },
     /// Unknowns that the data do not determine.

@@ -108,7 +108,7 @@ impl<'a> Guided<'a> {
         Ok(())
     }
 
-    /// Whether a step was made.
+    /// True if a step was made.
     fn step(&mut self, way: &Way, [done, next]: [f64; 2]) -> bool {
         let between = |share: f64| way.t[0] * (1.0 - share) + way.t[1] * share;
         let t = if next < 1.0 { between(next) } else { way.t[1] };

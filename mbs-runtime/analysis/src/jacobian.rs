@@ -151,7 +151,7 @@ impl Jacobian {
         pivots.iter().fold(swaps, |sign, pivot| sign * pivot.signum()) > 0.0
     }
 
-    /// Whether a coordinate can move while the prescribed ones stand still.
+    /// True if a coordinate can move while the prescribed ones stand still.
     pub fn is_singular(&self) -> bool {
         let values = self.decomposed().map(|found| found.values);
         values.is_none_or(|values| values.min() <= SINGULAR * values.max())

@@ -54,7 +54,7 @@ impl Behaviour {
         }
     }
 
-    /// Whether it grows.
+    /// True if it grows.
     pub fn is_unstable(self) -> bool {
         matches!(self, Self::Flutter | Self::Divergence)
     }

@@ -31,7 +31,7 @@ pub struct OperatingPoint {
     pub v: Vec<f64>,
     /// The inputs.
     pub inputs: Vec<f64>,
-    /// Whether drives stand still or move on.
+    /// Drives stand still or move on.
     pub drives: Drives,
 }
 

@@ -58,7 +58,7 @@ impl Run {
         self.settings.live.declared_info()
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn points(&self) -> usize {
         self.settings.live.sketch().points.len()
     }

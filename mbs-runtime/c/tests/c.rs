@@ -26,7 +26,7 @@ const COMPILERS: [(&str, &str); 4] =
 const STEP: f64 = 1e-4;
 const STEPS: u64 = 300;
 
-/// Whether a tool is on this machine; a test says where it is not.
+/// True if a tool is on this machine; a test says where it is not.
 fn is_there(tool: &str) -> bool {
     let version = Command::new(tool).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let is_there = cfg!(target_os = "linux") && version.is_ok_and(|status| status.success());

@@ -58,7 +58,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
     /// The result for a member.
     type Result: Send;
 
-    /// Whether it looks at anything. Steps that nobody looks at are tested for health
+    /// True if it looks at anything. Steps that nobody looks at are tested for health
     /// many at a time.
     const LOOKS: bool = true;
 

@@ -20,11 +20,11 @@ pub(super) struct Linkage {
     pub program: &'static str,
     /// The unit of lengths.
     pub unit: String,
-    /// Whether the file says the unit.
+    /// True if the file says the unit.
     pub has_unit: bool,
-    /// Whether weights act, along −y.
+    /// True if weights act, along −y.
     pub has_gravity: bool,
-    /// Whether the file says so.
+    /// True if the file says so.
     pub says_gravity: bool,
     /// The length of a step, where the file counts time in steps.
     pub has_steps: bool,
@@ -70,7 +70,7 @@ pub(super) struct Force {
     pub at: Point,
     /// The force at the start, in N.
     pub force: Point,
-    /// Whether it turns with the link.
+    /// True if it turns with the link.
     pub turns: bool,
 }
 
@@ -86,7 +86,7 @@ pub(super) struct Slot {
     pub through: Point,
     /// The line's direction at the start.
     pub along: Point,
-    /// Whether the link that slides keeps its angle against the other one.
+    /// True if the link that slides keeps its angle against the other one.
     pub keeps_angle: bool,
 }
 

@@ -8,7 +8,7 @@ use super::geometry::from;
 use super::linkage::{Linkage, Slot};
 use super::{Refusal, shown};
 
-/// Whether a text begins as an expression does.
+/// True if a text begins as an expression does.
 pub(super) fn is_begun(text: &str) -> bool {
     let text: String =
         without_comments(text).chars().filter(|letter| !letter.is_whitespace()).take(2).collect();

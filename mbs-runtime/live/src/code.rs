@@ -24,7 +24,7 @@ pub struct Code {
     pub given: Vec<(Given, u32)>,
     /// The slots of the results after a run.
     pub outputs: Vec<u32>,
-    /// How many slots there are.
+    /// The number of slots.
     pub slots: usize,
 }
 

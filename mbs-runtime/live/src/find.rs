@@ -89,7 +89,7 @@ fn blocks(tokens: TokenStream) -> Vec<Block> {
     blocks
 }
 
-/// Whether `mechanism!` stands there.
+/// True if `mechanism!` stands there.
 fn is_mechanism(before: &[Option<TokenTree>; 2]) -> bool {
     matches!(before, [Some(TokenTree::Ident(word)), Some(TokenTree::Punct(mark))]
         if word == "mechanism" && mark.as_char() == '!')

@@ -226,7 +226,7 @@ impl<T: Real> Live<T> {
         (t[0], q, v)
     }
 
-    /// Whether both were compiled by the same call of
+    /// True if both were compiled by the same call of
     /// [`Text::compile`](crate::Text::compile), so that they differ in parameters only.
     pub fn shares_programs_with<S>(&self, other: &Live<S>) -> bool {
         Arc::ptr_eq(&self.programs, &other.programs)

@@ -130,7 +130,7 @@ pub fn copy<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut V, from: &V) {
     vectors::copy(to.as_mut(), from.as_ref());
 }
 
-/// Whether a step with this growth and end is one.
+/// True if a step with this growth and end is one.
 #[inline(always)]
 pub fn is_healthy<T: Real, V: AsRef<[T]>>(growth: T, to: &Moment<T, V>) -> bool {
     let is_finite = |vector: &V| vectors::is_finite(vector.as_ref());

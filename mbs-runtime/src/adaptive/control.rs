@@ -97,7 +97,7 @@ pub struct Control {
     pub next: f64,
     /// Error over allowed error of the last step.
     before: f64,
-    /// Whether the step at hand was rejected.
+    /// True if the step at hand was rejected.
     is_again: bool,
 }
 
@@ -107,7 +107,7 @@ impl Control {
         Self { next: first, before: 1e-4, is_again: false }
     }
 
-    /// Whether a step of `h` seconds with this ratio of error and allowed error is good; says
+    /// True if a step of `h` seconds with this ratio of error and allowed error is good; says
     /// how long the next one is. A ratio that is no number is that of a step that failed.
     pub fn judge(&mut self, h: f64, ratio: f64, estimate: &Estimate) -> bool {
         let power = 1.0 / f64::from(estimate.power);

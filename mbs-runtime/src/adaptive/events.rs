@@ -27,7 +27,7 @@ pub struct Event {
     pub index: usize,
     /// When, in s.
     pub t: f64,
-    /// Whether it became positive.
+    /// True if it became positive.
     pub is_rising: bool,
 }
 

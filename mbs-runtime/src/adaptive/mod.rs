@@ -120,7 +120,7 @@ pub struct Adaptive<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     between: Between<S::Between<[D::States; 2]>>,
     /// Room for all coordinates and velocities.
     all: [D::Coordinates; 2],
-    /// Whether the acceleration of the present state is that of the present inputs.
+    /// True if the acceleration of the present state is that of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
     effort: Effort,

@@ -11,7 +11,7 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
     /// The word that asks for it.
     fn word(&self) -> &'static str;
 
-    /// Whether the method can integrate a mechanism.
+    /// Checks that the method can integrate a mechanism.
     ///
     /// # Errors
     /// The mechanism has a property that the method does not support.

@@ -44,7 +44,7 @@ pub struct ConstantStep<D: Dynamics, K: Kernel<D>> {
     next: Moment<D::Real, D::States>,
     /// All coordinates and velocities of the present state.
     all: [D::Coordinates; 2],
-    /// Whether the acceleration of `next` is that of the present inputs.
+    /// True if the acceleration of `next` is that of the present inputs.
     is_solved: bool,
     watch: Watch<D::Real>,
 }

@@ -89,7 +89,7 @@ pub struct TrBdf2Step<V> {
     there: [V; 2],
     /// a₂ and a₃.
     slopes: [V; 2],
-    /// Whether there is an acceleration from before.
+    /// True if there is an acceleration from before.
     is_started: bool,
 }
 

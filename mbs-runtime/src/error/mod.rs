@@ -193,7 +193,7 @@ pub enum Error {
         t: f64,
         /// The constraint that is violated most, measured by what is allowed.
         constraint: &'static str,
-        /// Whether it is its rate Φ̇, and not Φ.
+        /// True if it is its rate Φ̇, and not Φ.
         is_rate: bool,
         /// By how much, in its own SI unit, for a rate per second.
         violation: f64,

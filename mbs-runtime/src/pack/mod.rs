@@ -302,7 +302,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     }
 }
 
-/// Whether programs of a mechanism became loops, which go lane after lane.
+/// True if programs of a mechanism became loops, which go lane after lane.
 #[inline(always)]
 fn is_in_loops<M: Mechanism>() -> bool {
     M::INFO.functions.iter().any(|function| function.loops > 0)
@@ -342,7 +342,7 @@ fn step_together<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     }
 }
 
-/// Whether no growth was over its alarm or is to be remembered, and all is finite, in
+/// True if no growth was over its alarm or is to be remembered, and all is finite, in
 /// every lane.
 #[inline(always)]
 fn is_calm<M: Mechanism<Real: Lane>, const N: usize>(

@@ -32,7 +32,7 @@ use crate::{Gains, Mechanism, Real};
     note = "add `gradients = reverse;` to its declaration, or use `gradient`, which needs no statement"
 )]
 pub trait Transposed: Mechanism {
-    /// Whether there is the transpose of a whole step of the declared scheme with feedback.
+    /// True if there is the transpose of a whole step of the declared scheme with feedback.
     const HAS_STEP: bool;
 
     /// Adds (∂f/∂x)ᵀ `weights` to the adjoints of all x that the function reads. The weights are the

@@ -57,7 +57,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         })
     }
 
-    /// Whether redundant constraints, which steps do not look at, are met all the same.
+    /// True if redundant constraints, which steps do not look at, are met all the same.
     #[inline(always)]
     pub(super) fn keeps_redundant(&self, at: &State<M::States>) -> bool {
         spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()

@@ -177,7 +177,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     }
 }
 
-/// Whether a loop over inlined steps keeps the state in registers: that of one or two coordinates.
+/// True if a loop over inlined steps keeps the state in registers: that of one or two coordinates.
 #[inline(always)]
 fn stays_in_registers<M: Mechanism>() -> bool {
     M::INFO.states.len() <= 2

@@ -29,7 +29,7 @@ pub struct Preparation<'a, T> {
     pub inputs: &'a [T],
     /// The step in s.
     pub step: T,
-    /// Whether violations of the constraints are meant to decay.
+    /// True if violations of the constraints are meant to decay.
     pub keeps_constraints: bool,
 }
 

@@ -42,7 +42,7 @@ pub fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
     (distance(best) <= allowed && distance(best) < best.chars().count()).then_some(best)
 }
 
-/// Whether a name fits a pattern, in which `*` stands for any letters and `?` for one.
+/// True if a name fits a pattern, in which `*` stands for any letters and `?` for one.
 pub fn fits(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
     // Where the last star was, and from where on the name is matched against what follows it.

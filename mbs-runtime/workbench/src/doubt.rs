@@ -228,7 +228,7 @@ pub(crate) fn size(sketch: &Sketch, places: &[[f64; 2]]) -> f64 {
     if diagonal > 0.0 && diagonal.is_finite() { diagonal } else { 1.0 }
 }
 
-/// Whether the worst step of a run had fewer digits than a motion can be trusted with.
+/// A doubt where the worst step of a run had fewer digits than a motion can be trusted with.
 pub(crate) fn few_digits(left: f64, place: Option<WorstPlace>) -> Option<Doubt> {
     let WorstPlace { t, constraint, coordinate } = place.filter(|_| left < DIGITS)?;
     let name = if constraint.is_empty() { coordinate } else { constraint };

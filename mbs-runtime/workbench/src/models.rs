@@ -121,7 +121,7 @@ impl Source {
     }
 }
 
-/// Whether this is meant to be a file.
+/// True if this is meant to be a file.
 fn is_file(name: &str) -> bool {
     let (file, _) = split(name);
     let ending = Path::new(file).extension();

@@ -25,9 +25,9 @@ pub struct About {
     pub from: Vec<(String, String)>,
     /// The time at which drives and forces are held, the start unless it is said.
     pub at: Option<String>,
-    /// Whether an equilibrium is looked for where the mechanism would come to rest, past unstable ones.
+    /// True if an equilibrium is looked for where the mechanism would come to rest, past unstable ones.
     pub is_relaxed: bool,
-    /// Whether no equilibrium is looked for: at rest at the start, or at `from`.
+    /// True if no equilibrium is looked for: at rest at the start, or at `from`.
     pub is_here: bool,
     /// In motion, this time after the start, with drives that move on, and nothing of the above.
     pub after: Option<String>,

@@ -50,7 +50,7 @@ pub struct RunOptions {
     pub from: Vec<(String, String)>,
     /// Every how many steps a row is recorded, if it is said.
     pub every: Option<u64>,
-    /// Whether declared events are looked for, which makes the run one to a tolerance.
+    /// True if declared events are looked for, which makes the run one to a tolerance.
     pub finds_events: bool,
     /// Accept gains under which violations grow.
     pub allow_unstable: bool,

@@ -123,7 +123,7 @@ pub struct Occurrence {
     pub name: String,
     /// When, in s.
     pub t: f64,
-    /// Whether its value became positive.
+    /// True if its value became positive.
     pub is_rising: bool,
 }
 
@@ -132,7 +132,7 @@ pub struct Occurrence {
 pub struct Unmet {
     /// As it was written.
     pub condition: String,
-    /// Whether it was true from the start, so that it could not become true.
+    /// True if it was true from the start, so that it could not become true.
     pub holds_at_start: bool,
 }
 

@@ -73,7 +73,7 @@ impl Reverse {
         gradient
     }
 
-    /// Whether all are the same: this is the test of the benchmark.
+    /// True if all are the same: this is the test of the benchmark.
     pub fn is_forward(&self) -> bool {
         let forward = self.forward();
         let others = [self.backward(MEMORY), self.backward_of_type(MEMORY), self.forward_of_type()];

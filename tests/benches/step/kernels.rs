@@ -28,7 +28,7 @@ pub enum Method {
     OnPairs,
 }
 
-/// Whether a step comes with the clean multipliers at its start.
+/// A step comes with the clean multipliers at its start, or without.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reactions {
     None,

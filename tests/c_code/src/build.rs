@@ -44,7 +44,7 @@ pub fn compilers() -> Vec<&'static str> {
     ["gcc", "clang"].into_iter().filter(|compiler| is_there(compiler)).collect()
 }
 
-/// Whether a compiler is on this machine; a test says where it is not.
+/// True if a compiler is on this machine; a test says where it is not.
 pub fn is_there(compiler: &str) -> bool {
     let version = Command::new(compiler).arg("--version").stdout(Stdio::null()).status();
     let is_there = version.is_ok_and(|status| status.success());

@@ -1,6 +1,6 @@
 //! Samples of tests with many cases.
 
-/// Whether tests take all cases: what `EXHAUSTIVE=1` asks for when they are compiled, as `.ci/run` does.
+/// True if tests take all cases: what `EXHAUSTIVE=1` asks for when they are compiled, as `.ci/run` does.
 /// Without it nobody waits for the code of cases that are not taken.
 pub const EXHAUSTIVE: bool = option_env!("EXHAUSTIVE").is_some();
 

@@ -33,7 +33,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether the compiler is at fault.
+    /// True if the compiler is at fault.
     pub fn is_failure(&self) -> bool {
         !matches!(self, Self::Compiled | Self::Refused | Self::NoTokens)
     }

@@ -56,7 +56,7 @@ pub struct Formula {
     pub text: String,
     /// As LaTeX.
     pub latex: String,
-    /// Whether it is 0.
+    /// True if it is 0.
     pub is_zero: bool,
 }
 
@@ -70,7 +70,7 @@ pub struct Elimination {
     pub latex: String,
     /// The divisor as text, or `…` if it is too long for a line.
     pub short: String,
-    /// Whether this pivot may vanish and is watched.
+    /// True if this pivot may vanish and is watched.
     pub is_watched: bool,
 }
 

@@ -100,7 +100,7 @@ pub struct Compiled {
     /// Constraints that repeat what others say, by position; they share the multipliers
     /// with these by the minimum norm.
     pub redundant: Vec<usize>,
-    /// Whether forces depend on positions or velocities, so that an implicit stage is more than
+    /// True if forces depend on positions or velocities, so that an implicit stage is more than
     /// an explicit one.
     pub has_stiffness: bool,
     /// The coordinates, by position, along which forces act that depend on velocities or on
@@ -167,7 +167,7 @@ pub struct Constraint {
     pub doc: String,
     /// Φ, unless it is too long to read.
     pub formula: String,
-    /// Whether it prescribes a motion over time.
+    /// True if it prescribes a motion over time.
     pub is_drive: bool,
     /// The dimension of Φ.
     pub dimension: Dimension,
@@ -234,14 +234,14 @@ pub struct Choices {
     pub declares_scheme: bool,
     /// The feedback of the constraint violation; it comes with a step.
     pub feedback: Option<Feedback>,
-    /// Whether runs are to be differentiated in reverse, which takes [`Compiled::transposes`].
+    /// True if runs are to be differentiated in reverse, which takes [`Compiled::transposes`].
     pub has_reverse: bool,
 }
 
 /// Feedback −2αΦ̇ − β²Φ of the constraint violation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feedback {
-    /// Whether all stages of a step are given that of the first.
+    /// True if all stages of a step are given that of the first.
     pub is_held: bool,
     /// α in 1/s
     pub alpha: f64,
@@ -306,12 +306,12 @@ impl Compiled {
         }
     }
 
-    /// Whether some coordinates are not integrated.
+    /// True if some coordinates are not integrated.
     pub fn has_reduced_states(&self) -> bool {
         self.states.len() < self.coordinates.len()
     }
 
-    /// How many numbers there are of a kind of results.
+    /// The length of a kind of results.
     pub fn length(&self, result: Results) -> usize {
         match result {
             Results::Hoisted => self.program(FunctionId::Hoisted).outputs.len(),

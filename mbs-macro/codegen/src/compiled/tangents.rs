@@ -51,7 +51,7 @@ impl Compiled {
         counted.without_dead_code().along(&direction.collect::<Vec<_>>())
     }
 
-    /// How many numbers a direction has, along which a function is differentiated.
+    /// The length of a direction, along which a function is differentiated.
     pub fn directions(&self, function: FunctionId) -> usize {
         function.arguments().iter().flat_map(|argument| self.parts(*argument)).map(|(_, length)| length).sum()
     }

@@ -93,7 +93,7 @@ impl Compiled {
         Ok(Transposed { program, by, weights: counted })
     }
 
-    /// Whether derivatives by an operand are asked for: not by constants, times and gains, nor by what
+    /// True if derivatives by an operand are asked for: not by constants, times and gains, nor by what
     /// implicit stages add, which are not transposed.
     fn is_differentiated(&self, operand: Operand) -> bool {
         let Some(input) = self.input_of(operand) else { return matches!(operand, Operand::Hoisted(_)) };

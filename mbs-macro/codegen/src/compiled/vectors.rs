@@ -61,7 +61,7 @@ impl Input {
 }
 
 impl Compiled {
-    /// How many components a vector has; nothing of weights, whose number depends on the function.
+    /// The number of components of a vector; nothing of weights, whose number depends on the function.
     pub fn components(&self, vector: Vector) -> usize {
         match vector {
             Vector::Parameters => self.parameters.len(),

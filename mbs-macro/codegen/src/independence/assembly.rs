@@ -55,7 +55,7 @@ pub struct Closing {
     pub phi: Vec<f64>,
     /// The largest violation of the rows that were asked for, as a distance.
     pub violation: f64,
-    /// Whether the rows that were asked for are met.
+    /// True if the rows that were asked for are met.
     pub is_closed: bool,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Assembly<'a> {
         self.pattern.len()
     }
 
-    /// Whether a constraint changes with time.
+    /// True if a constraint changes with time.
     pub fn depends_on_time(&self) -> bool {
         self.depends_on_time
     }
@@ -139,7 +139,7 @@ impl<'a> Assembly<'a> {
         apart.fold(0.0, f64::max)
     }
 
-    /// Whether every one of these rows is met: by its residual as a distance in the
+    /// True if every one of these rows is met: by its residual as a distance in the
     /// coordinates, or to the rounding of its terms.
     pub fn are_met(&self, rows: &[usize], at: &Position) -> bool {
         let phi = self.phi(at);

@@ -17,7 +17,7 @@ use crate::derive::Equations;
 /// The verdict of exact arithmetic about the rows.
 pub struct Verdict {
     pub dependent: Vec<Dependent>,
-    /// Whether nothing was replaced by a stand-in.
+    /// True if nothing was replaced by a stand-in.
     pub is_exact: bool,
 }
 
@@ -118,7 +118,7 @@ mod tests {
         }
     }
 
-    /// Whether exact arithmetic finds one relation between these rows, in which all of them take part.
+    /// True if exact arithmetic finds one relation between these rows, in which all of them take part.
     fn is_circuit(rows: &[String]) -> bool {
         let without = |at: usize| -> String {
             rows.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row.as_str()).collect()

@@ -56,7 +56,7 @@ impl Place {
 pub struct Manifold {
     /// The start and others; never empty.
     places: Vec<Place>,
-    /// Whether the mechanism has only this one position although Φ_q would let
+    /// True if the mechanism has only this one position although Φ_q would let
     /// it move: then it is singular there, and no constraint is redundant.
     is_isolated: bool,
 }

@@ -13,7 +13,7 @@ use crate::model::{Constraint, Model, Source};
 pub struct Part<'a> {
     pub source: &'a Source,
     rows: Vec<&'a Constraint>,
-    /// Whether these are all rows that the statement has.
+    /// True if these are all rows that the statement has.
     is_whole: bool,
 }
 

@@ -32,7 +32,7 @@ impl Motion {
         self.multipliers.insert(multiplier);
     }
 
-    /// Whether something is a function of reactions.
+    /// True if something is a function of reactions.
     pub fn depends_on_reactions(&self, x: Scalar<'_>) -> bool {
         x.symbols().iter().any(|symbol| self.multipliers.contains(symbol))
     }

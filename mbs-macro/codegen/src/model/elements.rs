@@ -185,7 +185,7 @@ impl Resolved {
     }
 }
 
-/// Whether all properties are given that the element needs.
+/// Checks that all properties are given that the element needs.
 fn is_said(element: &Element) -> Result<(), Diagnostic> {
     let is_zero = |value: &Load| match value {
         Load::Scalar(Formula { kind: FormulaKind::Number { value, .. }, .. }) => value.is_zero(),

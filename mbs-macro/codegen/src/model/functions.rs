@@ -253,7 +253,7 @@ fn known<'a>() -> impl Iterator<Item = &'a str> {
         .chain(MEASURES.iter().copied())
 }
 
-/// Whether the language has a function of this name.
+/// True if the language has a function of this name.
 pub fn is_known(name: &str) -> bool {
     known().any(|known| known == name)
 }

@@ -20,7 +20,7 @@ const UNROLLED: u32 = 1024;
 /// The declared choices, in SI units.
 #[derive(Default)]
 pub struct Solver {
-    /// Whether coordinates that a constraint gives explicitly are left out of the integration.
+    /// True if coordinates that a constraint gives explicitly are left out of the integration.
     pub has_reduced_states: Option<(bool, Span)>,
     /// Operations that one evaluation of the right-hand side may take.
     pub operations: Option<(u32, Span)>,
@@ -44,7 +44,7 @@ pub struct Feedback {
 }
 
 impl Solver {
-    /// Whether coordinates that a constraint gives explicitly are left out of the integration.
+    /// True if coordinates that a constraint gives explicitly are left out of the integration.
     pub fn has_reduced_states(&self) -> bool {
         self.has_reduced_states.is_some_and(|(is_reduced, _)| is_reduced)
     }
@@ -174,7 +174,7 @@ impl Resolver<'_> {
         value
     }
 
-    /// Whether gains are stable depends on the step.
+    /// Gains need a step: whether they are stable depends on it.
     pub(super) fn check_solver(&mut self) {
         if let Solver { step: None, feedback: Some(feedback), .. } = &self.solver {
             self.errors.push(

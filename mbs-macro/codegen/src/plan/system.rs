@@ -101,7 +101,7 @@ struct Cost {
 }
 
 impl Cost {
-    /// Whether this is better than fewer operations: hardly more of them, with a way through them
+    /// True if this is better than fewer operations: hardly more of them, with a way through them
     /// that is shorter by a quarter. Less than that is lost beside what a processor does meanwhile.
     fn is_better_than(self, fewer: Self) -> bool {
         let has_hardly_more = self.operations <= fewer.operations + fewer.operations / 20;

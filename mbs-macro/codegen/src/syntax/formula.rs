@@ -356,7 +356,7 @@ fn in_unit(inner: Formula, unit: UnitText) -> Formula {
     Formula { span: inner.span, kind: FormulaKind::WithUnit { inner: Box::new(inner), unit } }
 }
 
-/// Whether a parenthesis holds a vector: a comma on its first level.
+/// True if a parenthesis holds a vector: a comma on its first level.
 pub(super) fn is_vector(input: ParseStream<'_>) -> bool {
     let ahead = input.fork();
     let Ok(group) = ahead.parse::<proc_macro2::Group>() else { return false };

@@ -76,7 +76,7 @@ fn parenthesis(group: &Group, content: TokenStream) -> TokenTree {
     parenthesis.into()
 }
 
-/// Whether tokens are a formula with an operator outside of all groups. A sign that
+/// True if tokens are a formula with an operator outside of all groups. A sign that
 /// binds looser than all operators, such as a comparison, `=` or the dots of a
 /// range, makes them something else.
 fn is_operation(tokens: &TokenStream) -> bool {

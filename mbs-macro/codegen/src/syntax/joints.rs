@@ -114,7 +114,7 @@ pub(super) fn two_places(
     Ok((first, second))
 }
 
-/// Whether both clauses cannot stand together.
+/// True if both clauses cannot stand together.
 fn excludes(shape: Shape, kind: ClauseKind, other: ClauseKind) -> bool {
     kind == other || shape.kind.needs.iter().any(|group| group.contains(&kind) && group.contains(&other))
 }

@@ -42,7 +42,7 @@ pub fn check_kept(
 /// A declared value, or rate, that the constraints change.
 struct Lost<'a> {
     start: &'a Start,
-    /// Whether it is the first of its kind that is declared.
+    /// True if it is the first of its kind that is declared.
     is_first: bool,
     declared: f64,
     becomes: f64,

@@ -102,7 +102,7 @@ impl<'a> Scalar<'a> {
         self.algebra.read(self.expr, Arena::as_number)
     }
 
-    /// Whether it is the constant 0.
+    /// True if it is the constant 0.
     pub fn is_zero(self) -> bool {
         self.algebra.read(self.expr, Arena::is_zero)
     }

@@ -93,7 +93,7 @@ impl Kkt {
         })
     }
 
-    /// Whether this unknown is left.
+    /// True if this unknown is left.
     pub(super) fn contains(&self, unknown: Unknown) -> bool {
         self.couplings.contains_key(&unknown)
     }
@@ -115,7 +115,7 @@ impl Kkt {
         neighbours.map(|(other, _)| other).filter(|other| !taken.contains(other)).collect()
     }
 
-    /// Whether the mass of this coordinate is positive by declaration.
+    /// True if the mass of this coordinate is positive by declaration.
     pub fn is_massive(&self, unknown: Unknown) -> bool {
         self.massive.contains(&unknown)
     }

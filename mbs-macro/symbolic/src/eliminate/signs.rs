@@ -49,7 +49,7 @@ impl Arena {
         }
     }
 
-    /// Whether the value is positive in every position, as a sum of squares
+    /// True if the value is positive in every position, as a sum of squares
     /// with at least one term that depends on parameters alone.
     ///
     /// Parameters count as positive: they are masses and lengths. One that is

@@ -35,7 +35,7 @@ pub struct WatchedPivot {
     pub growth: Expr,
     /// The part of the growth that is linear in 1/pivot, and the square of the rest.
     parts: [Option<Expr>; 2],
-    /// Whether the growth can signal a lost pivot before it is exactly 0.
+    /// True if the growth can signal a lost pivot before it is exactly 0.
     pub can_cancel: bool,
 }
 

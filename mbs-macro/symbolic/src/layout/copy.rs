@@ -61,7 +61,7 @@ impl<V> Loop<V> {
         Ok(Some(WovenCopy { given: copy.given, woven, kept: copy.kept, together }))
     }
 
-    /// Whether a column has a result of the copy that reads it.
+    /// True if a column has a result of the copy that reads it.
     fn reads_what_it_stores(&self, program: &Program) -> bool {
         let length = self.repetition.length;
         self.repetition.range().any(|at| {
@@ -143,7 +143,7 @@ impl<'a> Body<'a> {
         Tried { woven, together }
     }
 
-    /// Whether two carried variables could be the lanes of a vector: what gives them is of one kind.
+    /// True if two carried variables could be the lanes of a vector: what gives them is of one kind.
     fn are_alike(&self, a: usize, b: usize) -> bool {
         let [a, b] = [a, b].map(|at| kind(&self.program.instructions[self.carried[at].from]));
         a.is_some() && a == b

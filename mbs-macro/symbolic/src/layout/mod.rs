@@ -95,7 +95,7 @@ pub type Components<'a, V> = &'a dyn Fn(Symbol) -> Option<Component<V>>;
 pub struct Layout<V> {
     /// The parts, in the order in which they run.
     pub parts: Vec<Part<V>>,
-    /// How many slots there are.
+    /// The number of slots.
     pub slots: usize,
     /// Outputs that no instruction computes, and where they are stored.
     pub given: Vec<(Operand, Place)>,
@@ -174,7 +174,7 @@ impl Straight {
 struct Outputs {
     outputs: Vec<Place>,
     given: Vec<(Operand, Place)>,
-    /// How many slots there are with those of outputs that no instruction computes.
+    /// The number of slots with those of outputs that no instruction computes.
     slots: usize,
 }
 

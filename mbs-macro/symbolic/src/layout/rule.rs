@@ -9,7 +9,7 @@ pub enum Rule {
         first: usize,
         /// The distance from copy to copy.
         step: usize,
-        /// Whether places fall.
+        /// True if places fall.
         is_down: bool,
     },
     /// One of the [tables](super::Loop::tables) of the loop, by position.

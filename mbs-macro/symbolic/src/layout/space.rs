@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 /// Slots in use and free ones.
 #[derive(Default)]
 pub(super) struct Space {
-    /// How many there are.
+    /// Their number.
     pub length: usize,
     /// First slot, how many, and the last block that reads them.
     used: Vec<(usize, usize, usize)>,

@@ -157,12 +157,12 @@ struct Flattening<'a> {
 }
 
 impl Flattening<'_> {
-    /// Whether the expression is to be computed with the parameters.
+    /// True if the expression is to be computed with the parameters.
     fn is_hoisted(&self, expr: Expr) -> bool {
         self.hoisted.is_some() && self.arena.stage(expr) <= Stage::Parameter
     }
 
-    /// Whether every user of the expression needs its value as it is. Products
+    /// True if every user of the expression needs its value as it is. Products
     /// are taken apart by the sums that they stand in.
     fn is_computed_whole(&self, expr: Expr) -> bool {
         let is_row = match self.arena.node(expr) {

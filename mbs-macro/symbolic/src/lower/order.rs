@@ -44,7 +44,7 @@ struct Eager<'a> {
     flat: &'a Flat,
     /// Depth first.
     values: Vec<Value>,
-    /// Whether a value needs a pivot.
+    /// True if a value needs a pivot.
     is_late: Vec<bool>,
     users: Vec<Vec<Value>>,
     is_done: Vec<bool>,

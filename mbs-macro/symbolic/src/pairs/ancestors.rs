@@ -25,7 +25,7 @@ impl Ancestors {
         Self { words, bits }
     }
 
-    /// Whether `at` waits for `value`.
+    /// True if `at` waits for `value`.
     pub fn has(&self, at: usize, value: usize) -> bool {
         self.bits[at * self.words + value / 64] >> (value % 64) & 1 == 1
     }

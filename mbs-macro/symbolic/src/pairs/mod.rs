@@ -52,11 +52,11 @@ pub struct Woven {
 
 /// Where the symbols of a program come from.
 pub struct Layout<'a> {
-    /// Whether two symbols lie side by side in memory, so that they are read as a pair.
+    /// True if two symbols lie side by side in memory, so that they are read as a pair.
     pub are_neighbours: &'a dyn Fn(Symbol, Symbol) -> bool,
-    /// Whether two outputs do, so that they are written as a pair.
+    /// True if two outputs do, so that they are written as a pair.
     pub are_written_together: &'a dyn Fn(usize, usize) -> bool,
-    /// Whether a symbol is the same in run after run of the program, so that a loop
+    /// True if a symbol is the same in run after run of the program, so that a loop
     /// moves it into both lanes once.
     pub is_constant: &'a dyn Fn(Symbol) -> bool,
     /// The output from which the next run of the program reads a symbol.
@@ -218,7 +218,7 @@ impl Woven {
         self.outputs.iter().map(|&output| read(output, &values)).collect()
     }
 
-    /// Whether the steps compute what the program does that they were woven from, at
+    /// Checks that the steps compute what the program does that they were woven from, at
     /// numbers without any relation: bit for bit but for the sign of a zero.
     ///
     /// # Errors
@@ -265,7 +265,7 @@ impl Woven {
         self.steps.len() - 1
     }
 
-    /// How many steps there are of each kind: scalars, pairs, then what only moves
+    /// The number of steps of each kind: scalars, pairs, then what only moves
     /// lanes.
     pub fn census(&self) -> [usize; 6] {
         let count = |wanted: fn(&Step) -> bool| self.steps.iter().filter(|step| wanted(step)).count();

@@ -42,7 +42,7 @@ impl Nodes {
         (done == count).then_some(Self { order, members })
     }
 
-    /// How many there are.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.order.len()
     }

@@ -148,7 +148,7 @@ impl Weaver<'_> {
         (self.partners[x] == Some(Partner { other: y, lane: Lane::First })).then_some((x, y))
     }
 
-    /// Whether the result is negated with its operands.
+    /// True if the result is negated with its operands.
     fn has_sign(&self, at: usize) -> bool {
         kind(&self.program.instructions[at]) != Some(Kind::Magnitude)
     }
@@ -172,7 +172,7 @@ impl Weaver<'_> {
         form.operands.iter().map(|&(lanes, flipped)| self.moves(lanes) + self.flips(lanes, flipped, 0)).sum()
     }
 
-    /// Whether the lanes have to be brought together: a pair that is computed as one
+    /// One if the lanes have to be brought together: a pair that is computed as one
     /// costs what it costs in any case.
     fn moves(&self, lanes: Lanes) -> u32 {
         let is_there = self.pairs.contains_key(&lanes) || self.instructions(lanes).is_some();

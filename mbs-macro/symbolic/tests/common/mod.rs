@@ -122,7 +122,7 @@ pub trait Tolerance {
     /// Both have errors of this size; canonical forms reorder and collect,
     /// which changes the bound by a factor that 64 covers.
     fn tolerance(&self) -> f64;
-    /// Whether another arrangement of the same formula may give this number.
+    /// True if another arrangement of the same formula may give this number.
     fn agrees_with(&self, other: f64) -> bool;
 }
 

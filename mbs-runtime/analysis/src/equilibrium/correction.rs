@@ -47,7 +47,7 @@ impl Correction {
         length.is_finite().then_some(Self { step, length, rounding, left, rate: rate.amax() })
     }
 
-    /// Whether what acts in directions without stiffness is a rounding of accelerations as large as
+    /// True if what acts in directions without stiffness is a rounding of accelerations as large as
     /// `strongest`, in scales per s².
     pub fn is_balanced(&self, strongest: f64) -> bool {
         self.left <= ROUNDING * (strongest + self.rate) + STILL

@@ -65,7 +65,7 @@ pub struct Equilibrium {
     pub iterations: u32,
 }
 
-/// Whether small disturbances grow, as far as the stiffness tells.
+/// The growth of small disturbances, as far as the stiffness tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
     /// Every small displacement is driven back.
@@ -106,7 +106,7 @@ impl Equilibrium {
         }
     }
 
-    /// Whether every small displacement is driven back.
+    /// True if every small displacement is driven back.
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
     }

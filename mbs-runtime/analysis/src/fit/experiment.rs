@@ -164,7 +164,7 @@ impl Experiment {
         self.unknown.iter().map(find).collect()
     }
 
-    /// Whether samples and settings can be used.
+    /// Checks that samples and settings can be used.
     pub(super) fn check(&self) -> Result<(), Error> {
         if !(self.confidence > 0.0 && self.confidence < 1.0) {
             return Err(Error::Confidence { value: self.confidence });

@@ -34,7 +34,7 @@ pub struct Fit {
     pub chi_squared: f64,
     /// Samples less what was looked for.
     pub freedom: usize,
-    /// Whether the iteration came to its end, and not to the end of its patience.
+    /// True if the iteration came to its end, and not to the end of its patience.
     pub has_converged: bool,
     /// The runs that it took.
     pub runs: usize,
@@ -58,7 +58,7 @@ pub struct Estimate {
     pub standard_error: f64,
     /// The interval that contains the true value with the probability [`Fit::confidence`].
     pub interval: [f64; 2],
-    /// Whether it ended at one of its bounds, so that the intervals of the others are those of a mechanism in
+    /// True if it ended at one of its bounds, so that the intervals of the others are those of a mechanism in
     /// which it is known.
     pub is_at_bound: bool,
 }
@@ -72,7 +72,7 @@ pub struct Remainder {
     pub residuals: Vec<f64>,
     /// The standard deviation σ of the noise, given or estimated.
     pub deviation: f64,
-    /// Whether it was estimated.
+    /// True if it was estimated.
     pub is_estimated: bool,
 }
 

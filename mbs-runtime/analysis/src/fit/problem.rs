@@ -178,7 +178,7 @@ impl<'a> Problem<'a> {
         planted
     }
 
-    /// How many samples there are until a part of the time of the experiment has passed.
+    /// The number of samples until a part of the time of the experiment has passed.
     pub fn samples_until(&self, part: f64) -> usize {
         let ends = (self.times.first(), self.times.last());
         let (Some(first), Some(last)) = ends else { return 0 };
@@ -251,7 +251,7 @@ struct View {
     acceleration: Vec<Partials>,
     multipliers: Vec<Partials>,
     outputs: Vec<Partials>,
-    /// Whether anything beside positions and velocities was measured.
+    /// True if anything beside positions and velocities was measured.
     is_solved: bool,
 }
 

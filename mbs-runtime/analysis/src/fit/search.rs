@@ -119,7 +119,7 @@ struct Search<'a> {
     deviations: Vec<f64>,
     goes_on: &'a mut dyn FnMut(&Progress) -> bool,
     start: usize,
-    /// Whether it was interrupted: nothing is run any more.
+    /// True if it was interrupted: nothing is run any more.
     is_over: bool,
 }
 

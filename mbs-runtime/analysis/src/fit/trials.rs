@@ -27,7 +27,7 @@ use crate::{Driven, InputTable};
 /// }
 /// ```
 pub trait Trials {
-    /// Whether the mechanism takes these parameters, in SI units in the order of
+    /// Checks that the mechanism takes these parameters, in SI units in the order of
     /// [`Info::parameters`](mbs_runtime::Info::parameters).
     ///
     /// # Errors

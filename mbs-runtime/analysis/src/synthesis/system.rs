@@ -87,7 +87,7 @@ impl<'a> System<'a> {
         self.info().coordinates.get(coordinate).is_some_and(|q| q.dimension.length == 0)
     }
 
-    /// Whether there are more values than unknowns and positions can meet.
+    /// True if there are more values than unknowns and positions can meet.
     pub fn is_overdetermined(&self) -> bool {
         let values = self.task.positions.iter().flatten().flatten().count();
         values > self.task.unknown.len() + self.task.positions.len()

@@ -4,7 +4,7 @@ use super::{Joint, Kind, Sheet, Speed};
 use crate::address::query;
 use crate::{Refusal, shown};
 
-/// Whether a text begins as a file or an address does.
+/// True if a text begins as a file or an address does.
 pub(crate) fn is_begun(text: &str) -> bool {
     let text = content(text);
     let first = statements(&text).into_iter().find(|statement| !statement.trim().is_empty());

@@ -24,7 +24,7 @@ const UNITS: [(&str, f64, f64, f64); 3] = [
     ("m", 1.0, 1.0, 1.0),
 ];
 
-/// Whether a text begins as a file or an address does.
+/// True if a text begins as a file or an address does.
 pub(super) fn is_begun(text: &str) -> bool {
     records::is_begun(&content(text))
 }

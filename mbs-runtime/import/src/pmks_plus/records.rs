@@ -43,7 +43,7 @@ pub(super) struct Joint<'a> {
 }
 
 pub(super) struct Link<'a> {
-    /// Whether it is a body of its own and no part of one.
+    /// True if it is a body of its own and no part of one.
     pub is_root: bool,
     pub is_block: bool,
     pub id: &'a str,
@@ -71,7 +71,7 @@ pub(super) struct Force<'a> {
     pub points_outward: bool,
 }
 
-/// Whether a text begins as one of PMKS+ does: settings between points, then joints.
+/// True if a text begins as one of PMKS+ does: settings between points, then joints.
 pub(super) fn is_begun(text: &str) -> bool {
     let sections: Vec<&str> = text.split('.').take(5).collect();
     let is_number = |text: &str| {

@@ -73,7 +73,7 @@ pub(super) struct Mark {
     pub name: String,
     pub of: String,
     pub at: Vector,
-    /// Whether it only gives the body a shape, and may be left out of a body that has one.
+    /// True if it only gives the body a shape, and may be left out of a body that has one.
     pub is_shape: bool,
 }
 

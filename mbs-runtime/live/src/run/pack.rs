@@ -162,7 +162,7 @@ impl Pack {
         run.t = run.start_time + run.steps as f64 * run.step;
     }
 
-    /// Whether a run goes on; one that does not exist does not.
+    /// True if a run goes on; one that does not exist does not.
     pub fn goes_on(&self, lane: usize) -> bool {
         self.goes_on.get(lane).copied().unwrap_or(false)
     }

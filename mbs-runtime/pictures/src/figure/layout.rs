@@ -19,7 +19,7 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// Whether a point lies inside; one that is not finite does not.
+    /// True if a point lies inside; one that is not finite does not.
     pub(super) fn contains(self, x: f64, y: f64) -> bool {
         // The frame itself counts, to rounding.
         let within =

@@ -106,7 +106,7 @@ pub struct Axis {
     pub label: String,
     /// The unit; may be empty.
     pub unit: String,
-    /// Whether it is logarithmic.
+    /// True if it is logarithmic.
     pub log: bool,
     /// The range to show; by default that of the data.
     pub range: Option<(f64, f64)>,
@@ -174,7 +174,7 @@ pub struct Series {
     pub name: String,
     /// Its points; the line is broken where one is not finite.
     pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
+    /// The way in which it is drawn.
     pub stroke: Stroke,
 }
 

@@ -38,7 +38,7 @@ impl Figure {
         if is_svg { self.svg().map(String::into_bytes) } else { self.png() }
     }
 
-    /// Whether a picture can be written to a file of this name.
+    /// Checks that a picture can be written to a file of this name.
     ///
     /// # Errors
     /// [`Error::Ending`].

@@ -154,7 +154,7 @@ impl<'a> Maker<'a> {
         traced.split_off(surplus)
     }
 
-    /// Whether two points coincide at every instant.
+    /// True if two points coincide at every instant.
     fn are_together(&self, a: usize, b: usize) -> bool {
         let all = 0..self.picture.points.len();
         all.into_iter()

@@ -12,7 +12,7 @@ use crate::Error;
 struct Platform {
     /// For people.
     name: &'static str,
-    /// Whether this program runs on it, so that the compiler of the machine compiles for it.
+    /// True if this program runs on it, so that the compiler of the machine compiles for it.
     is_here: bool,
     /// Compilers of other machines that compile for it.
     cross: &'static [&'static str],

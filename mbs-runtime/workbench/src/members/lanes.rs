@@ -14,7 +14,7 @@ use crate::simulated::simulation;
 
 /// Runs with constant inputs, many at once.
 pub trait InLanes: Send + Sync {
-    /// Whether they can be those of a method.
+    /// True if they can be those of a method.
     fn can_take(&self, method: Explicit) -> bool;
 
     /// Members to a vector instruction.

@@ -28,7 +28,7 @@ use crate::{Error, Unit};
 pub struct Members<'a> {
     /// The parameters that differ.
     pub names: Vec<String>,
-    /// How many members there are.
+    /// The number of members.
     pub count: usize,
     /// The values of these parameters in SI units, for the member with an index.
     pub values: &'a (dyn Fn(usize) -> Vec<f64> + Sync),

@@ -184,7 +184,7 @@ impl Sheet {
         Ok(values.into_iter().flatten().collect())
     }
 
-    /// Whether every column is one of these quantities.
+    /// Checks that every column is one of these quantities.
     ///
     /// # Errors
     /// [`Error::Unknown`] for another one.

@@ -71,7 +71,7 @@ fn page(path: &str, news: &News) -> Option<String> {
     path.strip_prefix("/played/").and(pages.played)
 }
 
-/// Whether a request names the address that it came to: a browser names the host of the
+/// True if a request names the address that it came to: a browser names the host of the
 /// page's own address.
 fn is_local(request: &Request, address: SocketAddr) -> bool {
     let port = address.port();

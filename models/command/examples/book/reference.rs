@@ -59,7 +59,7 @@ pub fn write(places: &Places, chapters: &Path) -> Outcome {
     Ok(())
 }
 
-/// Whether a page begins with the title of a README.
+/// True if a page begins with the title of a README.
 fn is_title(page: &str) -> bool {
     page.starts_with("# mbs") || page.starts_with("# Mechanisms for C")
 }

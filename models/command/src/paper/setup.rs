@@ -54,7 +54,7 @@ pub struct Setup {
     pub alpha: f64,
     /// β in 1/s.
     pub beta: f64,
-    /// Whether velocities start on Φ̇ = 0, instead of at 0 but for the crank's,
+    /// True if velocities start on Φ̇ = 0, instead of at 0 but for the crank's,
     /// as the paper has it.
     pub consistent: bool,
     /// End time in s.

@@ -134,7 +134,7 @@ fn what_cannot_be_synthesized() {
     );
 }
 
-/// Whether a process has a handler for Ctrl-C by now.
+/// True if a process has a handler for Ctrl-C by now.
 #[cfg(target_os = "linux")]
 fn catches_interrupts(process: u32) -> bool {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();

@@ -35,7 +35,7 @@ pub struct ElementKind {
     pub example: &'static str,
     pub places: Places,
     pub properties: &'static [Property],
-    /// Whether the properties that are given say what it does.
+    /// Checks that the properties that are given say how it acts.
     pub said: fn(&Given<'_>) -> Result<(), Unsaid>,
     /// The lengths or angles of which at least one has to depend on coordinates.
     pub moved: for<'a> fn(&Element<'a>) -> Vec<Scalar<'a>>,

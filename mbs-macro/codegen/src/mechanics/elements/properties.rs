@@ -11,11 +11,11 @@ pub const SPEED: Dimension = Dimension::of(0, 1, -1);
 pub struct Property {
     pub name: &'static str,
     pub dimension: Dimension,
-    /// Whether it may change with the motion.
+    /// True if it may change with the motion.
     pub varies: bool,
     pub range: Range,
     pub is_vector: bool,
-    /// Whether a bare number is meant in radians.
+    /// True if a bare number is meant in radians.
     pub is_angle: bool,
 }
 
@@ -72,7 +72,7 @@ impl Given<'_> {
         self.0.iter().any(|(given, _)| *given == name)
     }
 
-    /// Whether it is given, and not as the number 0.
+    /// True if it is given, and not as the number 0.
     pub fn has_some(&self, name: &str) -> bool {
         self.0.iter().any(|&(given, is_zero)| given == name && !is_zero)
     }

@@ -132,7 +132,7 @@ impl JointKind {
         self.needs.iter().copied().flatten().chain(self.takes).copied()
     }
 
-    /// Whether it leaves no motion of this kind between its places.
+    /// True if it leaves no motion of this kind between its places.
     pub fn holds(&self, what: Holds) -> bool {
         self.rows.iter().any(|row| row.holds == what)
     }

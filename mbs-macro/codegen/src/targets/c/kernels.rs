@@ -15,7 +15,7 @@ pub struct Kernel {
     /// Its head, without a semicolon.
     head: String,
     body: String,
-    /// Whether others than the code itself may call it.
+    /// True if others than the code itself may call it.
     is_public: bool,
 }
 

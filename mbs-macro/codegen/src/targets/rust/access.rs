@@ -18,7 +18,7 @@ pub struct Access {
     pub time: TokenStream,
     pub positions: TokenStream,
     pub velocities: TokenStream,
-    /// Whether `at` is the state of a step, and not of all coordinates.
+    /// True if `at` is the state of a step, and not of all coordinates.
     is_of_step: bool,
     kind: Kind,
 }
@@ -85,17 +85,17 @@ impl Access {
         Self { parameters: quote!(parameters), kind: Kind::Parameters, ..Self::of_position() }
     }
 
-    /// Whether positions are a reference to the vector.
+    /// True if positions are a reference to the vector.
     pub fn is_borrowed(&self) -> bool {
         self.kind == Kind::Position
     }
 
-    /// Whether slots and results are arguments too, as of stages on arrays.
+    /// True if slots and results are arguments too, as of stages on arrays.
     pub fn is_on_arrays(&self) -> bool {
         self.kind == Kind::Arrays
     }
 
-    /// Whether a vector is an argument that is an array.
+    /// True if a vector is an argument that is an array.
     pub fn has_array(&self, vector: Vector) -> bool {
         match self.kind {
             Kind::Arrays => vector.is_given(),
@@ -104,7 +104,7 @@ impl Access {
         }
     }
 
-    /// How many components a vector has.
+    /// The number of components of a vector.
     pub fn components(&self, compiled: &Compiled, vector: Vector) -> usize {
         match (vector, self.kind) {
             (Vector::Weights, Kind::Transposed { weights }) => weights,

@@ -26,7 +26,7 @@ pub struct Body {
     pub outputs: Vec<TokenStream>,
     /// Of a long program, where they are kept.
     pub places: Option<Vec<Place>>,
-    /// How many slots a long program has.
+    /// The number of slots of a long program.
     pub slots: usize,
     pub runtime: TokenStream,
 }

@@ -6,7 +6,7 @@ use mbs_symbolic::Spline;
 
 /// How many numbers stand before the segments of a spline.
 pub const HEAD: usize = 3;
-/// How many numbers a segment of a spline has.
+/// The length of a segment of a spline, in numbers.
 pub const SEGMENT: usize = 5;
 
 /// The memory of a module.

@@ -96,7 +96,7 @@ struct Signature {
     slots: Vec<Slot>,
     /// How many numbers it writes to each address of results.
     lengths: Vec<usize>,
-    /// Whether the last output is returned.
+    /// True if the last output is returned.
     returns: bool,
 }
 

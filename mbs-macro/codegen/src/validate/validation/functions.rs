@@ -90,7 +90,7 @@ impl Point<'_> {
     }
 }
 
-/// Whether two values are the same to rounding. Where the expected one is not a
+/// True if two values are the same to rounding. Where the expected one is not a
 /// number, or rounding leaves nothing of it, there is nothing to compare.
 fn is_close(found: Rounded, expected: Rounded) -> bool {
     // Bounds are of first order; a factor covers the rest.

@@ -80,7 +80,7 @@ fn completed<'a>(
     }
 }
 
-/// Whether products of two or three of the declared numbers leave the range of a
+/// True if products of two or three of the declared numbers leave the range of a
 /// double: what comes of that tells nothing.
 fn has_extreme_numbers(model: &Model, plan: &Plan) -> bool {
     let is_extreme = |x: f64| x != 0.0 && !(1e-100..1e100).contains(&x.abs());

@@ -31,7 +31,7 @@ const WIDEST_RANGE: f64 = 1e12;
 const BLURRED: f64 = 1e-8;
 
 impl Point<'_> {
-    /// Whether the numbers in the equations are near enough to each other for a
+    /// True if the numbers in the equations are near enough to each other for a
     /// solution to have correct digits in every component.
     fn is_well_scaled(&self) -> bool {
         let range = |sizes: &mut dyn Iterator<Item = f64>| {
@@ -263,7 +263,7 @@ fn same(name: &str, found: &[Rounded], expected: &[Rounded]) -> Check {
 /// Bounds of rounding errors are of first order; a factor covers the rest.
 const BOUNDS: f64 = 4.0;
 
-/// Whether a residual is more than rounding: of the terms that it is made of, and of a solution
+/// True if a residual is more than rounding: of the terms that it is made of, and of a solution
 /// whose rounding errors, as they enter, are at most `error`. One that is no number tells nothing.
 fn exceeds(residual: f64, terms: f64, error: f64) -> bool {
     terms.is_finite() && residual.abs() > RESIDUAL * terms + BOUNDS * error + f64::MIN_POSITIVE

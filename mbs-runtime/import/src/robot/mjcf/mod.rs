@@ -59,7 +59,7 @@ struct Reader<'a> {
     classes: Classes<'a>,
     /// Joints whose actuators have limits together, as they are in messages.
     capped: BTreeMap<String, String>,
-    /// Whether there are geoms that could touch.
+    /// True if there are geoms that could touch.
     has_geoms: bool,
 }
 

@@ -12,7 +12,7 @@ pub(super) struct Settings {
     pub is_in_degrees: bool,
     /// The axes of Euler angles; capitals are those that do not turn with the body.
     pub euler: [char; 3],
-    /// Whether masses come from geoms: always, never, or where a body has no `inertial`.
+    /// True if masses come from geoms: always, never, or where a body has no `inertial`.
     pub masses_of_geoms: Option<bool>,
     /// The mass of all bodies together, if the masses of the file are to be scaled to it.
     pub total_mass: Option<f64>,

@@ -150,7 +150,7 @@ impl<'a> Reader<'a, '_> {
         Ok(turn.apply(given))
     }
 
-    /// Whether limits leave a joint no motion: files fixed links so before there were fixed joints.
+    /// True if limits leave a joint no motion: files fixed links so before there were fixed joints.
     fn is_locked(&mut self, axis: Node<'a>, of: &str) -> Result<bool, Refusal> {
         let Some(limit) = axis.elements_named("limit").next() else { return Ok(false) };
         let bound = |part: &'static str| -> Result<Option<f64>, Refusal> {

@@ -97,7 +97,7 @@ fn surroundings(world: Node<'_>) -> Result<Vec<String>, Refusal> {
     Ok(notes)
 }
 
-/// Whether an include names a model that everybody knows to stand still.
+/// True if an include names a model that everybody knows to stand still.
 fn is_still(node: Node<'_>) -> bool {
     let name = text(node, "uri").and_then(|uri| uri.rsplit('/').next()).unwrap_or_default();
     STILL.contains(&name.to_ascii_lowercase().replace("%20", "_").replace(' ', "_").as_str())

@@ -75,7 +75,7 @@ struct Tree<'a, 'r> {
     bodies: BTreeMap<&'a str, usize>,
     /// Where the bodies are in the world.
     poses: Vec<Pose>,
-    /// Whether they move.
+    /// True if they move.
     moving: Vec<bool>,
 }
 

@@ -15,7 +15,7 @@ pub(super) fn number(node: Node<'_>, part: &'static str, of: &str) -> Result<Opt
     Ok(text(node, part).map(|text| exactly::<1>(text, part, of)).transpose()?.map(|[number]| number))
 }
 
-/// Whether a part of an element is there and says yes.
+/// True if a part of an element is there and says yes.
 pub(super) fn is_set(node: Node<'_>, part: &'static str) -> bool {
     text(node, part).is_some_and(is_true)
 }

@@ -14,7 +14,7 @@ use crate::targets::rust::names::Names;
 pub struct Arrays(BTreeSet<Vector>);
 
 impl Vector {
-    /// Whether stages on arrays are given the vector as one.
+    /// True if stages on arrays are given the vector as one.
     pub(in crate::targets::rust) fn is_given(self) -> bool {
         match self {
             Self::Positions
