@@ -175,7 +175,8 @@ fn declared_start(model: &Model) -> Vec<f64> {
         Meaning::Parameter(at) => model.parameters[at].value,
         Meaning::Coordinate(at) => position(at),
         Meaning::Time => model.arena.evaluate(&[model.start_time], &parameters)[0],
-        _ => 0.0,
+        // constraints do not read them
+        Meaning::Input(_) | Meaning::Velocity(_) | Meaning::Acceleration(_) | Meaning::Multiplier(_) => 0.0,
     };
     model.meanings.iter().map(value).collect()
 }

@@ -334,18 +334,19 @@ impl Scope<'_> {
             );
             return None;
         }
-        let dimension = match (b.dimension, number) {
-            (None | Some(Dimension::NONE), _) => Some(Dimension::NONE),
-            (Some(dimension), Some(number)) => dimension.power(number),
-            (Some(_), None) => None,
+        let dimension = match b.dimension {
+            None | Some(Dimension::NONE) => Ok(Dimension::NONE),
+            Some(base) => number.and_then(|number| base.power(number)).ok_or(base),
         };
-        let Some(dimension) = dimension else {
-            let base = b.dimension.unwrap_or_default();
-            errors.push(
-                Diagnostic::new(op_span, format!("{} to this power has no dimension", described(base)))
-                    .help("a quantity with a dimension takes constant exponents such as 2, -1 or 1/2"),
-            );
-            return None;
+        let dimension = match dimension {
+            Ok(dimension) => dimension,
+            Err(base) => {
+                errors.push(
+                    Diagnostic::new(op_span, format!("{} to this power has no dimension", described(base)))
+                        .help("a quantity with a dimension takes constant exponents such as 2, -1 or 1/2"),
+                );
+                return None;
+            }
         };
         let expr = self.arena.pow(b.expr, e);
         self.finite(Typed { expr, dimension: Some(dimension) }, &[b.expr, e], op_span, errors)

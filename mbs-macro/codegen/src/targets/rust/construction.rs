@@ -11,6 +11,7 @@ use super::access::Access;
 use super::names::Names;
 use super::program::{Body, body};
 use super::splines::splines;
+use super::tokens;
 use crate::compiled::{Comparison, Compiled, Condition, FunctionId};
 
 /// `new`, `declared`, `prepare` and access to the parameters.
@@ -20,6 +21,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let splines = splines(compiled, names);
     let Body { statements, outputs, .. } =
         body(compiled, names, FunctionId::Hoisted, &Access::of_parameters());
+    let lints = tokens::lints();
     quote! {
         impl #mechanism<::core::primitive::f64> {
             /// The mechanism with its declared parameters, in `f64`.
@@ -45,7 +47,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             }
 
             /// Computes what depends on parameters alone.
-            #[allow(unused_variables, clippy::all)]
+            #lints
             fn prepare(parameters: #parameters<T>) -> Self {
                 #statements
                 Self { parameters, hoisted: [#(#outputs),*] }
@@ -82,9 +84,9 @@ fn parameter_checks(compiled: &Compiled, names: &Names) -> TokenStream {
             }
         }
     });
+    let lints = tokens::lints();
     quote! {
-        #[allow(unused_variables)]
-        #[allow(clippy::all)]
+        #lints
         {
             #statements
             #(#checks)*

@@ -14,6 +14,7 @@ use super::sketch;
 use super::solver;
 use super::stages;
 use super::step;
+use super::tokens;
 use crate::compiled::{Argument, Compiled, FunctionId, Property, Results};
 
 /// Systems with more unknowns are not forced into the step.
@@ -36,11 +37,11 @@ impl Fields {
     }
 }
 
-/// Whether what runs at every step is forced into it.
+/// The attribute that forces functions into the step that calls them, or leaves them to the compiler.
 ///
-/// There, what the step does not use disappears, and all stages are scheduled
-/// together; and it is compiled for the vector instructions that an ensemble's
-/// step is compiled for. Large systems are left to the compiler.
+/// Within the step, results that it does not use disappear, all stages are scheduled
+/// together, and the code has the vector instructions that an ensemble's step is
+/// compiled for. Large systems are left to the compiler.
 fn inlining(compiled: &Compiled) -> TokenStream {
     let unknowns = compiled.coordinates.len() + compiled.constraints.len();
     if unknowns <= LARGEST_INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) }
@@ -66,8 +67,9 @@ pub fn inherent(compiled: &Compiled, names: &Names) -> TokenStream {
          In a singular position the result is not finite or its `growth` exceeds the runtime's `growth_limit`.",
     );
     let matrices = matrices::emit(compiled, names, &docs);
+    let lints = tokens::lints();
     quote! {
-        #[allow(unused_variables, clippy::all)]
+        #lints
         impl<T: #runtime::Real> #mechanism<T> {
             #(#methods)*
 
@@ -159,8 +161,9 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         let (statements, value) = (&body.statements, body.vector(outputs, &fields, 0..fields.len()));
         quote!(#statements #value)
     };
+    let lints = tokens::lints();
     quote! {
-        #[allow(unused_variables, clippy::all)]
+        #lints
         impl<T: #runtime::Real> #runtime::Mechanism for #mechanism<T> {
             type Real = T;
             type Over<Scalar: #runtime::Real> = #mechanism<Scalar>;

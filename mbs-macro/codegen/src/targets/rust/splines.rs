@@ -25,6 +25,7 @@ pub fn splines<'a>(compiled: &'a Compiled, names: &'a Names) -> impl Iterator<It
         let (name, origin, period) = (spline_name(at), number(spline.origin), number(spline.period));
         let segments = spline.segments.iter().map(segment);
         let doc = format!("`{}`, cubic from point to point.", spline.name);
+        // a spline whose value no program needs stands there all the same; its numbers are written to the last digit
         quote! {
             #[doc = #doc]
             #[allow(dead_code, clippy::all)]

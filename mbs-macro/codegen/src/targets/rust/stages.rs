@@ -12,9 +12,10 @@ use super::access::Access;
 use super::long::places::{ACCELERATION, FEEDBACK};
 use super::names::Names;
 use super::program::{Body, body};
+use super::tokens;
 use crate::compiled::{Compiled, FunctionId};
 
-/// Whether the stages are given arrays: where a step is not fused, and both became
+/// True if the stages are given arrays: where a step is not fused, and both became
 /// more than one block.
 pub fn are_on_arrays(compiled: &Compiled) -> bool {
     let is_long = |program: &Program| compiled.blocks(program).len() > 1;
@@ -57,8 +58,9 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
         quote!([T::from_f64(0.0); #length])
     };
     let (zero_states, zero_constraints) = (zeros(s), zeros(m));
+    let lints = tokens::lints();
     quote! {
-        #[allow(unused_variables, clippy::all)]
+        #lints
         impl<T: #runtime::Real> #runtime::arrays::OnArrays for #mechanism<T> {
             type Slots = #slots;
             #[inline(always)]

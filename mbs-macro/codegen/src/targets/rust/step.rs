@@ -106,8 +106,9 @@ pub fn functions(compiled: &Compiled, names: &Names) -> Result<TokenStream, Inco
         return Ok(functions);
     }
     let Names { mechanism, runtime, .. } = names;
+    let lints = tokens::lints();
     Ok(quote! {
-        #[allow(unused_variables, clippy::all)]
+        #lints
         impl<T: #runtime::Real> #mechanism<T> { #functions }
     })
 }

@@ -81,6 +81,12 @@ pub fn symbol(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStre
     }
 }
 
+/// The lints that generated code need not keep: a program does not read all that its function is given, and it is
+/// written instruction by instruction, not as a person would.
+pub fn lints() -> TokenStream {
+    quote!(#[allow(unused_variables, clippy::all)])
+}
+
 /// The value of an operation on `a` and, where it has two operands, `b`.
 pub fn operation(
     operation: Operation,

@@ -10,6 +10,7 @@ use quote::{format_ident, quote};
 use super::access::Access;
 use super::names::Names;
 use super::program::{Body, body_of};
+use super::tokens;
 use crate::compiled::{Compiled, Kinds, Transposed, Vector};
 
 /// The implementation of the runtime's `Transposed`; nothing where runs are not to be differentiated in reverse.
@@ -55,8 +56,9 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
         });
     }
     let has_step = transposes.step.is_some();
+    let lints = tokens::lints();
     quote! {
-        #[allow(unused_variables, clippy::all)]
+        #lints
         impl<T: #runtime::Real> #mechanism<T> { #functions }
 
         #[allow(clippy::all)]
