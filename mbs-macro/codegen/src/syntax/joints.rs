@@ -37,7 +37,7 @@ pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     if what == "on" || !Ident::parse_any(input).is_ok_and(|word| word == "on") {
         return Err(Error::new(
             if what == "on" { what.span() } else { on },
-            "a name, `on` and a body are expected here, as in `point tip on crank = (l/2, 0);`",
+            "a name, `on` and a body or `ground` are expected here, as in `point tip on crank = (l/2, 0);`",
         ));
     }
     let body = name(input)?;
