@@ -58,13 +58,13 @@ macro_rules! library {
         }
 
         fn texts() {
-            $(if const { Place::$Name as usize % STRIDE == 0 } {
+            $(if const { (Place::$Name as usize).is_multiple_of(STRIDE) } {
                 texts::same::<$Name>(stringify!($Name));
             })*
         }
 
         fn laws() {
-            $(if const { Place::$Name as usize % STRIDE == 0 } {
+            $(if const { (Place::$Name as usize).is_multiple_of(STRIDE) } {
                 let case = case::<$Name>(stringify!($Name), $step, $end, &$without, $power);
                 balance::reactions(&case);
                 balance::power(&case);
