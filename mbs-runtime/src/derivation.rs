@@ -22,6 +22,8 @@ pub struct Derivation {
     pub mass: &'static [Formula],
     /// Q, by coordinate.
     pub forces: &'static [Formula],
+    /// The rates of the states of the declaration's own.
+    pub rates: &'static [Formula],
     /// The kinetic energy.
     pub kinetic_energy: Formula,
     /// The potential energy.

@@ -16,8 +16,14 @@ pub struct Info {
     pub parameters: &'static [Quantity],
     /// The inputs; `default` is the value before anything is set.
     pub inputs: &'static [Quantity],
-    /// The coordinates; `default` is the declared start.
+    /// The coordinates of bodies, and behind them the states of the declaration's own; `default` is the
+    /// declared start.
+    ///
+    /// An own state z is the velocity `v` in its place, and z dt is summed up in `q`; unit and dimension
+    /// are those of z.
     pub coordinates: &'static [Quantity],
+    /// How many of them are coordinates of bodies.
+    pub lines: usize,
     /// The outputs.
     pub outputs: &'static [Quantity],
     /// The moments that runs to a tolerance find.
@@ -158,6 +164,16 @@ impl Info {
         coordinate.map_or("", |coordinate| coordinate.name)
     }
 
+    /// The part of a vector that is about coordinates of bodies, without own states.
+    pub(crate) fn of_bodies<'a, T>(&self, vector: &'a [T]) -> &'a [T] {
+        vector.get(..self.lines).unwrap_or(vector)
+    }
+
+    /// True if a place among the coordinates is that of an own state.
+    pub fn is_own(&self, coordinate: usize) -> bool {
+        coordinate >= self.lines
+    }
+
     /// True if constraints give some coordinates, which are not integrated.
     pub fn has_reduced_states(&self) -> bool {
         self.states.len() < self.coordinates.len()
@@ -178,6 +194,7 @@ impl Info {
         parameters: &'static [Quantity],
         inputs: &'static [Quantity],
         coordinates: &'static [Quantity],
+        lines: usize,
         outputs: &'static [Quantity],
         events: &'static [DeclaredEvent],
         constraints: &'static [Constraint],
@@ -196,6 +213,7 @@ impl Info {
             parameters,
             inputs,
             coordinates,
+            lines,
             outputs,
             events,
             constraints,

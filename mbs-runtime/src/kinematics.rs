@@ -186,7 +186,8 @@ impl<T: Real> Way<'_, T> {
         vectors::add_scaled(there, length, self.v);
         assemble(self.equations, next, there, room)?;
         let allowed = self.allowed();
-        let coordinates = self.equations.info().coordinates.iter().zip(&*there).zip(&*self.q).zip(&*self.v);
+        let info = self.equations.info();
+        let coordinates = info.coordinates.iter().take(info.lines).zip(&*there).zip(&*self.q).zip(&*self.v);
         let away = |(((coordinate, there), q), v): (((&Quantity, &T), &T), &T)| {
             let share = if coordinate.dimension.length == 0 { NEAR } else { allowed };
             (*there - (*q + length * *v)).to_f64().abs() > share
@@ -201,7 +202,8 @@ impl<T: Real> Way<'_, T> {
 
     /// How far a length may be from where it was predicted.
     fn allowed(&mut self) -> f64 {
-        let coordinates = self.equations.info().coordinates.iter().zip(&*self.q);
+        let info = self.equations.info();
+        let coordinates = info.coordinates.iter().zip(info.of_bodies(self.q));
         let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0).map(|(_, q)| q.to_f64().abs());
         self.size = lengths.fold(self.size, f64::max);
         NEAR * if self.size > NOTHING { self.size } else { USUAL }

@@ -7,16 +7,20 @@
 use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
 
 /// Position and velocity of a mechanism at an instant.
+///
+/// A [state of its own](crate::language#states-of-its-own) z is the velocity in a place behind those of the
+/// coordinates, with ż as its acceleration. Its position is ∫ z dt, on which nothing depends. So whatever
+/// integrates velocities integrates own states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 // This keeps the time between coordinates and velocities. Where they are neighbours, compilers load
 // both at once, and the load waits for two stores of the step before.
 #[repr(C)]
 pub struct State<C: Components> {
-    /// Coordinates q: lengths in m, angles in rad.
+    /// Coordinates q: lengths in m, angles in rad. Of an own state ∫ z dt.
     pub q: C,
     /// Time in s.
     pub t: C::Real,
-    /// Velocities v = q̇, per second.
+    /// Velocities v = q̇, per second. Of an own state its value z.
     pub v: C,
 }
 

@@ -47,9 +47,12 @@ pub fn reach<T: Real>(
         equations.accelerations(at, inputs, no_feedback, unmoved);
         vectors::zip_map(moved, unmoved, |a, b| h * h * (a - b));
         let correction: &[T] = moved;
-        let size = vectors::largest(correction).1;
+        let size = vectors::largest(equations.info().of_bodies(correction)).1;
         let roundings = number(64.0) + growth;
-        let is_at_rest = size <= roundings * T::EPSILON * (number(1.0) + vectors::largest(position).1);
+        let is_at_rest = size
+            <= roundings
+                * T::EPSILON
+                * (number(1.0) + vectors::largest(equations.info().of_bodies(position)).1);
         // without a first correction it is a drive that ends, and not a position
         if is_at_rest || (iteration == 0 && !size.is_finite()) {
             return Ok(());

@@ -60,6 +60,7 @@ impl Pendulums {
             &[],
             &[],
             coordinates,
+            coordinates.len(),
             &[],
             &[],
             constraints,

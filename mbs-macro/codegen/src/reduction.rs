@@ -262,7 +262,7 @@ impl Preference {
         let size = |at: usize, coefficient: Number| coefficient.to_f64().abs() * self.units[at];
         let largest = dependence.linear.iter().map(|(&at, &c)| size(at, c)).fold(0.0, f64::max);
         dependence.candidates().max_by_key(|&(at, coefficient)| {
-            let is_length = model.coordinates[at].direction != Direction::Angle;
+            let is_length = model.coordinates[at].direction() != Some(Direction::Angle);
             let is_small = size(at, coefficient) < SMALLEST_SHARE * largest;
             (!is_small, !self.felt.contains(&at), is_length, at)
         })

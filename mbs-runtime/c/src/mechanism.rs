@@ -203,7 +203,10 @@ fn entries(kind: Kind, info: &Info, points: &[&str]) -> Vec<Entry> {
     match kind {
         Kind::Parameter => info.parameters.iter().map(declared).collect(),
         Kind::Input => info.inputs.iter().map(declared).collect(),
-        Kind::Coordinate => info.coordinates.iter().map(place).collect(),
+        Kind::Coordinate => {
+            let (places, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
+            places.iter().map(place).chain(states.iter().map(declared)).collect()
+        }
         Kind::Output => info.outputs.iter().map(declared).collect(),
         Kind::Constraint => info.constraints.iter().map(multiplier).collect(),
         Kind::Point => points.iter().map(|name| in_si(name, "", "m", 0.0)).collect(),

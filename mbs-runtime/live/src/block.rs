@@ -165,10 +165,10 @@ impl Block {
         read(&self.stepper.growth, lane)
     }
 
-    /// The coordinates of every member.
-    pub fn positions(&mut self) -> &[Column] {
-        let [q, _] = self.completed();
-        q
+    /// The coordinates of every member, the first `lines` of which are of bodies; of an own state its value.
+    pub fn observed(&mut self, lines: usize) -> impl ExactSizeIterator<Item = &Column> {
+        let [q, v] = self.completed();
+        q.iter().zip(v).enumerate().map(move |(at, (q, v))| if at < lines { q } else { v })
     }
 
     /// Copies what is integrated of a member; the steps since its start.

@@ -85,7 +85,11 @@ fn info(compiled: &Compiled) -> Info {
         compiled.degrees_of_freedom,
         leak(compiled.parameters.iter().map(|parameter| quantity(&parameter.quantity, parameter.value))),
         leak(compiled.inputs.iter().map(|input| quantity(input, 0.0))),
-        leak(compiled.coordinates.iter().zip(&compiled.start).map(|(it, &start)| quantity(it, start))),
+        leak(
+            (compiled.coordinates.iter().enumerate())
+                .map(|(at, it)| quantity(it, compiled.declared_start(at))),
+        ),
+        compiled.line_count,
         leak(compiled.outputs.iter().map(|output| quantity(output, 0.0))),
         leak(compiled.events.iter().map(event)),
         leak(compiled.constraints.iter().map(constraint)),

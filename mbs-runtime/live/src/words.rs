@@ -22,6 +22,7 @@ pub fn derivation(derivation: &compiled::Derivation) -> Derivation {
         gamma: some(&derivation.gamma),
         mass: some(&derivation.mass),
         forces: some(&derivation.forces),
+        rates: some(&derivation.rates),
         kinetic_energy: formula(&derivation.kinetic_energy),
         potential_energy: formula(&derivation.potential_energy),
         strategy: derivation.strategy,

@@ -182,7 +182,8 @@ impl<V: Clone> RattleStep<V> {
         };
         let corrections = converge(|| {
             let size = correct(moment);
-            size / (D::Real::from_f64(1.0) + vectors::largest(moment.q.as_ref()).1)
+            let positions = dynamics.equations().info().of_bodies(moment.q.as_ref());
+            size / (D::Real::from_f64(1.0) + vectors::largest(positions).1)
         })?;
         // derivatives converge as values do, an order behind the other
         for _ in 0..D::Real::ORDER as u32 * corrections {

@@ -158,7 +158,8 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
         let mut of_positions = dynamics.correction(t_next, &Beside { q, v: None }, delta);
         subtract(q, delta);
         for correction in 1.. {
-            let [moved, size] = [&*delta, q].map(|x| vectors::largest(x.as_ref()).1);
+            let positions = dynamics.equations().info().of_bodies(q.as_ref());
+            let [moved, size] = [delta.as_ref(), positions].map(|x| vectors::largest(x).1);
             if moved <= D::Real::from_f64(FAR) * (D::Real::from_f64(1.0) + size) {
                 break;
             }

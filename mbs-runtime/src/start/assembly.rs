@@ -71,6 +71,7 @@ pub(super) fn newton<T: Real>(
 ) -> Result<(), Error> {
     let Iterate { delta, next, phi, residual } = room;
     equations.phi(t, q, phi);
+    let info = equations.info();
     let far = T::from_f64(FAR) * (T::from_f64(1.0) + largest_angle(equations, q));
     for _ in 0..NEWTON_ITERATIONS {
         if largest_angle(equations, q) > far {
@@ -79,7 +80,8 @@ pub(super) fn newton<T: Real>(
         vectors::copy(residual, phi);
         vectors::negate(residual);
         correct(q, residual, delta)?;
-        let rounding = T::from_f64(4.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(q).1);
+        let rounding =
+            T::from_f64(4.0) * T::EPSILON * (T::from_f64(1.0) + vectors::largest(info.of_bodies(q)).1);
         if vectors::largest(delta).1 <= rounding {
             vectors::add(q, delta);
             converge_partials(equations, t, q, [delta, phi, residual], correct)?;
@@ -89,7 +91,7 @@ pub(super) fn newton<T: Real>(
     }
     let (row, violation) = vectors::largest(phi);
     // Newton may circle at rounding level, where Φ itself is at rounding.
-    if violation <= rounding(q) && largest_angle(equations, q) <= far {
+    if violation <= rounding(info.of_bodies(q)) && largest_angle(equations, q) <= far {
         converge_partials(equations, t, q, [delta, phi, residual], correct)?;
         return check_redundant(equations, t, q, phi);
     }
@@ -98,7 +100,8 @@ pub(super) fn newton<T: Real>(
 
 /// The largest magnitude of an angle among the coordinates.
 fn largest_angle<T: Real>(equations: &dyn Equations<T>, q: &[T]) -> T {
-    let coordinates = equations.info().coordinates.iter().zip(q);
+    let info = equations.info();
+    let coordinates = info.coordinates.iter().zip(info.of_bodies(q));
     let angles = coordinates.filter(|(coordinate, _)| coordinate.dimension.length == 0);
     angles.fold(T::default(), |largest, (_, q)| largest.max(q.abs()))
 }
@@ -131,13 +134,14 @@ fn converge_partials<T: Real>(
 /// Redundant constraints take no part in the corrections: with parameters for
 /// which they do not fit, they stay violated.
 fn check_redundant<T: Real>(equations: &dyn Equations<T>, t: T, q: &[T], phi: &mut [T]) -> Result<(), Error> {
-    let redundant = equations.info().redundant;
+    let info = equations.info();
+    let redundant = info.redundant;
     if redundant.is_empty() {
         return Ok(());
     }
     equations.phi(t, q, phi);
     // Half the digits: far above the rounding of any assembly.
-    let limit = T::EPSILON.sqrt() * (T::from_f64(1.0) + vectors::largest(q).1);
+    let limit = T::EPSILON.sqrt() * (T::from_f64(1.0) + vectors::largest(info.of_bodies(q)).1);
     for &row in redundant {
         let violation = vectors::magnitude(phi, row);
         if violation > limit {

@@ -78,7 +78,7 @@ fn check_sizes<T: Real>(
     for (row, rate) in rows.iter_mut().zip(rates.iter_mut()) {
         (*row, *rate) = allowed(*row, *rate, rate.max(*row * fastest));
     }
-    let (of_positions, of_rates) = (rounding(at.q), rounding(at.v));
+    let [of_positions, of_rates] = [at.q, at.v].map(|vector| rounding(equations.info().of_bodies(vector)));
     vectors::map(rows, |row| if row > of_positions { row } else { of_positions });
     vectors::map(rates, |rate| if rate > of_rates { rate } else { of_rates });
     equations.phi(at.t, at.q, found);
@@ -179,12 +179,12 @@ fn measure<T: Real>(
     entries: &mut [T],
 ) -> T {
     let zero = T::default();
-    let length = length(jacobian, entries);
+    let (info, length) = (jacobian.info(), length(jacobian, entries));
     vectors::fill(rows, zero);
     vectors::copy(rates, jacobian.phi_t);
     vectors::map(rates, Real::abs);
     let mut fastest = zero;
-    for (j, (coordinate, v)) in jacobian.info().coordinates.iter().zip(v).enumerate() {
+    for (j, (coordinate, v)) in jacobian.info().coordinates.iter().zip(info.of_bodies(v)).enumerate() {
         let scale = if coordinate.dimension.length == 0 { T::from_f64(1.0) } else { length };
         jacobian.column(j, entries);
         vectors::zip_map(rows, entries, |sum, entry| sum + entry.abs() * scale);
@@ -200,7 +200,7 @@ fn measure<T: Real>(
 pub(super) fn length<T: Real>(jacobian: &mut Jacobian<'_, T>, entries: &mut [T]) -> T {
     let mut largest = T::default();
     let (info, q) = (jacobian.info(), jacobian.q);
-    for (j, (coordinate, q)) in info.coordinates.iter().zip(q).enumerate() {
+    for (j, (coordinate, q)) in info.coordinates.iter().zip(info.of_bodies(q)).enumerate() {
         if coordinate.dimension.length != 0 {
             largest = largest.max(q.abs());
             continue;

@@ -6,7 +6,7 @@ use super::{
     Parameter, Pivot, Sketch, Written,
 };
 use crate::derive::Equations;
-use crate::model::{self, Direction, Model};
+use crate::model::{self, Block, Direction, Model};
 use crate::plan::Plan;
 use crate::quantity::Comparison;
 
@@ -26,7 +26,8 @@ impl Compiled {
             states: plan.inputs.states.iter().map(|state| state.coordinate).collect(),
             conditions: conditions(&model),
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
-            degrees_of_freedom: model.coordinates.len() as i32 - plan.rows.basis.len() as i32,
+            line_count: model.line_count(),
+            degrees_of_freedom: model.line_count() as i32 - plan.rows.basis.len() as i32,
             redundant: plan.rows.redundant.to_vec(),
             has_stiffness: plan.has_stiffness,
             velocity_forces: velocity_forces(&model, equations, &plan),
@@ -70,8 +71,12 @@ fn velocity_forces(model: &Model, equations: &Equations, plan: &Plan) -> Vec<usi
 
 /// Where the x of a body has its y behind it.
 fn places(model: &Model) -> Vec<usize> {
-    let neighbours = model.coordinates.windows(2).enumerate().filter_map(|(at, pair)| match pair {
-        [a, b] if a.body == b.body && (a.direction, b.direction) == (Direction::X, Direction::Y) => Some(at),
+    let blocks: Vec<Block> = model.coordinates.iter().map(|coordinate| coordinate.block).collect();
+    let neighbours = blocks.windows(2).enumerate().filter_map(|(at, pair)| match pair {
+        [
+            Block::Line { body, direction: Direction::X },
+            Block::Line { body: other, direction: Direction::Y },
+        ] if body == other => Some(at),
         _ => None,
     });
     neighbours.collect()
@@ -103,10 +108,11 @@ fn conditions(model: &Model) -> Vec<Condition> {
     }
     let masses = 2 * model.requirements.len();
     for (at, coordinate) in model.coordinates.iter().enumerate() {
-        let body = &model.bodies[coordinate.body];
-        let what = if coordinate.direction == Direction::Angle { "inertia" } else { "mass" };
+        let Block::Line { body, direction } = coordinate.block else { continue };
+        let body = &model.bodies[body];
+        let what = if direction == Direction::Angle { "inertia" } else { "mass" };
         // the mass along x and y is one
-        if coordinate.direction == Direction::Y && model.coordinate_of(body, Direction::X).is_some() {
+        if direction == Direction::Y && model.coordinate_of(body, Direction::X).is_some() {
             continue;
         }
         conditions.push(Condition {

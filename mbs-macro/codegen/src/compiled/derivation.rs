@@ -30,6 +30,8 @@ pub struct Derivation {
     pub mass: Vec<Formula>,
     /// Q
     pub forces: Vec<Formula>,
+    /// The rates of own states.
+    pub rates: Vec<Formula>,
     /// ½ vᵀMv
     pub kinetic_energy: Formula,
     /// That of gravity and springs.
@@ -100,6 +102,8 @@ impl Derivation {
             .iter()
             .enumerate()
             .flat_map(|(row, entries)| entries.iter().map(move |(&column, &entry)| (row, column, entry)));
+        let lines = model.line_count();
+        let rates = equations.total_forces.iter().enumerate().skip(lines);
         let given = plan.reduction.given(model);
         let given = given.into_iter().map(|(at, value)| formula(arena, coordinate_name(at), "", value));
         Self {
@@ -111,13 +115,16 @@ impl Derivation {
             phi_t: rows(&equations.phi_t),
             phi_dot: rows(&equations.phi_dot),
             gamma: rows(&equations.gamma),
-            mass: coordinates(&equations.mass),
-            forces: coordinates(&equations.total_forces),
+            mass: coordinates(&equations.mass[..lines]),
+            forces: coordinates(&equations.total_forces[..lines]),
+            rates: rates.map(|(at, &rate)| formula(arena, coordinate_name(at), "", rate)).collect(),
             kinetic_energy: formula(arena, "T", "", equations.kinetic_energy),
             potential_energy: formula(arena, "V", "", equations.potential_energy),
             hoisted: plan.hoisted.iter().map(|&value| readable(arena, value)).collect(),
             strategy: strategy(plan.strategy),
-            order: plan.order.iter().map(|step| elimination(model, plan, step)).collect(),
+            order: (plan.order.iter().filter(|step| !is_of_state(model, step)))
+                .map(|step| elimination(model, plan, step))
+                .collect(),
         }
     }
 }
@@ -132,6 +139,13 @@ fn formula(arena: &Arena, of: &str, by: &str, expr: Expr) -> Formula {
         latex: arena.latex_within(expr, LONGEST_FORMULA),
         is_zero: arena.is_zero(expr),
     }
+}
+
+/// True if a step is about an own state, which is known without a division.
+fn is_of_state(model: &Model, step: &mbs_symbolic::Elimination) -> bool {
+    let is_own =
+        |unknown: &Unknown| matches!(unknown, Unknown::Coordinate(at) if model.coordinates[*at].is_own());
+    step.unknowns.iter().all(is_own)
 }
 
 fn elimination(model: &Model, plan: &Plan, step: &mbs_symbolic::Elimination) -> Elimination {

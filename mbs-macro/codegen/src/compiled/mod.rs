@@ -82,8 +82,11 @@ pub struct Compiled {
     pub conditions: Vec<Condition>,
     /// Numbers that the embedding program may change from step to step.
     pub inputs: Vec<Quantity>,
-    /// The coordinates q; their rates v have the same names.
+    /// The coordinates q of bodies, whose rates v have the same names, and behind them the states of the
+    /// declaration's own: each is the rate in a block of which q is its integral.
     pub coordinates: Vec<Quantity>,
+    /// How many coordinates are of bodies: own states stand behind them.
+    pub line_count: usize,
     /// The coordinates that are integrated, by position: all, unless the declaration reduces
     /// them to those that no constraint gives.
     pub states: Vec<usize>,
@@ -304,6 +307,13 @@ impl Compiled {
             Operand::Symbol(symbol) => Some(self.input(symbol)),
             _ => None,
         }
+    }
+
+    /// The declared start of a coordinate, or of an own state.
+    pub fn declared_start(&self, coordinate: usize) -> f64 {
+        let is_own = coordinate >= self.line_count;
+        let at = if is_own { self.coordinates.len() + coordinate } else { coordinate };
+        self.start.get(at).copied().unwrap_or_default()
     }
 
     /// True if some coordinates are not integrated.

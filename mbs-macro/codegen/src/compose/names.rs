@@ -34,6 +34,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         ItemKind::Parameter { name, .. }
         | ItemKind::Constant { name, .. }
         | ItemKind::Input { name, .. }
+        | ItemKind::State { name, .. }
         | ItemKind::Let { name, .. }
         | ItemKind::Binding { name, .. }
         | ItemKind::Constraint { name, .. }
@@ -62,6 +63,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Feedback { .. }
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
+        | ItemKind::Rate { .. }
         | ItemKind::Start { .. }
         | ItemKind::Require { .. }
         | ItemKind::Assembly { .. }
@@ -92,6 +94,14 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(default, visit);
         }
         ItemKind::Input { name, .. } => visit(Mention::Name(name)),
+        ItemKind::State { name, value, .. } => {
+            visit(Mention::Name(name));
+            value.iter_mut().for_each(|value| in_formula(value, visit));
+        }
+        ItemKind::Rate { prefix, state, value } => {
+            visit(Mention::Coordinate(prefix, state));
+            in_formula(value, visit);
+        }
         ItemKind::Require { of, condition } => {
             of.iter_mut().for_each(|name| visit(Mention::Name(name)));
             in_condition(condition, visit);

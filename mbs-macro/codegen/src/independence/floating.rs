@@ -37,7 +37,7 @@ fn bodies_in(model: &Model, expr: mbs_symbolic::Expr) -> Vec<usize> {
         .symbols_in(expr)
         .iter()
         .filter_map(|symbol| match model.meanings.get(symbol.index()) {
-            Some(Meaning::Coordinate(at)) => Some(model.coordinates[*at].body),
+            Some(Meaning::Coordinate(at)) => model.coordinates[*at].body(),
             _ => None,
         })
         .collect();

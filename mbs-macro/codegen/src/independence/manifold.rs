@@ -84,7 +84,7 @@ impl Manifold {
                 places.push(Place::new(assembly, closing));
             }
         }
-        let can_move = start.echelon.rank() < model.coordinates.len();
+        let can_move = start.echelon.rank() < model.line_count();
         let is_isolated =
             can_move && places.iter().all(|place| assembly.distance(&place.at, &start.at) < SAME);
         places.insert(0, start);

@@ -46,7 +46,7 @@ pub fn check_independence(
     let touching = manifold.as_ref().map_or_else(Vec::new, |manifold| manifold.touching(&assembly));
     if !touching.is_empty() {
         // what is missing is said first: a joint that was forgotten leaves others in odd positions
-        let is_missing = model.coordinates.len() as i64 - count as i64 > model.dof.0;
+        let is_missing = model.line_count() as i64 - count as i64 > model.dof.0;
         match is_missing {
             true => check_contract(model, equations, samples, &all, errors),
             false => report_touching(model, &touching, errors),
@@ -153,7 +153,7 @@ fn check_contract(
     errors: &mut Diagnostics,
 ) {
     let (declared, span) = model.dof;
-    let (n, m) = (model.coordinates.len() as i64, rows.basis.len() as i64);
+    let (n, m) = (model.line_count() as i64, rows.basis.len() as i64);
     if n - m == declared {
         return;
     }
@@ -201,8 +201,5 @@ fn free_coordinates<'a>(
         // A column that the rank does not need belongs to a free motion.
         samples.rank(model, equations, rows, &BTreeSet::from([*at])) == full
     };
-    (0..model.coordinates.len())
-        .filter(is_free)
-        .map(|at| model.coordinates[at].quantity.name.as_str())
-        .collect()
+    (0..model.line_count()).filter(is_free).map(|at| model.coordinates[at].quantity.name.as_str()).collect()
 }

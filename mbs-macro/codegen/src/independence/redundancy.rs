@@ -27,7 +27,7 @@ pub fn choose(
 ) -> Result<Rows, Diagnostic> {
     let count = model.constraints.len();
     // As many rows as the contract asks for; all if it asks for more.
-    let wanted = usize::try_from(model.coordinates.len() as i64 - model.dof.0).unwrap_or(0).min(count);
+    let wanted = usize::try_from(model.line_count() as i64 - model.dof.0).unwrap_or(0).min(count);
     if let Some(manifold) = manifold {
         let redundant: Vec<usize> = manifold.redundant().iter().map(|(row, _)| *row).collect();
         if count - redundant.len() <= wanted {

@@ -11,6 +11,8 @@ pub struct Inertia {
     pub mass: Expr,
     /// Gravity along it; none along an angle.
     pub gravity: Option<Expr>,
+    /// False of a state of the declaration's own, whose mass of 1 is none.
+    pub has_energy: bool,
 }
 
 /// ½ vᵀMv
@@ -19,7 +21,7 @@ pub fn kinetic<'a>(algebra: &'a Algebra<'a>, inertias: &[Inertia]) -> Scalar<'a>
         let velocity = algebra.variable(inertia.velocity);
         algebra.scalar(inertia.mass) * velocity.squared() / 2
     };
-    algebra.sum(inertias.iter().map(energy))
+    algebra.sum(inertias.iter().filter(|inertia| inertia.has_energy).map(energy))
 }
 
 /// −Σ m g·x, and the energies of springs.

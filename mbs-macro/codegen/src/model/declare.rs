@@ -8,7 +8,7 @@ use super::measures::Source;
 use super::names::{Definition, Row, State, Value, duplicate};
 use super::places::{Frame, GROUND};
 use super::resolver::Resolver;
-use super::{Body, Coordinate, Direction, Meaning, Parameter};
+use super::{Block, Body, Coordinate, Direction, Meaning, Parameter};
 use crate::diagnostics::Diagnostic;
 use crate::quantity::Quantity;
 use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role};
@@ -41,6 +41,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Joint(joint) => self.declare_joint(joint),
             ItemKind::Profile(profile) => self.declare_profile(&profile.name),
             ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
+            ItemKind::State { name, unit, .. } => self.declare_state(name, unit, &item.doc),
             ItemKind::Force { name, is_torque, .. } => {
                 self.declare_source(name, if *is_torque { "torque" } else { "force" }, None);
             }
@@ -110,7 +111,8 @@ impl<'a> Resolver<'a> {
                 is_broken = true;
                 continue;
             };
-            let taken = positions.iter().any(|&other: &usize| self.coordinates[other].direction == direction);
+            let taken =
+                positions.iter().any(|&other: &usize| self.coordinates[other].direction() == Some(direction));
             if taken {
                 self.errors.push(
                     Diagnostic::new(
@@ -129,7 +131,8 @@ impl<'a> Resolver<'a> {
         let names = coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
         let zero = self.scope.arena.zero();
         let [x, y, angle] = [Direction::X, Direction::Y, Direction::Angle].map(|direction| {
-            let coordinate = positions.iter().find(|&&at| self.coordinates[at].direction == direction);
+            let coordinate =
+                positions.iter().find(|&&at| self.coordinates[at].direction() == Some(direction));
             coordinate.map_or(zero, |&at| self.scope.arena.variable(self.coordinates[at].position))
         });
         let mut frame = Frame::new(names, [x, y], angle);
@@ -170,8 +173,7 @@ impl<'a> Resolver<'a> {
             span: name.span(),
             position,
             velocity,
-            body,
-            direction,
+            block: Block::Line { body, direction },
         });
     }
 

@@ -265,7 +265,10 @@ impl Scope<'_> {
             Meaning::Parameter(_) => format!("the parameter `{name}`"),
             Meaning::Input(_) => format!("the input `{name}`"),
             Meaning::Coordinate(_) => format!("the coordinate `{name}`"),
+            // the velocity of a coordinate has no name of its own
+            Meaning::Velocity(_) if !name.starts_with("der(") => format!("the state `{name}`"),
             Meaning::Velocity(_) => format!("the velocity `{name}`"),
+            Meaning::Acceleration(_) if !name.starts_with("der(der(") => format!("the rate `{name}`"),
             Meaning::Acceleration(_) => format!("the acceleration `{name}`"),
             _ => format!("the multiplier `{name}`"),
         }

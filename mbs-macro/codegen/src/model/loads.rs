@@ -75,6 +75,12 @@ impl Resolver<'_> {
     }
 
     fn load_on_coordinate(&mut self, name: &Ident, coordinate: usize, target: &Ident, load: &syntax::Load) {
+        if self.coordinates[coordinate].is_own() {
+            let message = format!("`{target}` is a state, along which no force acts");
+            let help = format!("what drives it stands in its equation: `der({target}) = …;`");
+            self.errors.push(Diagnostic::new(target.span(), message).help(help));
+            return;
+        }
         let syntax::Load::Scalar(formula) = load else {
             self.errors.push(
                 Diagnostic::new(
@@ -177,7 +183,7 @@ impl Resolver<'_> {
         moves
     }
 
-    fn push_work(&mut self, name: &Ident, work: Work) {
+    pub(super) fn push_work(&mut self, name: &Ident, work: Work) {
         let applied = work.applied(&Algebra::new(&mut self.scope.arena), &self.scope.motion);
         self.push_applied(name, applied);
     }

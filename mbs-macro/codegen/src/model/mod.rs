@@ -25,6 +25,7 @@ mod sketch;
 mod solver;
 mod starts;
 mod statements;
+mod states;
 mod warnings;
 
 use mbs_symbolic::units::Dimension;
@@ -116,13 +117,50 @@ pub struct Requirement {
     pub span: Span,
 }
 
+/// A coordinate of a body, or a state of the declaration's own.
+///
+/// The state of a run is made of blocks of two numbers. A state z of the declaration's own is the
+/// velocity of such a block, with a mass of 1: ż = f is the equation of motion of a coordinate
+/// without constraints. Its position is ∫ z dt. No formula can name it, so nothing depends on it.
+/// In this way every method, target and path that integrates velocities integrates own states.
 pub struct Coordinate {
     pub quantity: Quantity,
     pub span: Span,
     pub position: Symbol,
     pub velocity: Symbol,
-    pub body: usize,
-    pub direction: Direction,
+    pub block: Block,
+}
+
+/// The kind of a block of the state.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Block {
+    /// A coordinate of a body and its velocity.
+    Line { body: usize, direction: Direction },
+    /// A state of the declaration's own and its integral.
+    Own,
+}
+
+impl Coordinate {
+    /// Its body; a state of the declaration's own has none.
+    pub fn body(&self) -> Option<usize> {
+        match self.block {
+            Block::Line { body, .. } => Some(body),
+            Block::Own => None,
+        }
+    }
+
+    /// Its direction; a state of the declaration's own has none.
+    pub fn direction(&self) -> Option<Direction> {
+        match self.block {
+            Block::Line { direction, .. } => Some(direction),
+            Block::Own => None,
+        }
+    }
+
+    /// True if it is a state of the declaration's own.
+    pub fn is_own(&self) -> bool {
+        self.block == Block::Own
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -228,7 +266,12 @@ pub struct Event {
 impl Model {
     /// The coordinate of this direction of a body, if it has one.
     pub fn coordinate_of(&self, body: &Body, direction: Direction) -> Option<usize> {
-        body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction == direction)
+        body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction() == Some(direction))
+    }
+
+    /// The number of coordinates of bodies, behind which own states stand.
+    pub fn line_count(&self) -> usize {
+        self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count()
     }
 
     /// The checks that parameters alone decide.

@@ -62,6 +62,8 @@ pub enum Place {
     Property,
     Constraint,
     Load,
+    /// The right side of the equation of a state.
+    Rate,
     Event,
     Anywhere,
 }
@@ -71,12 +73,12 @@ impl Place {
         match meaning {
             Meaning::Parameter(_) => self != Self::Constant,
             Meaning::Time | Meaning::Coordinate(_) => {
-                matches!(self, Self::Constraint | Self::Load | Self::Event | Self::Anywhere)
+                matches!(self, Self::Constraint | Self::Load | Self::Rate | Self::Event | Self::Anywhere)
             }
             Meaning::Velocity(_) | Meaning::Input(_) => {
-                matches!(self, Self::Load | Self::Event | Self::Anywhere)
+                matches!(self, Self::Load | Self::Rate | Self::Event | Self::Anywhere)
             }
-            Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Anywhere),
+            Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Rate | Self::Anywhere),
             _ => self == Self::Anywhere,
         }
     }
@@ -90,9 +92,14 @@ impl Place {
                 "a constraint is written in positions, parameters and time; its derivatives are taken for you"
             }
             Self::Load => {
-                "a force may depend on positions, velocities, reactions, time, inputs and parameters"
+                "a force may depend on positions, velocities, states, reactions, time, inputs and parameters"
             }
-            Self::Event => "an event is written in positions, velocities, time, inputs and parameters",
+            Self::Rate => {
+                "the rate of a state may depend on states, positions, velocities, reactions, time, inputs and parameters"
+            }
+            Self::Event => {
+                "an event is written in positions, velocities, states, time, inputs and parameters"
+            }
             Self::Anywhere => "this cannot stand here",
         }
     }

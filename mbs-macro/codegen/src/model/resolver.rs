@@ -5,7 +5,7 @@
 //! Names come first. Values, profiles, places, constraints and forces follow. Outputs come last, since they
 //! may measure all of these.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::Expr;
 use proc_macro2::{Span, TokenStream};
@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap as HashMap;
 use super::measures::Energies;
 use super::names::{Definition, Scope, State, Value};
 use super::{
-    Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
+    Block, Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
     ReactiveLoad, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
@@ -75,6 +75,10 @@ pub(super) struct Resolver<'a> {
     pub potentials: Vec<Expr>,
     pub load_names: HashMap<String, Span>,
     pub starts: Vec<Start>,
+    /// Where the rate of each own state is given, by its position among the coordinates.
+    pub rates: BTreeMap<usize, Span>,
+    /// Own states whose name is that of something else.
+    pub refused_states: BTreeSet<String>,
     pub closes: Option<Closes>,
     /// The time of the start, and where it is declared.
     pub start_time: Option<(Expr, Span)>,
@@ -111,6 +115,8 @@ impl<'a> Resolver<'a> {
             potentials: Vec::new(),
             load_names: HashMap::default(),
             starts: Vec::new(),
+            rates: BTreeMap::new(),
+            refused_states: BTreeSet::new(),
             closes: None,
             start_time: None,
             outputs: Vec::new(),
@@ -142,13 +148,14 @@ impl<'a> Resolver<'a> {
     fn inertias(&self) -> Vec<Inertia> {
         let gravity = self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity);
         let inertia = |coordinate: &Coordinate| {
-            let body = &self.bodies[coordinate.body];
-            let (mass, gravity) = match coordinate.direction {
-                Direction::X => (body.mass, Some(gravity[0])),
-                Direction::Y => (body.mass, Some(gravity[1])),
-                Direction::Angle => (body.inertia, None),
+            let (mass, gravity) = match coordinate.block {
+                Block::Line { body, direction: Direction::X } => (self.bodies[body].mass, Some(gravity[0])),
+                Block::Line { body, direction: Direction::Y } => (self.bodies[body].mass, Some(gravity[1])),
+                Block::Line { body, direction: Direction::Angle } => (self.bodies[body].inertia, None),
+                Block::Own => (self.scope.arena.one(), None),
             };
-            Inertia { position: coordinate.position, velocity: coordinate.velocity, mass, gravity }
+            let (position, velocity) = (coordinate.position, coordinate.velocity);
+            Inertia { position, velocity, mass, gravity, has_energy: !coordinate.is_own() }
         };
         self.coordinates.iter().map(inertia).collect()
     }
@@ -182,9 +189,11 @@ impl<'a> Resolver<'a> {
                     .help("give it a longer name"),
             );
         }
+        self.check_rates();
         self.check_solver();
         if self.dof.is_none() {
-            let left = self.coordinates.len() as i64 - self.row_count as i64;
+            let lines = self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count();
+            let left = lines as i64 - self.row_count as i64;
             self.errors.push(
                 Diagnostic::new(
                     self.mechanism,
@@ -192,7 +201,7 @@ impl<'a> Resolver<'a> {
                 )
                 .help(format!(
                     "add `dof = …;` as a contract that is checked ({} − {} = {left})",
-                    counted(self.coordinates.len(), "coordinate"),
+                    counted(lines, "coordinate"),
                     counted(self.row_count, "constraint")
                 )),
             );

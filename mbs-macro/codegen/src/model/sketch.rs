@@ -94,7 +94,9 @@ impl Resolver<'_> {
     fn sketch_guide(&self, body: usize, sketch: &mut Sketch) {
         let centre = sketch.bodies.get(body).and_then(|(_, points)| points.first().copied());
         let Some(body) = self.bodies.get(body) else { return };
-        let has = |direction| body.coordinates.iter().any(|&at| self.coordinates[at].direction == direction);
+        let has = |direction| {
+            body.coordinates.iter().any(|&at| self.coordinates[at].direction() == Some(direction))
+        };
         let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
         let (kind, along) = match [Direction::X, Direction::Y, Direction::Angle].map(has) {
             [true, false, false] => ("prismatic", Some([one, zero])),

@@ -75,10 +75,16 @@ impl Resolver<'_> {
         }
         let coordinate = match coordinate {
             None => None,
-            Some(name) => match self.coordinates.iter().position(|c| name == &c.quantity.name) {
+            Some(name) => match self.coordinates.iter().position(|c| name == &c.quantity.name && !c.is_own())
+            {
                 Some(at) => Some(at),
                 None => {
-                    let names: Vec<_> = self.coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
+                    let names: Vec<_> = self
+                        .coordinates
+                        .iter()
+                        .filter(|c| !c.is_own())
+                        .map(|c| c.quantity.name.as_str())
+                        .collect();
                     let names = listing(names);
                     self.errors.push(
                         Diagnostic::new(name.span(), format!("there is no coordinate `{name}`")).help(

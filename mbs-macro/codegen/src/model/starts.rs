@@ -44,6 +44,9 @@ impl Resolver<'_> {
             );
             return;
         };
+        if self.coordinates[coordinate].is_own() {
+            return self.resolve_start_of_state(coordinate, entry);
+        }
         let dimension = self.coordinates[coordinate].quantity.dimension;
         let dimension = if entry.is_rate { dimension.over(Dimension::TIME) } else { dimension };
         let what = if entry.is_rate {
@@ -67,6 +70,21 @@ impl Resolver<'_> {
             let (is_rate, is_guess, span) = (entry.is_rate, entry.is_guess, entry.coordinate.span());
             self.starts.push(Start { coordinate, is_rate, is_guess, value, span });
         }
+    }
+
+    /// `current = 1 [A];` in `start`.
+    fn resolve_start_of_state(&mut self, state: usize, entry: &syntax::StartEntry) {
+        let name = &entry.coordinate;
+        if entry.is_rate || entry.is_guess {
+            let message = match entry.is_rate {
+                true => format!("the rate of the state `{name}` follows from its equation"),
+                false => format!("the state `{name}` starts at a value: nothing corrects a guess of it"),
+            };
+            let help = format!("write `{name} = …;`, the value at the start");
+            self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            return;
+        }
+        self.start_state(state, name, &entry.value);
     }
 
     /// `t = 1 [s];` in `start`.

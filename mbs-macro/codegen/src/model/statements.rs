@@ -144,6 +144,8 @@ impl<'a> Resolver<'a> {
             ItemKind::Element(element) => self.resolve_element(element),
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
+            ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
+            ItemKind::Rate { state, value, .. } => self.resolve_rate(state, value),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
             _ => {}
         }
@@ -261,7 +263,10 @@ impl<'a> Resolver<'a> {
             return;
         }
         let has = |direction: &dyn Fn(Direction) -> bool| {
-            self.bodies[at].coordinates.iter().any(|&c| direction(self.coordinates[c].direction))
+            self.bodies[at]
+                .coordinates
+                .iter()
+                .any(|&c| self.coordinates[c].direction().is_some_and(direction))
         };
         let (moves, turns) = (has(&|d| d != Direction::Angle), has(&|d| d == Direction::Angle));
         let (mut mass, mut inertia): (Option<Span>, Option<Span>) = (None, None);

@@ -95,7 +95,8 @@ pub fn plan(
     );
 
     let stiffness = Stiffness::new(model, equations, &inputs, &reduction);
-    let mut roots = roots(model, problem, &solver, &stiffness)?;
+    let has_stiffness = !stiffness.is_none();
+    let mut roots = roots(model, problem, &solver, stiffness)?;
     roots.set(FunctionId::PositionCorrection, positions);
     roots.set(FunctionId::VelocityCorrection, velocities);
     roots.set(FunctionId::StartPivots, start_pivots.iter().map(|pivot| pivot.growth).collect());
@@ -121,7 +122,7 @@ pub fn plan(
         order: solver.factorization.order.clone(),
         rows: rows.clone(),
         hoisted: hoisted.values().to_vec(),
-        has_stiffness: !stiffness.is_none(),
+        has_stiffness,
         strategy,
         inputs,
         reduction,

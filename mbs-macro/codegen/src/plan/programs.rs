@@ -34,7 +34,7 @@ pub fn roots(
     model: &mut Model,
     problem: Problem<'_>,
     solver: &Solver,
-    stiffness: &Stiffness,
+    stiffness: Stiffness,
 ) -> Result<Roots, Unsolvable> {
     let Problem { equations, rows, inputs, reduction } = problem;
     let mut roots = Roots(FunctionId::all().map(|_| Vec::new()).collect());
@@ -49,6 +49,9 @@ pub fn roots(
         }
     };
     let momentum = model.coordinates.iter().zip(&equations.mass).map(|(coordinate, &mass)| {
+        if coordinate.is_own() {
+            return model.arena.zero();
+        }
         let velocity = model.arena.variable(coordinate.velocity);
         model.arena.mul(mass, velocity)
     });

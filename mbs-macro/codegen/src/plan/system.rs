@@ -26,7 +26,7 @@ use crate::inputs::Inputs;
 use crate::model::{Direction, Model};
 use crate::reactive::{self, Forces};
 use crate::reduction::Reduction;
-use crate::stiff::Stiffness;
+use crate::stiff::{Rate, Stiffness};
 
 /// The constrained system with the coordinates in `held` left out.
 pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
@@ -41,7 +41,7 @@ pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet
         if !model.arena.is_zero(mass) {
             kkt.mark_massive(at);
         }
-        if model.coordinates[at].direction == Direction::Angle {
+        if model.coordinates[at].direction() == Some(Direction::Angle) {
             kkt.mark_angle(at);
         }
     }
@@ -85,6 +85,8 @@ pub struct Solver {
     pub strategy: Strategy,
     pub factorization: Factorization,
     pub forces: Forces,
+    /// How the rates of own states follow in an implicit stage.
+    rates: Vec<Rate>,
     /// How right-hand sides of steps go through the elimination.
     sums: Sums,
 }
@@ -143,14 +145,14 @@ fn eliminated(
     let factorization = factor_within(&mut model.arena, kkt, strategy, most)?;
     let Some(factorization) = factorization else { return Ok(None) };
     let forces = reactive::forces(model, &equations.forces, equations, &factorization)?;
-    Ok(Some(Solver { strategy, factorization, forces, sums: Sums::Closed }))
+    Ok(Some(Solver { strategy, factorization, forces, rates: Vec::new(), sums: Sums::Closed }))
 }
 
 /// The elimination of an implicit stage, in the order that is cheapest for the others.
 pub fn implicit(
     model: &mut Model,
     problem: Problem<'_>,
-    stiffness: &Stiffness,
+    stiffness: Stiffness,
     strategy: Strategy,
 ) -> Result<Solver, Unsolvable> {
     let Problem { equations, rows, .. } = problem;
@@ -158,7 +160,7 @@ pub fn implicit(
     stiffness.add_to(model, &mut kkt);
     let factorization = factor(&mut model.arena, &kkt, strategy)?;
     let forces = reactive::forces(model, &stiffness.forces, equations, &factorization)?;
-    Ok(Solver { strategy, factorization, forces, sums: Sums::Closed })
+    Ok(Solver { strategy, factorization, forces, rates: stiffness.rates, sums: Sums::Closed })
 }
 
 impl Solver {
@@ -274,7 +276,19 @@ impl Solver {
         for &at in &rows.basis {
             rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
         }
-        self.factorization.solve_with(&mut model.arena, &rhs, sums)
+        let mut solution = self.factorization.solve_with(&mut model.arena, &rhs, sums);
+        let arena = &mut model.arena;
+        for Rate { state, predicted, slopes } in &self.rates {
+            let mut rate = *predicted;
+            for &(line, slope, predicted) in slopes {
+                let solved = solution.get(&Unknown::Coordinate(line)).copied().unwrap_or(arena.zero());
+                let change = arena.sub(solved, predicted);
+                let change = arena.mul(slope, change);
+                rate = arena.add(rate, change);
+            }
+            solution.insert(Unknown::Coordinate(*state), arena.share(rate));
+        }
+        solution
     }
 
     /// The growth of the elimination, and of what solves for the forces.

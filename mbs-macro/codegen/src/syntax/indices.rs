@@ -101,7 +101,9 @@ impl Indices {
                     let brackets = tokens[at..].iter().map_while(bracket).count();
                     let indices = &tokens[at..at + brackets];
                     let indices = match resolved.last() {
-                        Some(TokenTree::Ident(word)) if word == "input" || word == "output" => {
+                        Some(TokenTree::Ident(word))
+                            if ["input", "output", "state"].iter().any(|known| word == known) =>
+                        {
                             without_unit(indices)
                         }
                         _ => indices,

@@ -204,6 +204,44 @@ pub(super) fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Input { name, unit })
 }
 
+/// `state current [A] = 0;`
+pub(super) fn state(input: ParseStream<'_>) -> Result<ItemKind> {
+    let name = name_before_unit(input)?;
+    if !input.peek(token::Bracket) {
+        let message = format!("a state needs its unit: `state {name} [A] = 0;`, or `[1]` for a bare number");
+        return Err(input.error(message));
+    }
+    let unit = input.parse()?;
+    let value = match input.parse::<Option<Token![=]>>()? {
+        Some(_) => Some(input.parse()?),
+        None => None,
+    };
+    semicolon(input)?;
+    Ok(ItemKind::State { name, unit, value })
+}
+
+/// `der(current) = (u - R*current)/L;`
+pub(super) fn rate(input: ParseStream<'_>) -> Result<ItemKind> {
+    if !input.peek(token::Paren) {
+        return Err(input.error("the rate of a state is written `der(current) = …;`"));
+    }
+    let (prefix, state) = derived(input)?;
+    equals(input)?;
+    let value = input.parse()?;
+    semicolon(input)?;
+    Ok(ItemKind::Rate { prefix, state, value })
+}
+
+/// `(theta)`, or `(leg.theta)`: the instances of assemblies that lead to a name, and the name.
+fn derived(input: ParseStream<'_>) -> Result<(Vec<Ident>, Ident)> {
+    let content;
+    parenthesized!(content in input);
+    let mut path = path(&content)?;
+    end(&content)?;
+    let name = path.pop().ok_or_else(|| input.error("a name is expected here"))?;
+    Ok((path, name))
+}
+
 pub(super) fn gravity(input: ParseStream<'_>, keyword: Span) -> Result<ItemKind> {
     equals(input)?;
     if !is_vector(input) {
@@ -304,21 +342,18 @@ fn start_entry(input: ParseStream<'_>) -> Result<StartEntry> {
     }
     let ahead = input.fork();
     let is_rate = ahead.call(Ident::parse_any).is_ok_and(|word| word == "der") && ahead.peek(token::Paren);
-    let mut path = if is_rate {
+    let (prefix, coordinate) = if is_rate {
         name(input)?;
-        let content;
-        parenthesized!(content in input);
-        let path = path(&content)?;
-        end(&content)?;
-        path
+        derived(input)?
     } else {
-        path(input)?
+        let mut path = path(input)?;
+        let name = path.pop().ok_or_else(|| input.error("a coordinate is expected here"))?;
+        (path, name)
     };
-    let coordinate = path.pop().ok_or_else(|| input.error("a coordinate is expected here"))?;
     equals(input)?;
     let value = input.parse()?;
     semicolon(input)?;
-    Ok(StartEntry { is_guess, is_rate, prefix: path, coordinate, value })
+    Ok(StartEntry { is_guess, is_rate, prefix, coordinate, value })
 }
 
 pub(super) fn event(input: ParseStream<'_>) -> Result<ItemKind> {

@@ -69,6 +69,10 @@ pub enum ItemKind {
     Constant { name: Ident, value: Formula },
     /// `input torque [N*m];`
     Input { name: Ident, unit: UnitText },
+    /// `state current [A] = 0;`
+    State { name: Ident, unit: UnitText, value: Option<Formula> },
+    /// `der(current) = (u - R*current)/L;`
+    Rate { prefix: Vec<Ident>, state: Ident, value: Formula },
     /// `require l1 < l2;`, or the condition of a parameter that is bound.
     Require { of: Option<Ident>, condition: Condition },
     /// `assembly Leg { … }`; gone after composition.

@@ -93,8 +93,9 @@ fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
     let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
     // a mass that is 0 by a parameter is none that the declaration says
     let is_none = |c: &&Coordinate| {
-        let body = &model.bodies[c.body];
-        model.arena.is_zero(if c.direction == Direction::Angle { body.inertia } else { body.mass })
+        let of = c.body().map(|body| &model.bodies[body]);
+        let is_angle = c.direction() == Some(Direction::Angle);
+        of.is_some_and(|body| model.arena.is_zero(if is_angle { body.inertia } else { body.mass }))
     };
     let where_zero = if coordinates.iter().all(is_none) {
         ""

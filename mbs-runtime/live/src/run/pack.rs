@@ -118,7 +118,8 @@ impl Pack {
     /// are not finite end, and why.
     pub fn observe(&mut self, rows: &mut [[f64; LANES]]) -> Vec<(usize, Error)> {
         let lanes = 0..self.runs.len();
-        let positions = self.block.positions();
+        let lines = self.runs.first().map_or(0, |run| run.mechanism.declared_info().lines);
+        let positions = self.block.observed(lines);
         let (of_coordinates, of_outputs) = rows.split_at_mut(positions.len().min(rows.len()));
         for (row, column) in of_coordinates.iter_mut().zip(positions) {
             lanes.clone().filter(|&lane| self.goes_on[lane]).for_each(|lane| row[lane] = read(column, lane));

@@ -48,6 +48,7 @@ fn counts(target: &Target<'_>) -> String {
         let _ = writeln!(text, "    {capitals}_{} = {},", name.to_uppercase(), members.len());
     }
     let others = [
+        ("LINES", compiled.line_count),
         ("REDUNDANT", compiled.redundant.len()),
         ("EVENTS", compiled.events.len()),
         ("POINTS", compiled.sketch.points.len()),

@@ -104,13 +104,22 @@ pub fn all(compiled: &Compiled, references: &References) -> Vec<Variable> {
     for order in 0..3_i16 {
         let names = compiled.coordinates.iter().enumerate();
         all.extend(names.map(|(at, it)| {
-            let unit = Unit::of_coordinate(it.dimension, order);
-            let (name, derivative_of) = match order {
-                0 => (it.name.clone(), None),
-                1 => (format!("der({})", it.name), derivative(Group::Positions, at)),
-                _ => (format!("der({},2)", it.name), derivative(Group::Velocities, at)),
+            // an own state is the rate of its integral
+            let is_own = at >= compiled.line_count;
+            let unit = match (is_own, order) {
+                (false, _) => Unit::of_coordinate(it.dimension, order),
+                (true, 1) => Unit::of(it),
+                (true, _) => Unit::si(it.dimension.times(Dimension::of(0, 0, 1 - order)), 0),
             };
-            let description = if order == 0 { it.doc.clone() } else { String::new() };
+            let (name, derivative_of) = match (order, is_own) {
+                (0, false) => (it.name.clone(), None),
+                (0, true) => (format!("integral({})", it.name), None),
+                (1, false) => (format!("der({})", it.name), derivative(Group::Positions, at)),
+                (1, true) => (it.name.clone(), derivative(Group::Positions, at)),
+                (_, false) => (format!("der({},2)", it.name), derivative(Group::Velocities, at)),
+                (_, true) => (format!("der({})", it.name), derivative(Group::Velocities, at)),
+            };
+            let description = if order == i16::from(is_own) { it.doc.clone() } else { String::new() };
             Variable { description, derivative_of, ..Variable::calculated(name, Role::Local, unit) }
         }));
     }

@@ -8,9 +8,9 @@ use crate::compiled::{Compiled, Derivation, Elimination, Formula};
 pub fn emit(compiled: &Compiled) -> TokenStream {
     let runtime = &compiled.written.runtime;
     let Derivation { phi, phi_q, phi_t, phi_dot, gamma, mass, forces, .. } = &compiled.derivation;
-    let Derivation { kinetic_energy, potential_energy, strategy, order, .. } = &compiled.derivation;
-    let [phi, phi_q, phi_t, phi_dot, gamma, mass, forces] = [phi, phi_q, phi_t, phi_dot, gamma, mass, forces]
-        .map(|formulas| {
+    let Derivation { rates, kinetic_energy, potential_energy, strategy, order, .. } = &compiled.derivation;
+    let [phi, phi_q, phi_t, phi_dot, gamma, mass, forces, rates] =
+        [phi, phi_q, phi_t, phi_dot, gamma, mass, forces, rates].map(|formulas| {
             let formulas = formulas.iter().filter(|formula| !formula.is_zero);
             let formulas = formulas.map(|it| formula(it, runtime));
             quote!(#(#formulas),*)
@@ -25,7 +25,7 @@ pub fn emit(compiled: &Compiled) -> TokenStream {
         #runtime::Derivation {
             given: &[#(#given),*],
             phi: &[#phi], phi_q: &[#phi_q], phi_t: &[#phi_t], phi_dot: &[#phi_dot],
-            gamma: &[#gamma], mass: &[#mass], forces: &[#forces],
+            gamma: &[#gamma], mass: &[#mass], forces: &[#forces], rates: &[#rates],
             kinetic_energy: #kinetic, potential_energy: #potential,
             strategy: #strategy, order: &[#(#order),*],
         }

@@ -21,8 +21,9 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let velocity_forces = compiled.velocity_forces.iter().map(|&at| Literal::usize_unsuffixed(at));
     let parameters = compiled.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
     let inputs = compiled.inputs.iter().map(|input| quantity(input, 0.0, runtime));
-    let coordinates =
-        compiled.coordinates.iter().zip(&compiled.start).map(|(c, start)| quantity(c, *start, runtime));
+    let coordinates = compiled.coordinates.iter().enumerate();
+    let coordinates = coordinates.map(|(at, c)| quantity(c, compiled.declared_start(at), runtime));
+    let lines = Literal::usize_unsuffixed(compiled.line_count);
     let outputs = compiled.outputs.iter().map(|output| quantity(output, 0.0, runtime));
     let constraints = compiled.constraints.iter().map(|constraint| {
         let (name, doc, formula) = (&constraint.name, &constraint.doc, &constraint.formula);
@@ -66,7 +67,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     quote! {
         #runtime::Info::from_parts(
             #name, #doc, #dof,
-            &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], &[#(#outputs),*],
+            &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], #lines, &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
             &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, &[#(#functions),*],
         )

@@ -34,6 +34,7 @@ pub fn tables(compiled: &Compiled) -> String {
         ("parameters", array(parameters)),
         ("inputs", quantities(&compiled.inputs)),
         ("coordinates", quantities(&compiled.coordinates)),
+        ("lines", compiled.line_count.to_string()),
         ("outputs", quantities(&compiled.outputs)),
         ("constraints", array(constraints)),
         ("freedom", compiled.degrees_of_freedom.to_string()),

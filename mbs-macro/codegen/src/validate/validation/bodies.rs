@@ -2,9 +2,9 @@
 
 use mbs_symbolic::{Expr, Rounded, Symbol, Tape};
 
-use crate::model::{Coordinate, Direction, Model};
+use crate::model::{Block, Coordinate, Direction, Model};
 
-/// The mass or inertia of each coordinate, and gravity along x and y.
+/// The mass or inertia of each coordinate, 1 of each own state, and gravity along x and y.
 pub struct Bodies {
     pub masses: Vec<Rounded>,
     pub gravity: [Rounded; 2],
@@ -12,9 +12,10 @@ pub struct Bodies {
 
 impl Bodies {
     pub fn new(model: &Model, symbol: &dyn Fn(Symbol) -> f64) -> Self {
-        let of = |coordinate: &Coordinate| {
-            let body = &model.bodies[coordinate.body];
-            if coordinate.direction == Direction::Angle { body.inertia } else { body.mass }
+        let of = |coordinate: &Coordinate| match coordinate.block {
+            Block::Line { body, direction: Direction::Angle } => model.bodies[body].inertia,
+            Block::Line { body, .. } => model.bodies[body].mass,
+            Block::Own => model.arena.one(),
         };
         let roots: Vec<Expr> = model.gravity.into_iter().chain(model.coordinates.iter().map(of)).collect();
         let mut values = evaluate(model, &roots, symbol).into_iter();

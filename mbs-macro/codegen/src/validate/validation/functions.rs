@@ -30,7 +30,10 @@ impl Point<'_> {
         let (kinetic, potential) = self.energies();
         self.agree(FunctionId::KineticEnergy, &[kinetic])?;
         self.agree(FunctionId::PotentialEnergy, &[potential])?;
-        let momentum = |at| self.mass(at) * Rounded::exact(self.velocity(at));
+        let momentum = |at: usize| match model.coordinates[at].is_own() {
+            true => Rounded::default(),
+            false => self.mass(at) * Rounded::exact(self.velocity(at)),
+        };
         let momentum: Vec<_> = (0..model.coordinates.len()).map(momentum).collect();
         self.agree(FunctionId::KineticMomentum, &momentum)?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
@@ -80,7 +83,8 @@ impl Point<'_> {
         let potentials = self.model.potentials.iter();
         let mut potential = potentials.fold(Rounded::default(), |sum, &energy| sum + self.value(energy));
         let mut kinetic = Rounded::default();
-        for (at, coordinate) in self.model.coordinates.iter().enumerate() {
+        let lines = self.model.coordinates.iter().enumerate().filter(|(_, coordinate)| !coordinate.is_own());
+        for (at, coordinate) in lines {
             let (mass, velocity) = (self.mass(at), Rounded::exact(self.velocity(at)));
             kinetic = kinetic + Rounded::exact(0.5) * mass * velocity * velocity;
             let position = Rounded::exact((self.symbol)(coordinate.position));

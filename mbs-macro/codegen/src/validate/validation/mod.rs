@@ -164,10 +164,10 @@ impl Point<'_> {
     }
 
     fn gravity(&self, at: usize) -> Rounded {
-        match self.model.coordinates[at].direction {
-            Direction::X => self.bodies.gravity[0],
-            Direction::Y => self.bodies.gravity[1],
-            Direction::Angle => Rounded::default(),
+        match self.model.coordinates[at].direction() {
+            Some(Direction::X) => self.bodies.gravity[0],
+            Some(Direction::Y) => self.bodies.gravity[1],
+            Some(Direction::Angle) | None => Rounded::default(),
         }
     }
 

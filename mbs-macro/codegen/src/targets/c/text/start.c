@@ -92,7 +92,7 @@ static int NAME_project_velocities(struct NAME_run *run)
 static real NAME_size(const struct NAME *m, const struct NAME_state *at)
 {
     real size = 0, entries[CAPS_JACOBIAN + 1] = {0};
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
+    for (int j = 0; j < CAPS_LINES; j++) {
         const real length = NAME_coordinate_length[j] != 0 ? FABS(NAME_elements(&at->q)[j]) : 0;
         size = length > size ? length : size;
     }
@@ -169,7 +169,7 @@ static int NAME_check_consistent(struct NAME_run *run, const struct NAME_state *
     for (int row = 0; row < CAPS_CONSTRAINTS; row++) {
         NAME_places(&rates)[row] = FABS(NAME_elements(&rates)[row]);
     }
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
+    for (int j = 0; j < CAPS_LINES; j++) {
         const real scale = NAME_coordinate_length[j] == 0 ? 1 : length;
         fastest = FABS(v[j]) > fastest * scale && scale > 0 ? FABS(v[j]) / scale : fastest;
     }

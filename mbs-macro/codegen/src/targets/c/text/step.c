@@ -69,7 +69,7 @@ static int NAME_reach(struct NAME_run *run, real t, const struct NAME_coordinate
             NAME_compute_reactions(m, t, &q, &still, &run->inputs, &feedback, &moved, &unread);
         NAME_compute_reactions(m, t, &q, &still, &run->inputs, &no_feedback, &unmoved, &unread);
         NAME_add(NAME_places(&moved), -1, NAME_elements(&unmoved), CAPS_COORDINATES);
-        const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_COORDINATES);
+        const real length = h * h * NAME_largest(NAME_elements(&moved), CAPS_LINES);
         const real roundings = (64 + growth) * NAME_epsilon;
         /* without a first correction it is a drive that ends, and not a position */
         if (length <= roundings * NAME_extent(&q) || (iteration == 0 && !isfinite(length))) {

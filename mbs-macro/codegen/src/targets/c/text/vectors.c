@@ -51,7 +51,7 @@ static int NAME_is_finite(const struct NAME_coordinates *x)
 /* The size of coordinates that rounding is compared with. */
 static real NAME_extent(const struct NAME_coordinates *q)
 {
-    return 1 + NAME_largest(NAME_elements(q), CAPS_COORDINATES);
+    return 1 + NAME_largest(NAME_elements(q), CAPS_LINES);
 }
 
 /* Refuses what is not finite: an input, a position or a velocity. */

@@ -36,7 +36,7 @@ function norm(x) {
 }
 
 // The size of coordinates that rounding is compared with.
-const extent = (q) => 1 + largest(q);
+const extent = (q, lines) => 1 + largest(q.subarray(0, lines));
 
 // Whether a step of h with these gains makes no violation grow; see `NAME_set_feedback` in C.
 function isStable({ share, weight }, h, { alpha, beta, held }) {

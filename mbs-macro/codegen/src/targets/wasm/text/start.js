@@ -63,20 +63,20 @@ class Start {
 
   // Positions on phi = 0 by Newton's iteration.
   assemble(correction) {
-    const m = this.mechanism, { q } = this, { phi, residual, delta } = m;
+    const m = this.mechanism, { q, tables: { lines } } = this, { phi, residual, delta } = m;
     let isAtRest = false;
     m.call("phi", this.t, q, phi);
     for (let iteration = 0; iteration < 50 && !isAtRest; iteration++) {
       residual.fill(0);
       add(residual, -1, phi);
       this.checkCorrection(m.call(correction, this.t, q, residual, delta));
-      isAtRest = largest(delta) <= 4 * EPSILON * extent(q);
+      isAtRest = largest(delta) <= 4 * EPSILON * extent(q, lines);
       if (isAtRest) add(q, 1, delta);
       else this.damped();
     }
     const worst = place(phi);
-    if (isAtRest || largest(phi) <= 64 * EPSILON * extent(q)) {
-      isAtRest = this.meetsRedundant(q, Math.sqrt(EPSILON) * extent(q), 1);
+    if (isAtRest || largest(phi) <= 64 * EPSILON * extent(q, lines)) {
+      isAtRest = this.meetsRedundant(q, Math.sqrt(EPSILON) * extent(q, lines), 1);
     }
     if (!isAtRest) this.fail("NOT_ASSEMBLED", this.tables.constraints[this.where ?? worst]?.name);
   }
@@ -153,7 +153,7 @@ class Start {
   measure() {
     const t = this.tables, m = this.mechanism;
     let size = 0;
-    t.coordinates.forEach((it, j) => {
+    t.coordinates.slice(0, t.lines).forEach((it, j) => {
       const length = it.length !== 0 ? Math.abs(this.q[j]) : 0;
       size = length > size ? length : size;
     });

@@ -95,7 +95,7 @@ class Run extends Start {
   // The constraint that cannot be met near q, or -1: Newton's iteration comes to rest at rounding,
   // which beyond a dead end it cannot.
   unreachedNear(t, start) {
-    const m = this.mechanism, n = this.q.length, h = this.h, q = m.delta;
+    const m = this.mechanism, n = this.q.length, h = this.h, q = m.delta, { lines } = this.tables;
     const { phi, still, none, unread, feedback: kept } = m, saved = kept.slice();
     const solve = (feedback) => m.call("reactions", t, q, still, this.inputs, feedback, m.moved, unread);
     q.set(start);
@@ -110,9 +110,9 @@ class Run extends Start {
         const growth = solve(kept), moved = m.moved.slice(0, n);
         solve(none);
         add(moved, -1, m.moved.subarray(0, n));
-        const length = h * h * largest(moved), roundings = (64 + growth) * EPSILON;
+        const length = h * h * largest(moved.subarray(0, lines)), roundings = (64 + growth) * EPSILON;
         // without a first correction it is a drive that ends, and not a position
-        if (length <= roundings * extent(q) || (iteration === 0 && !Number.isFinite(length))) return -1;
+        if (length <= roundings * extent(q, lines) || (iteration === 0 && !Number.isFinite(length))) return -1;
         if (!Number.isFinite(length)) break;
         add(q, h * h, moved);
       }
