@@ -1,6 +1,6 @@
 //! Where a mechanism is at rest.
 
-use mbs_analysis::{Equilibrium, Stability, equilibrium};
+use mbs_analysis::{Equilibrium, OperatingPoint, Stability, equilibrium};
 use mbs_runtime::Quantity;
 use mbs_runtime::equations::At;
 use mbs_workbench::{About, Error, RunOptions, Start, Unit};
@@ -54,7 +54,10 @@ impl Mechanism {
             .collect();
         let shown_all = PyDict::new(py);
         shown_all.set_item("t", rest.t)?;
-        shown_all.set_item("coordinates", shown(info.coordinates, &rest.q, Unit::of_coordinate))?;
+        let (coordinates, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
+        let (positions, values) = rest.q.split_at(coordinates.len().min(rest.q.len()));
+        shown_all.set_item("coordinates", shown(coordinates, positions, Unit::of_coordinate))?;
+        shown_all.set_item("states", shown(states, values, Unit::of))?;
         shown_all.set_item("outputs", shown(info.outputs, &outputs, Unit::of))?;
         shown_all.set_item("multipliers", reactions)?;
         shown_all.set_item("potential_energy", potential_energy)?;
@@ -70,8 +73,8 @@ impl Mechanism {
         let model = self.model.as_ref();
         let run = model.start(&Start::of(model, &options.values(model)?)?)?;
         let rest = equilibrium(run.described(), &about.search(&*run)?)?;
-        let still = vec![0.0; rest.q.len()];
-        let at = At { t: rest.t, q: &rest.q, v: &still };
+        let (still, point) = (vec![0.0; rest.q.len()], OperatingPoint::from(&rest));
+        let at = At { t: rest.t, q: &point.q, v: &point.v };
         let mut outputs = vec![f64::NAN; model.info().outputs.len()];
         run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
         let [_, potential_energy] = run.energies(at);

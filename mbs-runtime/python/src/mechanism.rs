@@ -84,7 +84,9 @@ impl Mechanism {
         found.set_item("dof", info.dof)?;
         found.set_item("parameters", described(info.parameters, Unit::of))?;
         found.set_item("inputs", described(info.inputs, Unit::of))?;
-        found.set_item("coordinates", described(info.coordinates, Unit::of_coordinate))?;
+        let (coordinates, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
+        found.set_item("coordinates", described(coordinates, Unit::of_coordinate))?;
+        found.set_item("states", described(states, Unit::of))?;
         found.set_item("outputs", described(info.outputs, Unit::of))?;
         let rows = info.constraints.iter();
         let rows: Vec<_> = rows

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use mbs_analysis::Signal;
 use mbs_runtime::Info;
 use mbs_workbench::{Error, Settings, Start, StartState, Unit};
 use numpy::ndarray::Array2;
@@ -37,10 +38,11 @@ type Named = (String, String);
 
 /// Positions, then rates.
 fn states(info: &Info) -> Vec<Named> {
-    let units = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
-    let positions = units().map(|(name, unit)| (name.to_owned(), unit.name().to_owned()));
-    let rates = units().map(|(name, unit)| (format!("der({name})"), unit.per_second().name().to_owned()));
-    positions.chain(rates).collect()
+    let named = |signal: Signal| {
+        let unit = Unit::of_signal(info, &signal).name().to_owned();
+        (signal.name, unit)
+    };
+    Signal::states(info).into_iter().map(named).collect()
 }
 
 /// Room for so many rows, if there is.

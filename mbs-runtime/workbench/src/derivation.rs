@@ -5,10 +5,13 @@ use mbs_runtime::{Derivation, Formula};
 /// The heading of what is not integrated, which is shown where there is any.
 pub(crate) const GIVEN: &str = "Coordinates that constraints give; the others are integrated";
 
+/// The heading of the rates of own states, which is shown where there are such.
+pub(crate) const RATES: &str = "Rates of states";
+
 /// A heading, what stands under it, and how its formulas are called.
 pub(crate) type Section = (&'static str, &'static [Formula], fn(&Formula) -> (String, String));
 
-pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 8] {
+pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 9] {
     [
         (GIVEN, derivation.given, |f| (f.of.to_owned(), f.of_latex.to_owned())),
         ("Constraints Φ(q, t) = 0", derivation.phi, |f| named("Φ", r"\Phi", f)),
@@ -34,6 +37,7 @@ pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 8] {
         ("Generalized forces Q", derivation.forces, |f| {
             (format!("Q[{}]", f.of), format!("Q_{{{}}}", f.of_latex))
         }),
+        (RATES, derivation.rates, |f| (format!("der({})", f.of), format!(r"\dot{{{}}}", f.of_latex))),
         ("Energies", &[], |_| (String::new(), String::new())),
     ]
 }

@@ -53,7 +53,7 @@ impl Energy {
     /// Takes the velocities of a run with steps of `step` seconds.
     pub fn see_motion(&mut self, info: &Info, v: &[f64], step: f64) {
         let scale = |q: &Quantity| if q.dimension.length != 0 { self.size } else { 1.0 };
-        let mut speeds = info.coordinates.iter().zip(v).map(|(q, v)| (v / scale(q)).abs());
+        let mut speeds = info.coordinates.iter().take(info.lines).zip(v).map(|(q, v)| (v / scale(q)).abs());
         self.has_moved = self.has_moved || !speeds.all(|speed| speed * step <= AT_REST * f64::EPSILON);
     }
 

@@ -86,8 +86,8 @@ impl About {
 /// constraints.
 fn positions(run: &dyn System, t: f64, given: &[(String, String)]) -> Result<Vec<f64>, Error> {
     let info = run.equations().info();
-    let coordinates = info.coordinates;
-    let n = coordinates.len();
+    let n = info.coordinates.len();
+    let coordinates = info.coordinates.get(..info.lines).unwrap_or(info.coordinates);
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     run.state(&mut q, &mut v);
     let mut kept = Vec::new();

@@ -1,5 +1,6 @@
 //! Results of a run: columns of numbers and a summary.
 
+use mbs_analysis::Signal;
 use mbs_runtime::{Constraint, Effort, Info};
 
 use crate::doubt::Doubt;
@@ -33,8 +34,10 @@ pub const MOST_OCCURRENCES: usize = 100_000;
 pub struct Recording {
     /// Time first, then coordinates, velocities, multipliers, outputs, violation.
     pub columns: Vec<Column>,
-    /// How many of the columns after time are coordinates.
+    /// How many of the columns after time are coordinates, or integrals of own states.
     pub coordinates: usize,
+    /// How many of these are coordinates of bodies.
+    pub lines: usize,
     /// The summary.
     pub summary: Summary,
     /// The events that it came to, in their order; at most [`MOST_OCCURRENCES`].
@@ -57,6 +60,7 @@ impl Recording {
         Self {
             columns: columns(info),
             coordinates: info.coordinates.len(),
+            lines: info.lines,
             summary: Summary::default(),
             occurrences: Vec::new(),
             unmet: None,
@@ -97,11 +101,11 @@ impl Recording {
 /// The columns of a recording, empty.
 pub(crate) fn columns(info: &Info) -> Vec<Column> {
     let mut columns = vec![Column::new("t", "s")];
-    let positions = || info.coordinates.iter().map(|q| (q.name, Unit::of_coordinate(q)));
-    columns.extend(positions().map(|(name, unit)| Column::new(name, unit.name())));
-    columns.extend(
-        positions().map(|(name, unit)| Column::new(format!("der({name})"), unit.per_second().name())),
-    );
+    let state = |signal: Signal| {
+        let unit = Unit::of_signal(info, &signal);
+        Column::new(signal.name, unit.name())
+    };
+    columns.extend(Signal::states(info).into_iter().map(state));
     let multiplier = |row: &Constraint| {
         Column::new(format!("lambda({})", row.name), Unit::of_multiplier(row.dimension).name())
     };

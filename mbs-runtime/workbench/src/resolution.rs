@@ -41,8 +41,10 @@ pub(crate) struct Resolution {
     /// Steps between two looks.
     every: u64,
     looks_at_first: bool,
-    /// 1 rad, or the size of the mechanism.
+    /// 1 rad, or the size of the mechanism; of an own state the largest value so far.
     scales: Vec<f64>,
+    /// How many of these are of coordinates of bodies.
+    lines: usize,
     names: Vec<&'static str>,
     /// The fastest motion so far, in scales per second.
     speed: f64,
@@ -51,7 +53,8 @@ pub(crate) struct Resolution {
     /// The exponent of the growth so far.
     growth: f64,
     worst: Option<Unstable>,
-    coarsest: Option<Coarse>,
+    /// The largest errors of velocities, and of own states, whose scales per second are these states.
+    coarsest: [Option<Coarse>; 2],
     /// After which step an implicit one is looked at, and velocities at its end by explicit steps, twice.
     expected: Option<(u64, [Vec<f64>; 2])>,
 }
@@ -80,28 +83,33 @@ impl Resolution {
             (Some(OtherMethod::Implicit(_)), None) => Stepping::Implicit,
             _ => return None,
         };
-        let is_length = |at: usize| info.coordinates[at].dimension.length != 0;
+        let scale = |at: usize| if info.coordinates[at].dimension.length != 0 { size } else { 1.0 };
         let count = info.coordinates.len();
         Some(Self {
             stepping,
             step: start.step,
             every: steps.div_ceil(LOOKS).max(1),
             looks_at_first: count <= MANY,
-            scales: (0..count).map(|at| if is_length(at) { size } else { 1.0 }).collect(),
+            scales: (0..count).map(|at| if info.is_own(at) { 0.0 } else { scale(at) }).collect(),
+            lines: info.lines,
             names: info.coordinates.iter().map(|q| q.name).collect(),
             speed: 0.0,
             last: None,
             growth: 0.0,
             worst: None,
-            coarsest: None,
+            coarsest: [None, None],
             expected: None,
         })
     }
 
     /// Sees the state after some steps, with its accelerations if it is looked at.
     pub fn see(&mut self, run: &dyn System, now: &Instant, taken: u64) {
-        let speeds = now.v.iter().zip(&self.scales).map(|(v, scale)| (v / scale).abs());
-        self.speed = speeds.fold(self.speed, f64::max);
+        for (at, (v, scale)) in now.v.iter().zip(&mut self.scales).enumerate() {
+            match at < self.lines {
+                true => self.speed = self.speed.max((v / *scale).abs()),
+                false => *scale = scale.max(v.abs()),
+            }
+        }
         if let Some((_, [coarse, fine])) = self.expected.take_if(|(after, _)| *after + 1 == taken) {
             self.compare(run.time(), &now.v, &fine, Some(&coarse));
         }
@@ -152,16 +160,20 @@ impl Resolution {
         let errors = |of: &[f64]| -> Vec<f64> {
             of.iter().zip(finer).zip(&self.scales).map(|((x, y), scale)| ((x - y) / scale).abs()).collect()
         };
-        let largest = |errors: Vec<f64>| {
+        let lines = self.lines;
+        let largest = |errors: Vec<f64>, are_states: bool| {
             // what is no number has an error of its own
             let finite = errors.into_iter().enumerate().filter(|(_, error)| error.is_finite());
-            finite.max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, 0.0))
+            let kind = finite.filter(|(at, _)| (*at >= lines) == are_states);
+            kind.max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, 0.0))
         };
-        let (coordinate, error) = largest(errors(found));
-        let (_, unknown) = coarser.map_or((0, 0.0), |coarser| largest(errors(coarser)));
-        let is_known = unknown < 0.5 * error && finer.iter().all(|v| v.is_finite());
-        if is_known && error > self.coarsest.as_ref().map_or(0.0, |coarsest| coarsest.error) {
-            self.coarsest = Some(Coarse { error, at: t, coordinate });
+        for (are_states, coarsest) in [false, true].into_iter().zip(&mut self.coarsest) {
+            let (coordinate, error) = largest(errors(found), are_states);
+            let (_, unknown) = coarser.map_or((0, 0.0), |coarser| largest(errors(coarser), are_states));
+            let is_known = unknown < 0.5 * error && finer.iter().all(|v| v.is_finite());
+            if is_known && error > coarsest.as_ref().map_or(0.0, |coarsest| coarsest.error) {
+                *coarsest = Some(Coarse { error, at: t, coordinate });
+            }
         }
     }
 
@@ -180,8 +192,10 @@ impl Resolution {
                 longest: self.longest(rates, steps),
             });
         }
-        let Coarse { error, at, coordinate } = self.coarsest.as_ref()?;
-        let share = error / self.speed;
+        let shares = self.coarsest.iter().zip([self.speed, 1.0]);
+        let shares = shares.filter_map(|(coarsest, size)| Some((coarsest.as_ref()?, size)));
+        let shares = shares.map(|(coarsest, size)| (coarsest, coarsest.error / size));
+        let (Coarse { at, coordinate, .. }, share) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let limit = if matches!(self.stepping, Stepping::Implicit) { COARSE_IMPLICIT } else { COARSE };
         (share > limit).then_some(Doubt::Coarse { coordinate: name(*coordinate), at: *at, step, share })
     }

@@ -1,5 +1,6 @@
 //! Runs of a mechanism, recorded.
 
+use mbs_analysis::Signal;
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 
@@ -57,18 +58,12 @@ impl dyn Model + '_ {
             q.append(&mut v);
             Ok(q)
         };
-        let coordinates = || info.coordinates.iter();
-        let positions = coordinates().map(|q| (q.name.to_owned(), Unit::of_coordinate(q)));
-        let rate = |q| Unit::of_coordinate(q).per_second();
-        let rates = coordinates().map(|q| (format!("der({})", q.name), rate(q)));
         let values = state(&declared)?.into_iter().zip(state(&kept)?);
-        let value = |((name, unit), (declared, kept)): ((String, Unit), (f64, f64))| StartValue {
-            name,
-            declared,
-            kept,
-            unit: unit.name().to_owned(),
+        let value = |(signal, (declared, kept)): (Signal, (f64, f64))| {
+            let unit = Unit::of_signal(info, &signal).name().to_owned();
+            StartValue { name: signal.name, declared, kept, unit }
         };
-        Ok(positions.chain(rates).zip(values).map(value).collect())
+        Ok(Signal::states(info).into_iter().zip(values).map(value).collect())
     }
 
     /// Runs a simulation. `progress` is called now and then with the steps
@@ -328,7 +323,7 @@ impl Recorder {
         let singular = few_digits(run.digits_left(), run.worst_place());
         doubts.extend(singular.or_else(|| self.reactions.doubt()));
         doubts.extend(self.resolution.and_then(|resolution| resolution.doubt(summary.steps)));
-        let coordinates = self.info.coordinates.len();
+        let (coordinates, lines) = (self.info.coordinates.len(), self.info.lines);
         let is_met = |until: &Until| self.occurrences.iter().any(|event| event.name == until.text);
         let unmet = self
             .until
@@ -337,7 +332,7 @@ impl Recorder {
             .map(|until| Unmet { condition: until.text.clone(), holds_at_start: self.holds_at_start });
         let Self { columns, occurrences, .. } = self;
         let notes = Vec::new();
-        Recording { columns, coordinates, summary, occurrences, unmet, ended, doubts, notes }
+        Recording { columns, coordinates, lines, summary, occurrences, unmet, ended, doubts, notes }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Starts that are given in place of the declared one.
 
+use mbs_analysis::Signal;
 use mbs_runtime::equations::{At, Room, assemble, check, project, project_velocities};
 use mbs_runtime::{Dimension, Info, System};
 
@@ -15,22 +16,16 @@ struct Place {
 impl Place {
     /// The place of what is called `x` or `der(x)`, with its dimension and the unit of a bare number.
     fn find(info: &Info, name: &str) -> Result<(Self, Dimension, Unit), Error> {
-        let inner = name.trim().strip_prefix("der(").and_then(|name| name.strip_suffix(')'));
-        let (is_rate, of) = (inner.is_some(), inner.unwrap_or(name).trim());
-        let mut known = info.coordinates.iter().enumerate();
-        let Some((at, q)) = known.find(|(_, q)| q.name == of) else {
-            let rates = info.coordinates.iter().map(|q| format!("der({})", q.name));
-            let names: Vec<String> =
-                info.coordinates.iter().map(|q| q.name.to_owned()).chain(rates).collect();
-            return Err(Error::unknown("coordinate or rate", name, names.iter().map(String::as_str)));
+        let signals = Signal::states(info);
+        let wanted: String = name.chars().filter(|letter| !letter.is_whitespace()).collect();
+        let Some((place, signal)) = signals.iter().enumerate().find(|(_, signal)| signal.name == wanted)
+        else {
+            let names = signals.iter().map(|signal| signal.name.as_str());
+            return Err(Error::unknown("coordinate, rate or state", name, names));
         };
-        let unit = Unit::of_coordinate(q);
-        Ok(if is_rate {
-            let time = q.dimension.time.saturating_sub(1);
-            (Self { at, is_rate }, Dimension { time, ..q.dimension }, unit.per_second())
-        } else {
-            (Self { at, is_rate }, q.dimension, unit)
-        })
+        let n = info.coordinates.len();
+        let found = Self { at: place % n, is_rate: place >= n };
+        Ok((found, signal.dimension, Unit::of_signal(info, signal)))
     }
 }
 

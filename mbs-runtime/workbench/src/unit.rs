@@ -53,6 +53,8 @@ impl Unit {
     pub fn of_signal(info: &Info, signal: &Signal) -> Self {
         let declared = |list: &[Quantity], at: usize| list.get(at).map(Self::of);
         let found = match signal.variable {
+            Variable::Velocity(at) if info.is_own(at) => declared(info.coordinates, at),
+            Variable::Coordinate(at) if info.is_own(at) => None,
             Variable::Coordinate(at) => info.coordinates.get(at).map(Self::of_coordinate),
             Variable::Velocity(at) => info.coordinates.get(at).map(|q| Self::of_coordinate(q).per_second()),
             Variable::Input(at) => declared(info.inputs, at),

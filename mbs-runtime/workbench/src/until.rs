@@ -1,7 +1,7 @@
 //! `--until 'x3 > 200mm'`, `--until impact`: a value or an event at which a run ends.
 
 use mbs_analysis::{Signal, Variable};
-use mbs_runtime::{Dimension, Direction, Info, Measured, Quantity, Threshold};
+use mbs_runtime::{Dimension, Direction, Info, Measured, Threshold};
 
 use crate::instant::Instant;
 use crate::{Error, Unit, quantity};
@@ -85,35 +85,20 @@ fn no_condition(info: &Info, text: &str) -> Error {
 
 /// The quantity called so, its dimension, and the unit of a bare number.
 fn measured(info: &Info, name: &str) -> Result<(Measured, Dimension, Unit), Error> {
-    let place = |quantities: &'static [Quantity], name: &str| {
-        quantities.iter().enumerate().find(|(_, quantity)| quantity.name == name)
-    };
-    let rate = name.strip_prefix("der(").and_then(|name| name.strip_suffix(')'));
-    if let Some((at, q)) = rate.and_then(|of| place(info.coordinates, of.trim())) {
-        let dimension = Dimension { time: q.dimension.time - 1, ..q.dimension };
-        return Ok((Measured::Velocity(at), dimension, Unit::of_coordinate(q).per_second()));
-    }
-    if let Some((at, q)) = place(info.coordinates, name) {
-        return Ok((Measured::Position(at), q.dimension, Unit::of_coordinate(q)));
-    }
-    if let Some((at, q)) = place(info.outputs, name) {
-        return Ok((Measured::Output(at), q.dimension, Unit::of(q)));
-    }
-    let mut multipliers = (0..info.constraints.len()).filter_map(|at| {
-        Signal::of(info, Variable::Multiplier(at)).map(|signal| (Measured::Multiplier(at), signal))
+    let wanted: String = name.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let known = Signal::observable(info);
+    let found = known.iter().find_map(|signal| {
+        let measured = match signal.variable {
+            Variable::Coordinate(at) => Measured::Position(at),
+            Variable::Velocity(at) => Measured::Velocity(at),
+            Variable::Output(at) => Measured::Output(at),
+            Variable::Multiplier(at) => Measured::Multiplier(at),
+            Variable::Input(_) | Variable::Parameter(_) => return None,
+        };
+        (signal.name == wanted).then(|| (measured, signal.dimension, Unit::of_signal(info, signal)))
     });
-    if let Some((measured, signal)) = multipliers.find(|(_, signal)| signal.name == name) {
-        return Ok((measured, signal.dimension, Unit::of_signal(info, &signal)));
-    }
-    let rates = info.coordinates.iter().map(|q| format!("der({})", q.name));
-    let multipliers = info.constraints.iter().map(|row| format!("lambda({})", row.name));
-    let made: Vec<String> = rates.chain(multipliers).collect();
-    let names = info.coordinates.iter().chain(info.outputs).map(|q| q.name);
-    Err(Error::unknown(
-        "coordinate, rate, output or multiplier",
-        name,
-        names.chain(made.iter().map(String::as_str)),
-    ))
+    let names = known.iter().map(|signal| signal.name.as_str());
+    found.ok_or_else(|| Error::unknown("coordinate, rate, output or multiplier", name, names))
 }
 
 /// Something that happened during a run.

@@ -20,6 +20,7 @@ class Info(TypedDict):
     parameters: list[Described]
     inputs: list[Described]
     coordinates: list[Described]
+    states: list[Described]
     outputs: list[Described]
     constraints: list[tuple[str, str, str, str]]
     events: list[tuple[str, str]]
@@ -49,6 +50,7 @@ class Ports(TypedDict):
 class AtRest(TypedDict):
     t: float
     coordinates: Values
+    states: Values
     outputs: Values
     multipliers: Values
     potential_energy: float

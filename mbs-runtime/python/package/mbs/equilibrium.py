@@ -23,14 +23,16 @@ class Equilibrium:
         """The time in s at which drives are held."""
         self.coordinates: Mapping[str, float] = {name: value for name, value, _ in found["coordinates"]}
         """The coordinates."""
+        self.states: Mapping[str, float] = {name: value for name, value, _ in found["states"]}
+        """The states of the declaration's own."""
         self.outputs: Mapping[str, float] = {name: value for name, value, _ in found["outputs"]}
         """What is measured there."""
         self.multipliers: Mapping[str, float] = {name: value for name, value, _ in found["multipliers"]}
         """The reactions that hold it, by constraint."""
-        named = [*found["coordinates"], *found["outputs"]]
+        named = [*found["coordinates"], *found["states"], *found["outputs"]]
         rows = [(f"lambda({name})", unit) for name, _, unit in found["multipliers"]]
         self.units: Mapping[str, str] = {**{name: unit for name, _, unit in named}, **dict(rows)}
-        """The units of coordinates, outputs and ``lambda(row)``."""
+        """The units of coordinates, states, outputs and ``lambda(row)``."""
         self.potential_energy: float = found["potential_energy"]
         """In J."""
         self.stability: str = found["stability"]
@@ -41,7 +43,7 @@ class Equilibrium:
         """Eigenvalues of the stiffness over the mass in 1/s², ascending: squares of natural frequencies."""
 
     def __getitem__(self, name: str) -> float:
-        for values in (self.coordinates, self.outputs):
+        for values in (self.coordinates, self.states, self.outputs):
             if name in values:
                 return values[name]
         row = name.removeprefix("lambda(").removesuffix(")")

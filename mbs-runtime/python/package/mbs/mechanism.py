@@ -101,6 +101,8 @@ class Mechanism:
         """The inputs with their defaults."""
         self.coordinates: Mapping[str, Quantity] = _by_name(info["coordinates"])
         """The coordinates with the declared start."""
+        self.states: Mapping[str, Quantity] = _by_name(info["states"])
+        """The states of the declaration's own, with the declared start."""
         self.outputs: Mapping[str, Quantity] = _by_name(info["outputs"])
         """The outputs."""
         self.constraints: Mapping[str, Constraint] = {row[0]: Constraint(*row) for row in info["constraints"]}
@@ -109,7 +111,7 @@ class Mechanism:
         """The declared events and what they are."""
 
     def __repr__(self) -> str:
-        lists = ("parameters", "inputs", "coordinates", "outputs")
+        lists = ("parameters", "inputs", "coordinates", "states", "outputs")
         counts = ", ".join(f"{len(getattr(self, name))} {name}" for name in lists if getattr(self, name))
         return f"<Mechanism {self.name}: {self.dof} degrees of freedom, {counts}>"
 
@@ -126,7 +128,7 @@ class Mechanism:
         return _compiled, self._source
 
     def _asked(self, given: Mapping[str, Any], starts: bool = False) -> Asked:
-        return asked(self.name, self.parameters, self.inputs, given, self.coordinates if starts else None)
+        return asked(self.name, self.parameters, self.inputs, given, {**self.coordinates, **self.states} if starts else None)
 
     def _has_no_end(self, values: Mapping[str, Any]) -> None:
         """Refuses what a run in a loop has no use for."""

@@ -200,9 +200,10 @@ class Simulations:
         """The mechanism."""
         self.count: int = count
         """Number of runs."""
-        coordinates = list(mechanism.coordinates)
-        self.names: list[str] = [*coordinates, *(f"der({name})" for name in coordinates)]
-        """Names of the columns of a state: coordinates ``x``, then rates ``der(x)``."""
+        coordinates, states = list(mechanism.coordinates), list(mechanism.states)
+        integrals, rates = [f"integral({name})" for name in states], [f"der({name})" for name in coordinates]
+        self.names: list[str] = [*coordinates, *integrals, *rates, *states]
+        """Names of the columns of a state: coordinates ``x``, integrals of own states, rates ``der(x)``, own states."""
 
     def __len__(self) -> int:
         return self.count

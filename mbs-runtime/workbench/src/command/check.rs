@@ -7,6 +7,7 @@ use clap::Args;
 use mbs_live::{Live, Location, Problem, Text, Warnings};
 use serde_json::{Value, json};
 
+use super::explain::coordinates;
 use crate::console::complain;
 use crate::number::{counted, significant};
 use crate::{Error, declarations, say};
@@ -62,7 +63,7 @@ fn summary(file: &str, live: &Live, seconds: f64) -> String {
     format!(
         "{file}: {}, {}, {}, {} of freedom; checked in {} ms",
         info.name,
-        counted(info.coordinates.len(), "coordinate"),
+        coordinates(info),
         counted(info.constraints.len(), "constraint"),
         counted(info.dof, "degree"),
         significant(1e3 * seconds, 2)

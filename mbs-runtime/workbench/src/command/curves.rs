@@ -38,12 +38,13 @@ impl Choice {
         if !self.columns.is_empty() {
             return recording.select(self.columns.iter().map(String::as_str));
         }
-        let behind = 1 + 2 * recording.coordinates;
-        let hidden = hidden(recording.coordinates);
+        let (n, hidden) = (recording.coordinates, hidden(recording.lines));
         let is_usual = |at: usize, name: &str| match at.checked_sub(1) {
             None => false,
-            Some(place) if place < recording.coordinates => !hidden.contains(&place),
-            Some(_) => at >= behind && !name.starts_with("lambda("),
+            Some(place) if place < n => place < recording.lines && !hidden.contains(&place),
+            // rates of coordinates, then own states
+            Some(place) if place < 2 * n => place - n >= recording.lines,
+            Some(_) => !name.starts_with("lambda("),
         };
         let columns = recording.columns.iter().enumerate();
         Ok(columns.filter(|(at, column)| is_usual(*at, &column.name)).map(|(_, column)| column).collect())
@@ -77,6 +78,9 @@ fn kind(recording: &Recording, column: &Column) -> &'static str {
     let at = recording.columns.iter().position(|other| other.name == column.name).unwrap_or(0);
     let is_length = column.unit.starts_with('m');
     match at.checked_sub(1) {
+        Some(at) if at < 2 * recording.coordinates && at % recording.coordinates >= recording.lines => {
+            if at < recording.coordinates { "integral of a state" } else { "state" }
+        }
         Some(at) if at < recording.coordinates => {
             if is_length {
                 "position"

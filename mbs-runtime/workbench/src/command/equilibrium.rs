@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use mbs_analysis::{Equilibrium, Stability, equilibrium};
+use mbs_analysis::{Equilibrium, OperatingPoint, Stability, equilibrium};
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 use serde_json::{Map, Value, json};
@@ -87,6 +87,7 @@ struct Found<'a> {
     name: &'a str,
     rest: &'a Equilibrium,
     coordinates: Vec<(&'static str, f64, Unit)>,
+    states: Vec<(&'static str, f64, Unit)>,
     outputs: Vec<(&'static str, f64, Unit)>,
     reactions: Vec<(&'static str, f64, Unit)>,
     potential_energy: f64,
@@ -94,8 +95,8 @@ struct Found<'a> {
 
 impl<'a> Found<'a> {
     fn of(name: &'a str, info: &'static Info, run: &dyn System, rest: &'a Equilibrium) -> Self {
-        let still = vec![0.0; rest.q.len()];
-        let at = At { t: rest.t, q: &rest.q, v: &still };
+        let (still, point) = (vec![0.0; rest.q.len()], OperatingPoint::from(rest));
+        let at = At { t: rest.t, q: &point.q, v: &point.v };
         let mut outputs = vec![f64::NAN; info.outputs.len()];
         run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
         let coordinates = info.coordinates.iter().zip(&rest.q);
@@ -103,7 +104,12 @@ impl<'a> Found<'a> {
         Self {
             name,
             rest,
-            coordinates: coordinates.map(|(q, x)| (q.name, *x, Unit::of_coordinate(q))).collect(),
+            coordinates: coordinates
+                .clone()
+                .take(info.lines)
+                .map(|(q, x)| (q.name, *x, Unit::of_coordinate(q)))
+                .collect(),
+            states: coordinates.skip(info.lines).map(|(z, x)| (z.name, *x, Unit::of(z))).collect(),
             outputs: info.outputs.iter().zip(&outputs).map(|(o, x)| (o.name, *x, Unit::of(o))).collect(),
             reactions: reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension))).collect(),
             potential_energy: run.energies(at)[1],
@@ -126,10 +132,13 @@ impl<'a> Found<'a> {
     fn table(&self) -> Table {
         let mut table = Table::new([self.name, "at rest", ""]);
         table.row(["stability", self.stability().as_str()]);
+        if !self.states.is_empty() {
+            table.row(["", "while states are held; `modes` tells how they act"]);
+        }
         if let Stability::Unstable { .. } = self.rest.stability() {
             table.row(["", "--relax finds where it falls to"]);
         }
-        for list in [&self.coordinates, &self.outputs] {
+        for list in [&self.coordinates, &self.states, &self.outputs] {
             for (name, value, unit) in list {
                 table.row([*name, &significant(unit.shown(chopped(*value, list)), 8), unit.name()]);
             }
@@ -156,6 +165,7 @@ impl<'a> Found<'a> {
             "stability": self.stability(),
             "is_stable": self.rest.is_stable(),
             "coordinates": of(&self.coordinates),
+            "states": of(&self.states),
             "outputs": of(&self.outputs),
             "multipliers": of(&self.reactions),
             "potential_energy_J": number(self.potential_energy),

@@ -10,7 +10,7 @@ use mbs_runtime::{Derivation, Info};
 
 use super::options::Named;
 use crate::StartValue;
-use crate::derivation::{GIVEN, energies, escaped, sections, typeset};
+use crate::derivation::{GIVEN, RATES, energies, escaped, sections, typeset};
 use crate::models::Models;
 use crate::number::{counted, significant};
 use crate::{Error, Model, Table, say};
@@ -51,6 +51,15 @@ impl dyn Model + '_ {
     }
 }
 
+/// How many coordinates there are, and how many own states, if there are such.
+pub(super) fn coordinates(info: &Info) -> String {
+    let coordinates = counted(info.lines, "coordinate");
+    match info.coordinates.len() - info.lines {
+        0 => coordinates,
+        states => format!("{coordinates}, {}", counted(states, "state")),
+    }
+}
+
 fn plain(info: &Info, derivation: &'static Derivation) -> String {
     let mut text = format!("{}\n", info.name);
     for line in info.doc.trim().lines() {
@@ -60,13 +69,13 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         text,
         "\n{}, {}, {} of freedom.\n\
          M q̈ + Φ_qᵀ λ = Q,  Φ_q q̈ = γ − 2αΦ̇ − β²Φ;  SI units, angles in radians.",
-        counted(info.coordinates.len(), "coordinate"),
+        coordinates(info),
         counted(info.constraints.len(), "constraint"),
         counted(info.dof, "degree"),
     );
     for (heading, formulas, name) in sections(derivation) {
         let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).0, formula.text)).collect();
-        if heading == GIVEN && lines.is_empty() {
+        if (heading == GIVEN || heading == RATES) && lines.is_empty() {
             continue;
         }
         if heading == "Energies" {

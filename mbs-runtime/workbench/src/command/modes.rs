@@ -182,7 +182,11 @@ impl Shown<'_> {
         for at in self.coordinates() {
             let coordinate = self.info.coordinates.get(at)?;
             let components = self.modes.iter().map(|mode| component(mode.shape[at]));
-            let unit = Unit::of_coordinate(coordinate).name().to_owned();
+            let unit = match self.info.is_own(at) {
+                true => Unit::of(coordinate),
+                false => Unit::of_coordinate(coordinate),
+            };
+            let unit = unit.name().to_owned();
             table.row([coordinate.name.to_owned()].into_iter().chain(components).chain([unit]));
         }
         Some(table)

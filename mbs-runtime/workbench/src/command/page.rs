@@ -124,7 +124,7 @@ pub(super) fn summary(name: &str, given: &[Given], recording: &Recording, shown:
         let value = column.values.last().map_or_else(String::new, |last| significant(*last, 7));
         (format!("{} at the end", column.name), value)
     };
-    let (all, hidden) = match shown {
+    let (all, hidden, integrals) = match shown {
         Shown::Chosen(columns) => {
             for column in columns {
                 let (name, value) = at_end(column);
@@ -132,12 +132,18 @@ pub(super) fn summary(name: &str, given: &[Given], recording: &Recording, shown:
             }
             return table;
         }
-        Shown::All => (recording.columns.iter(), 0..0),
-        Shown::Ends => (recording.columns.iter(), hidden(recording.coordinates)),
+        Shown::All => (recording.columns.iter(), 0..0, 0..0),
+        Shown::Ends => {
+            let integrals = recording.lines..recording.coordinates;
+            (recording.columns.iter(), hidden(recording.lines), integrals)
+        }
     };
     for (at, column) in all.enumerate() {
         // behind the time, coordinates and then their rates
         let place = at.checked_sub(1).filter(|&at| at < 2 * recording.coordinates);
+        if place.is_some_and(|place| integrals.contains(&place)) {
+            continue;
+        }
         let place = place.map(|at| at % recording.coordinates);
         if place.is_some_and(|place| hidden.contains(&place)) {
             if place == Some(hidden.start) {

@@ -118,7 +118,12 @@ impl<'a> Shapes<'a> {
         };
         let farthest = moved(|re, _| re).max(moved(|_, im| im));
         let info = self.operating.info();
-        let angles = info.coordinates.iter().zip(mode.shape.iter()).filter(|(q, _)| q.dimension.length == 0);
+        let angles = info
+            .coordinates
+            .iter()
+            .take(info.lines)
+            .zip(mode.shape.iter())
+            .filter(|(q, _)| q.dimension.length == 0);
         let turned = angles.map(|(_, shape)| shape.norm()).fold(0.0, f64::max);
         let still = Motion { sketch: self.operating.model.sketch(), times: vec![0.0], places: vec![here] };
         let Extent { low, high } = Picture::of(&still).extent();

@@ -2,7 +2,9 @@
 const curves = (() => {
   const { data, tables, rows } = session, MOST_POINTS = 1200;
   const n = tables.coordinates.length, outputs = tables.outputs.length, all = data.columns.length;
-  const first = outputs ? [all - 1 - outputs, outputs > 1 ? all - outputs : 1] : [1, n > 1 ? 2 : 1 + n];
+  // without outputs coordinates, or the states of a declaration without bodies
+  const begin = tables.lines ? 1 : 1 + n;
+  const first = outputs ? [all - 1 - outputs, outputs > 1 ? all - outputs : begin] : [begin, n > 1 ? begin + 1 : 1 + n];
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 
   function plot(parent, at, column) {

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use mbs_ensemble::lanes::{Lane, Lanes, ManyCoordinates, ManyOutputs, Snapshot, unpack};
 use mbs_ensemble::{Cancelled, Ensemble, Observe};
-use mbs_runtime::{Components, Explicit, Held, Mechanism, Method};
+use mbs_runtime::{Components, Explicit, Held, Mechanism, Method, State};
 
 use super::extent::{Extent, Member};
 use crate::settings::Start;
@@ -70,6 +70,16 @@ impl<M: Mechanism<Real = f64>> InLanes for Typed<M> {
     }
 }
 
+/// The coordinates of a state, the first `lines` of which are of bodies; of an own state its value.
+#[inline(always)]
+fn shown<C: Components>(State { q, v, .. }: State<C>, lines: usize) -> C {
+    let (mut shown, states) = (q.into_array(), v.into_array());
+    for (shown, state) in shown.as_mut().iter_mut().zip(states.as_ref()).skip(lines) {
+        *shown = *state;
+    }
+    C::from_array(shown)
+}
+
 /// Observes [`Extent`]s.
 struct Extents;
 
@@ -119,7 +129,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for Extents {
     #[inline(always)]
     fn observe<const N: usize>(&self, notes: &mut Self::Notes<N>, at: &Snapshot<'_, M, N>) -> [bool; N] {
         let (outputs, healthy) = at.outputs();
-        notes.0.see(at.state().q);
+        notes.0.see(shown(at.state(), M::INFO.lines));
         notes.1.see(outputs);
         healthy
     }

@@ -40,11 +40,12 @@ pub struct Members<'a> {
     pub cancel: &'a AtomicBool,
 }
 
-/// Names and units of what a sweep looks at: coordinates, then outputs.
+/// Names and units of what a sweep looks at: coordinates, own states, then outputs.
 pub fn quantities(info: &Info) -> Vec<(&'static str, Unit)> {
+    let (coordinates, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
     let coordinate = |q: &Quantity| (q.name, Unit::of_coordinate(q));
-    let output = |q: &Quantity| (q.name, Unit::of(q));
-    info.coordinates.iter().map(coordinate).chain(info.outputs.iter().map(output)).collect()
+    let declared = |q: &Quantity| (q.name, Unit::of(q));
+    coordinates.iter().map(coordinate).chain(states.iter().chain(info.outputs).map(declared)).collect()
 }
 
 impl dyn Model + '_ {
@@ -157,7 +158,9 @@ pub(crate) fn extents(
         now.see(&*run);
         now.solve(&*run)?;
         now.measure(&*run)?;
-        Extent::see_all(&mut extents, now.q.iter().chain(&now.outputs).copied());
+        let coordinates = now.q.iter().zip(&now.v).enumerate();
+        let coordinates = coordinates.map(|(at, (q, v))| if info.is_own(at) { *v } else { *q });
+        Extent::see_all(&mut extents, coordinates.chain(now.outputs.iter().copied()));
         if taken < steps {
             run.step()?;
         }
