@@ -16,6 +16,19 @@ pub enum Error {
         /// The name of the mechanism.
         mechanism: &'static str,
     },
+    /// An analysis that does not know states of a declaration's own.
+    #[error(
+        "`{mechanism}` has a state of its own (`{state}`), and {what} knows positions and velocities alone; \
+         simulate it, or leave the state out"
+    )]
+    OwnStates {
+        /// What was asked for, in words.
+        what: &'static str,
+        /// The name of the mechanism.
+        mechanism: &'static str,
+        /// The first of its states.
+        state: &'static str,
+    },
     /// No position near the given one at which nothing moves.
     #[error(
         "no equilibrium was found in {iterations} iterations: `{coordinate}` still accelerates with \
@@ -335,6 +348,16 @@ fn reached(sample: usize) -> String {
         return "the motion cannot begin".into();
     }
     format!("sample {sample} of the motion cannot be reached")
+}
+
+impl Error {
+    /// Refuses a mechanism with own states where an analysis does not know them.
+    pub(crate) fn refuse_states(info: &mbs_runtime::Info, what: &'static str) -> Result<(), Self> {
+        match info.coordinates.get(info.lines) {
+            Some(state) => Err(Self::OwnStates { what, mechanism: info.name, state: state.name }),
+            None => Ok(()),
+        }
+    }
 }
 
 fn listed(names: &[String]) -> String {

@@ -137,6 +137,7 @@ pub fn inverse(
     times: &[f64],
 ) -> Result<Vec<Instant>, Error> {
     let info = mechanism.info();
+    Error::refuse_states(info, "an inverse motion")?;
     let names: Vec<String> = request.curves.iter().map(|(name, _)| name.clone()).collect();
     let places = places(mechanism, &names)?;
     let defaults = || info.inputs.iter().map(|input| input.default).collect();

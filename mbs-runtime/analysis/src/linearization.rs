@@ -7,7 +7,7 @@ use mbs_runtime::equations::Described;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chart::Chart;
-use crate::derivative::{Derivatives, Direction, Values};
+use crate::derivative::{Derivatives, Direction, Values, scale};
 use crate::family::{Family, Varied};
 use crate::{Error, OperatingPoint, Signal, Variable};
 
@@ -34,13 +34,13 @@ pub struct Ports<'a> {
 
 /// ẋ = A x + B u, y = C x + D u, of deviations from an operating point.
 ///
-/// With f degrees of freedom x = (δz, δż) has 2f components: f declared coordinates z that determine
-/// the others, and their rates. Everything is in SI units and rad.
+/// With f degrees of freedom and k own states s, x = (δz, δż, δs) has 2f + k components: f declared coordinates z
+/// that determine the others, their rates, and the own states. Everything is in SI units and rad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization {
     /// The operating point.
     pub point: OperatingPoint,
-    /// x, 2f.
+    /// x, 2f + k.
     pub states: Vec<Signal>,
     /// u
     pub inputs: Vec<Signal>,
@@ -49,7 +49,7 @@ pub struct Linearization {
     /// Declared outputs that are left out of y, since they have no value or no derivative at the point, as
     /// der(y)/der(x) has none at rest. An output that [`Ports::outputs`] names is an error instead.
     pub left_out: Vec<Signal>,
-    /// A, 2f × 2f: [0 1; ∂z̈/∂z ∂z̈/∂ż].
+    /// A, square: [0 1 0; ∂z̈/∂z ∂z̈/∂ż ∂z̈/∂s; ∂ṡ/∂z ∂ṡ/∂ż ∂ṡ/∂s].
     pub a: DMatrix<f64>,
     /// B
     pub b: DMatrix<f64>,
@@ -129,7 +129,7 @@ pub fn linearize(
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
     let info = mechanism.info();
-    if info.dof <= 0 {
+    if info.dof <= 0 && info.lines == info.coordinates.len() {
         return Err(Error::NoFreedom { mechanism: info.name });
     }
     let mut inputs = Signal::inputs(info, ports.inputs.as_deref())?;
@@ -144,7 +144,11 @@ pub fn linearize(
         None if ports.parameters.is_empty() => None,
         None => return Err(Error::NoFamily { parameter: ports.parameters.concat() }),
     };
-    let derivatives = Derivatives { mechanism, point, varied, scales: chart.scales() };
+    let mut scales = chart.scales();
+    for (at, state) in info.coordinates.iter().enumerate().skip(info.lines) {
+        scales[at] = scale(state, point.v[at]);
+    }
+    let derivatives = Derivatives { mechanism, point, varied, scales: scales.clone() };
     let here = derivatives.values();
     check_finite(info, &here)?;
 
@@ -152,18 +156,19 @@ pub fn linearize(
     let f = system.chart.independent.len();
     let of_states = system.columns(&system.of_states()?, &outputs)?;
     let of_inputs = system.columns(&system.of_inputs(&inputs)?, &outputs)?;
-    let mut a = DMatrix::zeros(2 * f, 2 * f);
+    let order = 2 * f + system.own().len();
+    let mut a = DMatrix::zeros(order, order);
     a.view_mut((0, f), (f, f)).fill_with_identity();
-    a.view_mut((f, 0), (f, 2 * f)).copy_from(&of_states.acceleration);
-    let mut b = DMatrix::zeros(2 * f, inputs.len());
-    b.view_mut((f, 0), (f, inputs.len())).copy_from(&of_inputs.acceleration);
+    a.view_mut((f, 0), (order - f, order)).copy_from(&of_states.rates);
+    let mut b = DMatrix::zeros(order, inputs.len());
+    b.view_mut((f, 0), (order - f, inputs.len())).copy_from(&of_inputs.rates);
     let uncertainty = system.uncertainty(&of_states);
     let chart = &system.chart;
     let speed = chart.minimal(&DVector::from_column_slice(&point.v));
-    let rate = speed.iter().chain(chart.minimal(&here.acceleration).iter()).copied().collect::<Vec<_>>();
+    let rate = speed.iter().chain(system.rates(&here.acceleration).iter()).copied().collect::<Vec<_>>();
     let independent = chart.independent.iter();
     let states = independent.clone().map(|&at| Variable::Coordinate(at));
-    let states = states.chain(independent.map(|&at| Variable::Velocity(at)));
+    let states = states.chain(independent.copied().chain(system.own()).map(Variable::Velocity));
     let linear = Linearization {
         states: states.filter_map(|variable| Signal::of(info, variable)).collect(),
         values: DVector::from_iterator(outputs.len(), outputs.iter().map(|y| value(point, &here, y))),
@@ -175,7 +180,7 @@ pub fn linearize(
         uncertainty,
         directions: chart.directions.clone(),
         mass: chart.mass.clone(),
-        scales: chart.scales(),
+        scales,
         point: point.clone(),
         inputs,
         outputs,
@@ -228,11 +233,13 @@ fn check_finite(info: &mbs_runtime::Info, here: &Values) -> Result<(), Error> {
 
 /// Refuses A or B with an entry that is no number.
 fn check_accelerations(linear: &Linearization) -> Result<(), Error> {
-    let has_none = |at: &usize| !is_finite([&linear.a, &linear.b], linear.dof() + at);
-    match (0..linear.dof()).find(has_none).and_then(|at| linear.states.get(at)) {
-        Some(state) => Err(Error::Slope { of: format!("the acceleration of `{}`", state.name) }),
-        None => Ok(()),
-    }
+    let f = linear.dof();
+    let has_none = |at: &usize| !is_finite([&linear.a, &linear.b], *at);
+    let Some(at) = (f..linear.a.nrows()).find(has_none) else { return Ok(()) };
+    // the rows behind 2f are of own states, the others of accelerations
+    let (what, state) = if at < 2 * f { ("acceleration", at - f) } else { ("rate", at) };
+    let name = linear.states.get(state).map_or("", |state| state.name.as_str());
+    Err(Error::Slope { of: format!("the {what} of `{name}`") })
 }
 
 fn is_finite(rows: [&DMatrix<f64>; 2], at: usize) -> bool {
@@ -255,9 +262,9 @@ struct Differentiated<'a> {
 
 /// Derivatives along some directions, a column each.
 struct Columns {
-    /// Of z̈.
-    acceleration: DMatrix<f64>,
-    /// The estimated errors of that.
+    /// Of z̈, and behind them of the rates of own states.
+    rates: DMatrix<f64>,
+    /// The estimated errors of these.
     errors: DMatrix<f64>,
     outputs: DMatrix<f64>,
 }
@@ -269,7 +276,25 @@ impl Differentiated<'_> {
         let f = self.chart.independent.len();
         let displaced = (0..f).map(|at| self.completed(Direction { q: along(at), ..none.clone() }));
         let faster = (0..f).map(|at| Ok(Direction { v: along(at), ..none.clone() }));
-        displaced.chain(faster).collect()
+        let changed = self.own().map(|at| {
+            let mut direction = none.clone();
+            direction.v[at] = 1.0;
+            Ok(direction)
+        });
+        displaced.chain(faster).chain(changed).collect()
+    }
+
+    /// The places of own states among the coordinates.
+    fn own(&self) -> std::ops::Range<usize> {
+        let info = self.derivatives.mechanism.info();
+        info.lines..info.coordinates.len()
+    }
+
+    /// z̈ and the rates of own states, of all accelerations.
+    fn rates(&self, acceleration: &DVector<f64>) -> DVector<f64> {
+        let minimal = self.chart.minimal(acceleration);
+        let own = self.own().map(|at| acceleration[at]);
+        DVector::from_iterator(minimal.len() + self.own().len(), minimal.iter().copied().chain(own))
     }
 
     fn of_inputs(&self, inputs: &[Signal]) -> Result<Vec<Direction>, Error> {
@@ -300,13 +325,13 @@ impl Differentiated<'_> {
     }
 
     fn columns(&self, directions: &[Direction], outputs: &[Signal]) -> Result<Columns, Error> {
-        let (f, k) = (self.chart.independent.len(), directions.len());
-        let [mut acceleration, mut errors] = [(); 2].map(|()| DMatrix::zeros(f, k));
+        let (rows, k) = (self.chart.independent.len() + self.own().len(), directions.len());
+        let [mut rates, mut errors] = [(); 2].map(|()| DMatrix::zeros(rows, k));
         let mut of_outputs = DMatrix::zeros(outputs.len(), k);
         for (column, direction) in directions.iter().enumerate() {
             let [change, error] = self.derivatives.along(direction)?;
-            acceleration.set_column(column, &self.chart.minimal(&change.acceleration));
-            errors.set_column(column, &self.chart.minimal(&error.acceleration));
+            rates.set_column(column, &self.rates(&change.acceleration));
+            errors.set_column(column, &self.rates(&error.acceleration));
             for (row, output) in outputs.iter().enumerate() {
                 of_outputs[(row, column)] = match output.variable {
                     Variable::Coordinate(at) => direction.q[at],
@@ -317,7 +342,7 @@ impl Differentiated<'_> {
                 };
             }
         }
-        Ok(Columns { acceleration, errors, outputs: of_outputs })
+        Ok(Columns { rates, errors, outputs: of_outputs })
     }
 
     fn uncertainty(&self, of_states: &Columns) -> f64 {
@@ -328,8 +353,8 @@ impl Differentiated<'_> {
             DMatrix::from_fn(f, f, entry).amax()
         };
         // what nothing drives back accelerates by rounding alone
-        let stiffest = measured(&of_states.acceleration, 0).max(SLOW * SLOW);
-        let fastest = measured(&of_states.acceleration, f).max(stiffest.sqrt());
+        let stiffest = measured(&of_states.rates, 0).max(SLOW * SLOW);
+        let fastest = measured(&of_states.rates, f).max(stiffest.sqrt());
         let share = |error: f64, size: f64| if error > 0.0 { error / size } else { 0.0 };
         share(measured(&of_states.errors, 0), stiffest).max(share(measured(&of_states.errors, f), fastest))
     }

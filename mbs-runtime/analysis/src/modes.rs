@@ -4,6 +4,7 @@
 //! first. Complex matrices are real ones of twice the size (`complex`), which spares compiling
 //! decompositions twice.
 
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 use crate::complex::null_vectors;
@@ -65,7 +66,7 @@ impl Behaviour {
 pub struct Mode {
     /// λ in 1/s, with Im λ ≥ 0. A part is 0 that cannot be told from it.
     pub eigenvalue: Complex<f64>,
-    /// φ, a component for each coordinate. That of the state that moves most is 1 rad or 1 m, where an
+    /// φ, a component for each coordinate and own state. That of the state that moves most is 1 rad or 1 m, where an
     /// angle of 1 rad counts as much as a length of the size of the mechanism.
     pub shape: DVector<Complex<f64>>,
     /// The behaviour of a displacement in this shape.
@@ -114,6 +115,9 @@ impl Linearization {
     /// # Source
     /// F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Rev. 43 (2001) 235-286.
     pub fn modes(&self) -> Result<Vec<Mode>, Error> {
+        if self.a.nrows() > 2 * self.dof() {
+            return self.modes_with_states();
+        }
         let pencil = Pencil::of(self);
         let (free, held) = pencil.free_and_held(self.uncertainty);
         let mut modes: Vec<Mode> = free
@@ -142,6 +146,52 @@ impl Linearization {
         let mut found: Vec<f64> = oscillates.collect();
         found.sort_by(f64::total_cmp);
         Ok(found)
+    }
+}
+
+impl Linearization {
+    /// The modes of a mechanism with own states: eigenvalues of A as it stands, balanced, and shapes from the
+    /// [`pencil`](Self::pencil).
+    fn modes_with_states(&self) -> Result<Vec<Mode>, Error> {
+        const ITERATIONS: usize = 10_000;
+        let mut system = self.a.clone();
+        let _ = balance_parlett_reinsch(&mut system);
+        let schur = Schur::try_new(system.clone(), f64::EPSILON, ITERATIONS);
+        let Some(schur) = schur else { return Err(Error::Eigenvalues { decades: decades(&system) }) };
+        let eigenvalues = schur.complex_eigenvalues();
+        let fastest = eigenvalues.iter().map(|root| root.norm()).fold(0.0, f64::max);
+        let rate = if fastest > 0.0 { fastest } else { 1.0 };
+        let mut roots: Vec<Complex<f64>> = eigenvalues.iter().map(|root| known(&(root / rate))).collect();
+        roots.retain(|root| root.im >= 0.0);
+        roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+        Ok(roots.into_iter().map(|root| self.mode_with_states(root, rate)).collect())
+    }
+
+    fn mode_with_states(&self, root: Complex<f64>, rate: f64) -> Mode {
+        let (f, eigenvalue) = (self.dof(), root * rate);
+        let [right, left] = null_vectors(&self.pencil(eigenvalue), 1, 0.0);
+        let none = || DVector::zeros(self.a.nrows() - f);
+        let [right, left] = [right, left].map(|vectors| vectors.into_iter().next().unwrap_or_else(none));
+        let (z, states) = (right.rows(0, f).clone_owned(), right.rows(f, right.len() - f).clone_owned());
+        let all = self.directions.map(Complex::from) * z;
+        let lines = all.len() - states.len();
+        let shape =
+            DVector::from_fn(all.len(), |at, _| if at < lines { all[at] } else { states[at - lines] });
+        let sizes: Vec<f64> = shape.iter().zip(&self.scales).map(|(x, scale)| x.norm() / scale).collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        // a coordinate that moves is 1; of a mode of own states alone, the largest of these
+        let moves = |at: &usize| sizes[*at] > SMALL * largest;
+        let first = (0..lines).filter(moves).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b]));
+        let first = first.or_else(|| (lines..sizes.len()).find(|at| sizes[*at] >= largest));
+        let unit = first.map_or(Complex::from(1.0), |at| shape[at]);
+        let unit = if unit.norm() > 0.0 { unit } else { Complex::from(1.0) };
+        let shape = DVector::from_fn(shape.len(), |at, _| {
+            let known = |x: f64| if x.abs() > SMALL * largest * self.scales[at] { x } else { 0.0 };
+            let share = Complex::new(known(shape[at].re), known(shape[at].im)) / unit;
+            // what does not oscillate moves in phase
+            if root.im == 0.0 { Complex::from(share.re) } else { share }
+        });
+        Mode { eigenvalue, shape, behaviour: behaviour(root), vectors: [right, left] }
     }
 }
 

@@ -93,7 +93,9 @@ impl OperatingPoint {
             Drives::Moving => rest.violation_rate(&q, &v),
         };
         // as fast as it moves, or a scale in a second
-        let speed = v.component_div(&rest.scales()).amax().max(1.0);
+        let speeds = v.component_div(&rest.scales());
+        let speed =
+            speeds.rows(0, info.lines).iter().fold(1.0, |largest: f64, speed| largest.max(speed.abs()));
         for (violation, allowed, is_rate) in [(phi, NEAR, false), (rate, NEAR * speed, true)] {
             let distance = rest.correction(&q, &violation).component_div(&rest.scales()).amax();
             // what is no number is not near either
@@ -115,6 +117,10 @@ impl OperatingPoint {
 
 impl From<&Equilibrium> for OperatingPoint {
     fn from(rest: &Equilibrium) -> Self {
-        Self::at_rest(rest.t, &rest.q, &rest.inputs)
+        let (positions, states) = rest.q.split_at(rest.lines.min(rest.q.len()));
+        let mut point = Self::at_rest(rest.t, positions, &rest.inputs);
+        point.q.resize(rest.q.len(), 0.0);
+        point.v.extend_from_slice(states);
+        point
     }
 }

@@ -3,6 +3,7 @@
 use mbs_runtime::equations::{At, Described};
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
+use crate::derivative::scale;
 use crate::tangent::Rest;
 
 /// Directions of Arnoldi's iteration at most.
@@ -112,9 +113,12 @@ struct Tangents<'a> {
 
 impl<'a> Tangents<'a> {
     fn new(mechanism: &'a dyn Described<f64>, at: At<'a, f64>, inputs: &'a [f64]) -> Option<Self> {
-        let scales = Rest::new(mechanism, at.t, inputs, at.q).scales();
-        let speed = DVector::from_column_slice(at.v).component_div(&scales);
-        let speed = if speed.is_empty() { 0.0 } else { speed.amax() };
+        let (info, mut scales) = (mechanism.info(), Rest::new(mechanism, at.t, inputs, at.q).scales());
+        for (place, state) in info.coordinates.iter().enumerate().skip(info.lines) {
+            scales[place] = scale(state, at.v.get(place).copied().unwrap_or_default());
+        }
+        let speeds = DVector::from_column_slice(at.v).component_div(&scales);
+        let speed = speeds.iter().take(info.lines).fold(0.0_f64, |speed, v| speed.max(v.abs()));
         let here = DVector::zeros(at.q.len());
         let mut tangents = Self { mechanism, at, inputs, scales, here, speed: speed.max(SLOW), rate: 1.0 };
         tangents.here = tangents.acceleration(at.q, at.v)?;

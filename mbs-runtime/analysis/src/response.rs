@@ -27,19 +27,35 @@ impl Linearization {
         if !(omega > 0.0 && omega.is_finite()) {
             return Err(Error::Range { what: "frequency", value: omega, unit: "rad/s" });
         }
-        let f = self.dof();
-        let s = Complex::new(0.0, omega);
-        // ż = s z leaves (s²1 − sG − K) z = B's lower half
-        let entry = |row: usize, column: usize| {
-            let unit = if row == column { s * s } else { Complex::from(0.0) };
-            unit - s * self.a[(f + row, f + column)] - self.a[(f + row, column)]
-        };
-        let right = self.b.rows(f, f).map(Complex::from);
-        let solved = complex::solved(&DMatrix::from_fn(f, f, entry), &right);
+        let (f, s) = (self.dof(), Complex::new(0.0, omega));
+        let pencil = self.pencil(s);
+        let unknowns = pencil.nrows();
+        let right = self.b.rows(f, unknowns).map(Complex::from);
         let infinite = Complex::new(f64::INFINITY, f64::NAN);
-        let z = solved.unwrap_or_else(|| DMatrix::from_element(f, self.b.ncols(), infinite));
+        let solved = complex::solved(&pencil, &right)
+            .unwrap_or_else(|| DMatrix::from_element(unknowns, self.b.ncols(), infinite));
         let [of_z, of_rates] = [0, f].map(|first| self.c.columns(first, f).map(Complex::from));
-        Ok((of_z + of_rates * s) * z + self.d.map(Complex::from))
+        let of_states = self.c.columns(2 * f, unknowns - f).map(Complex::from);
+        let response = (of_z + of_rates * s) * solved.rows(0, f) + of_states * solved.rows(f, unknowns - f);
+        Ok(response + self.d.map(Complex::from))
+    }
+
+    /// The matrix of (z, s) that ż = λz leaves of λ1 − A: λ²1 − λG − K, bordered by own states.
+    pub(crate) fn pencil(&self, lambda: Complex<f64>) -> DMatrix<Complex<f64>> {
+        let f = self.dof();
+        let unknowns = self.a.nrows() - f;
+        let entry = |row: usize, column: usize| {
+            let unit = match row == column {
+                true if row < f => lambda * lambda,
+                true => lambda,
+                false => Complex::from(0.0),
+            };
+            if column >= f {
+                return unit - self.a[(f + row, f + column)];
+            }
+            unit - lambda * self.a[(f + row, f + column)] - self.a[(f + row, column)]
+        };
+        DMatrix::from_fn(unknowns, unknowns, entry)
     }
 
     /// The response to a unit step of an input at t = 0, at `steps` + 1 instants until `end` seconds.

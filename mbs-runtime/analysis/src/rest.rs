@@ -1,5 +1,8 @@
 //! The acceleration of a mechanism at rest, and how it changes with positions.
 //!
+//! An own state z has no position that anything reads. At rest its value stands in that place, so that what is
+//! searched for is one vector: positions, and values of states. Its "acceleration" is ż.
+//!
 //! Derivatives are those of duals where a mechanism has its equations over them. Elsewhere `tangent` takes
 //! five-point differences.
 
@@ -12,7 +15,8 @@ use crate::tangent::Rest;
 /// q̈ from rest, and λ, with drives that stand still: Φ_q q̈ = 0.
 pub fn acceleration<T: Real>(mechanism: &dyn Described<T>, t: T, q: &[T], inputs: &[T]) -> (Vec<T>, Vec<T>) {
     let (n, m) = (q.len(), mechanism.info().constraints.len());
-    let still = vec![T::ZERO; n];
+    let lines = mechanism.info().lines;
+    let still: Vec<T> = (0..n).map(|at| if at < lines { T::ZERO } else { q[at] }).collect();
     let at = At { t, q, v: &still };
     let (mut a, mut multipliers) = (vec![T::ZERO; n], vec![T::ZERO; m]);
     mechanism.reactions(at, inputs, &mut a, &mut multipliers);

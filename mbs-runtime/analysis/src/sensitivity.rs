@@ -80,6 +80,8 @@ pub fn sensitivities(
     names: &[String],
 ) -> Result<Sensitivities, Error> {
     let varied = Varied { family, parameters };
+    varied
+        .seen(parameters, |mechanism| Error::refuse_states(mechanism.info(), "the sensitivity of modes"))?;
     let (equilibrium, linearization) =
         varied.seen(parameters, |mechanism| about_rest(mechanism, search, ports))?;
     let signals = varied.seen(parameters, |mechanism| Signal::parameters(mechanism.info(), names))?;

@@ -7,9 +7,9 @@ use crate::Error;
 /// Which quantity of a mechanism a signal is, by its position in [`Info`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
-    /// A coordinate, in m or rad.
+    /// A coordinate, in m or rad; of an own state z, its integral ∫ z dt.
     Coordinate(usize),
-    /// The rate of a coordinate, in m/s or rad/s.
+    /// The rate of a coordinate, in m/s or rad/s; or an own state.
     Velocity(usize),
     /// An input.
     Input(usize),
@@ -24,7 +24,8 @@ pub enum Variable {
 /// A quantity of a linear system, in SI units and rad.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signal {
-    /// Its name: `x`, `der(x)`, `lambda(pin_x)`, or that of an input, a parameter or an output.
+    /// Its name: `x`, `der(x)`, `lambda(pin_x)`, or that of an own state, an input, a parameter or an output; that
+    /// of the integral of an own state is `integral(z)`.
     pub name: String,
     /// The quantity of the mechanism.
     pub variable: Variable,
@@ -37,6 +38,9 @@ impl Signal {
     pub fn of(info: &Info, variable: Variable) -> Option<Self> {
         let declared = |list: &[Quantity], at: usize| list.get(at).map(|q| (q.name.to_owned(), q.dimension));
         let (name, dimension) = match variable {
+            Variable::Coordinate(at) if info.is_own(at) => declared(info.coordinates, at)
+                .map(|(name, of)| (format!("integral({name})"), Dimension { time: of.time + 1, ..of })),
+            Variable::Velocity(at) if info.is_own(at) => declared(info.coordinates, at),
             Variable::Coordinate(at) => declared(info.coordinates, at),
             Variable::Velocity(at) => declared(info.coordinates, at)
                 .map(|(name, of)| (format!("der({name})"), Dimension { time: of.time - 1, ..of })),
@@ -54,6 +58,12 @@ impl Signal {
 
     fn all(info: &Info, count: usize, of: impl Fn(usize) -> Variable) -> Vec<Self> {
         (0..count).filter_map(|at| Self::of(info, of(at))).collect()
+    }
+
+    /// All coordinates, then all rates; with own states, the integrals and the states.
+    pub fn states(info: &Info) -> Vec<Self> {
+        let n = info.coordinates.len();
+        [Self::all(info, n, Variable::Coordinate), Self::all(info, n, Variable::Velocity)].concat()
     }
 
     /// All that can be observed of a mechanism: outputs, coordinates, their rates, multipliers.

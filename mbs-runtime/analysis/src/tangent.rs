@@ -18,6 +18,8 @@ pub struct Rest<'a> {
     pub inputs: &'a [f64],
     /// The size of the mechanism in m.
     pub length: f64,
+    /// The size of own states, in their units.
+    pub states: f64,
 }
 
 /// The directions N in which positions can move: Φ_q N = 0.
@@ -46,22 +48,31 @@ impl<'a> Rest<'a> {
         const USUAL: f64 = 0.1;
         const NOTHING: f64 = 1e-9;
         let declared: Vec<f64> = mechanism.info().coordinates.iter().map(|q| q.default).collect();
-        let rest = Self { mechanism, t, inputs, length: NOTHING }.grown(q).grown(&declared);
+        let rest = Self { mechanism, t, inputs, length: NOTHING, states: 1.0 }.grown(q).grown(&declared);
         Self { length: if rest.length > NOTHING { rest.length } else { USUAL }, ..rest }
     }
 
     /// The mechanism with a size of at least the largest length among the coordinates.
     pub fn grown(self, q: &[f64]) -> Self {
-        let coordinates = self.mechanism.info().coordinates.iter().zip(q);
-        let lengths = coordinates.filter(|(q, _)| q.dimension.length != 0);
-        Self { length: lengths.map(|(_, q)| q.abs()).fold(self.length, f64::max), ..self }
+        let info = self.mechanism.info();
+        let coordinates = info.coordinates.iter().zip(q);
+        let lengths = coordinates.clone().take(info.lines).filter(|(q, _)| q.dimension.length != 0);
+        let length = lengths.map(|(_, q)| q.abs()).fold(self.length, f64::max);
+        let states = coordinates.skip(info.lines).map(|(z, value)| (value / unit_of(z)).abs());
+        Self { length, states: states.fold(self.states, f64::max), ..self }
     }
 
-    /// 1 rad for an angle, the size of the mechanism for a length.
+    /// 1 rad for an angle, the size of the mechanism for a length; for an own state several times what it was,
+    /// so that a search may enlarge it.
     pub fn scales(&self) -> DVector<f64> {
-        let coordinates = self.mechanism.info().coordinates;
-        let scale = |at: usize| if coordinates[at].dimension.length != 0 { self.length } else { 1.0 };
-        DVector::from_fn(coordinates.len(), |at, _| scale(at))
+        const GROWTH: f64 = 16.0;
+        let info = self.mechanism.info();
+        let scale = |at: usize| match info.coordinates[at].dimension.length {
+            _ if info.is_own(at) => GROWTH * self.states * unit_of(&info.coordinates[at]),
+            0 => 1.0,
+            _ => self.length,
+        };
+        DVector::from_fn(info.coordinates.len(), |at, _| scale(at))
     }
 
     /// How far a displacement leads, or what an acceleration is, measured by the scales of the coordinates: the
@@ -189,21 +200,37 @@ impl<'a> Rest<'a> {
     /// The directions that are free at a position on the constraints.
     pub fn tangent(&self, q: &DVector<f64>) -> Tangent {
         let info = self.mechanism.info();
-        let (n, m) = (q.len(), info.constraints.len());
+        let (n, lines, m) = (q.len(), info.lines, info.constraints.len());
         let weights = self.weights(q);
         // Φ_qᵀ = QR with the rows of Φ_q in the order of what is left of them: behind as many columns as
         // rows are independent, Q spans the directions that Φ_q does not see; square, to have all of Q
-        let mut transposed = DMatrix::zeros(n, n.max(m));
-        transposed.columns_mut(0, m).copy_from(&self.weighed_rows(q, &weights).transpose());
+        let mut transposed = DMatrix::zeros(lines, lines.max(m));
+        let rows = self.weighed_rows(q, &weights);
+        transposed.columns_mut(0, m).copy_from(&rows.columns(0, lines).transpose());
         for mut row in transposed.column_iter_mut() {
             let size = row.amax();
             if size > 0.0 {
                 row /= size;
             }
         }
-        let free = usize::try_from(info.dof).unwrap_or(0).min(n);
-        let orthonormal = transposed.col_piv_qr().q().columns(n - free, free).into_owned();
+        let free = usize::try_from(info.dof).unwrap_or(0).min(lines);
+        let mut orthonormal = DMatrix::zeros(n, free);
+        if free > 0 {
+            let all = transposed.col_piv_qr().q();
+            orthonormal.rows_mut(0, lines).copy_from(&all.columns(lines - free, free));
+        }
         let directions = DMatrix::from_fn(n, free, |row, column| weights[row] * orthonormal[(row, column)]);
+        Tangent { weights, orthonormal, directions }
+    }
+
+    /// The same, and behind them a direction for each own state.
+    pub fn unknowns(&self, q: &DVector<f64>) -> Tangent {
+        let Tangent { weights, orthonormal, .. } = self.tangent(q);
+        let (n, free, lines) = (q.len(), orthonormal.ncols(), self.mechanism.info().lines);
+        let mut orthonormal = orthonormal.insert_columns(free, n - lines, 0.0);
+        (lines..n).for_each(|at| orthonormal[(at, free + at - lines)] = 1.0);
+        let directions =
+            DMatrix::from_fn(n, orthonormal.ncols(), |row, column| weights[row] * orthonormal[(row, column)]);
         Tangent { weights, orthonormal, directions }
     }
 
@@ -250,6 +277,11 @@ impl<'a> Rest<'a> {
         let rates = self.rates(q, &self.tangent(q).directions);
         rates.row_iter().position(|row| row.iter().any(|rate| !rate.is_finite()))
     }
+}
+
+/// One unit of an own state, in SI units.
+fn unit_of(state: &mbs_runtime::Quantity) -> f64 {
+    if state.scale > 0.0 { state.scale } else { 1.0 }
 }
 
 /// The direction in which one coordinate moves.

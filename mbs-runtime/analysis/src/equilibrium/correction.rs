@@ -10,7 +10,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Accelerations are rounded by up to this many scales per s², whatever their terms are.
 const STILL: f64 = 1e-11;
 
-/// The displacement N z that takes an acceleration q̈ away: (s − A_r) z = z̈, with z̈ of q̈ and
+/// The displacement N z, of positions and own states, that takes an acceleration q̈ away: (s − A_r) z = z̈, with z̈ of q̈ and
 /// A_r = ∂z̈/∂z.
 pub struct Correction {
     /// N z. The solution is that of least norm, so that a direction without stiffness is not moved along.
@@ -29,7 +29,7 @@ pub struct Correction {
 impl Correction {
     /// At a position on the constraints; nothing where a derivative is no number.
     pub fn at(rest: &Rest<'_>, q: &DVector<f64>, acceleration: &DVector<f64>, s: f64) -> Option<Self> {
-        let tangent = rest.tangent(q);
+        let tangent = rest.unknowns(q);
         let rate = rest.stiffness_rate(q, &tangent);
         let system = DMatrix::identity(rate.nrows(), rate.nrows()) * s - &rate;
         let right = tangent.minimal(acceleration);

@@ -49,8 +49,10 @@ pub struct Search {
 pub struct Equilibrium {
     /// The time in s at which drives and forces are held.
     pub t: f64,
-    /// Positions.
+    /// Positions; behind them the values of own states.
     pub q: Vec<f64>,
+    /// How many of these are positions.
+    pub lines: usize,
     /// Multipliers: the reactions that hold it.
     pub multipliers: Vec<f64>,
     /// The inputs it was found with.
@@ -134,6 +136,9 @@ impl Equilibrium {
 ///
 /// A mechanism without degrees of freedom rests where it is assembled: what is found are its reactions.
 ///
+/// Own states are unknowns as positions are: at rest ż = 0. Stiffnesses are those of the mechanism while they are
+/// held.
+///
 /// Drives are held where they are at `t`. Derivatives are exact for a mechanism that is
 /// [`differentiable`](Described::differentiable): a text, or a type in
 /// [`Differentiated`](mbs_runtime::equations::Differentiated). For other types they are five-point
@@ -161,7 +166,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let mut start = DVector::from_vec(from);
     let rest = Rest::new(mechanism, search.t, &inputs, start.as_slice());
     rest.assemble(&mut start)?;
-    let is_held = info.dof == 0;
+    let is_held = info.dof == 0 && info.lines == info.coordinates.len();
     let Found { q, iterations } = match search.strategy {
         _ if is_held => Found { q: start, iterations: 0 },
         Strategy::Newton => newton(&rest, start, ITERATIONS)?,
@@ -169,12 +174,14 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
         Strategy::Automatic => automatic(&rest, start)?,
     };
     let (_, multipliers) = rest.acceleration(&q);
-    let stiffness =
-        if is_held { multipliers.iter().all(|x| x.is_finite()).then(Vec::new) } else { stiffness(&rest, &q) };
+    // without a free direction the reactions are all that is found
+    let is_known = info.dof != 0 || multipliers.iter().all(|x| x.is_finite());
+    let stiffness = if is_known { stiffness(&rest, &q) } else { None };
     let Some(stiffness) = stiffness else { return Err(lost(&rest, &q, iterations)) };
     Ok(Equilibrium {
         t: search.t,
         q: q.as_slice().to_vec(),
+        lines: info.lines,
         multipliers: multipliers.as_slice().to_vec(),
         stiffness,
         resolution: rest.resolution(),

@@ -21,6 +21,10 @@ impl Stiffness {
     /// Of a mechanism at rest at a position on the constraints; nothing where a derivative is no number.
     pub fn at(rest: &Rest<'_>, q: &DVector<f64>) -> Option<Self> {
         let tangent = rest.tangent(q);
+        if tangent.directions.ncols() == 0 {
+            let (weakest, momentum) = (DVector::zeros(q.len()), DVector::zeros(0));
+            return Some(Self { values: Vec::new(), falling: 0.0, weakest, momentum, tangent });
+        }
         let mass = rest.reduced_mass(q, &tangent);
         let stiffness = -(&mass * rest.stiffness_rate(q, &tangent));
         let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
