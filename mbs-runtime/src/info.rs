@@ -88,6 +88,47 @@ pub struct Dimension {
     pub length: i8,
     /// The exponent of s.
     pub time: i8,
+    /// The exponent of A.
+    pub current: i8,
+    /// The exponent of K.
+    pub temperature: i8,
+}
+
+impl Dimension {
+    /// kgᵃ·mᵇ·sᶜ
+    pub const fn of(mass: i8, length: i8, time: i8) -> Self {
+        Self::from_exponents([mass, length, time, 0, 0])
+    }
+
+    /// The dimension with these exponents of (mass, length, time, current, temperature).
+    pub const fn from_exponents([mass, length, time, current, temperature]: [i8; 5]) -> Self {
+        Self { mass, length, time, current, temperature }
+    }
+
+    /// The exponents of (mass, length, time, current, temperature).
+    pub const fn exponents(self) -> [i8; 5] {
+        [self.mass, self.length, self.time, self.current, self.temperature]
+    }
+
+    /// The dimension of a quotient.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_runtime::Dimension;
+    ///
+    /// let (energy, length, time) = (Dimension::of(1, 2, -2), Dimension::of(0, 1, 0), Dimension::of(0, 0, 1));
+    /// assert_eq!(energy.over(length), Dimension::of(1, 1, -2));
+    /// assert_eq!(length.over(time), Dimension::of(0, 1, -1));
+    /// ```
+    #[must_use]
+    pub const fn over(self, other: Self) -> Self {
+        let (mut exponents, others, mut at) = (self.exponents(), other.exponents(), 0);
+        while at < exponents.len() {
+            exponents[at] = exponents[at].saturating_sub(others[at]);
+            at += 1;
+        }
+        Self::from_exponents(exponents)
+    }
 }
 
 /// One constraint row.

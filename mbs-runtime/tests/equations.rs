@@ -28,7 +28,7 @@ struct Pendulums {
 
 impl Pendulums {
     fn new(lengths: &[f64]) -> Self {
-        let length = Dimension { mass: 0, length: 1, time: 0 };
+        let length = Dimension::of(0, 1, 0);
         let named = |name: String| Quantity {
             name: name.leak(),
             doc: "",

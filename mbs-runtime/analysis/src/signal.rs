@@ -4,6 +4,9 @@ use mbs_runtime::{Dimension, Info, Quantity};
 
 use crate::Error;
 
+const SECOND: Dimension = Dimension::of(0, 0, 1);
+const PER_SECOND: Dimension = Dimension::of(0, 0, -1);
+
 /// Which quantity of a mechanism a signal is, by its position in [`Info`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
@@ -39,18 +42,18 @@ impl Signal {
         let declared = |list: &[Quantity], at: usize| list.get(at).map(|q| (q.name.to_owned(), q.dimension));
         let (name, dimension) = match variable {
             Variable::Coordinate(at) if info.is_own(at) => declared(info.coordinates, at)
-                .map(|(name, of)| (format!("integral({name})"), Dimension { time: of.time + 1, ..of })),
+                .map(|(name, of)| (format!("integral({name})"), of.over(PER_SECOND))),
             Variable::Velocity(at) if info.is_own(at) => declared(info.coordinates, at),
             Variable::Coordinate(at) => declared(info.coordinates, at),
-            Variable::Velocity(at) => declared(info.coordinates, at)
-                .map(|(name, of)| (format!("der({name})"), Dimension { time: of.time - 1, ..of })),
+            Variable::Velocity(at) => {
+                declared(info.coordinates, at).map(|(name, of)| (format!("der({name})"), of.over(SECOND)))
+            }
             Variable::Input(at) => declared(info.inputs, at),
             Variable::Parameter(at) => declared(info.parameters, at),
             Variable::Output(at) => declared(info.outputs, at),
             Variable::Multiplier(at) => info.constraints.get(at).map(|row| {
-                let Dimension { mass, length, time } = row.dimension;
-                let of = Dimension { mass: 1 - mass, length: 2 - length, time: -2 - time };
-                (format!("lambda({})", row.name), of)
+                // λ does work on Φ
+                (format!("lambda({})", row.name), Dimension::of(1, 2, -2).over(row.dimension))
             }),
         }?;
         Some(Self { name, variable, dimension })

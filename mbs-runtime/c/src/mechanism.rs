@@ -230,12 +230,7 @@ fn place(coordinate: &mbs_runtime::Quantity) -> Entry {
 
 /// The multiplier of a constraint. It does work on Φ, so its unit is that of energy over Φ.
 fn multiplier(constraint: &Constraint) -> Entry {
-    let Dimension { mass, length, time } = constraint.dimension;
-    let dimension = Dimension {
-        mass: 1_i8.saturating_sub(mass),
-        length: 2_i8.saturating_sub(length),
-        time: (-2_i8).saturating_sub(time),
-    };
+    let dimension = Dimension::of(1, 2, -2).over(constraint.dimension);
     in_si(constraint.name, constraint.doc, &si_unit(dimension), 0.0)
 }
 
@@ -244,5 +239,5 @@ fn in_si(name: &str, doc: &str, unit: &str, value: f64) -> Entry {
 }
 
 fn si_unit(dimension: Dimension) -> String {
-    units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]).si_unit()
+    units::Dimension::from_exponents(dimension.exponents()).si_unit()
 }

@@ -121,8 +121,7 @@ fn event(event: &compiled::Event) -> DeclaredEvent {
 
 /// Fractional exponents, which only outputs can have, are given as 0, as `mechanism!` does.
 fn dimension(dimension: units::Dimension) -> Dimension {
-    let [mass, length, time] = dimension.exponents().unwrap_or_default();
-    Dimension { mass, length, time }
+    Dimension::from_exponents(dimension.exponents().unwrap_or_default())
 }
 
 fn constraint(constraint: &compiled::Constraint) -> Constraint {

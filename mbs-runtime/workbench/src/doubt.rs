@@ -171,7 +171,7 @@ impl Watch {
             let unit = Unit::si(constraint.dimension);
             let unit = if unit.name().is_empty() { "rad".to_owned() } else { unit.name().to_owned() };
             let limit = match constraint.dimension {
-                Dimension { mass: 0, length, time: 0 } => VIOLATION * size.powi(i32::from(length)),
+                of if of == Dimension::of(0, of.length, 0) => VIOLATION * size.powi(i32::from(of.length)),
                 _ => f64::INFINITY,
             };
             Row { constraint: constraint.name, unit, limit, worst: 0.0, at: 0.0 }

@@ -5,7 +5,7 @@ use mbs_symbolic::units;
 
 use crate::{Error, Unit};
 
-pub(crate) const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
+pub(crate) const TIME: Dimension = Dimension::of(0, 0, 1);
 
 /// Reads a value of the given dimension and returns it in SI units.
 ///
@@ -20,7 +20,7 @@ pub(crate) const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1 };
 /// use mbs_runtime::Dimension;
 /// use mbs_workbench::quantity;
 ///
-/// let length = Dimension { mass: 0, length: 1, time: 0 };
+/// let length = Dimension::of(0, 1, 0);
 /// assert_eq!(quantity::parse("l1", "70 mm", length)?, 0.07);
 /// assert_eq!(quantity::parse("l1", "0.07", length)?, 0.07);
 /// assert!(quantity::parse("l1", "300rpm", length).is_err());
@@ -82,7 +82,7 @@ pub fn parse_in(what: &str, text: &str, dimension: Dimension, usual: &Unit) -> R
     if usual.name().is_empty() {
         return Err(wrong(format!("{what} is a number without a unit; write {number}")));
     }
-    let expected = units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]);
+    let expected = units::Dimension::from_exponents(dimension.exponents());
     // `5/s` is 5 1/s
     let unit = if unit.starts_with('/') { format!("1{unit}") } else { unit.to_owned() };
     let unit = units::parse(&unit).map_err(|error| wrong(error.in_place_of(expected).to_string()))?;
@@ -123,7 +123,7 @@ pub fn split_setting(text: &str) -> Result<(&str, &str), Error> {
 
 /// The SI unit of a dimension as text: `N*m`, `kg^2/s`; empty for a bare number.
 pub fn si_unit(dimension: Dimension) -> String {
-    units::Dimension::from_exponents([dimension.mass, dimension.length, dimension.time]).si_unit()
+    units::Dimension::from_exponents(dimension.exponents()).si_unit()
 }
 
 #[cfg(test)]
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     const fn dimension(mass: i8, length: i8, time: i8) -> Dimension {
-        Dimension { mass, length, time }
+        Dimension::of(mass, length, time)
     }
 
     #[test]

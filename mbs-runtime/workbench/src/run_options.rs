@@ -8,8 +8,8 @@ use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, To
 use crate::quantity::TIME;
 use crate::{Error, Model, OtherMethod, Settings, Signals, Start, StartKind, StartState, Until, quantity};
 
-const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0 };
-const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
+const NUMBER: Dimension = Dimension::of(0, 0, 0);
+const RATE: Dimension = Dimension::of(0, 0, -1);
 
 /// Options of a run, in texts. Values are numbers with or without a unit; what is left out is as the
 /// mechanism declares it.

@@ -41,12 +41,7 @@ impl Unit {
     /// The SI unit of the multiplier λ of a constraint with this dimension of Φ: λ does work on Φ,
     /// so it is that of energy over Φ.
     pub fn of_multiplier(phi: Dimension) -> Self {
-        let Dimension { mass, length, time } = phi;
-        Self::si(Dimension {
-            mass: 1_i8.saturating_sub(mass),
-            length: 2_i8.saturating_sub(length),
-            time: (-2_i8).saturating_sub(time),
-        })
+        Self::si(Dimension::of(1, 2, -2).over(phi))
     }
 
     /// The unit in which a quantity of an analysis is shown.
@@ -103,7 +98,7 @@ mod tests {
 
     const fn quantity(unit: &'static str, scale: f64, dimension: [i8; 3]) -> Quantity {
         let [mass, length, time] = dimension;
-        let dimension = Dimension { mass, length, time };
+        let dimension = Dimension::of(mass, length, time);
         Quantity { name: "q", doc: "", unit, scale, dimension, default: 0.0 }
     }
 

@@ -126,7 +126,7 @@ fn for_each_state<M: Model>(
     case: &Case<M>,
     mut test: impl FnMut(&M, &At<M>, &M::Inputs, &Reactions<M::Coordinates, M::Constraints>),
 ) {
-    const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0 };
+    const LENGTH: Dimension = Dimension::of(0, 1, 0);
     let mut random = Random::new(1);
     let mechanism = M::made();
     let none = M::Constraints::splat(0.0);

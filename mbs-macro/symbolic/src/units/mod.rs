@@ -11,10 +11,13 @@ use crate::Number;
 /// Exponents are kept in sixths, so that square and cube roots stay exact.
 const SIXTHS: i16 = 6;
 
-/// A physical dimension kgᵃ·mᵇ·sᶜ. Angles are dimensionless.
+/// The base units, in the order of exponents.
+const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
+
+/// A physical dimension kgᵃ·mᵇ·sᶜ·Aᵈ·Kᵉ. Angles are dimensionless.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
-    sixths: [i16; 3],
+    sixths: [i16; BASE.len()],
 }
 
 impl Dimension {
@@ -29,7 +32,22 @@ impl Dimension {
 
     /// kgᵃ·mᵇ·sᶜ
     pub const fn of(mass: i16, length: i16, time: i16) -> Self {
-        Self { sixths: [SIXTHS * mass, SIXTHS * length, SIXTHS * time] }
+        Self::from_whole([mass, length, time, 0, 0])
+    }
+
+    /// kgᵃ·mᵇ·sᶜ·Aᵈ
+    pub const fn electric(mass: i16, length: i16, time: i16, current: i16) -> Self {
+        Self::from_whole([mass, length, time, current, 0])
+    }
+
+    /// kgᵃ·mᵇ·sᶜ·Kᵈ
+    pub const fn thermal(mass: i16, length: i16, time: i16, temperature: i16) -> Self {
+        Self::from_whole([mass, length, time, 0, temperature])
+    }
+
+    const fn from_whole([mass, length, time, current, temperature]: [i16; BASE.len()]) -> Self {
+        let sixths = [SIXTHS * mass, SIXTHS * length, SIXTHS * time, SIXTHS * current, SIXTHS * temperature];
+        Self { sixths }
     }
 
     /// The dimension of a product.
@@ -49,7 +67,7 @@ impl Dimension {
         let Number::Rational(n, d) = exponent else {
             return (self == Self::NONE).then_some(self);
         };
-        let mut sixths = [0; 3];
+        let mut sixths = [0; BASE.len()];
         for (to, from) in sixths.iter_mut().zip(self.sixths) {
             let scaled = i64::from(from).checked_mul(n)?;
             *to = i16::try_from((scaled % d == 0).then_some(scaled / d)?).ok()?;
@@ -57,18 +75,18 @@ impl Dimension {
         Some(Self { sixths })
     }
 
-    /// (mass, length, time) if all exponents are small integers.
-    pub fn exponents(self) -> Option<[i8; 3]> {
-        let mut exponents = [0; 3];
+    /// Those of (mass, length, time, current, temperature) if all are small integers.
+    pub fn exponents(self) -> Option<[i8; BASE.len()]> {
+        let mut exponents = [0; BASE.len()];
         for (to, from) in exponents.iter_mut().zip(self.sixths) {
             *to = i8::try_from((from % SIXTHS == 0).then_some(from / SIXTHS)?).ok()?;
         }
         Some(exponents)
     }
 
-    /// The dimension with these exponents of (mass, length, time).
-    pub fn from_exponents([mass, length, time]: [i8; 3]) -> Self {
-        Self::of(mass.into(), length.into(), time.into())
+    /// The dimension with these exponents of (mass, length, time, current, temperature).
+    pub fn from_exponents(exponents: [i8; BASE.len()]) -> Self {
+        Self::from_whole(exponents.map(i16::from))
     }
 
     /// The SI unit as text: `N*m`, `kg^2/s`; empty for a bare number.
@@ -77,7 +95,7 @@ impl Dimension {
             return (*unit).to_owned();
         }
         let factors = |sign: i16| {
-            let powers = ["kg", "m", "s"].into_iter().zip(self.sixths.map(|sixths| sign * sixths));
+            let powers = BASE.into_iter().zip(self.sixths.map(|sixths| sign * sixths));
             let raised = |(unit, sixths): (&str, i16)| match Number::ratio(sixths.into(), SIXTHS.into()) {
                 Number::Rational(1, 1) => unit.to_owned(),
                 Number::Rational(power, 1) => format!("{unit}^{power}"),
@@ -96,9 +114,9 @@ impl Dimension {
     }
 
     fn zip(self, other: Self, f: impl Fn(i16, i16) -> i16) -> Self {
-        let [a, b, c] = self.sixths;
-        let [x, y, z] = other.sixths;
-        Self { sixths: [f(a, x), f(b, y), f(c, z)] }
+        let mut sixths = self.sixths;
+        sixths.iter_mut().zip(other.sixths).for_each(|(to, other)| *to = f(*to, other));
+        Self { sixths }
     }
 }
 
@@ -122,6 +140,17 @@ const QUANTITIES: &[(Dimension, &str, &str)] = &[
     (Dimension::of(1, 0, -1), "damping", "N*s/m"),
     (Dimension::of(1, 2, -1), "rotational damping", "N*m*s"),
     (Dimension::of(1, 1, -1), "momentum", "kg*m/s"),
+    (Dimension::electric(0, 0, 0, 1), "current", "A"),
+    (Dimension::electric(0, 0, 1, 1), "charge", "C"),
+    (Dimension::electric(1, 2, -3, -1), "voltage", "V"),
+    (Dimension::electric(1, 2, -3, -2), "resistance", "ohm"),
+    (Dimension::electric(-1, -2, 4, 2), "capacitance", "F"),
+    (Dimension::electric(1, 2, -2, -2), "inductance", "H"),
+    (Dimension::electric(1, 2, -2, -1), "torque per current or voltage per speed", "N*m/A"),
+    (Dimension::electric(1, 0, -2, -1), "magnetic flux density", "T"),
+    (Dimension::thermal(0, 0, 0, 1), "temperature", "K"),
+    (Dimension::thermal(1, 2, -2, -1), "heat capacity", "J/K"),
+    (Dimension::thermal(1, 2, -3, -1), "thermal conductance", "W/K"),
 ];
 
 impl fmt::Display for Dimension {
@@ -169,63 +198,89 @@ enum Scale {
     Pi(i64, i64),
 }
 
-/// Every unit the language knows: name, scale, exponents of (kg, m, s).
+/// Every unit the language knows: name, scale, exponents of (kg, m, s, A, K); those left out are 0.
 ///
 /// Those of the English system are as NIST SP 811 (2008), appendix B, has them. They follow from 1 in = 25.4 mm,
 /// 1 lb = 0.45359237 kg and the standard acceleration 9.80665 m/s², so they are exact: 1 ft = 12 in, 1 yd = 3 ft,
 /// 1 mi = 5280 ft, 1 gal (of the US) = 231 in³, 1 oz = lb/16, 1 lbf = 4.4482216152605 N, 1 ozf = lbf/16,
 /// 1 kip = 1000 lbf, 1 slug = 1 lbf·s²/ft, 1 psi = 1 lbf/in², 1 hp = 550 ft·lbf/s.
-const UNITS: &[(&str, Scale, [i16; 3])] = &[
-    ("m", Scale::Exact(1, 1), [0, 1, 0]),
-    ("mm", Scale::Exact(1, 1000), [0, 1, 0]),
-    ("cm", Scale::Exact(1, 100), [0, 1, 0]),
-    ("um", Scale::Exact(1, 1_000_000), [0, 1, 0]),
-    ("km", Scale::Exact(1000, 1), [0, 1, 0]),
-    ("inch", Scale::Exact(254, 10_000), [0, 1, 0]),
-    ("in", Scale::Exact(254, 10_000), [0, 1, 0]),
-    ("ft", Scale::Exact(3048, 10_000), [0, 1, 0]),
-    ("yd", Scale::Exact(9144, 10_000), [0, 1, 0]),
-    ("mi", Scale::Exact(1_609_344, 1000), [0, 1, 0]),
-    ("gal", Scale::Exact(473_176_473, 125_000_000_000), [0, 3, 0]),
-    ("kg", Scale::Exact(1, 1), [1, 0, 0]),
-    ("g", Scale::Exact(1, 1000), [1, 0, 0]),
-    ("tonne", Scale::Exact(1000, 1), [1, 0, 0]),
-    ("lb", Scale::Exact(45_359_237, 100_000_000), [1, 0, 0]),
-    ("lbm", Scale::Exact(45_359_237, 100_000_000), [1, 0, 0]),
-    ("oz", Scale::Exact(45_359_237, 1_600_000_000), [1, 0, 0]),
-    ("slug", Scale::Exact(8_896_443_230_521, 609_600_000_000), [1, 0, 0]),
-    ("s", Scale::Exact(1, 1), [0, 0, 1]),
-    ("ms", Scale::Exact(1, 1000), [0, 0, 1]),
-    ("us", Scale::Exact(1, 1_000_000), [0, 0, 1]),
-    ("min", Scale::Exact(60, 1), [0, 0, 1]),
-    ("h", Scale::Exact(3600, 1), [0, 0, 1]),
-    ("Hz", Scale::Exact(1, 1), [0, 0, -1]),
-    ("rad", Scale::Exact(1, 1), [0, 0, 0]),
-    ("mrad", Scale::Exact(1, 1000), [0, 0, 0]),
-    ("deg", Scale::Pi(1, 180), [0, 0, 0]),
-    ("rev", Scale::Pi(2, 1), [0, 0, 0]),
-    ("rpm", Scale::Pi(1, 30), [0, 0, -1]),
-    ("mph", Scale::Exact(1397, 3125), [0, 1, -1]),
-    ("N", Scale::Exact(1, 1), [1, 1, -2]),
-    ("mN", Scale::Exact(1, 1000), [1, 1, -2]),
-    ("kN", Scale::Exact(1000, 1), [1, 1, -2]),
-    ("MN", Scale::Exact(1_000_000, 1), [1, 1, -2]),
-    ("kgf", Scale::Exact(980_665, 100_000), [1, 1, -2]),
-    ("lbf", Scale::Exact(8_896_443_230_521, 2_000_000_000_000), [1, 1, -2]),
-    ("ozf", Scale::Exact(8_896_443_230_521, 32_000_000_000_000), [1, 1, -2]),
-    ("kip", Scale::Exact(8_896_443_230_521, 2_000_000_000), [1, 1, -2]),
-    ("J", Scale::Exact(1, 1), [1, 2, -2]),
-    ("kJ", Scale::Exact(1000, 1), [1, 2, -2]),
-    ("W", Scale::Exact(1, 1), [1, 2, -3]),
-    ("kW", Scale::Exact(1000, 1), [1, 2, -3]),
-    ("hp", Scale::Exact(37_284_993_579_113_511, 50_000_000_000_000), [1, 2, -3]),
-    ("Pa", Scale::Exact(1, 1), [1, -1, -2]),
-    ("kPa", Scale::Exact(1000, 1), [1, -1, -2]),
-    ("MPa", Scale::Exact(1_000_000, 1), [1, -1, -2]),
-    ("GPa", Scale::Exact(1_000_000_000, 1), [1, -1, -2]),
-    ("bar", Scale::Exact(100_000, 1), [1, -1, -2]),
-    ("psi", Scale::Exact(8_896_443_230_521, 1_290_320_000), [1, -1, -2]),
-    ("ksi", Scale::Exact(8_896_443_230_521, 1_290_320), [1, -1, -2]),
+const UNITS: &[(&str, Scale, &[i16])] = &[
+    ("m", Scale::Exact(1, 1), &[0, 1, 0]),
+    ("mm", Scale::Exact(1, 1000), &[0, 1, 0]),
+    ("cm", Scale::Exact(1, 100), &[0, 1, 0]),
+    ("um", Scale::Exact(1, 1_000_000), &[0, 1, 0]),
+    ("km", Scale::Exact(1000, 1), &[0, 1, 0]),
+    ("inch", Scale::Exact(254, 10_000), &[0, 1, 0]),
+    ("in", Scale::Exact(254, 10_000), &[0, 1, 0]),
+    ("ft", Scale::Exact(3048, 10_000), &[0, 1, 0]),
+    ("yd", Scale::Exact(9144, 10_000), &[0, 1, 0]),
+    ("mi", Scale::Exact(1_609_344, 1000), &[0, 1, 0]),
+    ("gal", Scale::Exact(473_176_473, 125_000_000_000), &[0, 3, 0]),
+    ("kg", Scale::Exact(1, 1), &[1, 0, 0]),
+    ("g", Scale::Exact(1, 1000), &[1, 0, 0]),
+    ("tonne", Scale::Exact(1000, 1), &[1, 0, 0]),
+    ("lb", Scale::Exact(45_359_237, 100_000_000), &[1, 0, 0]),
+    ("lbm", Scale::Exact(45_359_237, 100_000_000), &[1, 0, 0]),
+    ("oz", Scale::Exact(45_359_237, 1_600_000_000), &[1, 0, 0]),
+    ("slug", Scale::Exact(8_896_443_230_521, 609_600_000_000), &[1, 0, 0]),
+    ("s", Scale::Exact(1, 1), &[0, 0, 1]),
+    ("ms", Scale::Exact(1, 1000), &[0, 0, 1]),
+    ("us", Scale::Exact(1, 1_000_000), &[0, 0, 1]),
+    ("min", Scale::Exact(60, 1), &[0, 0, 1]),
+    ("h", Scale::Exact(3600, 1), &[0, 0, 1]),
+    ("Hz", Scale::Exact(1, 1), &[0, 0, -1]),
+    ("rad", Scale::Exact(1, 1), &[0, 0, 0]),
+    ("mrad", Scale::Exact(1, 1000), &[0, 0, 0]),
+    ("deg", Scale::Pi(1, 180), &[0, 0, 0]),
+    ("rev", Scale::Pi(2, 1), &[0, 0, 0]),
+    ("rpm", Scale::Pi(1, 30), &[0, 0, -1]),
+    ("mph", Scale::Exact(1397, 3125), &[0, 1, -1]),
+    ("N", Scale::Exact(1, 1), &[1, 1, -2]),
+    ("mN", Scale::Exact(1, 1000), &[1, 1, -2]),
+    ("kN", Scale::Exact(1000, 1), &[1, 1, -2]),
+    ("MN", Scale::Exact(1_000_000, 1), &[1, 1, -2]),
+    ("kgf", Scale::Exact(980_665, 100_000), &[1, 1, -2]),
+    ("lbf", Scale::Exact(8_896_443_230_521, 2_000_000_000_000), &[1, 1, -2]),
+    ("ozf", Scale::Exact(8_896_443_230_521, 32_000_000_000_000), &[1, 1, -2]),
+    ("kip", Scale::Exact(8_896_443_230_521, 2_000_000_000), &[1, 1, -2]),
+    ("J", Scale::Exact(1, 1), &[1, 2, -2]),
+    ("kJ", Scale::Exact(1000, 1), &[1, 2, -2]),
+    ("W", Scale::Exact(1, 1), &[1, 2, -3]),
+    ("kW", Scale::Exact(1000, 1), &[1, 2, -3]),
+    ("hp", Scale::Exact(37_284_993_579_113_511, 50_000_000_000_000), &[1, 2, -3]),
+    ("Pa", Scale::Exact(1, 1), &[1, -1, -2]),
+    ("kPa", Scale::Exact(1000, 1), &[1, -1, -2]),
+    ("MPa", Scale::Exact(1_000_000, 1), &[1, -1, -2]),
+    ("GPa", Scale::Exact(1_000_000_000, 1), &[1, -1, -2]),
+    ("bar", Scale::Exact(100_000, 1), &[1, -1, -2]),
+    ("psi", Scale::Exact(8_896_443_230_521, 1_290_320_000), &[1, -1, -2]),
+    ("ksi", Scale::Exact(8_896_443_230_521, 1_290_320), &[1, -1, -2]),
+    ("Wh", Scale::Exact(3600, 1), &[1, 2, -2]),
+    ("kWh", Scale::Exact(3_600_000, 1), &[1, 2, -2]),
+    ("L", Scale::Exact(1, 1000), &[0, 3, 0]),
+    ("mL", Scale::Exact(1, 1_000_000), &[0, 3, 0]),
+    ("A", Scale::Exact(1, 1), &[0, 0, 0, 1]),
+    ("mA", Scale::Exact(1, 1000), &[0, 0, 0, 1]),
+    ("kA", Scale::Exact(1000, 1), &[0, 0, 0, 1]),
+    ("C", Scale::Exact(1, 1), &[0, 0, 1, 1]),
+    ("Ah", Scale::Exact(3600, 1), &[0, 0, 1, 1]),
+    ("mAh", Scale::Exact(18, 5), &[0, 0, 1, 1]),
+    ("V", Scale::Exact(1, 1), &[1, 2, -3, -1]),
+    ("mV", Scale::Exact(1, 1000), &[1, 2, -3, -1]),
+    ("kV", Scale::Exact(1000, 1), &[1, 2, -3, -1]),
+    ("ohm", Scale::Exact(1, 1), &[1, 2, -3, -2]),
+    ("mohm", Scale::Exact(1, 1000), &[1, 2, -3, -2]),
+    ("kohm", Scale::Exact(1000, 1), &[1, 2, -3, -2]),
+    ("F", Scale::Exact(1, 1), &[-1, -2, 4, 2]),
+    ("mF", Scale::Exact(1, 1000), &[-1, -2, 4, 2]),
+    ("uF", Scale::Exact(1, 1_000_000), &[-1, -2, 4, 2]),
+    ("nF", Scale::Exact(1, 1_000_000_000), &[-1, -2, 4, 2]),
+    ("H", Scale::Exact(1, 1), &[1, 2, -2, -2]),
+    ("mH", Scale::Exact(1, 1000), &[1, 2, -2, -2]),
+    ("uH", Scale::Exact(1, 1_000_000), &[1, 2, -2, -2]),
+    ("Wb", Scale::Exact(1, 1), &[1, 2, -2, -1]),
+    ("T", Scale::Exact(1, 1), &[1, 0, -2, -1]),
+    ("K", Scale::Exact(1, 1), &[0, 0, 0, 0, 1]),
 ];
 
 /// Usual names of units that the language writes otherwise, each with the unit meant. Ambiguous names are not listed.
@@ -251,12 +306,14 @@ const OTHER_NAMES: &[(&str, &str)] = &[
 /// The unit called `name`; on a command line and in tables `°` is one, too.
 pub fn lookup(name: &str) -> Option<Unit> {
     let name = if name == "°" { "deg" } else { name };
-    let (_, scale, [mass, length, time]) = UNITS.iter().find(|(known, ..)| *known == name)?;
+    let (_, scale, exponents) = UNITS.iter().find(|(known, ..)| *known == name)?;
     let scale = match *scale {
         Scale::Exact(n, d) => Number::ratio(n, d),
         Scale::Pi(n, d) => Number::pi(n, d),
     };
-    Some(Unit { scale, dimension: Dimension::of(*mass, *length, *time) })
+    let mut whole = [0; BASE.len()];
+    whole.iter_mut().zip(*exponents).for_each(|(to, exponent)| *to = *exponent);
+    Some(Unit { scale, dimension: Dimension::from_whole(whole) })
 }
 
 /// The names of all units, for messages.
@@ -366,6 +423,28 @@ mod tests {
         for (other, unit) in super::OTHER_NAMES {
             assert!(super::lookup(other).is_none() && parse(unit).is_ok(), "{other}");
         }
+    }
+
+    #[test]
+    fn electric_and_thermal_units_follow_from_their_equations() {
+        for (unit, equal) in [
+            ("V", "W/A"),
+            ("ohm", "V/A"),
+            ("F", "C/V"),
+            ("H", "V*s/A"),
+            ("Wb", "N*m/A"),
+            ("T", "N/A/m"),
+            ("C", "A*s"),
+            ("Ah", "A*h"),
+            ("mAh", "mA*h"),
+            ("kWh", "kW*h"),
+        ] {
+            assert_eq!(parse(unit), parse(equal), "{unit}");
+        }
+        assert_eq!(Dimension::electric(1, 2, -3, -1).to_string(), "voltage [V]");
+        assert_eq!(parse("V/A^2/m").unwrap().dimension.si_unit(), "kg*m/s^3/A^3");
+        let refused = parse("J/degC").unwrap_err().message;
+        assert!(refused.contains("293.15 [K]"), "{refused}");
     }
 
     #[test]

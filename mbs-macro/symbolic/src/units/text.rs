@@ -80,6 +80,9 @@ pub fn parse(text: &str) -> Result<Unit, UnitError> {
     }
 }
 
+/// Names of degrees that do not begin at 0 K.
+const CELSIUS: &[&str] = &["degC", "°C", "celsius", "Celsius", "degF", "°F"];
+
 fn parse_factor(factor: &str, sign: i32) -> Result<Unit, UnitError> {
     let (name, exponent) = match factor.split_once('^') {
         Some((name, exponent)) => (name.trim_end(), exponent.trim().parse::<i32>().ok()),
@@ -88,6 +91,12 @@ fn parse_factor(factor: &str, sign: i32) -> Result<Unit, UnitError> {
     let power = |unit: Unit| exponent.and_then(|e| unit.power(sign * e.clamp(-99, 99)));
     let unit = if name == "1" { Some(Unit::ONE) } else { lookup(name) };
     match unit {
+        None if CELSIUS.contains(&name) => Err(UnitError {
+            message: format!(
+                "`{name}` begins at another zero, so that it is no unit: 20 °C are `293.15 [K]`, and 20 °C more `20 [K]`"
+            ),
+            unknown: None,
+        }),
         None => Err(UnitError::unknown(name)),
         Some(unit) => power(unit).ok_or_else(|| UnitError {
             message: format!("`{factor}` needs a small whole number as its exponent"),

@@ -20,7 +20,7 @@ Examples:
   mbs bode cart-pendulum --outputs theta --range 0.1Hz..20Hz --out response.csv
   mbs bode my.mbs --inputs force --parameters k --from x=10mm";
 
-const RATE: Dimension = Dimension { mass: 0, length: 0, time: -1 };
+const RATE: Dimension = Dimension::of(0, 0, -1);
 
 #[derive(Args)]
 #[command(

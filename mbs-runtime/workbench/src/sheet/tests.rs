@@ -13,9 +13,7 @@ fn message(text: &str) -> String {
     let error = match sheet_of(text.as_bytes()) {
         Err(error) => error,
         Ok(sheet) => {
-            let read = |text: &str| {
-                quantity::parse("x", text, mbs_runtime::Dimension { mass: 0, length: 1, time: 0 })
-            };
+            let read = |text: &str| quantity::parse("x", text, mbs_runtime::Dimension::of(0, 1, 0));
             sheet.values(&sheet.columns[0], read).unwrap_err()
         }
     };
@@ -183,7 +181,7 @@ const PHI: Quantity = Quantity {
     doc: "",
     unit: "rad",
     scale: 1.0,
-    dimension: mbs_runtime::Dimension { mass: 0, length: 0, time: 0 },
+    dimension: mbs_runtime::Dimension::of(0, 0, 0),
     default: 0.0,
 };
 
@@ -250,7 +248,7 @@ fn what_is_no_table_is_refused_with_its_place() {
 fn ends_and_quotes() {
     let values = |text: &str| {
         let sheet = sheet_of(text.as_bytes()).unwrap();
-        let length = mbs_runtime::Dimension { mass: 0, length: 1, time: 0 };
+        let length = mbs_runtime::Dimension::of(0, 1, 0);
         sheet.values(&sheet.columns[0], |text| quantity::parse("x", text, length)).unwrap()
     };
     assert_eq!(values("t;x;\n0;1;\n1;;\n"), [Some(1.0), None]);

@@ -105,7 +105,7 @@ fn tables(target: &Target<'_>) -> String {
     let redundant = compiled.redundant.iter().map(ToString::to_string).collect();
     add("static const int NAME_redundant[]", redundant, "0");
     // a dimension with fractions is none of a constraint or a coordinate
-    let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, _]| length).to_string();
+    let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, ..]| length).to_string();
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(
         "/* The power of a length in the dimension. */\nstatic const int NAME_coordinate_length[]",

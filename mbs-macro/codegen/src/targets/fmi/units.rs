@@ -74,9 +74,9 @@ pub fn definitions<'a>(units: impl Iterator<Item = &'a Unit>) -> Element {
         displays.extend(unit.display.iter().map(|(name, scale)| (name.as_str(), *scale)));
     }
     Element::new("UnitDefinitions").holding(known.into_iter().map(|(name, (unit, displays))| {
-        let [kg, m, s] = unit.dimension.exponents().unwrap_or_default();
-        let powers = [("kg", kg), ("m", m), ("s", s), ("rad", unit.angles)];
-        let base = powers.into_iter().filter(|(_, power)| *power != 0);
+        let exponents = unit.dimension.exponents().unwrap_or_default();
+        let powers = ["kg", "m", "s", "A", "K"].into_iter().zip(exponents);
+        let base = powers.chain([("rad", unit.angles)]).filter(|(_, power)| *power != 0);
         let base = base.fold(Element::new("BaseUnit"), |base, (unit, power)| base.with(unit, power));
         // display value = factor * value
         let displays = displays.into_iter().map(|(name, scale)| {

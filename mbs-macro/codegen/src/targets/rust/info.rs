@@ -102,6 +102,6 @@ fn float(value: f64) -> TokenStream {
 
 /// Fractional exponents, which only outputs can have, are given as 0.
 fn dimension(dimension: Dimension, runtime: &TokenStream) -> TokenStream {
-    let [mass, length, time] = dimension.exponents().unwrap_or_default();
-    quote!(#runtime::Dimension { mass: #mass, length: #length, time: #time })
+    let exponents = dimension.exponents().unwrap_or_default();
+    quote!(#runtime::Dimension::from_exponents([#(#exponents),*]))
 }

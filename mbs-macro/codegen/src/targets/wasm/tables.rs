@@ -70,7 +70,7 @@ fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
 
 /// The power of a length in a dimension; one with fractions is none of a constraint or a coordinate.
 fn length(dimension: Dimension) -> String {
-    dimension.exponents().map_or(0, |[_, length, _]| length).to_string()
+    dimension.exponents().map_or(0, |[_, length, ..]| length).to_string()
 }
 
 fn condition(condition: &Condition) -> String {

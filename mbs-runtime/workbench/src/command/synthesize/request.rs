@@ -11,8 +11,8 @@ use crate::settings::Start;
 use crate::sheet::Sheet;
 use crate::{Error, Model, Unit};
 
-const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0 };
-const ANGLE: Dimension = Dimension { mass: 0, length: 0, time: 0 };
+const LENGTH: Dimension = Dimension::of(0, 1, 0);
+const ANGLE: Dimension = Dimension::of(0, 0, 0);
 
 /// The task, and the units of its columns.
 pub(super) fn task(model: &dyn Model, asked: &Arguments) -> Result<(Task, Vec<Unit>), Error> {
