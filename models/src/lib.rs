@@ -26,6 +26,7 @@
 //! | [`AndrewsSqueezer`] | 1 | the test problem of seven bodies |
 //! | [`PlanetaryGear`] | 1 | gears on a carrier, tooth forces |
 //! | [`GearedMotor`] | 1 | a torque–speed line, a pair of gears |
+//! | [`DcMotor`] | 1 | states of its own: a current, a controller's integral |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -45,6 +46,7 @@ pub mod block_on_incline;
 pub mod cam_follower;
 pub mod cart_pendulum;
 pub mod chebyshev;
+pub mod dc_motor;
 pub mod double_pendulum;
 pub mod excavator;
 pub mod four_bar;
@@ -78,6 +80,7 @@ pub use block_on_incline::{BlockOnIncline, BlockOnInclineInputs, BlockOnInclineP
 pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
+pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
 pub use four_bar::{FourBar, FourBarParameters};

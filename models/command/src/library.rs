@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 38] = entries! {
+static LIBRARY: [Entry; 39] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -55,6 +55,7 @@ static LIBRARY: [Entry; 38] = entries! {
     "andrews-squeezer", "andrews_squeezer.rs", "AndrewsSqueezer";
     "planetary-gear", "planetary_gear.rs", "PlanetaryGear";
     "geared-motor", "geared_motor.rs", "GearedMotor";
+    "dc-motor", "dc_motor.rs", "DcMotor";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
     "chebyshev", "chebyshev.rs", "Chebyshev";

@@ -127,6 +127,7 @@ library! {
     GearedMotor: 0.5e-3, 10.0, ["stall", "viscous"], |p, at, u| {
         p.stall*(1.0 - at.v.phi1/p.no_load)*at.v.phi1 + (u.load - p.viscous*at.v.phi2)*at.v.phi2
     };
+    DcMotor: 0.5e-3, 10.0, ["constant"], |p, at, u| (p.constant*at.v.current + u.load)*at.v.theta;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;

@@ -1,7 +1,10 @@
 //! Mechanisms with gears.
 
 use mbs_runtime::{Error, Simulation};
-use models::{GearedMotor, GearedMotorInputs, GearedMotorParameters, PlanetaryGear, PlanetaryGearInputs};
+use models::{
+    DcMotor, DcMotorInputs, DcMotorParameters, GearedMotor, GearedMotorInputs, GearedMotorParameters,
+    PlanetaryGear, PlanetaryGearInputs,
+};
 use paths::{Instant, Single, through_every_path};
 
 use super::{EXACT, near};
@@ -91,4 +94,23 @@ fn geared_motor_runs_up() -> Result<(), Error> {
         })?;
     }
     Ok(())
+}
+
+/// At rest the current carries the load and the speed is the wanted one. The slowest root of
+/// 5e-8 λ³ + 1e-4 λ² + 0.0125 λ + 0.25 = 0 is −25/s, so that e⁻⁵⁰ = 2e-22 of the deviation is left.
+#[test]
+fn dc_motor_holds_its_speed() -> Result<(), Error> {
+    let p: DcMotorParameters<f64> = DcMotorParameters::default();
+    let inputs = DcMotorInputs { load: -0.1 };
+    let start = |step| Simulation::builder(DcMotor::declared(), step).inputs(inputs).build();
+    through_every_path("motor at its speed", 2e-4, Single::Rounding, start, |case, run| {
+        run.advance_to(2.0)?;
+        let now = run.now()?;
+        case.near("speed", now.v.theta, p.wanted, p.wanted * EXACT);
+        let current = -inputs.load / p.constant;
+        case.near("current", now.v.current, current, current * EXACT);
+        let voltage = p.resistance * current + p.constant * p.wanted;
+        case.near("voltage", now.outputs.control, voltage, voltage * EXACT);
+        Ok(())
+    })
 }

@@ -12,9 +12,16 @@ use mbs_live::{Experiment, Run, Text};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
-/// With drives and without, tables, redundant constraints and loops of long programs.
-const MECHANISMS: [&str; 6] =
-    ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
+/// With drives and without, tables, redundant constraints, own states and loops of long programs.
+const MECHANISMS: [&str; 7] = [
+    "slider-crank",
+    "slider-crank-free",
+    "cam-follower",
+    "double-pendulum",
+    "tipper",
+    "dc-motor",
+    "n-pendulum-40",
+];
 
 /// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements.
 const SPARSE: [&str; 2] = [

@@ -11,9 +11,16 @@ use mbs_live::{Run, Scalar};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
-/// With drives and without, with redundant constraints, tables, friction and loops of long programs.
-const MECHANISMS: [&str; 6] =
-    ["slider-crank", "slider-crank-free", "cam-follower", "double-pendulum", "tipper", "n-pendulum-40"];
+/// With drives and without, with redundant constraints, tables, friction, own states and loops of long programs.
+const MECHANISMS: [&str; 7] = [
+    "slider-crank",
+    "slider-crank-free",
+    "cam-follower",
+    "double-pendulum",
+    "tipper",
+    "dc-motor",
+    "n-pendulum-40",
+];
 
 /// The files of an export in a folder, and what names begin with.
 fn exported(name: &str) -> (TempDir, String) {
