@@ -5,24 +5,51 @@ use mbs_runtime::{Components, Mechanism, Real};
 
 use crate::Observe;
 
-/// Observes the extremes of all outputs from a time on. A member of which an output is not
-/// finite from then on ends with the error that names it.
+/// Observes the extremes of all outputs from a time on. A member ends with an error if an output is not finite from
+/// then on; the error names the output.
+///
+/// # Example
+/// ```
+/// use mbs_ensemble::{Ensemble, Extremes};
+/// use mbs_runtime::{Simulation, mechanism};
+///
+/// mechanism! {
+///     pub Throw {
+///         dof = 1;
+///         param speed = 1 [m/s];
+///         gravity = (0, -10) [m/s^2];
+///         body ball (y) { mass = 1 [kg]; }
+///         start { y = 0; der(y) = speed; }
+///         output height [m] = y;
+///     }
+/// }
+///
+/// let member = |index: usize| Simulation::new(Throw::new(ThrowParameters { speed: index as f64 })?, 1e-2);
+/// let runs = Ensemble::new(1.0).run(6, member, &Extremes::default())?;
+/// for (index, run) in runs.into_iter().enumerate() {
+///     let (speed, found) = (index as f64, run?.observed);
+///     // v²/2g, after v/g
+///     assert!((found.high.height - speed * speed / 20.0).abs() < 1e-12);
+///     assert!((found.high_time.height - speed / 10.0).abs() < 1e-12);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extremes {
-    /// In s: after it a transient is over. 0 by default.
+    /// The time in s from which outputs count, such as the end of a transient. 0 by default.
     pub from: f64,
 }
 
-/// Extremes of the outputs of a run, in SI units. NaN if none were seen.
+/// Extremes of the outputs of a run, in SI units; NaN if no output was seen. See the example of [`Extremes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfOutputs<C> {
-    /// The smallest values,
+    /// The smallest values.
     pub low: C,
-    /// and when they were there first, in s.
+    /// The times in s at which the smallest values were first seen.
     pub low_time: C,
-    /// The largest values,
+    /// The largest values.
     pub high: C,
-    /// and when they were there first, in s.
+    /// The times in s at which the largest values were first seen.
     pub high_time: C,
 }
 

@@ -25,10 +25,10 @@
 //!
 //! // A member is a simulation that is ready to start, or why there is none.
 //! let member = |index: usize| {
-//!     let length = 0.5 + 0.001 * index as f64;
+//!     let length = 0.5 + 0.01 * index as f64;
 //!     Simulation::new(Pendulum::new(PendulumParameters { length })?, 1e-3)
 //! };
-//! let runs = Ensemble::new(1.0).run(1000, member, &Extremes::default())?;
+//! let runs = Ensemble::new(1.0).run(100, member, &Extremes::default())?;
 //! for run in &runs {
 //!     let run = run.as_ref().expect("a start");
 //!     assert_eq!((run.steps, run.ended), (1000, None));
@@ -100,8 +100,33 @@ use rayon::prelude::*;
 /// Blocks that are computed before their members are handed over.
 const BLOCKS_PER_THREAD: usize = 64;
 
-/// How an ensemble is run: until when, and what happens meanwhile. `N` is the number
-/// of lanes, 8 if nothing is said.
+/// The end of all runs in s, and the settings of a sweep. `N` is the number of lanes, 8 by default.
+///
+/// # Example
+/// ```
+/// use mbs_ensemble::Ensemble;
+/// use mbs_runtime::{Simulation, mechanism};
+///
+/// mechanism! {
+///     pub Fall {
+///         dof = 1;
+///         param g = 9.81 [m/s^2];
+///         gravity = (0, -g);
+///         body ball (y) { mass = 1 [kg]; }
+///     }
+/// }
+///
+/// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
+/// let runs = Ensemble::new(2.0).run(10, member, &())?;
+/// for (index, run) in runs.into_iter().enumerate() {
+///     // a member that could not start would be an error here
+///     let run = run?;
+///     // y = −g t²/2
+///     assert!((run.state.q.y + 2.0 * index as f64).abs() < 1e-12);
+///     assert_eq!((run.steps, run.ended), (200, None));
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy)]
 pub struct Ensemble<'a, const N: usize = 8> {
     end: f64,
@@ -109,7 +134,7 @@ pub struct Ensemble<'a, const N: usize = 8> {
     progress: Option<&'a (dyn Fn(usize, usize) + Sync)>,
 }
 
-/// How a member has run.
+/// The end of a member's run; see the example of [`Ensemble`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run<M: Mechanism, R> {
     /// The last good state.
@@ -127,10 +152,10 @@ pub struct Run<M: Mechanism, R> {
     pub observed: R,
 }
 
-/// A run, or why it could not start.
+/// The run of a member, or the error that kept it from starting. See the example of [`Ensemble`].
 pub type Outcome<M, R> = Result<Run<M, R>, Error>;
 
-/// The ensemble was stopped from outside.
+/// The ensemble was stopped from outside; see [`Ensemble::cancelled_by`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled {
     /// The members that were handed over before.
@@ -146,7 +171,7 @@ impl fmt::Display for Cancelled {
 impl std::error::Error for Cancelled {}
 
 impl Ensemble<'_> {
-    /// Runs members to `end` seconds.
+    /// Runs members to `end` seconds. See the example of [`Ensemble`].
     pub fn new(end: f64) -> Self {
         Self { end, cancel: None, progress: None }
     }
@@ -155,26 +180,101 @@ impl Ensemble<'_> {
 impl<'a, const N: usize> Ensemble<'a, N> {
     const HAS_LANES: () = assert!(N > 0, "an ensemble needs a lane");
 
-    /// Runs blocks of as many members at once: 8 suits `f64`, 16 `f32`.
+    /// Sets the number of lanes: so many members take a step together. 8 suits `f64`, 16 `f32`. In `f64` the
+    /// results are the same for every number.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_ensemble::Ensemble;
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     /// A ball that falls.
+    /// #     pub Fall {
+    /// #         dof = 1;
+    /// #         param g = 9.81 [m/s^2];
+    /// #         gravity = (0, -g);
+    /// #         body ball (y) { mass = 1 [kg]; }
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
+    /// let runs = Ensemble::new(2.0).lanes::<4>().run(10, member, &())?;
+    /// for (index, run) in runs.into_iter().enumerate() {
+    ///     assert!((run?.state.q.y + 2.0 * index as f64).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn lanes<const LANES: usize>(self) -> Ensemble<'a, LANES> {
         Ensemble { end: self.end, cancel: self.cancel, progress: self.progress }
     }
 
     /// Stops soon after the flag is set, from another thread or a signal.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_ensemble::{Cancelled, Ensemble};
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     /// A ball that falls.
+    /// #     pub Fall {
+    /// #         dof = 1;
+    /// #         param g = 9.81 [m/s^2];
+    /// #         gravity = (0, -g);
+    /// #         body ball (y) { mass = 1 [kg]; }
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// let flag = AtomicBool::new(false);
+    /// let sweep = Ensemble::new(1.0).cancelled_by(&flag);
+    /// // a member that asks for the end of all
+    /// let member = |index: usize| {
+    ///     flag.fetch_or(index == 3, Ordering::Relaxed);
+    ///     Simulation::new(Fall::declared(), 1e-2)
+    /// };
+    /// assert_eq!(sweep.run(10, member, &()).err(), Some(Cancelled { finished: 0 }));
+    /// ```
     #[must_use]
     pub fn cancelled_by(self, flag: &'a AtomicBool) -> Self {
         Self { cancel: Some(flag), ..self }
     }
 
-    /// Called with the members done and the members in all, on any thread and
-    /// in no certain order.
+    /// Reports progress: `report` is called with the number of members that are done and the number of all,
+    /// on any thread and in no certain order.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_ensemble::Ensemble;
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     /// A ball that falls.
+    /// #     pub Fall {
+    /// #         dof = 1;
+    /// #         param g = 9.81 [m/s^2];
+    /// #         gravity = (0, -g);
+    /// #         body ball (y) { mass = 1 [kg]; }
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// use std::sync::atomic::{AtomicUsize, Ordering};
+    ///
+    /// let furthest = AtomicUsize::new(0);
+    /// let report = |done: usize, all: usize| {
+    ///     furthest.fetch_max(100 * done / all, Ordering::Relaxed);
+    /// };
+    /// let member = |_| Simulation::new(Fall::declared(), 1e-2);
+    /// Ensemble::new(1.0).progress(&report).run(20, member, &())?;
+    /// assert_eq!(furthest.load(Ordering::Relaxed), 100);
+    /// # Ok::<(), mbs_ensemble::Cancelled>(())
+    /// ```
     #[must_use]
     pub fn progress(self, report: &'a (dyn Fn(usize, usize) + Sync)) -> Self {
         Self { progress: Some(report), ..self }
     }
 
-    /// Runs members 0 … `count` − 1 on the threads of the current `rayon` pool.
+    /// Runs members 0 … `count` − 1 on the threads of the current `rayon` pool. See the example of [`Ensemble`].
     ///
     /// # Errors
     /// [`Cancelled`]. Errors of members are in their [`Outcome`].
@@ -194,8 +294,32 @@ impl<'a, const N: usize> Ensemble<'a, N> {
         Ok(outcomes)
     }
 
-    /// The same, and hands members over instead of keeping them, with their
-    /// indices, in ascending order.
+    /// Runs members as [`run`](Self::run) does, and hands each one over instead of keeping it: `take` is called
+    /// with indices in ascending order.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_ensemble::Ensemble;
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     /// A ball that falls.
+    /// #     pub Fall {
+    /// #         dof = 1;
+    /// #         param g = 9.81 [m/s^2];
+    /// #         gravity = (0, -g);
+    /// #         body ball (y) { mass = 1 [kg]; }
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
+    /// // the sum of −g t²/2 over 0 … 99, without a list of runs
+    /// let mut sum = 0.0;
+    /// Ensemble::new(1.0).for_each(100, member, &(), |_, run| {
+    ///     sum += run.map_or(f64::NAN, |run| run.state.q.y);
+    /// })?;
+    /// assert!((sum + 0.5 * 4950.0).abs() < 1e-9);
+    /// # Ok::<(), mbs_ensemble::Cancelled>(())
+    /// ```
     ///
     /// # Errors
     /// [`Cancelled`].

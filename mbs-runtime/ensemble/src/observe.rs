@@ -10,26 +10,24 @@ use mbs_runtime::lanes::{Lane, Snapshot, and};
 /// looking at eight members costs what looking at one does.
 ///
 /// # Example
-/// The impulse of the tension: its sum over all steps, times the step.
+/// The impulse of a spring: the sum of its force over all steps, times the step.
 /// ```
 /// use mbs_ensemble::{Ensemble, Observe};
 /// use mbs_runtime::{Lanes, Simulation, lanes::Snapshot, mechanism};
-/// # mechanism! {
-/// #     /// A weight on a massless rod.
-/// #     pub Pendulum {
-/// #         dof = 1;
-/// #         param length = 1 [m] where length > 0;
-/// #         gravity = (0, -9.81) [m/s^2];
-/// #         body bob (x, y) { mass = 2 [kg]; }
-/// #         constraint rod: x^2 + y^2 = length^2;
-/// #         start { x = length; guess y = 0; }
-/// #         output tension [N] = 2*lambda(rod)*sqrt(x^2 + y^2);
-/// #     }
-/// # }
+///
+/// mechanism! {
+///     pub Oscillator {
+///         dof = 1;
+///         body block (x) { mass = 1 [kg]; }
+///         force spring on x = -4 [N/m]*x;
+///         start { x = 1 [m]; }
+///         output pull [N] = 4 [N/m]*x;
+///     }
+/// }
 ///
 /// struct Impulse;
 ///
-/// impl Observe<Pendulum> for Impulse {
+/// impl Observe<Oscillator> for Impulse {
 ///     type Notes<const N: usize> = Lanes<f64, N>;
 ///     type Result = f64;
 ///
@@ -37,9 +35,9 @@ use mbs_runtime::lanes::{Lane, Snapshot, and};
 ///         Lanes::default()
 ///     }
 ///     #[inline(always)]
-///     fn observe<const N: usize>(&self, sum: &mut Lanes<f64, N>, at: &Snapshot<'_, Pendulum, N>) -> [bool; N] {
+///     fn observe<const N: usize>(&self, sum: &mut Lanes<f64, N>, at: &Snapshot<'_, Oscillator, N>) -> [bool; N] {
 ///         let (outputs, healthy) = at.outputs();
-///         *sum = (*sum + outputs.tension).select(healthy, *sum);
+///         *sum = (*sum + outputs.pull).select(healthy, *sum);
 ///         healthy
 ///     }
 ///     fn finish<const N: usize>(&self, sum: &Lanes<f64, N>, lane: usize) -> f64 {
@@ -47,9 +45,11 @@ use mbs_runtime::lanes::{Lane, Snapshot, and};
 ///     }
 /// }
 ///
-/// let member = |_| Simulation::new(Pendulum::declared(), 1e-3);
+/// let member = |_| Simulation::new(Oscillator::declared(), 1e-3);
 /// let runs = Ensemble::new(0.5).run(3, member, &Impulse)?;
-/// assert!(runs.iter().flatten().all(|run| run.observed > 0.0));
+/// // ∫ 4 cos 2t dt; the sum errs by half of the first and of the last term
+/// let expected = 2.0 * f64::sin(1.0) + 0.5e-3 * (4.0 + 4.0 * f64::cos(1.0));
+/// assert!(runs.iter().flatten().all(|run| (run.observed - expected).abs() < 1e-5));
 /// # Ok::<(), mbs_ensemble::Cancelled>(())
 /// ```
 pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
@@ -77,7 +77,7 @@ pub trait Observe<M: Mechanism<Real: Lane>>: Sync {
     fn finish<const N: usize>(&self, notes: &Self::Notes<N>, lane: usize) -> Self::Result;
 }
 
-/// Nothing is looked at.
+/// Looks at nothing.
 impl<M: Mechanism<Real: Lane>> Observe<M> for () {
     type Notes<const N: usize> = ();
     type Result = ();
@@ -91,7 +91,7 @@ impl<M: Mechanism<Real: Lane>> Observe<M> for () {
     fn finish<const N: usize>(&self, (): &(), _: usize) {}
 }
 
-/// One after the other.
+/// Looks with both observers, one after the other. See the example of [`Samples::every`](crate::Samples::every).
 impl<M: Mechanism<Real: Lane>, A: Observe<M>, B: Observe<M>> Observe<M> for (A, B) {
     type Notes<const N: usize> = (A::Notes<N>, B::Notes<N>);
     type Result = (A::Result, B::Result);

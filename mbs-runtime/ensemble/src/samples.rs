@@ -5,15 +5,43 @@ use mbs_runtime::{Mechanism, State};
 
 use crate::Observe;
 
-/// Keeps the start and every state a number of steps later. The only observer whose
-/// memory grows with the number of steps.
+/// Keeps states at a constant number of steps, from the start on. This is the only observer whose memory grows with
+/// the number of steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples {
     every: u64,
 }
 
 impl Samples {
-    /// Every `every`-th state; 0 counts as 1.
+    /// Keeps the start and every `every`-th state after it; 0 counts as 1.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_ensemble::Ensemble;
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     /// A ball that falls.
+    /// #     pub Fall {
+    /// #         dof = 1;
+    /// #         param g = 9.81 [m/s^2];
+    /// #         gravity = (0, -g);
+    /// #         body ball (y) { mass = 1 [kg]; }
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// use mbs_ensemble::{Extremes, Samples};
+    ///
+    /// let member = |_| Simulation::new(Fall::declared(), 1e-2);
+    /// // two observers look at every run
+    /// let runs = Ensemble::new(1.0).run(3, member, &(Samples::every(50), Extremes::default()))?;
+    /// for run in runs {
+    ///     let (samples, extremes) = run?.observed;
+    ///     assert_eq!(samples.iter().map(|state| state.t).collect::<Vec<_>>(), [0.0, 0.5, 1.0]);
+    ///     assert!(samples.iter().all(|state| (state.v.y + 9.81 * state.t).abs() < 1e-12));
+    ///     assert!((extremes.low.height + 0.5 * 9.81).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub const fn every(every: u64) -> Self {
         Self { every: if every == 0 { 1 } else { every } }
     }
