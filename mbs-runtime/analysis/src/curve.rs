@@ -8,7 +8,7 @@ use crate::Error;
 /// [`Real`](mbs_runtime::Real) work on it.
 pub type Time = Dual<Dual<f64, 1>, 1>;
 
-/// A coordinate, its rate and its second rate at a moment, in SI units and rad.
+/// A coordinate, its rate and its second rate at a moment, in SI units and rad. See the example of [`Curve`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moment {
     /// z
@@ -55,17 +55,42 @@ impl Curve {
     /// # Errors
     /// [`Error::Samples`] unless there are four samples or more, finite, with ascending times.
     ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{Curve, Moment};
+    ///
+    /// // samples of t³
+    /// let cubic = Curve::spline(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 8.0, 27.0])?;
+    /// let Moment { position, velocity, acceleration } = cubic.at(1.5);
+    /// assert!((position - 3.375).abs() < 1e-12);
+    /// assert!((velocity - 6.75).abs() < 1e-12 && (acceleration - 9.0).abs() < 1e-12);
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
+    ///
     /// # Source
     /// C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
     pub fn spline(times: &[f64], values: &[f64]) -> Result<Self, Error> {
         Spline::through(times, values).map(|spline| Self(Kind::Spline(spline)))
     }
 
-    /// From rest to rest by the 3-4-5 polynomial, from + (to − from)(10τ³ − 15τ⁴ + 6τ⁵) with
-    /// τ = (t − start)/duration; before and after it stands still.
+    /// A motion from rest to rest by the 3-4-5 polynomial, from + (to − from)(10τ³ − 15τ⁴ + 6τ⁵) with
+    /// τ = (t − start)/duration. Before and after the motion the coordinate stands still.
     ///
     /// # Errors
     /// [`Error::Range`] for a duration that is not finite and above 0.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::Curve;
+    ///
+    /// // from 1 m to 3 m between 0.5 s and 2.5 s
+    /// let lift = Curve::rest_to_rest(1.0, 3.0, 0.5, 2.0)?;
+    /// let middle = lift.at(1.5);
+    /// // halfway the speed is 15/8 of the mean speed
+    /// assert_eq!((middle.position, middle.velocity, middle.acceleration), (2.0, 15.0 / 8.0, 0.0));
+    /// assert_eq!((lift.at(0.0).position, lift.at(9.0).position), (1.0, 3.0));
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     ///
     /// # Source
     /// R. L. Norton, Cam Design and Manufacturing Handbook, Industrial Press 2002, section 3.5.
@@ -76,7 +101,7 @@ impl Curve {
         Err(Error::Range { what: "the duration", value: duration, unit: "s" })
     }
 
-    /// Where the coordinate is at a time in s, and how fast it changes.
+    /// The coordinate and its two derivatives at a time in s. See the example of [`Curve`].
     pub fn at(&self, t: f64) -> Moment {
         match &self.0 {
             Kind::Function(function) => {

@@ -11,9 +11,9 @@ use mbs_runtime::{Derivation, Dynamics, Error, Gains, Info, Real, Scheme, Sketch
 
 use crate::InputTable;
 
-/// A mechanism with inputs from a table: whoever asks it for accelerations, reactions or outputs at a time
-/// gets those with the inputs of that time, whatever inputs are handed over. So every stage of every method
-/// sees the inputs of its own time, and steps to a tolerance end where the lines of the table have corners.
+/// A mechanism with inputs from a table. Accelerations, reactions and outputs at a time are those with the inputs
+/// that the table has at that time. So every stage of every method sees the inputs of its own time, and a step to a
+/// tolerance ends where the lines of the table have corners.
 ///
 /// # Example
 /// A cart of 2 kg, pushed by a force that rises to 3 N within 2 s, has moved by ∫∫ 3 t/4 dt² = 1 m then:
@@ -34,7 +34,7 @@ use crate::InputTable;
 /// let cart = Text::declaration("cart.mbs", text).compile()?;
 /// let table = InputTable::new(vec![0.0, 2.0], vec![(0, vec![0.0, 3.0])])?;
 /// let run = Adaptive::builder(Driven::new(Prepared::new(&cart), Arc::new(table))).build()?;
-/// // looked at once, after 2 s
+/// // one sample, after 2 s
 /// let mut run = Sampled::new(run, 2.0)?;
 /// run.step()?;
 /// let (mut x, mut v) = ([0.0], [0.0]);
@@ -50,12 +50,38 @@ pub struct Driven<D> {
 }
 
 impl<D: Dynamics> Driven<D> {
-    /// A mechanism with the inputs of a table, in which others keep the values that they are given.
+    /// A mechanism with the inputs of a table. Inputs that the table does not have keep the values that they are
+    /// given. See the example of [`Driven`].
     pub fn new(dynamics: D, table: Arc<InputTable>) -> Self {
         Self { dynamics, table, start_time: None }
     }
 
-    /// The same with another time than the declared one as that of the start, in s.
+    /// Sets the time of the start in s; `None` for the declared one.
+    ///
+    /// # Example
+    /// The cart of [`Driven`], pushed by a log whose clock showed 100 s at its beginning:
+    /// ```
+    /// # use std::sync::Arc;
+    /// # use mbs_analysis::{Driven, InputTable};
+    /// # use mbs_live::{Prepared, Text};
+    /// # use mbs_runtime::{Adaptive, Sampled, System};
+    /// # let text = "Cart {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body cart (x) { mass = 2 [kg]; }
+    /// #     force pushed on x = push;
+    /// #     start { x = 0; }
+    /// # }";
+    /// # let cart = Text::declaration("cart.mbs", text).compile()?;
+    /// let table = InputTable::new(vec![100.0, 102.0], vec![(0, vec![0.0, 3.0])])?;
+    /// let driven = Driven::new(Prepared::new(&cart), Arc::new(table)).starting_at(Some(100.0));
+    /// let mut run = Sampled::new(Adaptive::builder(driven).build()?, 2.0)?;
+    /// run.step()?;
+    /// let (mut x, mut v) = ([0.0], [0.0]);
+    /// run.state(&mut x, &mut v);
+    /// assert!(run.time() == 102.0 && (x[0] - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn starting_at(self, start_time: Option<f64>) -> Self {
         Self { start_time, ..self }

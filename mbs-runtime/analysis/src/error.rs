@@ -1,6 +1,24 @@
 //! Errors of analyses.
 
 /// Why an analysis has no result.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Error, Search, equilibrium};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Fall {
+///         dof = 1;
+///         gravity = (0, -9.81) [m/s^2];
+///         body ball (y) { mass = 1 [kg]; }
+///     }
+/// }
+///
+/// // nothing holds the ball
+/// let error = equilibrium(&Fall::declared(), &Search::default()).err();
+/// assert!(matches!(error, Some(Error::NoEquilibrium { coordinate: "y", .. })));
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

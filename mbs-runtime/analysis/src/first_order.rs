@@ -85,6 +85,27 @@ impl FirstOrder {
     }
 
     /// The same with inputs that change with time.
+    ///
+    /// # Example
+    /// ```
+    /// # use std::sync::Arc;
+    /// # use mbs_analysis::{FirstOrder, InputTable};
+    /// # use mbs_live::Text;
+    /// # let text = "Cart {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body cart (x) { mass = 2 [kg]; }
+    /// #     force pushed on x = push;
+    /// # }";
+    /// # let cart = Text::declaration("cart.mbs", text).compile()?;
+    /// // 3 N/s on a cart of 2 kg
+    /// let table = InputTable::new(vec![0.0, 2.0], vec![(0, vec![0.0, 6.0])])?;
+    /// let system = FirstOrder::new(cart)?.driven_by(Arc::new(table));
+    /// let mut slope = [0.0; 2];
+    /// system.derivative(0.5, &[0.0, 1.0], &mut slope);
+    /// assert_eq!(slope, [1.0, 3.0 * 0.5 / 2.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn driven_by(self, table: Arc<InputTable>) -> Self {
         Self { table, ..self }
@@ -95,18 +116,39 @@ impl FirstOrder {
         2 * self.mechanism.info().states.len()
     }
 
-    /// The inputs in SI units, which f holds constant where no table has them.
+    /// The inputs in SI units. f holds those constant that no table has.
     pub fn inputs(&self) -> &[f64] {
         &self.inputs
     }
 
-    /// The same, to be changed. A solver that uses values of f from before has to start anew.
+    /// The inputs in SI units, to be changed. A solver that uses values of f from before has to start anew.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::FirstOrder;
+    /// # use mbs_live::Text;
+    /// # let text = "Cart {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body cart (x) { mass = 2 [kg]; }
+    /// #     force pushed on x = push;
+    /// # }";
+    /// # let cart = Text::declaration("cart.mbs", text).compile()?;
+    /// let mut system = FirstOrder::new(cart)?;
+    /// assert_eq!(system.inputs(), [0.0]);
+    /// system.inputs_mut()[0] = 6.0;
+    /// let mut slope = [0.0; 2];
+    /// system.derivative(0.0, &[0.0, 1.0], &mut slope);
+    /// // 6 N on 2 kg
+    /// assert_eq!(slope, [1.0, 3.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn inputs_mut(&mut self) -> &mut [f64] {
         &mut self.inputs
     }
 
     /// y of the present state of a run of the same mechanism, such as one that was just built and is
-    /// at its consistent start.
+    /// at its consistent start. See the example of [`FirstOrder`].
     pub fn state(&self, run: &dyn System) -> Vec<f64> {
         let n = self.mechanism.info().coordinates.len();
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
@@ -119,6 +161,27 @@ impl FirstOrder {
     }
 
     /// All positions and velocities at `t` seconds, of y.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::FirstOrder;
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Bar {
+    ///     dof = 1;
+    ///     states = reduced;
+    ///     body bar (x, y, phi) { mass = 4 [kg]; inertia = 0.03 [kg*m^2]; }
+    ///     point end on bar = (-0.15, 0) [m];
+    ///     revolute hinge (bar.end, ground);
+    /// }";
+    /// let system = FirstOrder::new(Text::declaration("bar.mbs", text).compile()?)?;
+    /// assert_eq!(system.dimension(), 2);
+    /// // the centre is 0.15 m from the hinge
+    /// let [q, v] = system.completed(0.0, &[0.5, 2.0]);
+    /// assert!((q[1] - 0.15 * f64::sin(0.5)).abs() < 1e-15);
+    /// assert!((v[1] - 0.15 * f64::cos(0.5) * 2.0).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn completed(&self, t: f64, y: &[f64]) -> [Vec<f64>; 2] {
         let (q, v) = y.split_at(y.len() / 2);
         let n = self.mechanism.info().coordinates.len();
@@ -134,7 +197,7 @@ impl FirstOrder {
         inputs
     }
 
-    /// Writes f(t, y). At a position in which the mechanism is singular, and where a force is not
+    /// Writes f(t, y). See the example of [`FirstOrder`]. At a position in which the mechanism is singular, and where a force is not
     /// defined, it is not finite or has no accuracy.
     pub fn derivative(&self, t: f64, y: &[f64], slope: &mut [f64]) {
         derivative(&*self.mechanism, t, y, &self.inputs_at(t), slope);

@@ -4,7 +4,28 @@ use mbs_runtime::Real;
 
 use crate::Error;
 
-/// Inputs over time: straight lines between instants; before the first and after the last one they stay.
+/// Inputs over time: straight lines between instants. Before the first instant and after the last one they are
+/// constant.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::InputTable;
+///
+/// // the second input rises from 0 to 5 within 2 s, and stays there
+/// let table = InputTable::new(vec![0.0, 2.0, 4.0], vec![(1, vec![0.0, 5.0, 5.0])])?;
+/// let mut inputs = [7.0, 7.0];
+/// table.set(0.5, &mut inputs);
+/// assert_eq!(inputs, [7.0, 1.25]);
+/// assert_eq!((table.len(), table.span()), (3, [0.0, 4.0]));
+/// assert!(InputTable::default().is_empty());
+///
+/// // a line has another slope from 2 s on, and no other one later
+/// assert_eq!(table.next_corner(0.5), 2.0);
+/// assert_eq!(table.next_corner(2.0), f64::INFINITY);
+///
+/// assert!(InputTable::new(vec![1.0, 0.0], vec![(0, vec![0.0, 0.0])]).is_err());
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputTable {
     times: Vec<f64>,
@@ -19,7 +40,7 @@ pub struct InputTable {
 const STRAIGHT: f64 = 1e-12;
 
 impl InputTable {
-    /// Inputs at ascending times in s. A column is the place of an input in [`Info`](mbs_runtime::Info) and its
+    /// A table of inputs at ascending times in s. A column is the place of an input in [`Info`](mbs_runtime::Info) and its
     /// values in SI units, one at each of the times.
     ///
     /// # Errors
@@ -42,7 +63,7 @@ impl InputTable {
         }
     }
 
-    /// The number of its instants.
+    /// The number of instants.
     pub fn len(&self) -> usize {
         self.times.len()
     }
@@ -57,7 +78,7 @@ impl InputTable {
         [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0))
     }
 
-    /// Sets the inputs that the table has to their values at a time.
+    /// Sets the inputs that the table has to their values at the time `t` in s; the others stay.
     pub fn set<T: Real>(&self, t: T, inputs: &mut [T]) {
         let behind = self.times.partition_point(|time| *time <= t.to_f64());
         for (place, values) in &self.columns {
@@ -74,15 +95,23 @@ impl InputTable {
         }
     }
 
-    /// The first corner of the lines behind a time; infinite where there is none.
+    /// The first time after `t`, in s, at which an input changes its slope; infinite if there is none.
     pub fn next_corner<T: Real>(&self, t: T) -> T {
         let next = self.corners.partition_point(|corner| T::from_f64(*corner) <= t);
         T::from_f64(self.corners.get(next).copied().unwrap_or(f64::INFINITY))
     }
 }
 
-/// When a run starts that follows a log from `first` to `last` seconds, if the log has a clock of its own: one that
-/// showed more at the beginning than the log is long.
+/// The start in s of a run that follows a log from `first` to `last` seconds, if the log has a clock of its own: a
+/// clock that shows more at the beginning than the log is long.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::own_clock;
+///
+/// assert_eq!(own_clock([0.1, 5.0]), None);
+/// assert_eq!(own_clock([1200.0, 1205.0]), Some(1200.0));
+/// ```
 pub fn own_clock([first, last]: [f64; 2]) -> Option<f64> {
     (last > first && first > last - first).then_some(first)
 }

@@ -12,6 +12,32 @@ use crate::singular::Singular;
 use crate::{Error, Signal, Variable};
 
 /// The efforts or inputs that produce a prescribed motion.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{By, Curve, Prescription, inverse};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Hoist {
+///         dof = 1;
+///         input rope [N];
+///         gravity = (0, -9.81) [m/s^2];
+///         body load (y) { mass = 2 [kg]; }
+///         force pull on y = rope;
+///     }
+/// }
+///
+/// // halfway from 0 m to 3 m the acceleration is 0, and the weight is carried
+/// for by in [By::Efforts, By::Inputs(vec!["rope".into()])] {
+///     let curves = vec![("y".into(), Curve::rest_to_rest(0.0, 3.0, 0.0, 2.0)?)];
+///     let request = Prescription { curves, by, ..Prescription::default() };
+///     let found = inverse(&Hoist::declared(), &request, &[1.0])?;
+///     // one of them is 0
+///     assert!((found[0].efforts[0] + found[0].inputs[0] - 2.0 * 9.81).abs() < 1e-9);
+/// }
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum By {
     /// A force or a torque along each prescribed coordinate, as if a drive moved it.
@@ -23,7 +49,28 @@ pub enum By {
     Inputs(Vec<String>),
 }
 
-/// A motion of some coordinates, and what produces it.
+/// A motion of some coordinates, and what produces it. See the examples of [`inverse`] and [`By`].
+///
+/// # Example
+/// The drives of a mechanism without degrees of freedom prescribe its motion:
+/// ```
+/// use mbs_analysis::{Prescription, inverse};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Sledge {
+///         dof = 0;
+///         body sledge (x) { mass = 2 [kg]; }
+///         drive motor: x = 3 [m/s^2]*t^2;
+///     }
+/// }
+///
+/// let found = inverse(&Sledge::declared(), &Prescription::default(), &[0.5])?;
+/// assert!((found[0].v[0] - 3.0).abs() < 1e-12);
+/// // the drive exerts −λ = m ẍ
+/// assert!((found[0].multipliers[0] + 12.0).abs() < 1e-12);
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Default)]
 pub struct Prescription {
     /// As many coordinates as the mechanism has degrees of freedom, and what each does over time; none
@@ -40,7 +87,7 @@ pub struct Prescription {
     pub t: f64,
 }
 
-/// A moment of a prescribed motion.
+/// A moment of a prescribed motion. See the example of [`inverse`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// The time in s.

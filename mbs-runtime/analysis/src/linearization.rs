@@ -15,6 +15,37 @@ use crate::{Error, OperatingPoint, Signal, Variable};
 const SLOW: f64 = 1e-3;
 
 /// The states, inputs and outputs of a linear system.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{OperatingPoint, Ports, Search, equilibrium, linearize, of_type};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     /// A weight that hangs on a spring.
+///     pub Weight {
+///         dof = 1;
+///         param k = 200 [N/m];
+///         gravity = (0, -9.81) [m/s^2];
+///         body weight (y) { mass = 2 [kg]; }
+///         force spring on y = -k*y;
+///     }
+/// }
+///
+/// let rest = equilibrium(&Weight::declared(), &Search::default())?;
+/// let family = of_type::<Weight>();
+/// let ports = Ports {
+///     outputs: Some(vec!["der(y)".into()]),
+///     parameters: vec!["k".into()],
+///     family: Some(&family),
+///     ..Ports::default()
+/// };
+/// let linear = linearize(&Weight::declared(), &OperatingPoint::from(&rest), &ports)?;
+/// assert_eq!((linear.inputs[0].name.as_str(), linear.outputs[0].name.as_str()), ("k", "der(y)"));
+/// // ∂ÿ/∂k = −y/m at y = −m g/k
+/// assert!((linear.b[(1, 0)] - 9.81 / 200.0).abs() < 1e-9);
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Default)]
 pub struct Ports<'a> {
     /// The coordinates that are states, as many as there are degrees of freedom; `None` for those
@@ -35,7 +66,7 @@ pub struct Ports<'a> {
 /// ẋ = A x + B u, y = C x + D u, of deviations from an operating point.
 ///
 /// With f degrees of freedom and k own states s, x = (δz, δż, δs) has 2f + k components: f declared coordinates z
-/// that determine the others, their rates, and the own states. Everything is in SI units and rad.
+/// that determine the others, their rates, and the own states. Everything is in SI units and rad. See the example of [`linearize`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization {
     /// The operating point.
@@ -114,7 +145,7 @@ pub struct Linearization {
 ///
 /// let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
 /// let linear = linearize(&Oscillator::declared(), &point, &Ports::default())?;
-/// assert_eq!(linear.states[1].name, "der(x)");
+/// assert_eq!((linear.dof(), linear.states[1].name.as_str()), (1, "der(x)"));
 /// assert!((linear.a[(1, 0)] + 100.0).abs() < 1e-9 && (linear.a[(1, 1)] + 2.0).abs() < 1e-9);
 /// assert!((linear.b[(1, 0)] - 0.5).abs() < 1e-12 && linear.c[(0, 0)] == 1.0);
 /// # Ok::<(), mbs_analysis::Error>(())
@@ -191,7 +222,7 @@ pub fn linearize(
 }
 
 impl Linearization {
-    /// f, the degrees of freedom.
+    /// f, the degrees of freedom. See the example of [`linearize`].
     pub fn dof(&self) -> usize {
         self.directions.ncols()
     }

@@ -26,6 +26,28 @@ const DOUBLE: f64 = 1e-7;
 const DEFECT: f64 = 1e-6;
 
 /// The behaviour of a small displacement in the shape of a mode.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{OperatingPoint, Ports, linearize};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     /// A rod upright: φ̈ = 4 φ.
+///     pub Upright {
+///         dof = 1;
+///         body rod (angle = phi) { inertia = 1 [kg*m^2]; }
+///         torque weight on rod = 4 [N*m]*phi;
+///     }
+/// }
+///
+/// let top = OperatingPoint::at_rest(0.0, &[0.0], &[]);
+/// let modes = linearize(&Upright::declared(), &top, &Ports::default())?.modes()?;
+/// let falling: Vec<_> = modes.iter().filter(|mode| mode.behaviour.is_unstable()).collect();
+/// assert!(falling.len() == 1 && (falling[0].eigenvalue.re - 2.0).abs() < 1e-9);
+/// assert_eq!(falling[0].behaviour.words(), "unstable: grows without oscillating (divergence)");
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behaviour {
     /// Nothing drives it back: λ = 0.
@@ -43,7 +65,7 @@ pub enum Behaviour {
 }
 
 impl Behaviour {
-    /// The behaviour in words.
+    /// The behaviour in words. See the example of [`Behaviour`].
     pub fn words(self) -> &'static str {
         match self {
             Self::RigidBody => "rigid-body mode: moves freely",
@@ -55,13 +77,36 @@ impl Behaviour {
         }
     }
 
-    /// True if it grows.
+    /// True if displacements grow.
     pub fn is_unstable(self) -> bool {
         matches!(self, Self::Flutter | Self::Divergence)
     }
 }
 
 /// Motions δq = Re(φ e^{λt}) of a linear system: a pair of conjugate eigenvalues, or a real one.
+///
+/// # Example
+/// ```
+/// # use mbs_analysis::{OperatingPoint, Ports, linearize};
+/// # use mbs_live::Text;
+/// # let text = "Oscillator {
+/// #     dof = 1;
+/// #     input push [N];
+/// #     body block (x) { mass = 2 [kg]; }
+/// #     force all on x = push - 200 [N/m]*x - 4 [N*s/m]*der(x);
+/// # }";
+/// # let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+/// # let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
+/// # let linear = linearize(&oscillator, &point, &Ports::default())?;
+/// // 2 kg on 200 N/m and 4 N s/m: λ² + 2 λ + 100 = 0
+/// let modes = linear.modes()?;
+/// let mode = &modes[0];
+/// assert!((mode.natural_frequency() - 10.0).abs() < 1e-9);
+/// assert!((mode.damped_frequency() - f64::sqrt(99.0)).abs() < 1e-9);
+/// assert!(mode.damping_ratio().is_some_and(|ratio| (ratio - 0.1).abs() < 1e-9));
+/// assert!((mode.time_constant() - 1.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// λ in 1/s, with Im λ ≥ 0. A part is 0 that cannot be told from it.
@@ -94,7 +139,7 @@ impl Mode {
         (self.behaviour != Behaviour::RigidBody).then_some(ratio)
     }
 
-    /// 1/|Re λ| in s: in that time it decays to 1/e, or grows by e.
+    /// 1/|Re λ| in s: the time in which it decays to 1/e, or grows by e.
     pub fn time_constant(&self) -> f64 {
         1.0 / self.eigenvalue.re.abs()
     }
@@ -111,6 +156,32 @@ impl Linearization {
     ///
     /// # Errors
     /// [`Error::Eigenvalues`] if the QR algorithm does not converge.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{OperatingPoint, Ports, linearize};
+    /// use mbs_runtime::mechanism;
+    ///
+    /// mechanism! {
+    ///     /// Two blocks between three springs.
+    ///     pub Blocks {
+    ///         dof = 2;
+    ///         body first (x1) { mass = 1 [kg]; }
+    ///         body second (x2) { mass = 1 [kg]; }
+    ///         force on_first on x1 = -100 [N/m]*(2*x1 - x2);
+    ///         force on_second on x2 = -100 [N/m]*(2*x2 - x1);
+    ///     }
+    /// }
+    ///
+    /// let point = OperatingPoint::at_rest(0.0, &[0.0, 0.0], &[]);
+    /// let modes = linearize(&Blocks::declared(), &point, &Ports::default())?.modes()?;
+    /// // together at √(k/m), against each other at √(3 k/m)
+    /// for (mode, [omega, second]) in modes.iter().zip([[10.0, 1.0], [f64::sqrt(300.0), -1.0]]) {
+    ///     assert!((mode.natural_frequency() - omega).abs() < 1e-8);
+    ///     assert!((mode.shape[1].re / mode.shape[0].re - second).abs() < 1e-8);
+    /// }
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     ///
     /// # Source
     /// F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Rev. 43 (2001) 235-286.
@@ -139,7 +210,29 @@ impl Linearization {
         Ok(modes)
     }
 
-    /// The frequencies in rad/s of modes that oscillate, ascending.
+    /// The damped frequencies Im λ in rad/s of modes that oscillate, ascending.
+    ///
+    /// # Errors
+    /// As [`modes`](Self::modes).
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{OperatingPoint, Ports, linearize};
+    /// # use mbs_live::Text;
+    /// # let text = "Oscillator {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body block (x) { mass = 2 [kg]; }
+    /// #     force all on x = push - 200 [N/m]*x - 4 [N*s/m]*der(x);
+    /// # }";
+    /// # let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// # let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
+    /// # let linear = linearize(&oscillator, &point, &Ports::default())?;
+    /// // 2 kg on 200 N/m and 4 N s/m: λ² + 2 λ + 100 = 0
+    /// let resonances = linear.resonances()?;
+    /// assert!(resonances.len() == 1 && (resonances[0] - f64::sqrt(99.0)).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn resonances(&self) -> Result<Vec<f64>, Error> {
         let modes = self.modes()?;
         let oscillates = modes.iter().map(Mode::damped_frequency).filter(|omega| *omega > 0.0);

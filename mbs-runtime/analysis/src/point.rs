@@ -20,7 +20,7 @@ pub enum Drives {
     Moving,
 }
 
-/// The state, the inputs and the time about which a mechanism is linearized.
+/// The state, the inputs and the time about which a mechanism is linearized. See the example of [`linearize`](crate::linearize).
 #[derive(Clone, Debug, PartialEq)]
 pub struct OperatingPoint {
     /// The time in s.
@@ -36,18 +36,60 @@ pub struct OperatingPoint {
 }
 
 impl OperatingPoint {
-    /// A position at rest with drives held, an equilibrium or not.
+    /// A position at rest with drives held, an equilibrium or not. See the example of
+    /// [`linearize`](crate::linearize).
     pub fn at_rest(t: f64, q: &[f64], inputs: &[f64]) -> Self {
         let v = vec![0.0; q.len()];
         Self { t, q: q.to_vec(), v, inputs: inputs.to_vec(), drives: Drives::Held }
     }
 
     /// A state in motion, in which drives move on.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{OperatingPoint, Ports, linearize};
+    /// use mbs_runtime::mechanism;
+    ///
+    /// mechanism! {
+    ///     pub Boat {
+    ///         dof = 1;
+    ///         body boat (x) { mass = 1 [kg]; }
+    ///         force water on x = -3 [kg/m]*der(x)^2;
+    ///     }
+    /// }
+    ///
+    /// let point = OperatingPoint::in_motion(0.0, &[0.0], &[2.0], &[]);
+    /// let linear = linearize(&Boat::declared(), &point, &Ports::default())?;
+    /// // v̇ = −3 v², ∂v̇/∂v = −6 v
+    /// assert!((linear.rate[1] + 12.0).abs() < 1e-9 && (linear.a[(1, 1)] + 12.0).abs() < 1e-9);
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     pub fn in_motion(t: f64, q: &[f64], v: &[f64], inputs: &[f64]) -> Self {
         Self { t, q: q.to_vec(), v: v.to_vec(), inputs: inputs.to_vec(), drives: Drives::Moving }
     }
 
-    /// Where a run is at this moment, in motion.
+    /// The present state of a run, in motion.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{OperatingPoint, Variable};
+    /// use mbs_runtime::{Simulation, mechanism};
+    ///
+    /// mechanism! {
+    ///     pub Fall {
+    ///         dof = 1;
+    ///         gravity = (0, -9.81) [m/s^2];
+    ///         body ball (y) { mass = 1 [kg]; }
+    ///     }
+    /// }
+    ///
+    /// let mut run = Simulation::new(Fall::declared(), 1e-3)?;
+    /// run.advance_to(0.5)?;
+    /// let point = OperatingPoint::of_run(&run);
+    /// assert_eq!(point.t, 0.5);
+    /// assert!((point.value(Variable::Velocity(0), &[]) + 0.5 * 9.81).abs() < 1e-12);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     pub fn of_run(run: &dyn System) -> Self {
         let info = run.equations().info();
         let [mut q, mut v] = [(); 2].map(|()| vec![0.0; info.coordinates.len()]);
@@ -57,7 +99,9 @@ impl OperatingPoint {
         Self { t: run.time(), q, v, inputs, drives: Drives::Moving }
     }
 
-    /// The value of a state, an input or a parameter there; no number for what depends on accelerations.
+    /// The value of a state, an input or a parameter at the point; NaN for an output or a multiplier, which depend on
+    /// accelerations. `parameters` are all parameters, in the order of [`Info`](mbs_runtime::Info). See the example
+    /// of [`of_run`](Self::of_run).
     pub fn value(&self, variable: Variable, parameters: &[f64]) -> f64 {
         let found = match variable {
             Variable::Coordinate(at) => self.q.get(at),

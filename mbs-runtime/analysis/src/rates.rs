@@ -38,8 +38,8 @@ pub struct Rates {
 /// ```
 ///
 /// with q̈(q, v, t) of all coordinates, at a moment, by Arnoldi's iteration on differences of accelerations.
-/// Deviations that the constraints forbid have the rates of the motion itself. Nothing where an acceleration
-/// is no number.
+/// Deviations that the constraints forbid have the rates of the motion itself. It is `None` if an
+/// acceleration is not finite.
 ///
 /// An explicit scheme with the stability function R is stable where |R(hλ)| ≤ 1 for all of them.
 ///

@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::{Error, Linearization, complex};
 
-/// y after a step of one input, at rest before.
+/// y after a step of one input, at rest before. See the example of [`Linearization::step_response`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
     /// The instants in s, from 0, evenly spaced.
@@ -23,6 +23,26 @@ impl Linearization {
     ///
     /// # Errors
     /// [`Error::Range`] for a frequency that is not above 0.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{OperatingPoint, Ports, linearize};
+    /// # use mbs_live::Text;
+    /// # let text = "Oscillator {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body block (x) { mass = 2 [kg]; }
+    /// #     force all on x = push - 200 [N/m]*x - 4 [N*s/m]*der(x);
+    /// # }";
+    /// # let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// # let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
+    /// # let linear = linearize(&oscillator, &point, &Ports::default())?;
+    /// // H = 1/(k − m ω² + iωc) with 2 kg, 200 N/m and 4 N s/m; at 10 rad/s only the damper resists
+    /// let response = linear.frequency_response(10.0)?;
+    /// assert!((response[(0, 0)].norm() - 1.0 / 40.0).abs() < 1e-10);
+    /// assert!((response[(0, 0)].arg() + std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn frequency_response(&self, omega: f64) -> Result<DMatrix<Complex<f64>>, Error> {
         if !(omega > 0.0 && omega.is_finite()) {
             return Err(Error::Range { what: "frequency", value: omega, unit: "rad/s" });
@@ -67,6 +87,29 @@ impl Linearization {
     /// [`Error::Range`] for an end or a number of steps that is not above 0; [`Error::Unknown`] for a
     /// name that no input of the system has.
     ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{OperatingPoint, Ports, linearize};
+    /// # use mbs_live::Text;
+    /// # let text = "Oscillator {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body block (x) { mass = 2 [kg]; }
+    /// #     force all on x = push - 200 [N/m]*x - 4 [N*s/m]*der(x);
+    /// # }";
+    /// # let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// # let point = OperatingPoint::at_rest(0.0, &[0.0], &[0.0]);
+    /// # let linear = linearize(&oscillator, &point, &Ports::default())?;
+    /// // 1 N on 2 kg with 200 N/m and 4 N s/m
+    /// let step = linear.step_response("push", 2.0, 40)?;
+    /// for (row, t) in step.times.iter().enumerate() {
+    ///     let omega = f64::sqrt(99.0);
+    ///     let left = (-t).exp() * ((omega * t).cos() + (omega * t).sin() / omega);
+    ///     assert!((step.outputs[(row, 0)] - (1.0 - left) / 200.0).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Source
     /// C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Trans. Automat.
     /// Control 23 (1978) 395-404. N. J. Higham, The scaling and squaring method for the matrix
@@ -100,10 +143,25 @@ impl Linearization {
     }
 }
 
-/// The phases of a response in rad along ascending frequencies, without jumps by 2π. It begins between −π
-/// and π. Where it turns by half a turn at once it falls if the frequency of an undamped mode, one of
+/// The phases of a response in rad along ascending frequencies, without jumps by 2π. The first phase is between −π
+/// and π. Where the phase turns by half a turn at once, it falls if the frequency of an undamped mode, one of
 /// `resonances`, lies between, and rises at a zero, as both do with a little damping. No numbers where
 /// the response has none.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::nalgebra::Complex;
+/// use mbs_analysis::phases;
+///
+/// // two oscillators in a row: 1/((1 − ω²)(4 − ω²)) turns by half a turn at 1 rad/s and at 2 rad/s
+/// let frequencies = [0.5, 1.5, 2.5];
+/// let response = frequencies.map(|omega| Complex::from(1.0 / ((1.0 - omega * omega) * (4.0 - omega * omega))));
+/// let found = phases(&frequencies, &response, &[1.0, 2.0]);
+/// let half = std::f64::consts::PI;
+/// for (phase, expected) in found.iter().zip([0.0, -half, -2.0 * half]) {
+///     assert!((phase - expected).abs() < 1e-12);
+/// }
+/// ```
 pub fn phases(frequencies: &[f64], response: &[Complex<f64>], resonances: &[f64]) -> Vec<f64> {
     /// Of half a turn, for what is half a turn but for rounding.
     const SLACK: f64 = 1e-6;

@@ -20,7 +20,7 @@ use crate::{
 const LONGEST: f64 = 0.01;
 const LEVELS: usize = 4;
 
-/// The modes about an equilibrium, and how they follow parameters.
+/// The modes about an equilibrium, and how they follow parameters. See the example of [`sensitivities`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivities {
     /// The equilibrium.
@@ -37,13 +37,15 @@ pub struct Sensitivities {
 }
 
 impl Sensitivities {
-    /// dω/dp of the natural frequency of a mode with respect to a parameter, in rad/s per SI unit.
+    /// dω/dp of the natural frequency of a mode with respect to a parameter, in rad/s per SI unit. See the example of
+    /// [`sensitivities`].
     pub fn natural_frequency(&self, mode: usize, parameter: usize) -> f64 {
         let (lambda, change) = (self.modes[mode].eigenvalue, self.eigenvalues[(mode, parameter)]);
         (lambda.conj() * change).re / lambda.norm()
     }
 
-    /// dζ/dp of the damping ratio of a mode with respect to a parameter, per SI unit.
+    /// dζ/dp of the damping ratio of a mode with respect to a parameter, per SI unit. See the example of
+    /// [`sensitivities`].
     pub fn damping_ratio(&self, mode: usize, parameter: usize) -> f64 {
         let (lambda, change) = (self.modes[mode].eigenvalue, self.eigenvalues[(mode, parameter)]);
         let size = lambda.norm();
@@ -69,6 +71,31 @@ impl Sensitivities {
 /// # Errors
 /// [`Error::Unknown`] for a name that no parameter has; those of [`equilibrium`], of [`linearize`]
 /// and of [`Linearization::modes`]; what the mechanism says of parameters.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Ports, Search, of_type, sensitivities};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Oscillator {
+///         dof = 1;
+///         param k = 200 [N/m];
+///         param c = 4 [N*s/m];
+///         body block (x) { mass = 2 [kg]; }
+///         force all on x = -k*x - c*der(x);
+///     }
+/// }
+///
+/// let (values, names) = ([200.0, 4.0], ["k".into(), "c".into()]);
+/// let family = of_type::<Oscillator>();
+/// let found = sensitivities(&family, &values, &Search::default(), &Ports::default(), &names)?;
+/// // ω = √(k/m) = 10 rad/s and ζ = c/(2√(k m)) = 0.1
+/// assert!((found.natural_frequency(0, 0) - 10.0 / (2.0 * 200.0)).abs() < 1e-8);
+/// assert!((found.damping_ratio(0, 0) + 0.1 / (2.0 * 200.0)).abs() < 1e-9);
+/// assert!((found.damping_ratio(0, 1) - 0.1 / 4.0).abs() < 1e-8);
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 ///
 /// # Source
 /// P. Lancaster, On eigenvalues of matrices dependent on a parameter, Numer. Math. 6 (1964) 377-387.

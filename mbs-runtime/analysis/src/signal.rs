@@ -24,7 +24,7 @@ pub enum Variable {
     Multiplier(usize),
 }
 
-/// A quantity of a linear system, in SI units and rad.
+/// A quantity of a linear system, in SI units and rad. See the example of [`Signal::of`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signal {
     /// Its name: `x`, `der(x)`, `lambda(pin_x)`, or that of an own state, an input, a parameter or an output; that
@@ -37,7 +37,33 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// The signal of a variable of a mechanism; `None` where it has no such.
+    /// The signal of a variable; `None` if the mechanism does not have it.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{Signal, Variable};
+    /// use mbs_runtime::{Dimension, Mechanism, mechanism};
+    ///
+    /// mechanism! {
+    ///     pub Wedge {
+    ///         dof = 1;
+    ///         param slope = 0.2;
+    ///         body slide (x, y) { mass = 1 [kg]; }
+    ///         constraint guide: y = slope*x;
+    ///         output height [m] = y;
+    ///     }
+    /// }
+    ///
+    /// let info = <Wedge as Mechanism>::INFO;
+    /// let speed = Signal::of(info, Variable::Velocity(0)).ok_or("two coordinates")?;
+    /// assert_eq!((speed.name.as_str(), speed.dimension), ("der(x)", Dimension { mass: 0, length: 1, time: -1 }));
+    /// // the multiplier of a length is a force
+    /// let force = Signal::of(info, Variable::Multiplier(0)).ok_or("one constraint")?;
+    /// assert_eq!(force.name, "lambda(guide)");
+    /// assert_eq!(force.dimension, Dimension { mass: 1, length: 1, time: -2 });
+    /// assert_eq!(Signal::of(info, Variable::Coordinate(2)), None);
+    /// # Ok::<(), &str>(())
+    /// ```
     pub fn of(info: &Info, variable: Variable) -> Option<Self> {
         let declared = |list: &[Quantity], at: usize| list.get(at).map(|q| (q.name.to_owned(), q.dimension));
         let (name, dimension) = match variable {
@@ -70,6 +96,24 @@ impl Signal {
     }
 
     /// All that can be observed of a mechanism: outputs, coordinates, their rates, multipliers.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{Signal, Variable};
+    /// # use mbs_runtime::{Dimension, Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     pub Wedge {
+    /// #         dof = 1;
+    /// #         param slope = 0.2;
+    /// #         body slide (x, y) { mass = 1 [kg]; }
+    /// #         constraint guide: y = slope*x;
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// let signals = Signal::observable(<Wedge as Mechanism>::INFO);
+    /// let names: Vec<&str> = signals.iter().map(|signal| signal.name.as_str()).collect();
+    /// assert_eq!(names, ["height", "x", "y", "der(x)", "der(y)", "lambda(guide)"]);
+    /// ```
     pub fn observable(info: &Info) -> Vec<Self> {
         let n = info.coordinates.len();
         [
@@ -81,8 +125,25 @@ impl Signal {
         .concat()
     }
 
-    /// All that can be chosen for a run and differentiated by: parameters, then coordinates and their rates
-    /// at the start.
+    /// All by which a run can be differentiated: parameters, then coordinates and their rates at the start.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{Signal, Variable};
+    /// # use mbs_runtime::{Dimension, Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     pub Wedge {
+    /// #         dof = 1;
+    /// #         param slope = 0.2;
+    /// #         body slide (x, y) { mass = 1 [kg]; }
+    /// #         constraint guide: y = slope*x;
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
+    /// let signals = Signal::adjustable(<Wedge as Mechanism>::INFO);
+    /// let names: Vec<&str> = signals.iter().map(|signal| signal.name.as_str()).collect();
+    /// assert_eq!(names, ["slope", "x", "y", "der(x)", "der(y)"]);
+    /// ```
     pub fn adjustable(info: &Info) -> Vec<Self> {
         let n = info.coordinates.len();
         [

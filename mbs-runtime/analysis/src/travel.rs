@@ -12,6 +12,32 @@ use crate::tangent::Rest;
 use crate::{Error, Signal, Variable};
 
 /// The coordinate or the drive that is moved slowly.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Along, Travel, travel};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Press {
+///         dof = 0;
+///         body ram (x) { mass = 2 [kg]; }
+///         force spring on x = -500 [N/m]*x;
+///         drive motor: x = 0.1 [m/s]*t;
+///     }
+/// }
+///
+/// let stroke = Travel {
+///     along: Along::Drive("motor".into()),
+///     samples: vec![0.0, 1.0, 2.0],
+///     inputs: None, from: None, t: 0.0,
+/// };
+/// for position in travel(&Press::declared(), &stroke)? {
+///     assert!((position.travel - 0.1 * position.t).abs() < 1e-12);
+///     assert!((position.effort - 500.0 * position.travel).abs() < 1e-9);
+/// }
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Along {
     /// A coordinate, by a force or a torque along it.
@@ -20,7 +46,7 @@ pub enum Along {
     Drive(String),
 }
 
-/// A slow motion.
+/// A slow motion. See the example of [`travel`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travel {
     /// The coordinate or the drive that is moved.
@@ -36,7 +62,7 @@ pub struct Travel {
     pub t: f64,
 }
 
-/// A position of a slow motion, and what holds it there.
+/// A position of a slow motion, and what holds it there. See the example of [`travel`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Position {
     /// The time in s at which drives and forces are held.
@@ -69,11 +95,40 @@ const SOFT: f64 = 1e-9;
 const DEAD: f64 = 1e-12;
 
 impl Position {
-    /// How many times the effort a force or torque along a coordinate is that balances it, by virtual
-    /// work: F_out/F_in = dx_in/dx_out, positive where the mechanism pushes its load towards larger values;
-    /// infinite at a dead centre of the coordinate. `None` for a mechanism with further degrees of freedom.
+    /// The mechanical advantage at a coordinate, by virtual work: F_out/F_in = dx_in/dx_out. F_in is the effort, and
+    /// F_out the force or torque along the coordinate that balances it. The advantage is positive where the mechanism
+    /// pushes its load towards larger values, and infinite at a dead centre of the coordinate. It is `None` for a
+    /// mechanism with further degrees of freedom.
     ///
     /// Springs and weights take part in the effort, not in the advantage: it is what the geometry gives.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{Along, Travel, travel};
+    /// use mbs_runtime::mechanism;
+    ///
+    /// mechanism! {
+    ///     /// A wedge lifts a load by a quarter of its own way.
+    ///     pub Wedge {
+    ///         dof = 1;
+    ///         gravity = (0, -9.81) [m/s^2];
+    ///         body slide (x) { mass = 1 [kg]; }
+    ///         body load (y) { mass = 8 [kg]; }
+    ///         constraint slope: y = 0.25*x;
+    ///     }
+    /// }
+    ///
+    /// let push = Travel {
+    ///     along: Along::Coordinate("x".into()),
+    ///     samples: vec![0.0, 0.1],
+    ///     inputs: None, from: None, t: 0.0,
+    /// };
+    /// for position in travel(&Wedge::declared(), &push)? {
+    ///     assert!(position.advantage(1).is_some_and(|advantage| (advantage - 4.0).abs() < 1e-12));
+    ///     assert!((position.effort - 8.0 * 9.81 / 4.0).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     pub fn advantage(&self, coordinate: usize) -> Option<f64> {
         let ratios = self.ratios.as_ref()?;
         let largest = ratios.iter().fold(0.0_f64, |largest, ratio| largest.max(ratio.abs()));

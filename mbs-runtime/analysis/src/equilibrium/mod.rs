@@ -18,6 +18,29 @@ use crate::Error;
 use crate::tangent::Rest;
 
 /// How an equilibrium is looked for.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Search, Strategy, equilibrium};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     /// A pendulum, by its angle from the lowest position.
+///     pub Pendulum {
+///         dof = 1;
+///         body rod (angle = phi) { inertia = 1 [kg*m^2]; }
+///         torque weight on rod = -5 [N*m]*sin(phi);
+///     }
+/// }
+///
+/// // from a place near the top
+/// let by = |strategy| Search { from: Some(vec![3.0]), strategy, ..Search::default() };
+/// let nearest = equilibrium(&Pendulum::declared(), &by(Strategy::Newton))?;
+/// assert!((nearest.q[0] - std::f64::consts::PI).abs() < 1e-9 && !nearest.is_stable());
+/// let fallen = equilibrium(&Pendulum::declared(), &by(Strategy::Relaxation))?;
+/// assert!(fallen.q[0].abs() < 1e-9 && fallen.is_stable());
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
     /// By Newton's method, and by relaxation from the same position if that leads nowhere, or to where the
@@ -31,7 +54,28 @@ pub enum Strategy {
     Relaxation,
 }
 
-/// Where an equilibrium is looked for, and how.
+/// Where an equilibrium is looked for, and how. Without any choice: from the declared start, by
+/// [`Strategy::Automatic`].
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Search, equilibrium};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     pub Scale {
+///         dof = 1;
+///         input load [N];
+///         body plate (y) { mass = 1 [kg]; }
+///         force all on y = -load - 400 [N/m]*y;
+///     }
+/// }
+///
+/// let loaded = Search { inputs: Some(vec![20.0]), ..Search::default() };
+/// let rest = equilibrium(&Scale::declared(), &loaded)?;
+/// assert!((rest.q[0] + 20.0 / 400.0).abs() < 1e-12);
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Search {
     /// The positions to begin from, which decide on the branch; `None` for the declared start.
@@ -44,7 +88,7 @@ pub struct Search {
     pub strategy: Strategy,
 }
 
-/// A position at which nothing moves.
+/// A position at which nothing moves. See the example of [`equilibrium`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// The time in s at which drives and forces are held.
@@ -98,6 +142,27 @@ impl Equilibrium {
     /// The response to small disturbances, as far as the stiffness tells. Friction, dampers and gyroscopic
     /// terms are not asked; forces that follow the motion may make a position unstable by flutter although
     /// its stiffness is positive.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{Search, Stability, equilibrium};
+    /// use mbs_runtime::mechanism;
+    ///
+    /// mechanism! {
+    ///     /// A ball on a saddle.
+    ///     pub Ball {
+    ///         dof = 2;
+    ///         body ball (x, y) { mass = 1 [kg]; }
+    ///         force slope on ball = (3 [N/m]*x, -7 [N/m]*y);
+    ///     }
+    /// }
+    ///
+    /// let rest = equilibrium(&Ball::declared(), &Search::default())?;
+    /// assert_eq!(rest.stability(), Stability::Unstable { directions: 1 });
+    /// // force over displacement and mass, in 1/s²
+    /// assert!((rest.stiffness[0] + 3.0).abs() < 1e-9 && (rest.stiffness[1] - 7.0).abs() < 1e-9);
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     pub fn stability(&self) -> Stability {
         let largest = self.stiffness.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let directions = self.stiffness.iter().filter(|x| **x < -self.resolution * largest).count();
@@ -108,7 +173,7 @@ impl Equilibrium {
         }
     }
 
-    /// True if every small displacement is driven back.
+    /// True if every small displacement is driven back. See the example of [`Strategy`].
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
     }
@@ -144,6 +209,28 @@ impl Equilibrium {
 /// [`Differentiated`](mbs_runtime::equations::Differentiated). For other types they are five-point
 /// differences, about 10⁻¹¹ of their size, which bounds the rate of convergence and not the result;
 /// stiffnesses are good to ten digits then.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Search, equilibrium};
+/// use mbs_runtime::mechanism;
+///
+/// mechanism! {
+///     /// A weight that hangs on a spring.
+///     pub Weight {
+///         dof = 1;
+///         gravity = (0, -9.81) [m/s^2];
+///         body weight (y) { mass = 2 [kg]; }
+///         force spring on y = -100 [N/m]*y;
+///     }
+/// }
+///
+/// let rest = equilibrium(&Weight::declared(), &Search::default())?;
+/// // y = −m g/k, and κ = k/m
+/// assert!((rest.q[0] + 2.0 * 9.81 / 100.0).abs() < 1e-12);
+/// assert!((rest.stiffness[0] - 50.0).abs() < 1e-8 && rest.is_stable());
+/// # Ok::<(), mbs_analysis::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`], [`Error::Length`]; [`Error::Undefined`] and

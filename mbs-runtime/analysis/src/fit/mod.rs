@@ -21,7 +21,7 @@ pub use experiment::{Experiment, Measurement, Unknown, clock_of};
 use nalgebra::DMatrix;
 pub use trials::{Look, See, Trial, Trials, trials_of_type};
 
-/// The result of fitting an [`Experiment`].
+/// The result of fitting an [`Experiment`]. See the example of [`Experiment::fit`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The estimates, in the order of the unknowns.
@@ -45,12 +45,12 @@ pub struct Fit {
     pub coverage: f64,
 }
 
-/// A value that was found, in SI units.
+/// A value that was found, in SI units. See the example of [`Experiment`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// The name of the unknown.
     pub name: String,
-    /// The value from which it was looked for.
+    /// The value from which the search began.
     pub guess: f64,
     /// The estimated value.
     pub value: f64,
@@ -63,7 +63,8 @@ pub struct Estimate {
     pub is_at_bound: bool,
 }
 
-/// The residuals of a measured quantity, in SI units.
+/// The residuals of a measured quantity, in SI units. See the example of
+/// [`autocorrelation`](Remainder::autocorrelation).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remainder {
     /// The values of the fitted mechanism at the instants of the samples.
@@ -76,7 +77,7 @@ pub struct Remainder {
     pub is_estimated: bool,
 }
 
-/// How far a fit is.
+/// The progress of a fit; see [`Experiment::fit_while`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The number of the start, from 1 on.
@@ -89,6 +90,35 @@ pub struct Progress {
 
 impl Fit {
     /// The correlation of two estimates, between −1 and 1; 0 where one ended at a bound.
+    ///
+    /// # Example
+    /// A text, with `trials` as in the example of [`Trials`](crate::Trials):
+    /// ```
+    /// # use mbs_analysis::Experiment;
+    /// # use mbs_live::{Prepared, Text};
+    /// # use mbs_runtime::equations::Partials;
+    /// let text = "Puck {
+    ///     dof = 1;
+    ///     body puck (x) { mass = 1 [kg]; }
+    ///     start { x = 0; der(x) = 0; }
+    /// }";
+    /// # let live = Text::declaration("puck.mbs", text).compile()?;
+    /// # let over = live.over::<Partials>();
+    /// # let trials = |values: &[Partials]| {
+    /// #     let live = over.with_parameters(|own| own.copy_from_slice(values))?;
+    /// #     Ok(Prepared::new(&live))
+    /// # };
+    ///
+    /// let (times, ways) = ([0.0, 1.0, 2.0, 3.0], [1.01, 2.99, 4.99, 7.01]);
+    /// let fit = Experiment::of(live.declared_info())
+    ///     .measured("x", &times, &ways)
+    ///     .unknown("x", 0.5)
+    ///     .unknown("der(x)", 1.0)
+    ///     .fit(&trials)?;
+    /// // of a straight line x₀ + v t it is −(mean of t)/√(mean of t²)
+    /// assert!((fit.correlation(0, 1) + 1.5 / f64::sqrt(3.5)).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn correlation(&self, a: usize, b: usize) -> f64 {
         let variance = |at: usize| self.covariance.get((at, at)).copied().unwrap_or(0.0);
         let size = (variance(a) * variance(b)).sqrt();
@@ -100,6 +130,21 @@ impl Fit {
 impl Remainder {
     /// The correlation of each residual with the next one: about 0 ± 1/√n for independent noise, near 1 where
     /// the mechanism does not move as measured.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::Remainder;
+    ///
+    /// let of = |residuals: &[f64]| Remainder {
+    ///     predicted: vec![0.0; residuals.len()],
+    ///     residuals: residuals.to_vec(),
+    ///     deviation: 1.0,
+    ///     is_estimated: true,
+    /// };
+    /// // Σ rᵢ rᵢ₊₁ / Σ rᵢ²
+    /// assert_eq!(of(&[1.0, 1.0, 1.0, 1.0]).autocorrelation(), 0.75);
+    /// assert_eq!(of(&[1.0, -1.0, 1.0, -1.0]).autocorrelation(), -0.75);
+    /// ```
     pub fn autocorrelation(&self) -> f64 {
         let all = &self.residuals;
         let square: f64 = all.iter().map(|r| r * r).sum();

@@ -40,14 +40,78 @@ impl Experiment {
     /// [`Error::FewSamples`], [`Error::Bounds`], [`Error::Range`] for data and values that cannot be used;
     /// [`Error::Undetermined`] for unknowns that the data do not determine; [`Error::Mechanism`] where no run
     /// from the start comes to the end of the data.
+    ///
+    /// # Example
+    /// A text, with `trials` as in the example of [`Trials`](crate::Trials):
+    /// ```
+    /// # use mbs_analysis::Experiment;
+    /// # use mbs_live::{Prepared, Text};
+    /// # use mbs_runtime::equations::Partials;
+    /// let text = "Oscillator {
+    ///     dof = 1;
+    ///     param k = 3 [N/m] where k > 0;
+    ///     body block (x) { mass = 1 [kg]; }
+    ///     force spring on x = -k*x;
+    ///     start { x = 1 [m]; }
+    /// }";
+    /// # let live = Text::declaration("oscillator.mbs", text).compile()?;
+    /// # let over = live.over::<Partials>();
+    /// # let trials = |values: &[Partials]| {
+    /// #     let live = over.with_parameters(|own| own.copy_from_slice(values))?;
+    /// #     Ok(Prepared::new(&live))
+    /// # };
+    ///
+    /// // read from the motion of 4 N/m, cos 2t
+    /// let times: Vec<f64> = (0..20).map(|at| 0.1 * f64::from(at)).collect();
+    /// let values: Vec<f64> = times.iter().map(|t| (2.0 * t).cos()).collect();
+    ///
+    /// let fit = Experiment::of(live.declared_info())
+    ///     .measured("x", &times, &values)
+    ///     .unknown("k", 3.0)
+    ///     .fit(&trials)?;
+    /// assert!((fit.estimates[0].value - 4.0).abs() < 1e-6 && fit.has_converged);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn fit(&self, trials: &dyn Trials) -> Result<Fit, Error> {
         self.fit_while(trials, &mut |_| true)
     }
 
-    /// The same, as long as `goes_on` says so, which is asked after every run.
+    /// Looks for the values as [`fit`](Self::fit) does, as long as `goes_on` returns `true`. It is called after every
+    /// run.
     ///
     /// # Errors
     /// As [`fit`](Self::fit); [`Error::Interrupted`].
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::Experiment;
+    /// # use mbs_live::{Prepared, Text};
+    /// # use mbs_runtime::equations::Partials;
+    /// # let text = "Oscillator {
+    /// #     dof = 1;
+    /// #     param k = 3 [N/m] where k > 0;
+    /// #     body block (x) { mass = 1 [kg]; }
+    /// #     force spring on x = -k*x;
+    /// #     start { x = 1 [m]; }
+    /// # }";
+    /// # let live = Text::declaration("oscillator.mbs", text).compile()?;
+    /// # let over = live.over::<Partials>();
+    /// # let trials = |values: &[Partials]| {
+    /// #     let live = over.with_parameters(|own| own.copy_from_slice(values))?;
+    /// #     Ok(Prepared::new(&live))
+    /// # };
+    /// # let times: Vec<f64> = (0..20).map(|at| 0.1 * f64::from(at)).collect();
+    /// # let values: Vec<f64> = times.iter().map(|t| (2.0 * t).cos()).collect();
+    /// use mbs_analysis::Error;
+    ///
+    /// // the experiment of `fit`, with no more than one run
+    /// let fit = Experiment::of(live.declared_info())
+    ///     .measured("x", &times, &values)
+    ///     .unknown("k", 3.0)
+    ///     .fit_while(&trials, &mut |progress| progress.runs < 1);
+    /// assert!(matches!(fit, Err(Error::Interrupted)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn fit_while(
         &self,
         trials: &dyn Trials,

@@ -8,11 +8,13 @@ use mbs_runtime::{Adaptive, Dopri5, Dynamics, Error, Mechanism, Sampled, System,
 use crate::family::components;
 use crate::{Driven, InputTable};
 
-/// A mechanism of which runs over [`Partials`] can be made with any parameters: what is fitted to data.
+/// A mechanism that can be run over [`Partials`] with any parameters, as a fit to data needs it.
 ///
 /// [`trials_of_type`] makes one of a type. Every function from parameters over partials to
-/// [`Dynamics`] is one; of a text it is
+/// [`Dynamics`] is one.
 ///
+/// # Example
+/// Runs of a text:
 /// ```
 /// use mbs_analysis::Trials;
 /// use mbs_live::{Live, Prepared};
@@ -34,13 +36,13 @@ pub trait Trials {
     /// As [`Mechanism::new`].
     fn check(&self, parameters: &[Partials]) -> Result<(), Error>;
 
-    /// Shows the mechanism with these parameters, and its declared positions.
+    /// Calls `look` with the mechanism that has these parameters, and with its declared positions.
     ///
     /// # Errors
     /// As [`Mechanism::new`].
     fn look(&self, parameters: &[Partials], look: &mut Look<'_>) -> Result<(), Error>;
 
-    /// Makes a run and shows it at the times of the trial, by their number.
+    /// Makes a run, and calls `see` with the number of each time of the trial and the run at this time.
     ///
     /// # Errors
     /// Those of the parameters, of the start and of the run, and those of `see`.
@@ -54,15 +56,49 @@ pub type See<'a> = dyn FnMut(usize, &dyn System<Partials>) -> Result<(), Error> 
 pub type Look<'a> = dyn FnMut(&dyn Described<Partials>, &[Partials]) + 'a;
 
 /// A run that is tried.
+///
+/// # Example
+/// ```
+/// use mbs_analysis::{Trial, Trials, trials_of_type};
+/// use mbs_runtime::equations::Partials;
+/// use mbs_runtime::{Tolerances, mechanism};
+/// # mechanism! {
+/// #     pub Fall {
+/// #         dof = 1;
+/// #         param g = 9.81 [m/s^2];
+/// #         gravity = (0, -g);
+/// #         body ball (y) { mass = 1 [kg]; }
+/// #         start { y = 0; der(y) = 0; }
+/// #     }
+/// # }
+///
+/// let trial = Trial {
+///     parameters: &[Partials::variable(9.81, 0)],
+///     start: &|_, velocities: &mut [Partials]| velocities[0] = Partials::constant(4.0),
+///     times: &[1.0],
+///     start_time: None,
+///     inputs: &[],
+///     table: &Default::default(),
+///     tolerances: Tolerances::default(),
+///     most_steps: 1000,
+/// };
+/// let trials = trials_of_type::<Fall>();
+/// trials.check(trial.parameters)?;
+/// let (mut y, mut v) = ([Partials::default()], [Partials::default()]);
+/// trials.follow(&trial, &mut |_, run| Ok(run.state(&mut y, &mut v)))?;
+/// // y = v t − g t²/2, and its derivative by g
+/// assert!((y[0].value - (4.0 - 0.5 * 9.81)).abs() < 1e-9 && (y[0].partials[0] + 0.5).abs() < 1e-9);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
 #[derive(Clone, Copy)]
 pub struct Trial<'a> {
     /// The parameters in SI units, in the order of [`Info::parameters`](mbs_runtime::Info::parameters).
     pub parameters: &'a [Partials],
-    /// Changes positions and velocities of the declared start, before they are made consistent.
+    /// A function that changes positions and velocities of the declared start, before they are made consistent.
     pub start: &'a dyn Fn(&mut [Partials], &mut [Partials]),
-    /// When the run is looked at, in s, ascending; from its start on.
+    /// The times in s at which the run is looked at, ascending, from its start on.
     pub times: &'a [f64],
-    /// When the run starts, in s, unless as the mechanism declares it.
+    /// The time of the start in s; `None` for the declared one.
     pub start_time: Option<f64>,
     /// The inputs in SI units, in the order of [`Info::inputs`](mbs_runtime::Info::inputs).
     pub inputs: &'a [f64],
@@ -74,7 +110,8 @@ pub struct Trial<'a> {
     pub most_steps: u64,
 }
 
-/// Runs of a type.
+/// Runs of a type with any parameters. The mechanism is compiled once more, for numbers with derivatives. See the
+/// example of [`Trial`].
 pub fn trials_of_type<M: Mechanism<Real = f64>>() -> impl Trials {
     |parameters: &[Partials]| M::Over::<Partials>::new(components(parameters))
 }

@@ -16,7 +16,7 @@ mod task;
 
 pub use task::{Defect, Linkage, Task};
 
-/// The result of a [`Task`].
+/// The result of a [`Task`]. See the example of [`Task::synthesize`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synthesis {
     /// Mechanisms without defects: those that miss least first, and smaller ones before larger ones.

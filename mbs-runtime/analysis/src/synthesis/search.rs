@@ -34,15 +34,75 @@ impl Task {
     /// [`Error::Freedom`] for a mechanism with another number of degrees of freedom than 1; [`Error::Unknown`]
     /// for a name that it does not have; [`Error::NoBounds`], [`Error::Bounds`], [`Error::NoPositions`],
     /// [`Error::Length`] for what cannot be looked for. That none was found is no error.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{Task, Unknown, trials_of_type};
+    /// use mbs_runtime::{Mechanism, mechanism};
+    ///
+    /// mechanism! {
+    ///     /// A pin on a wheel moves a slider.
+    ///     pub Scotch {
+    ///         dof = 1;
+    ///         param r = 1 [m];
+    ///         body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
+    ///         body slider (x) { mass = 1 [kg]; }
+    ///         constraint pin: x = r*cos(phi);
+    ///     }
+    /// }
+    ///
+    /// // from 0.3 m at 0 to half of that at 60°
+    /// let task = Task {
+    ///     unknown: vec![Unknown { name: "r".into(), guess: None, bounds: [0.1, 1.0] }],
+    ///     columns: vec!["phi".into(), "x".into()],
+    ///     positions: vec![vec![Some(0.0), Some(0.3)], vec![Some(std::f64::consts::FRAC_PI_3), Some(0.15)]],
+    ///     ..Task::of(<Scotch as Mechanism>::INFO)
+    /// };
+    /// let found = task.synthesize(&trials_of_type::<Scotch>())?;
+    /// assert!((found.linkages[0].values[0] - 0.3).abs() < 1e-8 && found.linkages[0].missed < 1e-9);
+    /// # Ok::<(), mbs_analysis::Error>(())
+    /// ```
     pub fn synthesize(&self, trials: &(dyn Trials + Sync)) -> Result<Synthesis, Error> {
         self.synthesize_while(trials, &mut |_, _| true)
     }
 
-    /// The same, as long as `goes_on` says so. It is asked now and then, with the starts that are done and the
-    /// mechanisms that are found; what was found until then is the result.
+    /// Looks for mechanisms as [`synthesize`](Self::synthesize) does, as long as `goes_on` returns `true`. It is
+    /// called now and then with the number of starts that are done and the number of mechanisms that are found. The
+    /// result is what was found until then.
     ///
     /// # Errors
     /// As [`synthesize`](Self::synthesize).
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::{Task, Unknown};
+    /// # use mbs_live::{Prepared, Text};
+    /// # use mbs_runtime::equations::Partials;
+    /// # let text = "Scotch {
+    /// #     dof = 1;
+    /// #     param r = 1 [m];
+    /// #     body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
+    /// #     body slider (x) { mass = 1 [kg]; }
+    /// #     constraint pin: x = r*cos(phi);
+    /// # }";
+    /// # let live = Text::declaration("scotch.mbs", text).compile()?;
+    /// # let over = live.over::<Partials>();
+    /// # let trials = |values: &[Partials]| {
+    /// #     let live = over.with_parameters(|own| own.copy_from_slice(values))?;
+    /// #     Ok(Prepared::new(&live))
+    /// # };
+    /// // no radius below 0.29 m reaches 0.3 m: the search is given up after 100 starts
+    /// let task = Task {
+    ///     unknown: vec![Unknown { name: "r".into(), guess: None, bounds: [0.1, 0.29] }],
+    ///     columns: vec!["phi".into(), "x".into()],
+    ///     positions: vec![vec![Some(0.0), Some(0.3)], vec![Some(std::f64::consts::PI), Some(-0.3)]],
+    ///     ..Task::of(live.declared_info())
+    /// };
+    /// let found = task.synthesize_while(&trials, &mut |starts, _| starts < 100)?;
+    /// assert!(found.linkages.is_empty() && found.starts < 1000);
+    /// assert!((found.nearest - 0.01).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn synthesize_while(
         &self,
         trials: &(dyn Trials + Sync),

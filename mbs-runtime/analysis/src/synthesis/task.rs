@@ -36,6 +36,40 @@ pub struct Task {
 }
 
 /// Why a mechanism that can be assembled at all positions does not pass them as it should.
+///
+/// # Example
+/// ```
+/// # use mbs_analysis::{Task, Unknown};
+/// # use mbs_live::{Prepared, Text};
+/// # use mbs_runtime::equations::Partials;
+/// # let text = "Scotch {
+/// #     dof = 1;
+/// #     param r = 1 [m];
+/// #     body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
+/// #     body slider (x) { mass = 1 [kg]; }
+/// #     constraint pin: x = r*cos(phi);
+/// # }";
+/// # let live = Text::declaration("scotch.mbs", text).compile()?;
+/// # let over = live.over::<Partials>();
+/// # let trials = |values: &[Partials]| {
+/// #     let live = over.with_parameters(|own| own.copy_from_slice(values))?;
+/// #     Ok(Prepared::new(&live))
+/// # };
+/// use mbs_analysis::Defect;
+///
+/// // a wheel passes 0, 1, 2 and 3 rad in this order or backwards, and in no other one
+/// let task = Task {
+///     unknown: vec![Unknown { name: "r".into(), guess: None, bounds: [0.1, 1.0] }],
+///     columns: vec!["phi".into(), "x".into()],
+///     positions: [0.0, 2.0, 1.0, 3.0].map(|phi: f64| vec![Some(phi), Some(0.3 * phi.cos())]).to_vec(),
+///     starts: 32,
+///     ..Task::of(live.declared_info())
+/// };
+/// let found = task.synthesize(&trials)?;
+/// assert!(found.linkages.is_empty());
+/// assert!(found.refused.iter().any(|(defect, count)| *defect == Defect::Order && *count > 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Defect {
     /// It has to be taken apart between some positions: they lie on another circuit, or behind a position at which
@@ -47,7 +81,7 @@ pub enum Defect {
     Branch,
 }
 
-/// A mechanism that was found.
+/// A mechanism that was found. See the example of [`Task::synthesize`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linkage {
     /// The values of what was looked for, in SI units.
@@ -63,8 +97,9 @@ pub struct Linkage {
 }
 
 impl Task {
-    /// A task for a mechanism as it is declared, to which positions and unknowns are to be added: values may be
-    /// missed by 10⁻⁹, and one mechanism of 20 000 starts is enough.
+    /// A task for a mechanism as it is declared, to which positions and unknowns are to be added. Values may be
+    /// missed by 10⁻⁹, and the search ends with the first mechanism or after 20 000 starts. See the example of
+    /// [`synthesize`](Self::synthesize).
     pub fn of(info: &'static Info) -> Self {
         Self {
             info,
