@@ -104,6 +104,8 @@ const BLOCKS_PER_THREAD: usize = 64;
 ///
 /// # Example
 /// ```
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+///
 /// use mbs_ensemble::Ensemble;
 /// use mbs_runtime::{Simulation, mechanism};
 ///
@@ -117,7 +119,12 @@ const BLOCKS_PER_THREAD: usize = 64;
 /// }
 ///
 /// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
-/// let runs = Ensemble::new(2.0).run(10, member, &())?;
+/// let most = AtomicUsize::new(0);
+/// let report = |done: usize, _all: usize| {
+///     most.fetch_max(done, Ordering::Relaxed);
+/// };
+/// let runs = Ensemble::new(2.0).lanes::<4>().progress(&report).run(10, member, &())?;
+/// assert_eq!(most.load(Ordering::Relaxed), 10);
 /// for (index, run) in runs.into_iter().enumerate() {
 ///     // a member that could not start would be an error here
 ///     let run = run?;
@@ -181,29 +188,7 @@ impl<'a, const N: usize> Ensemble<'a, N> {
     const HAS_LANES: () = assert!(N > 0, "an ensemble needs a lane");
 
     /// Sets the number of lanes: so many members take a step together. 8 suits `f64`, 16 `f32`. In `f64` the
-    /// results are the same for every number.
-    ///
-    /// # Example
-    /// ```
-    /// # use mbs_ensemble::Ensemble;
-    /// # use mbs_runtime::{Simulation, mechanism};
-    /// # mechanism! {
-    /// #     /// A ball that falls.
-    /// #     pub Fall {
-    /// #         dof = 1;
-    /// #         param g = 9.81 [m/s^2];
-    /// #         gravity = (0, -g);
-    /// #         body ball (y) { mass = 1 [kg]; }
-    /// #         output height [m] = y;
-    /// #     }
-    /// # }
-    /// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
-    /// let runs = Ensemble::new(2.0).lanes::<4>().run(10, member, &())?;
-    /// for (index, run) in runs.into_iter().enumerate() {
-    ///     assert!((run?.state.q.y + 2.0 * index as f64).abs() < 1e-12);
-    /// }
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
+    /// results are the same for every number. See the example of [`Ensemble`].
     #[must_use]
     pub fn lanes<const LANES: usize>(self) -> Ensemble<'a, LANES> {
         Ensemble { end: self.end, cancel: self.cancel, progress: self.progress }
@@ -241,34 +226,8 @@ impl<'a, const N: usize> Ensemble<'a, N> {
         Self { cancel: Some(flag), ..self }
     }
 
-    /// Reports progress: `report` is called with the number of members that are done and the number of all,
-    /// on any thread and in no certain order.
-    ///
-    /// # Example
-    /// ```
-    /// # use mbs_ensemble::Ensemble;
-    /// # use mbs_runtime::{Simulation, mechanism};
-    /// # mechanism! {
-    /// #     /// A ball that falls.
-    /// #     pub Fall {
-    /// #         dof = 1;
-    /// #         param g = 9.81 [m/s^2];
-    /// #         gravity = (0, -g);
-    /// #         body ball (y) { mass = 1 [kg]; }
-    /// #         output height [m] = y;
-    /// #     }
-    /// # }
-    /// use std::sync::atomic::{AtomicUsize, Ordering};
-    ///
-    /// let furthest = AtomicUsize::new(0);
-    /// let report = |done: usize, all: usize| {
-    ///     furthest.fetch_max(100 * done / all, Ordering::Relaxed);
-    /// };
-    /// let member = |_| Simulation::new(Fall::declared(), 1e-2);
-    /// Ensemble::new(1.0).progress(&report).run(20, member, &())?;
-    /// assert_eq!(furthest.load(Ordering::Relaxed), 100);
-    /// # Ok::<(), mbs_ensemble::Cancelled>(())
-    /// ```
+    /// Reports progress: `report` is called with the number of members that are done and the number of all, on any
+    /// thread and in no certain order. See the example of [`Ensemble`].
     #[must_use]
     pub fn progress(self, report: &'a (dyn Fn(usize, usize) + Sync)) -> Self {
         Self { progress: Some(report), ..self }
