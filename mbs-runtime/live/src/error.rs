@@ -15,8 +15,28 @@ const MOST_SHOWN: usize = 100;
 /// The same in bytes: each problem is shown with its lines, which may be long.
 const LONGEST_SHOWN: usize = 1 << 18;
 
-/// Why a text was not compiled. Shown, it has the problems, at most a hundred, with file, line,
-/// column and the underlined source, without colours; [`colored`](Self::colored) has them.
+/// Why a text was not compiled. Its `Display` shows at most a hundred problems with file, line, column and the
+/// underlined source, without colours; [`colored`](Self::colored) shows them with colours.
+///
+/// # Example
+/// ```
+/// use mbs_live::Text;
+///
+/// let text = "Slider {
+///     dof = 1;
+///     param l = 1 [m];
+///     param l = 2 [m];
+///     body block (x) { mass = 1 [kg]; }
+/// }";
+/// let error = Text::declaration("slider.mbs", text).compile().unwrap_err();
+/// let problem = &error.problems()[0];
+/// assert_eq!((error.file(), problem.message.as_str()), ("slider.mbs", "`l` is declared twice"));
+/// assert_eq!(problem.help.as_deref(), Some("rename one of them"));
+/// assert_eq!(problem.notes[0].message, "`l` is first declared here");
+/// assert!(problem.location.as_ref().is_some_and(|place| (place.line, place.column) == (4, 11)));
+/// assert!(error.to_string().contains("slider.mbs:4:11"));
+/// assert!(error.colored().to_string().contains('\u{1b}'));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     file: String,
@@ -25,6 +45,18 @@ pub struct Error {
 }
 
 /// Warnings about parts of a text that compile and are likely mistakes. They are shown as an [`Error`] is.
+///
+/// # Example
+/// ```
+/// use mbs_live::Text;
+///
+/// let text = "Slider { dof = 1; param k = 2 [N/m]; body block (x) { mass = 1 [kg]; } }";
+/// let (_, warnings) = Text::declaration("slider.mbs", text).check()?;
+/// assert_eq!(warnings.problems().len(), 1);
+/// assert!(warnings.to_string().contains("slider.mbs:1:25"));
+/// assert!(warnings.colored().to_string().contains('\u{1b}'));
+/// # Ok::<(), mbs_live::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warnings(pub(crate) Error);
 
@@ -46,7 +78,7 @@ impl fmt::Display for Warnings {
     }
 }
 
-/// One problem of a text.
+/// One problem of a text. See the example of [`Error`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// The problem in the words of the declaration.
@@ -59,7 +91,7 @@ pub struct Problem {
     pub notes: Vec<Note>,
 }
 
-/// Another place that matters, such as an earlier definition.
+/// Another place that matters, such as an earlier definition. See the example of [`Error`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
     /// The text of the note.
@@ -68,7 +100,7 @@ pub struct Note {
     pub location: Option<Location>,
 }
 
-/// A place in a text.
+/// A place in a text. See the example of [`Text`](crate::Text).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
     /// The line, from 1.
@@ -77,7 +109,7 @@ pub struct Location {
     pub column: usize,
     /// How many characters it has; 0 at the end of a text.
     pub length: usize,
-    /// The bytes of the text that it is.
+    /// The range of its bytes in the text.
     pub bytes: Range<usize>,
 }
 
@@ -91,7 +123,7 @@ impl Error {
         &self.file
     }
 
-    /// The problems, in the order in which they were found.
+    /// The problems, in the order in which they were found. See the example of [`Error`].
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }

@@ -38,10 +38,11 @@ use crate::transposed::Transposes;
 ///     start { x = length; guess y = 0; }
 /// }";
 /// let pendulum = Text::declaration("pendulum.mbs", text).compile()?;
-/// assert_eq!(pendulum.info().coordinates[1].name, "y");
+/// assert_eq!(pendulum.declared_info().coordinates[1].name, "y");
 /// assert_eq!(pendulum.kinetic_energy(At { t: 0.0, q: &[1.0, 0.0], v: &[0.0, 3.0] }), 9.0);
 ///
 /// let longer = pendulum.with_parameters(|values| values[0] = 2.0)?;
+/// assert_eq!(longer.parameters(), [2.0]);
 /// let mut phi = [0.0];
 /// longer.phi(0.0, &[2.0, 0.0], &mut phi);
 /// assert_eq!(phi, [0.0]);
@@ -174,7 +175,7 @@ impl<T: Real> Live<T> {
     }
 
     /// The same mechanism with other parameters: `change` is given those that it has, in SI
-    /// units and in the order of [`Info::parameters`].
+    /// units and in the order of [`Info::parameters`]. See the example of [`Live`].
     ///
     /// # Errors
     /// [`Error::Parameter`] if one is not finite, if a mass or an inertia comes out
@@ -217,7 +218,25 @@ impl<T: Real> Live<T> {
         &self.parameters
     }
 
-    /// Time, positions and velocities of the declared start, nothing made consistent.
+    /// Time in s, positions and velocities of the declared start. Guesses are as they are written, and need not keep
+    /// the constraints.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Wedge {
+    ///     dof = 1;
+    ///     param reach = 3 [m];
+    ///     body slide (x, y) { mass = 1 [kg]; }
+    ///     constraint slope: y = 0.5*x;
+    ///     start { x = reach; guess y = 1 [m]; der(x) = 2 [m/s]; }
+    /// }";
+    /// let wedge = Text::declaration("wedge.mbs", text).compile()?;
+    /// let farther = wedge.with_parameters(|values| values[0] = 4.0)?;
+    /// assert_eq!(farther.declared_start(), (0.0, vec![4.0, 1.0], vec![2.0, 0.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
         let n = self.declared_info().coordinates.len();
         let unknown = T::from_f64(f64::NAN);
@@ -228,41 +247,107 @@ impl<T: Real> Live<T> {
 
     /// True if both were compiled by the same call of
     /// [`Text::compile`](crate::Text::compile), so that they differ in parameters only.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = Text::declaration("a.mbs", "Block { dof = 1; param m = 1 [kg]; body block (x) { mass = m; } }");
+    /// let block = text.compile()?;
+    /// let heavier = block.with_parameters(|values| values[0] = 2.0)?;
+    /// assert!(heavier.shares_programs_with(&block));
+    /// assert!(!text.compile()?.shares_programs_with(&block));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn shares_programs_with<S>(&self, other: &Live<S>) -> bool {
         Arc::ptr_eq(&self.programs, &other.programs)
     }
 
-    /// Names, units, equations and counts, which do not depend on parameters.
+    /// Names, units, equations and counts, which do not depend on parameters. See the example of [`Live`].
     pub fn declared_info(&self) -> &'static Info {
         &self.programs.tables.info
     }
 
     /// The equations and their elimination, for people to read.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Oscillator {
+    ///     dof = 1;
+    ///     param k = 4 [N/m];
+    ///     body block (x) { mass = 2 [kg]; }
+    ///     force spring on x = -k*x;
+    /// }";
+    /// let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// let force = oscillator.derivation().forces[0];
+    /// assert_eq!((force.of, force.text), ("x", "-x*k"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn derivation(&self) -> &'static Derivation {
         &self.programs.tables.derivation
     }
 
-    /// The picture of the mechanism.
+    /// The picture of the mechanism: names of bodies, points, joints and springs.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Bar {
+    ///     dof = 1;
+    ///     body bar (x, y, phi) { mass = 4 [kg]; inertia = 0.03 [kg*m^2]; }
+    ///     point end on bar = (-0.15, 0) [m];
+    ///     revolute hinge (bar.end, ground);
+    /// }";
+    /// let bar = Text::declaration("bar.mbs", text).compile()?;
+    /// let sketch = bar.sketch();
+    /// let joint = sketch.joints[0];
+    /// assert_eq!((joint.name, joint.kind, sketch.points[joint.first]), ("hinge", "revolute", "bar.end"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn sketch(&self) -> &'static Sketch {
         &self.programs.tables.sketch
     }
 
-    /// The feedback that the declaration asks for, stable with its step.
+    /// The feedback that the declaration asks for, stable with its step. See the example of
+    /// [`declared_scheme`](Self::declared_scheme).
     pub fn declared_feedback(&self) -> Option<Feedback> {
         self.programs.tables.feedback
     }
 
-    /// The scheme that the declaration asks for: Heun's method, unless it says another.
+    /// The scheme that the declaration asks for; Heun's method by default.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Feedback, Text};
+    ///
+    /// let text = "Slider {
+    ///     dof = 1;
+    ///     method = rk4;
+    ///     step = 0.5 [ms];
+    ///     feedback = held(1500 [1/s], 2000 [1/s]);
+    ///     body block (x) { mass = 1 [kg]; }
+    /// }";
+    /// let slider = Text::declaration("slider.mbs", text).compile()?;
+    /// assert!(slider.declared_scheme().word == "rk4" && slider.declares_scheme());
+    /// assert_eq!(slider.declared_step(), Some(0.5e-3));
+    /// let gains = Feedback { is_held: true, alpha: 1500.0, beta: 2000.0 };
+    /// assert_eq!(slider.declared_feedback(), Some(gains));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn declared_scheme(&self) -> &'static Tableau {
         self.programs.scheme
     }
 
-    /// `true` if the declaration names its scheme, `false` if the scheme is the default.
+    /// `true` if the declaration names its scheme, `false` if the scheme is the default. See the example of
+    /// [`declared_scheme`](Self::declared_scheme).
     pub fn declares_scheme(&self) -> bool {
         self.programs.declares_scheme
     }
 
-    /// The step that the declaration asks for, in s.
+    /// The step that the declaration asks for, in s. See the example of [`declared_scheme`](Self::declared_scheme).
     pub fn declared_step(&self) -> Option<f64> {
         self.programs.tables.step
     }

@@ -14,6 +14,24 @@ use crate::instruction::execute;
 
 /// A live mechanism that [`Adaptive`](mbs_runtime::Adaptive) can integrate; see
 /// [`Run::adaptive`](crate::Run::adaptive).
+///
+/// # Example
+/// ```
+/// use mbs_live::{Prepared, Text};
+/// use mbs_runtime::{Adaptive, Sampled, System};
+///
+/// let text = "Fall { dof = 1; gravity = (0, -9.81) [m/s^2]; body ball (y) { mass = 1 [kg]; } }";
+/// let ball = Prepared::new(&Text::declaration("fall.mbs", text).compile()?);
+/// assert_eq!(ball.mechanism().declared_info().name, "Fall");
+///
+/// // a sample after every second
+/// let mut run = Sampled::new(Adaptive::builder(ball).build()?, 1.0)?;
+/// run.advance(2)?;
+/// let (mut y, mut v) = ([0.0], [0.0]);
+/// run.state(&mut y, &mut v);
+/// assert!((y[0] + 0.5 * 9.81 * 4.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Prepared<T = f64> {
     live: Live<T>,

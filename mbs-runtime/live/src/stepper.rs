@@ -49,7 +49,7 @@ impl<T: Real> Stepper<T> {
         Self(Steps::new(mechanism.programs(), method, run, |fixed| [mechanism.fixed(fixed)]))
     }
 
-    /// A step of length `h` seconds from a state to the time `t_next`; its growth, that of
+    /// Takes a step of length `h` seconds from a state to the time `t_next`, and returns the pivot growth, that of
     /// all stages added. Vectors have a component per coordinate that is integrated
     /// ([`Info::states`](mbs_runtime::Info::states)), or per input.
     pub fn step(&mut self, at: At<'_, T>, inputs: &[T], gains: &Gains<T>, h: T, t_next: T) -> T {

@@ -72,14 +72,14 @@ enum Form {
 }
 
 impl Text {
-    /// A declaration by itself, the inside of `mechanism! { … }`. `file` is what errors call
-    /// it.
+    /// A declaration by itself, the inside of `mechanism! { … }`. Errors name it `file`. See the example of
+    /// [`Text`].
     pub fn declaration(file: impl Into<String>, text: impl Into<String>) -> Self {
         Self { file: file.into(), text: text.into(), form: Form::Declaration, limit: None }
     }
 
     /// A Rust file with a block `mechanism! { … }`, the only one unless one is
-    /// [`named`](Self::named).
+    /// [`named`](Self::named). See the example there.
     pub fn rust(file: impl Into<String>, text: impl Into<String>) -> Self {
         Self { form: Form::Rust(None), ..Self::declaration(file, text) }
     }
@@ -90,6 +90,18 @@ impl Text {
     /// Those of reading; of kind [`InvalidData`](io::ErrorKind::InvalidData) if it is no
     /// UTF-8. Of a file that is too long no more than [`LONGEST`] and a byte are read; to
     /// compile it is an error.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let path = std::env::temp_dir().join(format!("slider-{}.mbs", std::process::id()));
+    /// std::fs::write(&path, "Slider { dof = 1; body block (x) { mass = 1 [kg]; } }")?;
+    /// let slider = Text::read(&path)?.compile()?;
+    /// assert_eq!(slider.declared_info().name, "Slider");
+    /// # std::fs::remove_file(&path)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(path: &Path) -> io::Result<Self> {
         let mut bytes = Vec::new();
         File::open(path)?.take(LONGEST as u64 + 1).read_to_end(&mut bytes)?;
@@ -105,8 +117,20 @@ impl Text {
         Ok(if is_rust { Self::rust(file, text) } else { Self::declaration(file, text) })
     }
 
-    /// Of several blocks in a Rust file, the one that declares a mechanism of this name. A
-    /// declaration by itself stays what it is.
+    /// Chooses the block of a Rust file that declares a mechanism of this name. A declaration by itself stays what
+    /// it is.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let rust = "mechanism! { pub A { dof = 1; body a (x) { mass = 1 [kg]; } } }
+    ///             mechanism! { pub B { dof = 1; body b (x) { mass = 1 [kg]; } } }";
+    /// let text = Text::rust("both.rs", rust);
+    /// assert!(text.compile().is_err());
+    /// assert_eq!(text.named("B").compile()?.declared_info().name, "B");
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         if let Form::Rust(wanted) = &mut self.form {
@@ -139,8 +163,21 @@ impl Text {
         Ok(moved_left(self.text.get(inside).unwrap_or_default()))
     }
 
-    /// Compiling ends in an error after this time. Work that was begun goes on for itself until
-    /// it is done: a process that is to end it ends itself.
+    /// Compiling ends in an error after this time. Work that was begun goes on in its thread until
+    /// it is done; a process that is to end it ends itself.
+    ///
+    /// # Example
+    /// ```
+    /// use std::time::Duration;
+    ///
+    /// use mbs_live::Text;
+    ///
+    /// // from a stranger
+    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } }";
+    /// let slider = Text::declaration("slider.mbs", text).within(Duration::from_secs(60)).compile()?;
+    /// assert_eq!(slider.declared_info().dof, 1);
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
     #[must_use]
     pub fn within(mut self, limit: Duration) -> Self {
         self.limit = Some(limit);
@@ -152,6 +189,17 @@ impl Text {
     /// # Errors
     /// All errors of the first stage that has any, as `mechanism!` shows them; brackets
     /// and literals that cannot be read; a Rust file that does not have the block.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    /// use mbs_runtime::equations::{At, Equations};
+    ///
+    /// let text = "Slider { dof = 1; body block (x) { mass = 3 [kg]; } }";
+    /// let slider = Text::declaration("slider.mbs", text).compile()?;
+    /// assert_eq!(slider.kinetic_energy(At { t: 0.0, q: &[0.0], v: &[2.0] }), 6.0);
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
     pub fn compile(&self) -> Result<Live, Error> {
         self.make(programs).map(Live::new)
     }
@@ -183,7 +231,7 @@ impl Text {
 
     /// Compiles the declaration with transposed programs, by which
     /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse) goes back through a run, as if it said
-    /// `gradients = reverse;`. That takes up to twice as long.
+    /// `gradients = reverse;`. That takes up to twice as long. See the example there.
     ///
     /// # Errors
     /// As [`compile`](Self::compile).

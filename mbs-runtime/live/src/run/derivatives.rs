@@ -112,30 +112,66 @@ impl Builder {
 }
 
 impl<T: Real> Run<T> {
-    /// The mechanism.
+    /// The mechanism, with its parameters.
     pub fn mechanism(&self) -> &Live<T> {
         &self.mechanism
     }
 
-    /// Positions.
+    /// The positions that are integrated, in the order of [`Info::states`](mbs_runtime::Info::states). See the example
+    /// of [`at`](Self::at).
     pub fn q(&self) -> &[T] {
         &self.q
     }
 
-    /// Velocities.
+    /// The velocities that are integrated. See the example of [`at`](Self::at).
     pub fn v(&self) -> &[T] {
         &self.v
     }
 
-    /// The present time, positions and velocities.
+    /// The present time in s, and the positions and velocities that are integrated.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::System;
+    /// use mbs_runtime::equations::Equations;
+    ///
+    /// let text = "Fall { dof = 1; gravity = (0, -9.81) [m/s^2]; body ball (y) { mass = 1 [kg]; } }";
+    /// let ball = Text::declaration("fall.mbs", text).compile()?;
+    /// let mut run = Run::builder(&ball, 1e-3).build()?;
+    /// run.advance(1000)?;
+    /// assert!((run.q()[0] + 0.5 * 9.81).abs() < 1e-12 && (run.v()[0] + 9.81).abs() < 1e-12);
+    /// // what it has fallen became speed
+    /// let energy = run.mechanism().kinetic_energy(run.at());
+    /// assert!((energy - 9.81 * 0.5 * 9.81).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn at(&self) -> At<'_, T> {
         At { t: self.t, q: &self.q, v: &self.v }
     }
 
-    /// The outputs of the present state.
+    /// The outputs of the present state, in SI units and in the order of [`Info::outputs`](mbs_runtime::Info::outputs).
     ///
     /// # Errors
     /// As those of a [`Simulation`](mbs_runtime::Simulation).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    ///
+    /// let text = "Hook {
+    ///     dof = 0;
+    ///     gravity = (0, -9.81) [m/s^2];
+    ///     body weight (y) { mass = 2 [kg]; }
+    ///     constraint hook: y = 0;
+    ///     output load [N] = lambda(hook);
+    /// }";
+    /// let weight = Text::declaration("hook.mbs", text).compile()?;
+    /// let outputs = Run::builder(&weight, 1e-3).build()?.measured()?;
+    /// // M q̈ + Φ_qᵀ λ = Q
+    /// assert!((outputs[0] + 2.0 * 9.81).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn measured(&self) -> Result<Vec<T>, Error> {
         let info = self.mechanism.declared_info();
         let [mut a, mut multipliers, mut outputs] =

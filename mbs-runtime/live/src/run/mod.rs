@@ -67,6 +67,30 @@ pub struct Run<T = f64> {
 }
 
 /// The choices before a run starts; see [`Run::builder`].
+///
+/// # Example
+/// ```
+/// use mbs_live::{Run, Text};
+/// use mbs_runtime::equations::At;
+/// use mbs_runtime::{Explicit, RK4, System};
+///
+/// let text = "Cart {
+///     dof = 1;
+///     input push [N];
+///     body cart (x) { mass = 2 [kg]; }
+///     force pushed on x = push;
+/// }";
+/// let cart = Text::declaration("cart.mbs", text).compile()?;
+/// let mut run = Run::builder(&cart, 1e-2)
+///     .method(Explicit::held(&RK4))
+///     .inputs(&[6.0])
+///     .from_state(At { t: 1.0, q: &[0.0], v: &[2.0] })
+///     .build()?;
+/// run.advance(100)?;
+/// // x = v t + a t²/2
+/// assert!(run.time() == 2.0 && (run.q()[0] - 3.5).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Builder<T = f64> {
     mechanism: Live<T>,
     step: f64,
@@ -102,7 +126,7 @@ mod system;
 impl<T: Real> Run<T> {
     /// Choices to make before the start. Without any: the declared start, made consistent,
     /// steps of `step` seconds of the declared scheme, deadbeat feedback held over each step,
-    /// inputs at 0.
+    /// inputs at 0. See the examples of [`Run`] and [`Builder`].
     pub fn builder(mechanism: &Live<T>, step: f64) -> Builder<T> {
         let method = Explicit::held(mechanism.declared_scheme());
         Builder {
@@ -165,6 +189,29 @@ impl<T: Real> Run<T> {
     ///
     /// # Errors
     /// As [`System::reactions`](mbs_runtime::System::reactions).
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::System;
+    ///
+    /// // 1 cm beside its constraint
+    /// let text = "Clamped {
+    ///     dof = 0;
+    ///     body block (x) { mass = 2 [kg]; }
+    ///     constraint clamp: x = 0;
+    ///     start { guess x = 1 [cm]; }
+    /// }";
+    /// let block = Text::declaration("clamped.mbs", text).compile()?;
+    /// let run = Run::builder(&block, 1e-3).gains([100.0, 50.0]).as_declared().build()?;
+    /// let (mut a, mut lambda) = ([0.0], [0.0]);
+    /// run.raw_reactions(&mut a, &mut lambda)?;
+    /// // q̈ = −β² x, and λ = −m q̈
+    /// assert!((a[0] + 25.0).abs() < 1e-12 && (lambda[0] - 50.0).abs() < 1e-12);
+    /// run.reactions(&mut a, &mut lambda)?;
+    /// assert!(lambda[0].abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn raw_reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error> {
         let mut feedback = vec![T::from_f64(f64::NAN); self.multipliers];
         let mut unread = vec![T::from_f64(f64::NAN); self.q.len()];
@@ -197,25 +244,46 @@ fn copy<T: Copy>(to: &mut [T], from: &[T]) {
 }
 
 impl<T: Real> Builder<T> {
-    /// The method of integration, with the gains that are deadbeat for it.
+    /// The method of integration, with the gains that are deadbeat for it. See the example of [`Builder`].
     #[must_use]
     pub fn method(self, method: Explicit) -> Self {
         Self { method, gains: method.deadbeat(self.step), ..self }
     }
 
-    /// Feedback of the constraint violation with these gains α and β in 1/s.
+    /// Feedback of the constraint violation with these gains α and β in 1/s. See the example of
+    /// [`allow_unstable`](Self::allow_unstable).
     #[must_use]
     pub fn gains(self, gains: [f64; 2]) -> Self {
         Self { gains, ..self }
     }
 
     /// Feedback of the constraint violation, and the method that its gains belong to.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::{Baumgarte, PerStage, Rk4, System};
+    ///
+    /// let text = "Oscillator {
+    ///     dof = 1;
+    ///     body mass (x) { mass = 1 [kg]; }
+    ///     force spring on x = -4 [N/m]*x;
+    ///     start { x = 1 [m]; }
+    /// }";
+    /// let oscillator = Text::declaration("oscillator.mbs", text).compile()?;
+    /// let feedback = Baumgarte::<PerStage<Rk4>>::new(50.0, 50.0)?;
+    /// let mut run = Run::builder(&oscillator, 1e-2).baumgarte(feedback).build()?;
+    /// run.advance(100)?;
+    /// assert!((run.q()[0] - 2.0_f64.cos()).abs() < 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn baumgarte<X: Method>(self, baumgarte: Baumgarte<X>) -> Self {
         self.method(X::EXPLICIT).gains([baumgarte.alpha(), baumgarte.beta()])
     }
 
-    /// Starts at `t` seconds from positions and velocities that have to be consistent.
+    /// Starts at `t` seconds from positions and velocities of all coordinates, which have to be consistent. See the
+    /// example of [`Builder`].
     #[must_use]
     pub fn from_state(mut self, at: At<'_, T>) -> Self {
         self.state = Some((at.t, at.q.to_vec(), at.v.to_vec()));
@@ -225,7 +293,7 @@ impl<T: Real> Builder<T> {
         self
     }
 
-    /// Goes on with a run that has taken so many steps: the given state is that at t + n·h, where t is the time at
+    /// Goes on with a run that has taken so many steps. The given state is that at t + n·h, where t is the time at
     /// which that run started.
     ///
     /// # Example
@@ -253,14 +321,14 @@ impl<T: Real> Builder<T> {
         Self { steps_taken, ..self }
     }
 
-    /// Keeps the start as it is, consistent or not.
+    /// Keeps the start as it is, consistent or not. See the example of [`raw_reactions`](Run::raw_reactions).
     #[must_use]
     pub fn as_declared(mut self) -> Self {
         self.start = Start::Unchecked;
         self
     }
 
-    /// The inputs of the first step, one number each in SI units.
+    /// The inputs of the first step, one number each in SI units. See the example of [`Builder`].
     #[must_use]
     pub fn inputs(mut self, inputs: &[T]) -> Self {
         self.inputs.iter_mut().zip(inputs).for_each(|(input, value)| *input = *value);
@@ -268,13 +336,27 @@ impl<T: Real> Builder<T> {
     }
 
     /// Accepts gains under which violations grow, for the study of them.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Run, Text};
+    /// use mbs_runtime::Error;
+    ///
+    /// let text = "Slider { dof = 1; body block (x, y) { mass = 1 [kg]; } constraint floor: y = 0; }";
+    /// let slider = Text::declaration("slider.mbs", text).compile()?;
+    /// // with steps of 1 ms, 750/s and 1000/s remove a violation; ten times these gains make it grow
+    /// let builder = || Run::builder(&slider, 1e-3).gains([7500.0, 10_000.0]);
+    /// assert!(matches!(builder().build(), Err(Error::UnstableGains { .. })));
+    /// assert!(builder().allow_unstable().build().is_ok());
+    /// # Ok::<(), mbs_live::Error>(())
+    /// ```
     #[must_use]
     pub fn allow_unstable(mut self) -> Self {
         self.allow_unstable = true;
         self
     }
 
-    /// Starts.
+    /// Starts the run. See the example of [`Builder`].
     ///
     /// # Errors
     /// As the builder of a [`Simulation`](mbs_runtime::Simulation).

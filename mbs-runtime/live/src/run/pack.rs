@@ -56,7 +56,7 @@ pub struct Pack {
 }
 
 impl Pack {
-    /// These runs, each from where it is.
+    /// These runs, each from where it is. See the example of [`Pack`].
     ///
     /// # Errors
     /// The runs themselves if there is none, if there are more than
@@ -78,8 +78,8 @@ impl Pack {
         Ok(Self { goes_on: vec![true; runs.len()], runs, block })
     }
 
-    /// Advances every run that goes on by a step. Those that end now, and why: the state of
-    /// such a run stays that of its last good step.
+    /// Advances every run that goes on by a step. The result has the runs that end now, with their errors; the state
+    /// of such a run stays that of its last good step.
     pub fn step(&mut self) -> Vec<(usize, Error)> {
         let mut limits = [f64::INFINITY; LANES];
         for (limit, (run, goes_on)) in limits.iter_mut().zip(self.runs.iter().zip(&self.goes_on)) {
@@ -115,7 +115,7 @@ impl Pack {
 
     /// Writes coordinates and outputs of every run that goes on: a row for each coordinate,
     /// then one for each output, with a number for each run. Runs whose reactions or outputs
-    /// are not finite end, and why.
+    /// are not finite end; the result has them with their errors.
     pub fn observe(&mut self, rows: &mut [[f64; LANES]]) -> Vec<(usize, Error)> {
         let lanes = 0..self.runs.len();
         let lines = self.runs.first().map_or(0, |run| run.mechanism.declared_info().lines);
@@ -163,12 +163,37 @@ impl Pack {
         run.t = run.start_time + run.steps as f64 * run.step;
     }
 
-    /// True if a run goes on; one that does not exist does not.
+    /// True if a run goes on; one that does not exist does not. See the example of
+    /// [`set_inputs`](Self::set_inputs).
     pub fn goes_on(&self, lane: usize) -> bool {
         self.goes_on.get(lane).copied().unwrap_or(false)
     }
 
-    /// Sets the inputs of a run for the steps to come.
+    /// Sets the inputs of a run for the steps to come, in SI units.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::{Pack, Run, Text};
+    ///
+    /// let text = "Cart {
+    ///     dof = 1;
+    ///     input push [N];
+    ///     body cart (x) { mass = 2 [kg]; }
+    ///     force pushed on x = push;
+    /// }";
+    /// let cart = Text::declaration("cart.mbs", text).compile()?;
+    /// let run = Run::builder(&cart, 1e-2).build()?;
+    /// let mut pack = Pack::new(vec![run.clone(), run]).map_err(|_| "they are alike")?;
+    /// pack.set_inputs(1, &[6.0]);
+    /// for _ in 0..100 {
+    ///     pack.step();
+    /// }
+    /// assert!(pack.goes_on(1) && !pack.goes_on(2));
+    /// // after a second: v = a t
+    /// let speeds: Vec<f64> = pack.into_runs().iter().map(|run| run.v()[0]).collect();
+    /// assert!(speeds[0] == 0.0 && (speeds[1] - 3.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set_inputs(&mut self, lane: usize, inputs: &[f64]) {
         if let Some(run) = self.runs.get_mut(lane) {
             copy(&mut run.inputs, inputs);
@@ -176,7 +201,7 @@ impl Pack {
         }
     }
 
-    /// The runs, each where it is now or where it ended.
+    /// The runs, each where it is now or where it ended. See the example of [`set_inputs`](Self::set_inputs).
     pub fn into_runs(mut self) -> Vec<Run> {
         for lane in 0..self.runs.len() {
             if self.goes_on[lane] {
