@@ -66,9 +66,9 @@ pub enum Error {
     Length {
         /// The vector, in words.
         what: &'static str,
-        /// How many numbers were given.
+        /// The number of values that were given.
         found: usize,
-        /// How many there should be.
+        /// The number of values that are needed.
         expected: usize,
     },
     /// A name that nothing has.
@@ -92,7 +92,7 @@ pub enum Error {
         constraint: &'static str,
         /// True if it is its rate Φ̇, and not Φ.
         is_rate: bool,
-        /// By how much, in its own SI unit.
+        /// The violation, in the SI unit of the constraint or of its rate.
         violation: f64,
     },
     /// Coordinates that do not determine the position.
@@ -215,7 +215,7 @@ pub enum Error {
     Bounds {
         /// The quantity.
         name: String,
-        /// From where it is looked for.
+        /// The value from which it is looked for.
         guess: f64,
         /// The smallest value that it may have.
         low: f64,
@@ -287,7 +287,7 @@ pub enum Error {
     /// Samples through which no curve leads.
     #[error("no curve leads through the samples: {reason}")]
     Samples {
-        /// Why not.
+        /// The reason.
         reason: &'static str,
     },
     /// A prescribed position to which the mechanism cannot be led.
@@ -300,7 +300,7 @@ pub enum Error {
     Unreachable {
         /// Which sample of the motion, counted from 1; 0 for the position from which it begins.
         sample: usize,
-        /// How far it can be led.
+        /// The last place to which it can be led, in words.
         place: String,
         /// The constraint that ties what is prescribed.
         constraint: &'static str,
@@ -347,7 +347,7 @@ pub enum Error {
         sample: usize,
         /// The coordinates that are not led.
         coordinates: Vec<String>,
-        /// How far the mechanism was led.
+        /// The last place to which the mechanism was led, in words.
         place: String,
     },
     /// Somebody ended a search before it found anything.

@@ -73,7 +73,7 @@ impl InputTable {
         self.columns.is_empty()
     }
 
-    /// When the table begins and ends, in s.
+    /// The first and the last instant in s; 0 for an empty table.
     pub fn span(&self) -> [f64; 2] {
         [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0))
     }

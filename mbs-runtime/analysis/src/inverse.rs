@@ -14,19 +14,19 @@ use crate::{Error, Signal, Variable};
 /// The efforts or inputs that produce a prescribed motion.
 ///
 /// # Example
+/// A rope lifts a load of 2 kg by the force `rope`:
 /// ```
 /// use mbs_analysis::{By, Curve, Prescription, inverse};
-/// use mbs_runtime::mechanism;
-///
-/// mechanism! {
-///     pub Hoist {
-///         dof = 1;
-///         input rope [N];
-///         gravity = (0, -9.81) [m/s^2];
-///         body load (y) { mass = 2 [kg]; }
-///         force pull on y = rope;
-///     }
-/// }
+/// # use mbs_runtime::mechanism;
+/// # mechanism! {
+/// #     pub Hoist {
+/// #         dof = 1;
+/// #         input rope [N];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body load (y) { mass = 2 [kg]; }
+/// #         force pull on y = rope;
+/// #     }
+/// # }
 ///
 /// // halfway from 0 m to 3 m the acceleration is 0, and the weight is carried
 /// for by in [By::Efforts, By::Inputs(vec!["rope".into()])] {
@@ -73,12 +73,13 @@ pub enum By {
 /// ```
 #[derive(Default)]
 pub struct Prescription {
-    /// As many coordinates as the mechanism has degrees of freedom, and what each does over time; none
-    /// for a mechanism that its drives determine.
+    /// The coordinates that are prescribed, as many as there are degrees of freedom, and their motions. It is empty for
+    /// a mechanism that its drives determine.
     pub curves: Vec<(String, Curve)>,
     /// The efforts or inputs that produce the motion.
     pub by: By,
-    /// The inputs that are not looked for, and where those begin that are; `None` for their defaults.
+    /// All inputs: the values of those that are not looked for, and the first guesses of the others. `None` for their
+    /// defaults.
     pub inputs: Option<Vec<f64>>,
     /// The positions from which the mechanism is led to the first sample, which decide on the branch;
     /// `None` for the declared start.

@@ -17,20 +17,20 @@ const SLOW: f64 = 1e-3;
 /// The states, inputs and outputs of a linear system.
 ///
 /// # Example
+/// A weight of 2 kg hangs on a spring of k = 200 N/m:
 /// ```
 /// use mbs_analysis::{OperatingPoint, Ports, Search, equilibrium, linearize, of_type};
-/// use mbs_runtime::mechanism;
-///
-/// mechanism! {
-///     /// A weight that hangs on a spring.
-///     pub Weight {
-///         dof = 1;
-///         param k = 200 [N/m];
-///         gravity = (0, -9.81) [m/s^2];
-///         body weight (y) { mass = 2 [kg]; }
-///         force spring on y = -k*y;
-///     }
-/// }
+/// # use mbs_runtime::mechanism;
+/// # mechanism! {
+/// #     /// A weight that hangs on a spring.
+/// #     pub Weight {
+/// #         dof = 1;
+/// #         param k = 200 [N/m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body weight (y) { mass = 2 [kg]; }
+/// #         force spring on y = -k*y;
+/// #     }
+/// # }
 ///
 /// let rest = equilibrium(&Weight::declared(), &Search::default())?;
 /// let family = of_type::<Weight>();
@@ -59,7 +59,7 @@ pub struct Ports<'a> {
     pub outputs: Option<Vec<String>>,
     /// Parameters that are inputs too, after the others.
     pub parameters: Vec<String>,
-    /// Where `parameters` are asked for: the mechanisms with other parameters.
+    /// The mechanisms with other parameters; needed if `parameters` has names.
     pub family: Option<&'a dyn Family>,
 }
 

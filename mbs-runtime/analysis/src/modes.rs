@@ -109,7 +109,7 @@ impl Behaviour {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// λ in 1/s, with Im λ ≥ 0. A part is 0 that cannot be told from it.
+    /// λ in 1/s, with Im λ ≥ 0. A part that cannot be told from 0 is 0.
     pub eigenvalue: Complex<f64>,
     /// φ, a component for each coordinate and own state. That of the state that moves most is 1 rad or 1 m, where an
     /// angle of 1 rad counts as much as a length of the size of the mechanism.
@@ -158,20 +158,20 @@ impl Linearization {
     /// [`Error::Eigenvalues`] if the QR algorithm does not converge.
     ///
     /// # Example
+    /// Two blocks of 1 kg between three springs of 100 N/m:
     /// ```
     /// use mbs_analysis::{OperatingPoint, Ports, linearize};
-    /// use mbs_runtime::mechanism;
-    ///
-    /// mechanism! {
-    ///     /// Two blocks between three springs.
-    ///     pub Blocks {
-    ///         dof = 2;
-    ///         body first (x1) { mass = 1 [kg]; }
-    ///         body second (x2) { mass = 1 [kg]; }
-    ///         force on_first on x1 = -100 [N/m]*(2*x1 - x2);
-    ///         force on_second on x2 = -100 [N/m]*(2*x2 - x1);
-    ///     }
-    /// }
+    /// # use mbs_runtime::mechanism;
+    /// # mechanism! {
+    /// #     /// Two blocks between three springs.
+    /// #     pub Blocks {
+    /// #         dof = 2;
+    /// #         body first (x1) { mass = 1 [kg]; }
+    /// #         body second (x2) { mass = 1 [kg]; }
+    /// #         force on_first on x1 = -100 [N/m]*(2*x1 - x2);
+    /// #         force on_second on x2 = -100 [N/m]*(2*x2 - x1);
+    /// #     }
+    /// # }
     ///
     /// let point = OperatingPoint::at_rest(0.0, &[0.0, 0.0], &[]);
     /// let modes = linearize(&Blocks::declared(), &point, &Ports::default())?.modes()?;

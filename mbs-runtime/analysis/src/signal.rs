@@ -7,7 +7,7 @@ use crate::Error;
 const SECOND: Dimension = Dimension::of(0, 0, 1);
 const PER_SECOND: Dimension = Dimension::of(0, 0, -1);
 
-/// Which quantity of a mechanism a signal is, by its position in [`Info`].
+/// A quantity of a mechanism, by its position in [`Info`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
     /// A coordinate, in m or rad; of an own state z, its integral ∫ z dt.
@@ -40,19 +40,19 @@ impl Signal {
     /// The signal of a variable; `None` if the mechanism does not have it.
     ///
     /// # Example
+    /// A slide on a wedge, y = 0.2 x:
     /// ```
     /// use mbs_analysis::{Signal, Variable};
-    /// use mbs_runtime::{Dimension, Mechanism, mechanism};
-    ///
-    /// mechanism! {
-    ///     pub Wedge {
-    ///         dof = 1;
-    ///         param slope = 0.2;
-    ///         body slide (x, y) { mass = 1 [kg]; }
-    ///         constraint guide: y = slope*x;
-    ///         output height [m] = y;
-    ///     }
-    /// }
+    /// # use mbs_runtime::{Dimension, Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     pub Wedge {
+    /// #         dof = 1;
+    /// #         param slope = 0.2;
+    /// #         body slide (x, y) { mass = 1 [kg]; }
+    /// #         constraint guide: y = slope*x;
+    /// #         output height [m] = y;
+    /// #     }
+    /// # }
     ///
     /// let info = <Wedge as Mechanism>::INFO;
     /// let speed = Signal::of(info, Variable::Velocity(0)).ok_or("two coordinates")?;

@@ -14,18 +14,18 @@ use crate::{Error, Signal, Variable};
 /// The coordinate or the drive that is moved slowly.
 ///
 /// # Example
+/// A drive moves a ram against a spring of 500 N/m, by 0.1 m/s:
 /// ```
 /// use mbs_analysis::{Along, Travel, travel};
-/// use mbs_runtime::mechanism;
-///
-/// mechanism! {
-///     pub Press {
-///         dof = 0;
-///         body ram (x) { mass = 2 [kg]; }
-///         force spring on x = -500 [N/m]*x;
-///         drive motor: x = 0.1 [m/s]*t;
-///     }
-/// }
+/// # use mbs_runtime::mechanism;
+/// # mechanism! {
+/// #     pub Press {
+/// #         dof = 0;
+/// #         body ram (x) { mass = 2 [kg]; }
+/// #         force spring on x = -500 [N/m]*x;
+/// #         drive motor: x = 0.1 [m/s]*t;
+/// #     }
+/// # }
 ///
 /// let stroke = Travel {
 ///     along: Along::Drive("motor".into()),
@@ -78,8 +78,8 @@ pub struct Position {
     pub multipliers: Vec<f64>,
     /// The declared outputs.
     pub outputs: Vec<f64>,
-    /// dq/dx: how far each coordinate moves for a unit of what is moved; nothing for a mechanism with
-    /// further degrees of freedom.
+    /// dq/dx: the way of each coordinate for a unit of what is moved. `None` for a mechanism with further degrees of
+    /// freedom.
     pub ratios: Option<Vec<f64>>,
 }
 
@@ -103,20 +103,20 @@ impl Position {
     /// Springs and weights take part in the effort, not in the advantage: it is what the geometry gives.
     ///
     /// # Example
+    /// A wedge lifts a load of 8 kg by a quarter of its own way, y = x/4:
     /// ```
     /// use mbs_analysis::{Along, Travel, travel};
-    /// use mbs_runtime::mechanism;
-    ///
-    /// mechanism! {
-    ///     /// A wedge lifts a load by a quarter of its own way.
-    ///     pub Wedge {
-    ///         dof = 1;
-    ///         gravity = (0, -9.81) [m/s^2];
-    ///         body slide (x) { mass = 1 [kg]; }
-    ///         body load (y) { mass = 8 [kg]; }
-    ///         constraint slope: y = 0.25*x;
-    ///     }
-    /// }
+    /// # use mbs_runtime::mechanism;
+    /// # mechanism! {
+    /// #     /// A wedge lifts a load by a quarter of its own way.
+    /// #     pub Wedge {
+    /// #         dof = 1;
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body slide (x) { mass = 1 [kg]; }
+    /// #         body load (y) { mass = 8 [kg]; }
+    /// #         constraint slope: y = 0.25*x;
+    /// #     }
+    /// # }
     ///
     /// let push = Travel {
     ///     along: Along::Coordinate("x".into()),

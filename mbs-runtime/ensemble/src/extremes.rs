@@ -9,20 +9,20 @@ use crate::Observe;
 /// then on; the error names the output.
 ///
 /// # Example
+/// Balls are thrown upwards with 0 … 5 m/s, under g = 10 m/s²:
 /// ```
 /// use mbs_ensemble::{Ensemble, Extremes};
-/// use mbs_runtime::{Simulation, mechanism};
-///
-/// mechanism! {
-///     pub Throw {
-///         dof = 1;
-///         param speed = 1 [m/s];
-///         gravity = (0, -10) [m/s^2];
-///         body ball (y) { mass = 1 [kg]; }
-///         start { y = 0; der(y) = speed; }
-///         output height [m] = y;
-///     }
-/// }
+/// # use mbs_runtime::{Simulation, mechanism};
+/// # mechanism! {
+/// #     pub Throw {
+/// #         dof = 1;
+/// #         param speed = 1 [m/s];
+/// #         gravity = (0, -10) [m/s^2];
+/// #         body ball (y) { mass = 1 [kg]; }
+/// #         start { y = 0; der(y) = speed; }
+/// #         output height [m] = y;
+/// #     }
+/// # }
 ///
 /// let member = |index: usize| Simulation::new(Throw::new(ThrowParameters { speed: index as f64 })?, 1e-2);
 /// let runs = Ensemble::new(1.0).run(6, member, &Extremes::default())?;

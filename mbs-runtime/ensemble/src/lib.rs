@@ -103,20 +103,20 @@ const BLOCKS_PER_THREAD: usize = 64;
 /// The end of all runs in s, and the settings of a sweep. `N` is the number of lanes, 8 by default.
 ///
 /// # Example
+/// Balls fall under different gravity:
 /// ```
 /// use std::sync::atomic::{AtomicUsize, Ordering};
 ///
 /// use mbs_ensemble::Ensemble;
-/// use mbs_runtime::{Simulation, mechanism};
-///
-/// mechanism! {
-///     pub Fall {
-///         dof = 1;
-///         param g = 9.81 [m/s^2];
-///         gravity = (0, -g);
-///         body ball (y) { mass = 1 [kg]; }
-///     }
-/// }
+/// # use mbs_runtime::{Simulation, mechanism};
+/// # mechanism! {
+/// #     pub Fall {
+/// #         dof = 1;
+/// #         param g = 9.81 [m/s^2];
+/// #         gravity = (0, -g);
+/// #         body ball (y) { mass = 1 [kg]; }
+/// #     }
+/// # }
 ///
 /// let member = |index: usize| Simulation::new(Fall::new(FallParameters { g: index as f64 })?, 1e-2);
 /// let most = AtomicUsize::new(0);
@@ -148,11 +148,11 @@ pub struct Run<M: Mechanism, R> {
     pub state: State<M::Coordinates>,
     /// The steps that led to it.
     pub steps: u64,
-    /// Why it is not at the end.
+    /// The error that ended it early.
     pub ended: Option<Error>,
-    /// The digits that its worst step had; see [`Simulation::digits_left`].
+    /// The digits that its worst step left; see [`Simulation::digits_left`].
     pub digits_left: f64,
-    /// Where it came closest to a singular position, if it lost more than two of them;
+    /// The place closest to a singular position, if the member lost more than two digits there;
     /// see [`Simulation::worst_place`].
     pub worst_place: Option<WorstPlace>,
     /// The result of the observer.

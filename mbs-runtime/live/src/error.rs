@@ -83,9 +83,9 @@ impl fmt::Display for Warnings {
 pub struct Problem {
     /// The problem in the words of the declaration.
     pub message: String,
-    /// The token at fault; nothing if it is no single place.
+    /// The token at fault; `None` if the problem has no single place.
     pub location: Option<Location>,
-    /// How to mend it.
+    /// A way to mend it.
     pub help: Option<String>,
     /// Other places that matter.
     pub notes: Vec<Note>,
@@ -107,7 +107,7 @@ pub struct Location {
     pub line: usize,
     /// The column of its first character in this line, from 1.
     pub column: usize,
-    /// How many characters it has; 0 at the end of a text.
+    /// The number of its characters; 0 at the end of a text.
     pub length: usize,
     /// The range of its bytes in the text.
     pub bytes: Range<usize>,

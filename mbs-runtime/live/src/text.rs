@@ -87,8 +87,8 @@ impl Text {
     /// Reads a file: as Rust if its name ends in `.rs`, else as a declaration by itself.
     ///
     /// # Errors
-    /// Those of reading; of kind [`InvalidData`](io::ErrorKind::InvalidData) if it is no
-    /// UTF-8. Of a file that is too long no more than [`LONGEST`] and a byte are read; to
+    /// Those of reading a file; one of kind [`InvalidData`](io::ErrorKind::InvalidData) if the text is
+    /// not UTF-8. Of a file that is too long no more than [`LONGEST`] and a byte are read; to
     /// compile it is an error.
     ///
     /// # Example

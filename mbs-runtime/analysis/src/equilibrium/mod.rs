@@ -17,7 +17,7 @@ use self::stiffness::Stiffness;
 use crate::Error;
 use crate::tangent::Rest;
 
-/// How an equilibrium is looked for.
+/// The method by which an equilibrium is looked for.
 ///
 /// # Example
 /// ```
@@ -43,18 +43,18 @@ use crate::tangent::Rest;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// By Newton's method, and by relaxation from the same position if that leads nowhere, or to where the
-    /// mechanism falls away although it does not at the start.
+    /// Newton's method, then relaxation from the same position in two cases: Newton's method finds nothing, or the
+    /// mechanism falls away where it leads, although it does not at the start.
     #[default]
     Automatic,
-    /// By Newton's method alone: the nearest equilibrium, stable or not.
+    /// Newton's method alone. It finds the nearest equilibrium, stable or not.
     Newton,
-    /// By relaxation: where the mechanism would come to rest from here if it moved slowly through a
-    /// viscous fluid, which is a stable equilibrium.
+    /// Relaxation. It goes where the mechanism would come to rest if it moved slowly through a viscous fluid, to a
+    /// stable equilibrium.
     Relaxation,
 }
 
-/// Where an equilibrium is looked for, and how. Without any choice: from the declared start, by
+/// The start and the method of a search for an equilibrium. By default it begins at the declared start and goes on by
 /// [`Strategy::Automatic`].
 ///
 /// # Example
@@ -78,13 +78,13 @@ pub enum Strategy {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Search {
-    /// The positions to begin from, which decide on the branch; `None` for the declared start.
+    /// The positions from which the search begins. They decide on the branch. `None` for the declared start.
     pub from: Option<Vec<f64>>,
     /// The inputs; `None` for their defaults.
     pub inputs: Option<Vec<f64>>,
     /// The time in s at which drives and forces are held.
     pub t: f64,
-    /// How it is looked for.
+    /// The method.
     pub strategy: Strategy,
 }
 
@@ -99,15 +99,15 @@ pub struct Equilibrium {
     pub lines: usize,
     /// Multipliers: the reactions that hold it.
     pub multipliers: Vec<f64>,
-    /// The inputs it was found with.
+    /// The inputs with which it was found.
     pub inputs: Vec<f64>,
     /// κ of K_r x = κ M_r x, ascending, in 1/s²: the squares of the natural frequencies of an
     /// undamped mechanism, negative for directions in which it falls away.
     pub stiffness: Vec<f64>,
-    /// A stiffness is zero that is less than this share of the largest one, because derivatives are known to
-    /// about a hundredth of that: 10⁻¹² by the chain rule, 10⁻⁹ by differences.
+    /// The share of the largest stiffness below which a stiffness counts as zero: 10⁻¹² with derivatives by the chain
+    /// rule, 10⁻⁹ with differences. Derivatives are known to about a hundredth of that.
     pub resolution: f64,
-    /// The iterations that it took.
+    /// The number of iterations.
     pub iterations: u32,
 }
 
@@ -118,9 +118,9 @@ pub enum Stability {
     Stable,
     /// Some displacements are neither driven back nor driven on.
     Indifferent,
-    /// The mechanism falls away in so many directions.
+    /// The mechanism falls away in some directions.
     Unstable {
-        /// How many negative stiffnesses there are.
+        /// The number of negative stiffnesses.
         directions: usize,
     },
 }

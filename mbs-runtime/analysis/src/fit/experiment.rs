@@ -11,19 +11,19 @@ use crate::{Error, InputTable, Signal, Variable, own_clock};
 /// Values are in SI units and rad. The page on [`identification`](crate::identification) has the equations.
 ///
 /// # Example
+/// A block of 1 kg on a spring of unknown stiffness, released at 1 m:
 /// ```
 /// use mbs_analysis::{Experiment, Measurement, Unknown, trials_of_type};
-/// use mbs_runtime::{Mechanism, Tolerances, mechanism};
-///
-/// mechanism! {
-///     pub Oscillator {
-///         dof = 1;
-///         param k = 3 [N/m] where k > 0;
-///         body block (x) { mass = 1 [kg]; }
-///         force spring on x = -k*x;
-///         start { x = 1 [m]; }
-///     }
-/// }
+/// # use mbs_runtime::{Mechanism, Tolerances, mechanism};
+/// # mechanism! {
+/// #     pub Oscillator {
+/// #         dof = 1;
+/// #         param k = 3 [N/m] where k > 0;
+/// #         body block (x) { mass = 1 [kg]; }
+/// #         force spring on x = -k*x;
+/// #         start { x = 1 [m]; }
+/// #     }
+/// # }
 ///
 /// // read from the motion of 4 N/m, cos 2t, by a sensor that errs by 1 mm
 /// let times: Vec<f64> = (0..20).map(|at| 0.1 * f64::from(at)).collect();
@@ -64,7 +64,7 @@ pub struct Measurement {
     pub times: Vec<f64>,
     /// The value at each instant.
     pub values: Vec<f64>,
-    /// The standard deviation of its noise; where it is not known, it is estimated.
+    /// The standard deviation of its noise; `None` to estimate it.
     pub deviation: Option<f64>,
 }
 

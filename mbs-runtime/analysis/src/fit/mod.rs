@@ -32,11 +32,11 @@ pub struct Fit {
     pub remainders: Vec<Remainder>,
     /// Σ (r/σ)² over all samples, with the deviations σ of the remainders.
     pub chi_squared: f64,
-    /// Samples less what was looked for.
+    /// The number of samples minus the number of unknowns.
     pub freedom: usize,
-    /// True if the iteration came to its end, and not to the end of its patience.
+    /// True if the iteration converged, false if it reached its limit.
     pub has_converged: bool,
-    /// The runs that it took.
+    /// The number of runs.
     pub runs: usize,
     /// The probability with which an interval contains the true value.
     pub confidence: f64,
@@ -58,8 +58,8 @@ pub struct Estimate {
     pub standard_error: f64,
     /// The interval that contains the true value with the probability [`Fit::confidence`].
     pub interval: [f64; 2],
-    /// True if it ended at one of its bounds, so that the intervals of the others are those of a mechanism in
-    /// which it is known.
+    /// True if it ended at one of its bounds. The intervals of the others are then those of a mechanism in which it is
+    /// known.
     pub is_at_bound: bool,
 }
 
@@ -84,7 +84,7 @@ pub struct Progress {
     pub start: usize,
     /// The largest number of starts.
     pub starts: usize,
-    /// The runs that were made.
+    /// The number of runs so far.
     pub runs: usize,
 }
 

@@ -21,10 +21,10 @@ pub use task::{Defect, Linkage, Task};
 pub struct Synthesis {
     /// Mechanisms without defects: those that miss least first, and smaller ones before larger ones.
     pub linkages: Vec<Linkage>,
-    /// How often a mechanism was refused for each defect.
+    /// The number of mechanisms that were refused, for each defect.
     pub refused: [(Defect, usize); 3],
-    /// The starts that were made.
+    /// The number of starts.
     pub starts: usize,
-    /// By how much the positions are missed at least, defects or not.
+    /// The smallest difference from the values that were asked for, of all starts, with or without a defect.
     pub nearest: f64,
 }

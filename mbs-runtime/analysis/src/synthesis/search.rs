@@ -36,20 +36,20 @@ impl Task {
     /// [`Error::Length`] for what cannot be looked for. That none was found is no error.
     ///
     /// # Example
+    /// A pin on a wheel moves a slider, x = r cos φ:
     /// ```
     /// use mbs_analysis::{Task, Unknown, trials_of_type};
-    /// use mbs_runtime::{Mechanism, mechanism};
-    ///
-    /// mechanism! {
-    ///     /// A pin on a wheel moves a slider.
-    ///     pub Scotch {
-    ///         dof = 1;
-    ///         param r = 1 [m];
-    ///         body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
-    ///         body slider (x) { mass = 1 [kg]; }
-    ///         constraint pin: x = r*cos(phi);
-    ///     }
-    /// }
+    /// # use mbs_runtime::{Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     /// A pin on a wheel moves a slider.
+    /// #     pub Scotch {
+    /// #         dof = 1;
+    /// #         param r = 1 [m];
+    /// #         body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
+    /// #         body slider (x) { mass = 1 [kg]; }
+    /// #         constraint pin: x = r*cos(phi);
+    /// #     }
+    /// # }
     ///
     /// // from 0.3 m at 0 to half of that at 60°
     /// let task = Task {

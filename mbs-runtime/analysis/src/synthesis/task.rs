@@ -16,22 +16,21 @@ pub struct Task {
     pub info: &'static Info,
     /// Its parameters in SI units, in the order of [`Info::parameters`].
     pub parameters: Vec<f64>,
-    /// Those that are looked for, from random values between their bounds on.
+    /// The parameters that are looked for. Each start begins at random values between their bounds.
     pub unknown: Vec<Unknown>,
     /// Outputs and coordinates that have values at the positions.
     pub columns: Vec<String>,
-    /// These values in SI units and rad, a row for each position; `None` for a value that is free.
+    /// The values of `columns` in SI units and rad, a row for each position; `None` for a value that is free.
     pub positions: Vec<Vec<Option<f64>>>,
-    /// The coordinate that drives, which must not turn back between the positions; without one any motion will
-    /// do.
+    /// The coordinate that drives. It must not turn back between the positions. `None` permits any motion.
     pub drive: Option<String>,
-    /// By how much each value may be missed, in SI units.
+    /// The largest difference from a value that is asked for, in SI units.
     pub tolerance: f64,
     /// The largest number of starts.
     pub starts: usize,
     /// The number of mechanisms at which the search ends.
     pub enough: usize,
-    /// The random numbers of another seed lead to other mechanisms.
+    /// The seed of the random starts. The same seed finds the same mechanisms.
     pub seed: u64,
 }
 
@@ -92,7 +91,7 @@ pub struct Linkage {
     pub path: Vec<Vec<f64>>,
     /// The largest difference from a value that was asked for, in SI units.
     pub missed: f64,
-    /// How many starts led to it.
+    /// The number of starts that led to it.
     pub count: usize,
 }
 

@@ -8,7 +8,7 @@ use super::{Builder, Run};
 use crate::Live;
 
 impl Builder {
-    /// The same run over another scalar: `change` is given its parameters. Over
+    /// The choices for the same run over another scalar: `change` is given its parameters. Over
     /// [`Dual`], a run with its derivatives. The text is not compiled again; the state that was
     /// given and the inputs become constants.
     ///

@@ -69,17 +69,18 @@ pub struct Run<T = f64> {
 /// The choices before a run starts; see [`Run::builder`].
 ///
 /// # Example
+/// A cart of 2 kg, pushed by the input `push`:
 /// ```
 /// use mbs_live::{Run, Text};
 /// use mbs_runtime::equations::At;
 /// use mbs_runtime::{Explicit, RK4, System};
+/// # let text = "Cart {
+/// #     dof = 1;
+/// #     input push [N];
+/// #     body cart (x) { mass = 2 [kg]; }
+/// #     force pushed on x = push;
+/// # }";
 ///
-/// let text = "Cart {
-///     dof = 1;
-///     input push [N];
-///     body cart (x) { mass = 2 [kg]; }
-///     force pushed on x = push;
-/// }";
 /// let cart = Text::declaration("cart.mbs", text).compile()?;
 /// let mut run = Run::builder(&cart, 1e-2)
 ///     .method(Explicit::held(&RK4))

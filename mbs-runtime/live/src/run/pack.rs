@@ -172,15 +172,16 @@ impl Pack {
     /// Sets the inputs of a run for the steps to come, in SI units.
     ///
     /// # Example
+    /// Carts of 2 kg, pushed by their own forces:
     /// ```
     /// use mbs_live::{Pack, Run, Text};
+    /// # let text = "Cart {
+    /// #     dof = 1;
+    /// #     input push [N];
+    /// #     body cart (x) { mass = 2 [kg]; }
+    /// #     force pushed on x = push;
+    /// # }";
     ///
-    /// let text = "Cart {
-    ///     dof = 1;
-    ///     input push [N];
-    ///     body cart (x) { mass = 2 [kg]; }
-    ///     force pushed on x = push;
-    /// }";
     /// let cart = Text::declaration("cart.mbs", text).compile()?;
     /// let run = Run::builder(&cart, 1e-2).build()?;
     /// let mut pack = Pack::new(vec![run.clone(), run]).map_err(|_| "they are alike")?;
