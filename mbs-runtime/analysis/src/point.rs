@@ -20,7 +20,8 @@ pub enum Drives {
     Moving,
 }
 
-/// The state, the inputs and the time about which a mechanism is linearized. See the example of [`linearize`](crate::linearize).
+/// The state, the inputs and the time about which a mechanism is linearized. See the example of
+/// [`linearize`](crate::linearize).
 #[derive(Clone, Debug, PartialEq)]
 pub struct OperatingPoint {
     /// The time in s.
