@@ -56,11 +56,11 @@ impl Signal {
     ///
     /// let info = <Wedge as Mechanism>::INFO;
     /// let speed = Signal::of(info, Variable::Velocity(0)).ok_or("two coordinates")?;
-    /// assert_eq!((speed.name.as_str(), speed.dimension), ("der(x)", Dimension { mass: 0, length: 1, time: -1 }));
+    /// assert_eq!((speed.name.as_str(), speed.dimension), ("der(x)", Dimension::of(0, 1, -1)));
     /// // the multiplier of a length is a force
     /// let force = Signal::of(info, Variable::Multiplier(0)).ok_or("one constraint")?;
     /// assert_eq!(force.name, "lambda(guide)");
-    /// assert_eq!(force.dimension, Dimension { mass: 1, length: 1, time: -2 });
+    /// assert_eq!(force.dimension, Dimension::of(1, 1, -2));
     /// assert_eq!(Signal::of(info, Variable::Coordinate(2)), None);
     /// # Ok::<(), &str>(())
     /// ```
