@@ -82,10 +82,11 @@ impl Stiffness {
             }
         }
         let jacobian = summed(&mut model.arena, &terms);
-        let own = OwnStates::new(model, &jacobian);
+        let own = OwnStates::new(model, &jacobian, &equations.forces, &predicted);
         let arena = &mut model.arena;
-        for (i, row) in own.felt.iter().enumerate() {
-            for (&j, &entry) in row {
+        // J_lo E⁻¹ J_ol
+        for (i, row) in product(arena, &own.on_lines, &own.response).into_iter().enumerate() {
+            for (j, entry) in row {
                 add_symmetric(arena, &mut entries, (i, j), entry);
             }
         }
@@ -102,7 +103,13 @@ impl Stiffness {
                 add(j, i);
             }
         }
-        let rates = own.rates(arena, &equations.forces, &predicted, &mut forces);
+        for (force, row) in forces.iter_mut().zip(&own.on_lines) {
+            for (&at, &entry) in row {
+                let product = arena.mul(entry, own.changes[at]);
+                *force = arena.add(*force, product);
+            }
+        }
+        let rates = own.rates(arena, &predicted);
         Self { entries, forces, rates }
     }
 
@@ -127,79 +134,67 @@ impl Stiffness {
 
 /// Own states in an implicit stage.
 struct OwnStates {
-    /// How many coordinates stand before them.
-    lines: usize,
-    /// E⁻¹
-    inverse: Sparse,
+    /// E⁻¹ (Q_o − p_o)
+    changes: Vec<Expr>,
     /// E⁻¹ J_ol
     response: Sparse,
-    /// J_lo E⁻¹
-    pull: Sparse,
-    /// J_lo E⁻¹ J_ol
-    felt: Sparse,
+    /// J_lo
+    on_lines: Sparse,
+    /// True if a rate is not what an explicit stage makes it.
+    are_implicit: bool,
 }
 
 impl OwnStates {
-    fn new(model: &mut Model, jacobian: &Sparse) -> Self {
-        let (lines, count) = (model.line_count(), model.coordinates.len() - model.line_count());
+    fn new(model: &mut Model, jacobian: &Sparse, rates: &[Expr], predicted: &[Expr]) -> Self {
+        let (lines, all) = (model.line_count(), model.coordinates.len());
         // the rate of a state that depends on reactions is not known before they are
         let reacts = |&(coordinate, _): &(usize, Expr)| coordinate >= lines;
         let is_known = !model.reactive_loads.iter().any(|load| load.work.along.iter().any(reacts));
         let arena = &mut model.arena;
-        let part = |row: &BTreeMap<usize, Expr>, from: usize, to: usize| -> BTreeMap<usize, Expr> {
-            row.range(from..to).map(|(&at, &entry)| (at - from, entry)).collect()
+        let part = |rows: &[BTreeMap<usize, Expr>], from: usize, to: usize| -> Sparse {
+            let of_row = |row: &BTreeMap<usize, Expr>| {
+                row.range(from..to).map(|(&at, &entry)| (at - from, entry)).collect()
+            };
+            rows.iter().map(of_row).collect()
         };
         let (of_lines, of_states) = jacobian.split_at(lines);
-        let on_states: Sparse = of_states.iter().map(|row| part(row, 0, lines)).collect();
-        let among: Sparse = of_states.iter().map(|row| part(row, lines, lines + count)).collect();
-        let on_lines: Sparse = match is_known {
-            true => of_lines.iter().map(|row| part(row, lines, lines + count)).collect(),
-            false => vec![BTreeMap::new(); lines],
-        };
-        let inverse = inverse(arena, &among);
-        let response = product(arena, &inverse, &on_states);
-        let pull = product(arena, &on_lines, &inverse);
-        let felt = product(arena, &on_lines, &response);
-        Self { lines, inverse, response, pull, felt }
+        let among = part(of_states, lines, all);
+        let on_lines = if is_known { part(of_lines, lines, all) } else { vec![BTreeMap::new(); lines] };
+        // the columns of J_ol, and behind them Q_o − p_o
+        let mut right = part(of_states, 0, lines);
+        let are_implicit = [&among, &right, &on_lines].into_iter().flatten().any(|row| !row.is_empty());
+        for (row, (&rate, &predicted)) in right.iter_mut().zip(rates.iter().zip(predicted).skip(lines)) {
+            let behind = arena.sub(rate, predicted);
+            row.insert(lines, arena.share(behind));
+        }
+        let mut response = solved(arena, &among, right);
+        let zero = arena.zero();
+        let changes = response.iter_mut().map(|row| row.remove(&lines).unwrap_or(zero)).collect();
+        Self { changes, response, on_lines, are_implicit }
     }
 
-    /// The rates of all states, of which some is not what an explicit stage makes it; adds to the forces along
-    /// lines what states change of them.
-    fn rates(self, arena: &mut Arena, own: &[Expr], predicted: &[Expr], forces: &mut [Expr]) -> Vec<Rate> {
-        let is_identity = |(at, row): (usize, &BTreeMap<usize, Expr>)| {
-            row.len() == 1 && row.get(&at).is_some_and(|&entry| entry == arena.one())
-        };
-        let is_explicit = self.inverse.iter().enumerate().all(is_identity);
-        if is_explicit && self.response.iter().chain(&self.pull).all(BTreeMap::is_empty) {
+    /// The rates of all states, if some is not what an explicit stage makes it.
+    fn rates(self, arena: &mut Arena, predicted: &[Expr]) -> Vec<Rate> {
+        if !self.are_implicit {
             return Vec::new();
         }
-        let lines = self.lines;
-        let behind: Vec<Expr> = (own.iter().zip(predicted).skip(lines))
-            .map(|(&rate, &predicted)| {
-                let behind = arena.sub(rate, predicted);
-                arena.share(behind)
-            })
-            .collect();
-        for (force, row) in forces.iter_mut().zip(&self.pull) {
-            *force = plus_products(arena, *force, row.iter().map(|(&at, &entry)| (entry, behind[at])));
-        }
-        let rate = |(at, (inverse, response)): (usize, (&BTreeMap<usize, Expr>, &BTreeMap<usize, Expr>))| {
-            let state = lines + at;
-            let terms = inverse.iter().map(|(&of, &entry)| (entry, behind[of]));
-            let value = plus_products(arena, predicted[state], terms);
-            let slopes = response.iter().map(|(&line, &slope)| (line, slope, predicted[line]));
-            Rate { state, predicted: value, slopes: slopes.collect() }
+        let lines = predicted.len() - self.changes.len();
+        let rate = |(at, (change, response)): (usize, (Expr, BTreeMap<usize, Expr>))| {
+            let slopes = response.into_iter().map(|(line, slope)| (line, slope, predicted[line])).collect();
+            Rate { state: lines + at, predicted: arena.add(predicted[lines + at], change), slopes }
         };
-        self.inverse.iter().zip(&self.response).enumerate().map(rate).collect()
+        self.changes.into_iter().zip(self.response).enumerate().map(rate).collect()
     }
 }
 
-/// x + Σ a b
-fn plus_products(arena: &mut Arena, x: Expr, terms: impl Iterator<Item = (Expr, Expr)>) -> Expr {
-    terms.fold(x, |sum, (a, b)| {
-        let product = arena.mul(a, b);
-        arena.add(sum, product)
-    })
+/// x − a b, of entries that may be left out.
+fn less_product(arena: &mut Arena, x: Option<Expr>, a: Expr, b: Expr) -> Expr {
+    let product = arena.mul(a, b);
+    let rest = match x {
+        Some(x) => arena.sub(x, product),
+        None => arena.neg(product),
+    };
+    arena.share(rest)
 }
 
 /// The terms of J = s ∂Q/∂v + s² ∂Q/∂q, row by row, each with its column.
@@ -269,42 +264,49 @@ fn product(arena: &mut Arena, a: &Sparse, b: &Sparse) -> Sparse {
     a.iter().map(of_row).collect()
 }
 
-/// (1 − J)⁻¹ by Gauss and Jordan, in the order of the states. With steps that become shorter 1 − J comes near to 1,
-/// so that a pivot that vanishes asks for a shorter step.
-fn inverse(arena: &mut Arena, jacobian: &Sparse) -> Sparse {
-    let count = jacobian.len();
-    let mut rows: Sparse = Sparse::new();
+/// The solution of (1 − J) X = R by Gauss's elimination in the order of the states, so that a chain of states takes
+/// as many operations as it has links. With steps that become shorter 1 − J comes near to 1, so that a pivot that
+/// vanishes asks for a shorter step.
+fn solved(arena: &mut Arena, jacobian: &Sparse, mut right: Sparse) -> Sparse {
+    let mut rows = Sparse::new();
     for (at, row) in jacobian.iter().enumerate() {
         let mut entries: BTreeMap<usize, Expr> =
             row.iter().map(|(&column, &entry)| (column, arena.neg(entry))).collect();
         let diagonal = entries.get(&at).copied().unwrap_or(arena.zero());
-        let (one, diagonal) = (arena.one(), arena.add(diagonal, arena.one()));
-        entries.insert(at, diagonal);
-        entries.insert(count + at, one);
+        entries.insert(at, arena.add(diagonal, arena.one()));
         rows.push(entries);
     }
-    for at in 0..count {
+    let mut inverses = Vec::new();
+    for at in 0..rows.len() {
         let pivot = arena.share(rows[at][&at]);
         let inverse = arena.powi(pivot, -1);
         let inverse = arena.share(inverse);
-        for entry in rows[at].values_mut() {
-            let scaled = arena.mul(*entry, inverse);
-            *entry = arena.share(scaled);
-        }
-        let scaled = rows[at].clone();
-        for row in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).map(|(_, row)| row) {
-            let Some(factor) = row.remove(&at) else { continue };
-            for (&column, &entry) in scaled.range(at + 1..) {
-                let product = arena.mul(factor, entry);
-                let known = row.get(&column).copied().unwrap_or(arena.zero());
-                let rest = arena.sub(known, product);
-                row.insert(column, arena.share(rest));
+        inverses.push(inverse);
+        let (above, below) = rows.split_at_mut(at + 1);
+        let (right_above, right_below) = right.split_at_mut(at + 1);
+        for (row, right) in below.iter_mut().zip(right_below) {
+            let Some(entry) = row.remove(&at) else { continue };
+            let factor = arena.mul(entry, inverse);
+            let factor = arena.share(factor);
+            for (&column, &entry) in above[at].range(at + 1..) {
+                row.insert(column, less_product(arena, row.get(&column).copied(), factor, entry));
+            }
+            for (&column, &entry) in &right_above[at] {
+                right.insert(column, less_product(arena, right.get(&column).copied(), factor, entry));
             }
         }
     }
-    let right = |row: BTreeMap<usize, Expr>| {
-        let columns = row.into_iter().filter(|(column, _)| *column >= count);
-        columns.map(|(column, entry)| (column - count, entry)).collect()
-    };
-    rows.into_iter().map(right).collect()
+    for at in (0..rows.len()).rev() {
+        let (above, below) = right.split_at_mut(at + 1);
+        for (&column, &entry) in rows[at].range(at + 1..) {
+            for (&of, &solved) in &below[column - at - 1] {
+                above[at].insert(of, less_product(arena, above[at].get(&of).copied(), entry, solved));
+            }
+        }
+        for entry in above[at].values_mut() {
+            let scaled = arena.mul(*entry, inverses[at]);
+            *entry = arena.share(scaled);
+        }
+    }
+    right
 }
