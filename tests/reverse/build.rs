@@ -6,10 +6,11 @@ use std::fs;
 use std::path::Path;
 
 /// Of each kind of what is transposed: friction that depends on reactions, a spline, loops of long programs, a
-/// drive, a spring and a damper, outputs of all kinds.
-const PLAIN: [&str; 8] = [
+/// drive, a spring and a damper, own states, outputs of all kinds.
+const PLAIN: [&str; 9] = [
     "block_on_incline",
     "cam_follower",
+    "dc_motor",
     "four_bar_free",
     "n_four_bar",
     "slider_crank",

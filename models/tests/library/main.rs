@@ -13,11 +13,11 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DoublePendulum, Excavator,
-    FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
-    NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
-    Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree,
-    SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DcMotor, DoublePendulum,
+    Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
+    Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
+    NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank,
+    SliderCrankFree, SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use paths::STRIDE;

@@ -13,6 +13,7 @@ use mbs_runtime::{Error, Held, Heun, Info, Method, PerStage, Projected, Rk4, Sim
 use paths::EXHAUSTIVE;
 use reverse::block_on_incline::BlockOnIncline;
 use reverse::cam_follower::CamFollower;
+use reverse::dc_motor::DcMotor;
 use reverse::four_bar_free::FourBarFree;
 use reverse::n_four_bar::NFourBar10;
 use reverse::slider_crank::SliderCrank;
@@ -105,6 +106,7 @@ fn every_kind_of_mechanism() {
     let live = |file| text(file, "gradients = reverse;").compile().unwrap();
     same::<BlockOnIncline, Held<Heun>>(&live("block_on_incline.rs"));
     same::<CamFollower, Held<Heun>>(&live("cam_follower.rs"));
+    same::<DcMotor, Held<Heun>>(&live("dc_motor.rs"));
     if EXHAUSTIVE {
         same::<FourBarFree, Held<Heun>>(&live("four_bar_free.rs"));
         same::<SliderCrank, Held<Heun>>(&live("slider_crank.rs"));

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use mbs_symbolic::units::{self, Dimension};
 
-use crate::compiled::{Pivot, Quantity};
+use crate::compiled::{Compiled, Pivot, Quantity};
 use crate::diagnostics::described;
 
 /// A quantity with its unit and declared value.
@@ -32,6 +32,15 @@ pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
         }
     }
     text
+}
+
+/// A coordinate, or an own state and where it stands.
+pub fn coordinate(compiled: &Compiled, at: usize) -> String {
+    let text = compiled.coordinates.get(at).map_or_else(String::new, |it| quantity(it, None));
+    if at < compiled.line_count {
+        return text;
+    }
+    format!("{text} An own state: its value stands among velocities, its integral among positions.")
 }
 
 /// The kind of a quantity, with its article: `a length [m]`, `an angle [rad]`.

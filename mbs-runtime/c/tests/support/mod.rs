@@ -233,8 +233,8 @@ impl Drop for Run {
     }
 }
 
-/// Driven and free, with friction, tables, inputs, redundant constraints and events.
-pub const LIBRARY: [&str; 10] = [
+/// Driven and free, with friction, tables, inputs, redundant constraints, own states and events.
+pub const LIBRARY: [&str; 11] = [
     "slider_crank",
     "slider_crank_free",
     "four_bar",
@@ -243,6 +243,7 @@ pub const LIBRARY: [&str; 10] = [
     "cam_follower",
     "block_on_incline",
     "geared_motor",
+    "dc_motor",
     "tipper",
     "jansen",
 ];

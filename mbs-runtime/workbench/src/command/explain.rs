@@ -33,7 +33,7 @@ impl Arguments {
         let text = if self.latex {
             latex(info, derivation)
         } else {
-            plain(info, derivation) + &start(&model.start_values()?)
+            plain(info, derivation) + &start(&model.start_values()?, info)
         };
         say(text.trim_end())
     }
@@ -109,9 +109,12 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
 }
 
 /// The declared start, and by how much the constraints move it.
-fn start(values: &[StartValue]) -> String {
+fn start(values: &[StartValue], info: &Info) -> String {
     let mut table = Table::new(["", "declared", "starts at", "moved by", ""]);
-    for StartValue { name, declared, kept, unit } in values {
+    // integrals of own states begin at 0
+    let integrals = info.lines..info.coordinates.len();
+    let shown = values.iter().enumerate().filter(|(at, _)| !integrals.contains(at));
+    for (_, StartValue { name, declared, kept, unit }) in shown {
         let [declared, kept, moved] = [*declared, *kept, kept - declared].map(|value| significant(value, 6));
         table.row([name, &declared, &kept, &moved, unit]);
     }

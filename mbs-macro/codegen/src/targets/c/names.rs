@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::docs::constraint;
 use crate::compiled::{Compiled, Quantity, Results, Vector};
-use crate::targets::words::quantity;
+use crate::targets::words::{coordinate, quantity};
 
 /// The names of a printed mechanism.
 pub struct Names {
@@ -40,17 +40,20 @@ impl Names {
         let numbers = |list: &[Quantity]| members(list.iter().map(|it| (&it.name, quantity(it, None))));
         let parameters = compiled.parameters.iter().map(|it| (&it.quantity, it.value));
         let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
+        let coordinates = compiled.coordinates.iter().enumerate();
+        let coordinates = members(coordinates.map(|(at, it)| (&it.name, coordinate(compiled, at))));
         let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
         let mut structs = vec![
             ("parameters", "Numbers that are set once.", members(parameters)),
             ("inputs", "Numbers that may change from step to step.", numbers(&compiled.inputs)),
-            ("coordinates", "The coordinates, or their rates per second.", numbers(&compiled.coordinates)),
+            ("coordinates", "The coordinates, or their rates per second.", coordinates),
             ("constraints", ROWS, members(constraints)),
             ("outputs", "What the declaration measures.", numbers(&compiled.outputs)),
         ];
         if compiled.has_reduced_states() {
-            let states = compiled.states.iter().map(|&at| &compiled.coordinates[at]);
-            let states = members(states.map(|it| (&it.name, quantity(it, None))));
+            let states =
+                compiled.states.iter().map(|&at| (&compiled.coordinates[at].name, coordinate(compiled, at)));
+            let states = members(states);
             structs.push((
                 "states",
                 "The coordinates that are integrated, or their rates per second.",

@@ -47,22 +47,22 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         visibility,
         names.inputs.name.as_ref(),
     );
-    let coordinates = quantities(
-        compiled.coordinates.iter(),
-        "Coordinates",
-        "or their rates, in SI units",
-        names,
-        visibility,
-        names.coordinates.name.as_ref(),
-    );
-    let states = quantities(
-        compiled.states.iter().map(|&at| &compiled.coordinates[at]),
-        "Coordinates that are integrated",
-        "or their rates, in SI units; constraints give the others",
-        names,
-        visibility,
-        names.states.name.as_ref(),
-    );
+    let coordinate = |at: usize| {
+        let name = &compiled.coordinates[at].name;
+        Field { name: field(name), text: name.clone(), doc: words::coordinate(compiled, at), value: 0.0 }
+    };
+    let coordinates = names.coordinates.name.as_ref().map(|name| {
+        let fields: Vec<_> = (0..compiled.coordinates.len()).map(coordinate).collect();
+        let doc = format!("Coordinates of [`{mechanism}`], or their rates, in SI units.");
+        components(visibility, name, names, &doc, &fields)
+    });
+    let states = names.states.name.as_ref().map(|name| {
+        let fields: Vec<_> = compiled.states.iter().map(|&at| coordinate(at)).collect();
+        let doc = format!(
+            "Coordinates that are integrated of [`{mechanism}`], or their rates, in SI units; constraints give the others."
+        );
+        components(visibility, name, names, &doc, &fields)
+    });
     let outputs = quantities(
         compiled.outputs.iter(),
         "Outputs",

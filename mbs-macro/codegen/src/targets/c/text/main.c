@@ -1,4 +1,4 @@
-/* Runs NAME for a second and prints time, coordinates and outputs as a table. */
+/* Runs NAME for a second and prints time, coordinates, own states and outputs as a table. */
 #include "NAME.h"
 
 #include <stdio.h>
@@ -6,10 +6,12 @@
 static void print_row(const struct NAME_run *run, const struct NAME_outputs *outputs)
 {
     const NAME_real *const q = (const NAME_real *)&run->state.q;
+    const NAME_real *const v = (const NAME_real *)&run->state.v;
     const NAME_real *const measured = (const NAME_real *)outputs;
     printf("%.17g", (double)run->state.t);
     for (int at = 0; at < CAPS_COORDINATES; at++) {
-        printf(",%.17g", (double)q[at]);
+        /* the value of an own state is that of a rate */
+        printf(",%.17g", (double)(at < CAPS_LINES ? q[at] : v[at]));
     }
     for (int at = 0; at < CAPS_OUTPUTS; at++) {
         printf(",%.17g", (double)measured[at]);
