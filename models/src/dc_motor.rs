@@ -23,6 +23,7 @@ mechanism! {
     /// DC motor with inductance and PI speed control.
     pub DcMotor {
         dof = 1;
+        step = 0.05 [ms];
         /// Resistance of the winding.
         param resistance = 1 [ohm] where resistance >= 0;
         /// Inductance of the winding.

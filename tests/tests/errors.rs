@@ -291,6 +291,7 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         (Error::UnstableGains { alpha: 5.0, beta: 6.0, step: 7.0, feedback: "held" }, "leave both out"),
         (Error::NonFinite { t: 8.0, coordinate: "x" }, "`x`"),
         (Error::NotDriven { dof: 9 }, "9"),
+        (Error::OwnState { state: "current" }, "`current`"),
         (Error::NoUseOfGain { name: "alpha", value: 7.0 }, "7 1/s"),
         (Error::NoEstimate { scheme: "rk4" }, "dopri5"),
         (Error::Tolerance { name: "rtol", value: 0.0, least: 1e-14 }, "1.0e-14"),

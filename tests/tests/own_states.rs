@@ -286,3 +286,19 @@ fn linear_systems_have_states_behind_velocities() -> Result<(), mbs_analysis::Er
     assert!((found.re - expected[0]).abs() < 1e-9 && (found.im - expected[1]).abs() < 1e-9, "{found}");
     Ok(())
 }
+
+/// Kinematics follows constraints, of which a state has none.
+#[test]
+fn kinematics_refuses_states() {
+    mechanism! {
+        Driven {
+            dof = 0;
+            body crank (angle = phi) { inertia = 0.5 [kg*m^2]; }
+            drive motor: phi = 3 [rad/s^2]*t^2;
+            state turned [rad*s];
+            der(turned) = phi;
+        }
+    }
+    let refused = mbs_runtime::Kinematics::new(Driven::declared()).map(|_| ());
+    assert_eq!(refused, Err(Error::OwnState { state: "turned" }));
+}

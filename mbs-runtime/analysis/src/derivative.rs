@@ -212,6 +212,12 @@ fn evaluated<T: Real>(mechanism: &dyn Described<T>, at: At<'_, T>, inputs: &[T],
     [phi, phi_dot, acceleration, multipliers, outputs].concat()
 }
 
+/// The size of an own state: that of its value, and of one of its declared units at least, since a value near 0 is
+/// no measure of its changes.
+pub fn size_of_state(state: &mbs_runtime::Quantity, value: f64) -> f64 {
+    scale(state, 0.0).max(value.abs())
+}
+
 /// The size of a quantity: that of its value, or one of its declared units where it is 0.
 pub fn scale(quantity: &mbs_runtime::Quantity, value: f64) -> f64 {
     let unit = if quantity.scale > 0.0 { quantity.scale } else { 1.0 };

@@ -7,7 +7,7 @@ use mbs_runtime::equations::Described;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chart::Chart;
-use crate::derivative::{Derivatives, Direction, Values, scale};
+use crate::derivative::{Derivatives, Direction, Values, size_of_state};
 use crate::family::{Family, Varied};
 use crate::{Error, OperatingPoint, Signal, Variable};
 
@@ -177,7 +177,7 @@ pub fn linearize(
     };
     let mut scales = chart.scales();
     for (at, state) in info.coordinates.iter().enumerate().skip(info.lines) {
-        scales[at] = scale(state, point.v[at]);
+        scales[at] = size_of_state(state, point.v[at]);
     }
     let derivatives = Derivatives { mechanism, point, varied, scales: scales.clone() };
     let here = derivatives.values();

@@ -3,7 +3,7 @@
 use mbs_runtime::equations::{At, Described};
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
-use crate::derivative::scale;
+use crate::derivative::size_of_state;
 use crate::tangent::Rest;
 
 /// Directions of Arnoldi's iteration at most.
@@ -115,7 +115,7 @@ impl<'a> Tangents<'a> {
     fn new(mechanism: &'a dyn Described<f64>, at: At<'a, f64>, inputs: &'a [f64]) -> Option<Self> {
         let (info, mut scales) = (mechanism.info(), Rest::new(mechanism, at.t, inputs, at.q).scales());
         for (place, state) in info.coordinates.iter().enumerate().skip(info.lines) {
-            scales[place] = scale(state, at.v.get(place).copied().unwrap_or_default());
+            scales[place] = size_of_state(state, at.v.get(place).copied().unwrap_or_default());
         }
         let speeds = DVector::from_column_slice(at.v).component_div(&scales);
         let speed = speeds.iter().take(info.lines).fold(0.0_f64, |speed, v| speed.max(v.abs()));

@@ -104,7 +104,8 @@ impl From<Error> for Failure {
             | Error::Scheme { .. }
             | Error::UnstableGains { .. }
             | Error::NoTranspose { .. }
-            | Error::NotDriven { .. } => Status::Method,
+            | Error::NotDriven { .. }
+            | Error::OwnState { .. } => Status::Method,
             Error::NoCoordinate { .. } | Error::NoVariable { .. } => Status::Name,
             Error::Length { .. } => Status::Count,
             Error::Inconsistent { .. } | Error::NotAssembled { .. } => Status::Start,

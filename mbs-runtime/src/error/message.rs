@@ -84,6 +84,11 @@ impl fmt::Display for Error {
                 "the method `{method}` integrates all coordinates; leave `states = reduced;` out of the \
                  declaration, or take another method"
             ),
+            Self::OwnState { state } => write!(
+                f,
+                "the state `{state}` follows from its equation over time, and not from the constraints; simulate the \
+                 mechanism"
+            ),
             Self::NoUseOfGain { name, value } => write!(
                 f,
                 "the gain {name} is {} 1/s, but projection needs no gains; they belong to held or \

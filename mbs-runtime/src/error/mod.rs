@@ -107,6 +107,11 @@ pub enum Error {
         /// Its word.
         method: &'static str,
     },
+    /// A state of the mechanism's own, where the motion is to follow from constraints alone.
+    OwnState {
+        /// Its name.
+        state: &'static str,
+    },
     /// A gain of feedback where the constraints are kept by projection.
     NoUseOfGain {
         /// `alpha` or `beta`.

@@ -2,7 +2,6 @@
 const curves = (() => {
   const { data, tables, rows } = session, MOST_POINTS = 1200;
   const n = tables.coordinates.length, outputs = tables.outputs.length, all = data.columns.length;
-  // without outputs coordinates, or the states of a declaration without bodies
   const begin = tables.lines ? 1 : 1 + n;
   const first = outputs ? [all - 1 - outputs, outputs > 1 ? all - outputs : begin] : [begin, n > 1 ? begin + 1 : 1 + n];
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
@@ -10,7 +9,6 @@ const curves = (() => {
   function plot(parent, at, column) {
     const box = document.createElement("div"), choice = document.createElement("select"), place = document.createElement("div");
     choice.setAttribute("aria-label", `curve ${at + 1}`);
-    // outputs before coordinates, since they are what the declaration asks for
     const order = [...data.columns.keys()].slice(1);
     const outer = order.slice(all - 2 - outputs), inner = order.slice(0, all - 2 - outputs);
     choice.replaceChildren(...[...outer, ...inner].map((k) => new Option(data.columns[k], k, k === column, k === column)));

@@ -93,7 +93,6 @@
     player.changed();
   }
 
-  // For a page around this one.
   const player = {
     get state() { return { isPlaying: playing, speed: Number(speed.value) }; },
     set speed(rate) { if (SPEEDS.includes(rate)) speed.value = rate; },
@@ -108,7 +107,6 @@
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, summary")) return;
     const keys = { " ": () => play(!playing), ArrowRight: step, ArrowUp: () => faster(1), ArrowDown: () => faster(-1), r: restart, R: restart };
-    // space on a button is a click of it
     if (!keys[event.key] || (event.key === " " && event.target.closest("button"))) return;
     event.preventDefault();
     keys[event.key]();

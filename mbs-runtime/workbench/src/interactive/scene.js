@@ -37,7 +37,6 @@ const scene = (() => {
 
   function draw() {
     const places = pairs(run.points());
-    // a body that leaves the picture makes it larger
     for (const place of bodies.flatMap((body) => body.points.map((point) => places[point]))) {
       if (!place.every(Number.isFinite)) continue;
       for (const axis of [0, 1]) {
