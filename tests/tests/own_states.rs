@@ -226,7 +226,7 @@ fn lanes_run_as_alone() -> Result<(), Error> {
         let parameters = MotorParameters { resistance, ..MotorParameters::default() };
         Simulation::builder(Motor::new(parameters)?, 1e-5).inputs(powered()).build()
     };
-    let together = Ensemble::new(5e-3).run(11, &motor, &()).unwrap_or_default();
+    let together = Ensemble::new(5e-3).run(11, motor, &()).unwrap_or_default();
     assert_eq!(together.len(), 11);
     for (at, together) in together.into_iter().enumerate() {
         let mut alone = motor(at)?;
