@@ -23,11 +23,10 @@ mechanism! {
     /// DC motor with inductance and PI speed control.
     pub DcMotor {
         dof = 1;
-        step = 0.05 [ms];
         /// Resistance of the winding.
         param resistance = 1 [ohm] where resistance >= 0;
         /// Inductance of the winding.
-        param inductance = 0.5 [mH] where inductance > 0;
+        param inductance = 5 [mH] where inductance > 0;
         /// Torque per current, and voltage per speed.
         param constant = 0.05 [N*m/A] where constant >= 0;
         /// Inertia of the rotor.

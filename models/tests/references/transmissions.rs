@@ -97,7 +97,7 @@ fn geared_motor_runs_up() -> Result<(), Error> {
 }
 
 /// At rest the current carries the load and the speed is the wanted one. The slowest root of
-/// 5e-8 λ³ + 1e-4 λ² + 0.0125 λ + 0.25 = 0 is −25/s, so that e⁻⁵⁰ = 2e-22 of the deviation is left.
+/// 5e-7 λ³ + 1e-4 λ² + 0.0125 λ + 0.25 = 0 is −24/s, so that e⁻⁴⁸ = 1e-21 of the deviation is left.
 #[test]
 fn dc_motor_holds_its_speed() -> Result<(), Error> {
     let p: DcMotorParameters<f64> = DcMotorParameters::default();
