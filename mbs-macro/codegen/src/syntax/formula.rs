@@ -303,10 +303,9 @@ fn unit_factor(input: ParseStream<'_>) -> Result<Unit> {
     let name =
         Ident::parse_any(input).map_err(|error| Error::new(error.span(), "a unit is expected here"))?;
     let unit = units::lookup(&name.to_string()).ok_or_else(|| {
-        let text = name.to_string();
-        let near = || crate::diagnostics::nearest(&text, units::known()).map(str::to_owned);
-        let meant = units::meant(&text).or_else(near);
-        let unknown = units::UnitError::unknown(&text);
+        let unknown = units::UnitError::unknown(&name.to_string());
+        let near = |text: &str| crate::diagnostics::nearest(text, units::known()).map(str::to_owned);
+        let meant = unknown.unknown.as_deref().and_then(|text| units::meant(text).or_else(|| near(text)));
         match meant {
             Some(meant) => helped(name.span(), unknown, format!("did you mean `{meant}`?")),
             None => Error::new(name.span(), unknown),

@@ -9,13 +9,19 @@ use super::{Dimension, Unit, known, lookup, meant};
 pub struct UnitError {
     /// The fault in words.
     pub message: String,
-    /// The name that is no unit, if that is it.
-    unknown: Option<String>,
+    /// The name that is no unit, if another name may be meant.
+    pub unknown: Option<String>,
 }
 
 impl UnitError {
     /// The error for a name that is no unit.
     pub fn unknown(name: &str) -> Self {
+        if CELSIUS.contains(&name) {
+            let message = format!(
+                "`{name}` begins at another zero, so that it is no unit: 20 °C are `293.15 [K]`, and 20 °C more `20 [K]`"
+            );
+            return Self { message, unknown: None };
+        }
         let list: Vec<_> = known().collect();
         let message = format!("unknown unit `{name}`; the units are {}", list.join(", "));
         Self { message, unknown: Some(name.to_owned()) }
@@ -91,12 +97,6 @@ fn parse_factor(factor: &str, sign: i32) -> Result<Unit, UnitError> {
     let power = |unit: Unit| exponent.and_then(|e| unit.power(sign * e.clamp(-99, 99)));
     let unit = if name == "1" { Some(Unit::ONE) } else { lookup(name) };
     match unit {
-        None if CELSIUS.contains(&name) => Err(UnitError {
-            message: format!(
-                "`{name}` begins at another zero, so that it is no unit: 20 °C are `293.15 [K]`, and 20 °C more `20 [K]`"
-            ),
-            unknown: None,
-        }),
         None => Err(UnitError::unknown(name)),
         Some(unit) => power(unit).ok_or_else(|| UnitError {
             message: format!("`{factor}` needs a small whole number as its exponent"),
