@@ -301,6 +301,13 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("inlb", "in*lbf"),
     ("lbin", "lbf*in"),
     ("ozin", "ozf*in"),
+    ("l", "L"),
+    ("ml", "mL"),
+    ("amp", "A"),
+    ("volt", "V"),
+    ("Ohm", "ohm"),
+    ("Ω", "ohm"),
+    ("kΩ", "kohm"),
 ];
 
 /// The unit called `name`; on a command line and in tables `°` is one, too.
@@ -442,6 +449,7 @@ mod tests {
             assert_eq!(parse(unit), parse(equal), "{unit}");
         }
         assert_eq!(Dimension::electric(1, 2, -3, -1).to_string(), "voltage [V]");
+        assert_eq!(parse("V/kΩ"), parse("mA"));
         assert_eq!(parse("V/A^2/m").unwrap().dimension.si_unit(), "kg*m/s^3/A^3");
         let refused = parse("J/degC").unwrap_err().message;
         assert!(refused.contains("293.15 [K]"), "{refused}");

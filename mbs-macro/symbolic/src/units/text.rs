@@ -53,7 +53,7 @@ impl std::error::Error for UnitError {}
 
 /// Reads a product of unit powers such as `N*m`, `kg*m^2`, `m/s^2` or `1/s`.
 ///
-/// `/` applies to the next factor alone, as in `kg*m/s/s`.
+/// `/` applies to the next factor alone, as in `kg*m/s/s`. `Ω` is `ohm`.
 ///
 /// # Errors
 /// Names the factor that is no unit and lists the units.
@@ -95,7 +95,9 @@ fn parse_factor(factor: &str, sign: i32) -> Result<Unit, UnitError> {
         None => (factor, Some(1)),
     };
     let power = |unit: Unit| exponent.and_then(|e| unit.power(sign * e.clamp(-99, 99)));
-    let unit = if name == "1" { Some(Unit::ONE) } else { lookup(name) };
+    // the sign of the unit and the Greek letter
+    let ohms = name.replace(['\u{2126}', 'Ω'], "ohm");
+    let unit = if name == "1" { Some(Unit::ONE) } else { lookup(&ohms) };
     match unit {
         None => Err(UnitError::unknown(name)),
         Some(unit) => power(unit).ok_or_else(|| UnitError {
