@@ -1,4 +1,4 @@
-//! Periodic cubic splines, whose coefficients the compiler has computed.
+//! Splines, whose coefficients the compiler has computed.
 
 use crate::Real;
 
@@ -10,13 +10,13 @@ pub struct Segment {
     pub coefficients: [f64; 4],
 }
 
-/// A function of period P, cubic from point to point.
+/// A function given by a table, cubic from point to point.
 pub struct Spline {
     /// The argument of the first point.
     pub origin: f64,
-    /// P
-    pub period: f64,
-    /// In ascending order.
+    /// The period, of a periodic one.
+    pub period: Option<f64>,
+    /// In ascending order. The first one holds before its beginning, too, and the last one for ever.
     pub segments: &'static [Segment],
 }
 
@@ -36,7 +36,10 @@ impl Spline {
         let value = x.to_f64();
         let beside = x - T::from_f64(value);
         let distance = value - self.origin;
-        let distance = distance - floor(distance / self.period) * self.period;
+        let distance = match self.period {
+            Some(period) => distance - floor(distance / period) * period,
+            None => distance,
+        };
         let at = self.segments.partition_point(|segment| segment.from <= distance).saturating_sub(1);
         let Some(Segment { from, coefficients }) = self.segments.get(at) else { return T::default() };
         let u = T::from_f64(distance - from) + beside;
@@ -66,7 +69,7 @@ mod tests {
     /// u² − u on 0 … 1, repeated: its slope jumps, its wrapping shows.
     const ARCH: Spline = Spline {
         origin: 0.0,
-        period: 1.0,
+        period: Some(1.0),
         segments: &[Segment { from: 0.0, coefficients: [0.0, -1.0, 1.0, 0.0] }],
     };
 

@@ -284,11 +284,17 @@ impl Arena {
         })
     }
 
-    /// The derivative of this order of a spline at x: 0 beyond the third.
+    /// The derivative of this order of a spline at x: 0 beyond its degree.
     pub(crate) fn spline_derivative(&mut self, spline: SplineId, order: u8, x: Expr) -> Expr {
+        if order > self.splines[spline.index()].degree() {
+            return self.zero();
+        }
         if let Some(x) = self.as_number(x) {
             let value = self.splines[spline.index()].derivative(order, x.to_f64());
-            return self.number(value.into());
+            // none where the spline refuses its argument
+            if value.is_finite() {
+                return self.number(value.into());
+            }
         }
         self.intern(Node::Spline(spline, order, x))
     }

@@ -10,7 +10,6 @@ use crate::algebra::{Algebra, Scalar};
 use crate::arena::{Arena, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::operators::Function;
-use crate::spline::next_order;
 
 /// The derivative of a product of n factors has n terms of n factors, and the next one n
 /// times as many. Longer products are halved first, the halves computed once, so that
@@ -67,10 +66,7 @@ impl Arena {
                 if self.is_zero(known[&x]) {
                     return self.zero();
                 }
-                let slope = match next_order(order) {
-                    Some(order) => self.spline_derivative(spline, order, x),
-                    None => self.zero(),
-                };
+                let slope = self.spline_derivative(spline, order + 1, x);
                 self.mul(slope, known[&x])
             }
             // computed once as the value is, or sums of a long one would open again

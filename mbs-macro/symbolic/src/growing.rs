@@ -1,5 +1,7 @@
 //! A program that grows: instructions behind those that are there, none of them twice.
 
+use std::rc::Rc;
+
 use rustc_hash::FxHashMap;
 
 use crate::algebra::Algebra;
@@ -8,13 +10,14 @@ use crate::inconsistency::Inconsistency;
 use crate::number::Number;
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
-use crate::spline::SplineId;
+use crate::spline::{Spline, SplineId};
 
 pub(crate) const ZERO: Operand = Operand::Number(Number::ZERO);
 
 /// Instructions while they grow.
 pub(crate) struct Growing {
     pub instructions: Vec<Instruction>,
+    splines: Vec<Rc<Spline>>,
     /// Where a value is computed already.
     known: FxHashMap<(Operation, Operand, Operand), usize>,
 }
@@ -26,7 +29,7 @@ impl Growing {
         for (at, step) in program.instructions.iter().enumerate() {
             known.insert(key(step.operation, step.a, step.b), at);
         }
-        Self { instructions: program.instructions.clone(), known }
+        Self { instructions: program.instructions.clone(), splines: program.splines.clone(), known }
     }
 
     /// The derivatives of a function of the table by its arguments, 0 for those that nobody asks
@@ -141,10 +144,10 @@ impl Growing {
         }
     }
 
-    /// The slope of a derivative of a spline at `x`; nothing of the third, since the fourth derivative of a
-    /// cubic vanishes.
+    /// The slope of a derivative of a spline at `x`; nothing of the last one that does not vanish.
     pub fn spline_slope(&mut self, spline: SplineId, order: u8, x: Operand) -> Option<Operand> {
-        (order < 3).then(|| self.push(Operation::Spline(spline, order + 1), x, x))
+        let slope = Operation::Spline(spline, order + 1);
+        (order < self.splines[spline.index()].degree()).then(|| self.push(slope, x, x))
     }
 
     /// The value of an instruction, which is made if there is none yet.

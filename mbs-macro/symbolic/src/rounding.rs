@@ -83,12 +83,13 @@ impl Numeric for Rounded {
     }
 
     /// The argument is reduced to one period and then to one segment, with an error of a few roundings of the
-    /// larger of both. The four terms are as large as the derivatives times the period allow.
+    /// larger of both. The four terms are as large as the derivatives times the period, or the way from the first
+    /// point to the last, allow.
     fn spline(self, spline: &Spline, order: u8) -> Self {
         let of = |more: u8| self.value.spline(spline, order + more);
-        let period = spline.period;
-        let reduced = self.error + 4.0 * f64::EPSILON * (self.value.abs() + spline.origin.abs() + period);
-        let terms = of(0).abs() + of(1).abs() * period + of(2).abs() * period * period;
+        let span = spline.span();
+        let reduced = self.error + 4.0 * f64::EPSILON * (self.value.abs() + spline.origin.abs() + span);
+        let terms = of(0).abs() + of(1).abs() * span + of(2).abs() * span * span;
         Self { value: of(0), error: of(1).abs() * reduced + 16.0 * f64::EPSILON * terms }
     }
 }

@@ -177,6 +177,31 @@ fn a_profile_that_leaves_its_dwell_is_told() {
     assert_eq!(warnings(&(0..36).map(sine).collect::<Vec<_>>().join(", ")), "");
 }
 
+/// A cubic table that leaves its dwell is told of, with the kind that does not; a monotone one does not leave it.
+#[test]
+fn a_table_that_overshoots_is_told() {
+    let warnings = |way: &str, outside: &str| {
+        let text = format!(
+            "Damper {{
+    dof = 1;
+    body mass (x) {{ mass = 1 [kg]; }}
+    table push(x) = [(0 [m], 0 [N]), (1 [m], 10 [N]), (2 [m], 10 [N]), (3 [m], 0 [N])] {way} outside {outside};
+    force push on x = push(x);
+    start {{ x = 0; }}
+}}"
+        );
+        let (_, warnings) =
+            Text::declaration("damper.mbs", text).check().unwrap_or_else(|error| panic!("{error}"));
+        warnings.to_string()
+    };
+    for outside in ["hold", "extend", "periodic", "refuse"] {
+        let told = warnings("cubic", outside);
+        assert!(told.contains("`push` goes away from its value by"), "{outside}: {told}");
+        assert!(told.contains("damper.mbs:4:39") && told.contains("`monotone`"), "{outside}: {told}");
+        assert_eq!(warnings("monotone", outside), "");
+    }
+}
+
 /// Regression: nothing was said of what is declared and never used.
 #[test]
 fn what_nothing_uses_is_told() {

@@ -243,7 +243,13 @@ fn statement(random: &mut Random, depth: usize) -> String {
         18 => joint(r, &name),
         19 => {
             let points = (0..r.below(6)).map(|at| format!("({at}, {}),", formula(r, 3))).collect::<String>();
-            format!("profile {name} = spline({points}) period {};", formula(r, 2))
+            if r.below(2) == 0 {
+                format!("profile {name} = spline({points}) period {};", formula(r, 2))
+            } else {
+                let way = r.of(&["linear", "cubic", "monotone", "step", "straight"]);
+                let outside = r.of(&["hold", "extend", "periodic", "refuse", "nothing"]);
+                format!("table {name}(x) = [{points}] {way} outside {outside};")
+            }
         }
         20 => solver(r),
         21 => element(r, &name),

@@ -130,8 +130,8 @@ pub struct Compiled {
     pub sketch: Sketch,
     /// The declared choices for the integration.
     pub choices: Choices,
-    /// Warnings about parts that compile and are likely mistakes: parameters, inputs, definitions and profiles that
-    /// nothing uses, and profiles that leave their dwells.
+    /// Warnings about parts that compile and are likely mistakes: parameters, inputs, definitions and tables that
+    /// nothing uses, and those that leave their dwells.
     pub warnings: Vec<Diagnostic>,
     /// The parts that the Rust target takes over as they were written.
     pub written: Written,

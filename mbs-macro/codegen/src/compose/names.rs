@@ -6,7 +6,9 @@
 
 use proc_macro2::Ident;
 
-use crate::syntax::{Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Vector};
+use crate::syntax::{
+    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Vector,
+};
 
 /// Rows of joints are called after them: `pin_x`.
 const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
@@ -14,7 +16,7 @@ const ROW_SUFFIXES: &[&str] = &["_x", "_y", "_angle", "_normal", "_slip"];
 /// A name, or a path such as `leg.crank.tip`, in a statement.
 pub enum Mention<'a> {
     Name(&'a mut Ident),
-    /// The name in a call: a function of the language, or a profile.
+    /// The name in a call: a function of the language, or a table.
     Function(&'a mut Ident),
     /// The body that a point is declared on, and the point.
     Point(&'a mut Ident, &'a mut Ident),
@@ -27,7 +29,7 @@ pub enum Mention<'a> {
 }
 
 /// The names that a statement declares for formulas, places and multipliers; of
-/// a profile, `lift()`.
+/// a table, `lift()`.
 pub fn declared(item: &Item) -> Vec<String> {
     let plain = |name: &Ident| vec![name.to_string()];
     match &item.kind {
@@ -42,7 +44,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Event { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
-        ItemKind::Profile(profile) => vec![format!("{}()", profile.name), profile.name.to_string()],
+        ItemKind::Table(table) => vec![format!("{}()", table.name), table.name.to_string()],
         ItemKind::Body { name, coordinates, .. } => {
             let coordinates = coordinates.iter().map(|coordinate| coordinate.name.to_string());
             coordinates.chain([name.to_string()]).collect()
@@ -152,10 +154,12 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
                 }
             }
         }
-        ItemKind::Profile(profile) => {
-            visit(Mention::Name(&mut profile.name));
-            profile.points.iter_mut().for_each(|point| in_vector(point, visit));
-            in_formula(&mut profile.period, visit);
+        ItemKind::Table(table) => {
+            visit(Mention::Name(&mut table.name));
+            table.points.iter_mut().for_each(|point| in_vector(point, visit));
+            if let Outside::Periodic(Some(period)) = &mut table.outside {
+                in_formula(period, visit);
+            }
         }
         ItemKind::Element(element) => {
             visit(Mention::Name(&mut element.name));

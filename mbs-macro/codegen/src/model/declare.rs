@@ -39,7 +39,7 @@ impl<'a> Resolver<'a> {
         match &item.kind {
             ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),
-            ItemKind::Profile(profile) => self.declare_profile(&profile.name),
+            ItemKind::Table(table) => self.declare_table(table),
             ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
             ItemKind::State { name, unit, .. } => self.declare_state(name, unit, &item.doc),
             ItemKind::Force { name, is_torque, .. } => {

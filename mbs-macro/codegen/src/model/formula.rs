@@ -286,7 +286,7 @@ impl Scope<'_> {
             return Diagnostic::new(name.span(), format!("`{text}` is a constraint, not a quantity"))
                 .help(format!("its multiplier is `lambda({text})`"));
         }
-        if functions::is_known(&text) || self.profiles.contains_key(&text) {
+        if functions::is_known(&text) || self.tables.contains_key(&text) {
             return Diagnostic::new(name.span(), format!("`{text}` is a function")).help(
                 match text.ends_with("_energy") {
                     true => format!("write `{text}()`"),

@@ -36,8 +36,8 @@ impl Scope<'_> {
                 if let Some(law) = LAWS.iter().find(|law| law.name == text) {
                     return self.law(law, name, arguments, place, errors);
                 }
-                if self.profiles.contains_key(text) {
-                    return self.profile(name, arguments, place, errors);
+                if self.tables.contains_key(text) {
+                    return self.table(name, arguments, place, errors);
                 }
                 errors.push(self.unknown_function(name));
                 None
@@ -47,7 +47,7 @@ impl Scope<'_> {
 
     fn unknown_function(&self, name: &Ident) -> Diagnostic {
         let text = name.to_string();
-        let known: Vec<&str> = known().chain(self.profiles.keys().map(String::as_str)).collect();
+        let known: Vec<&str> = known().chain(self.tables.keys().map(String::as_str)).collect();
         let error = Diagnostic::new(name.span(), format!("there is no function `{text}`"));
         match nearest(&text, known.iter().copied()) {
             _ if self.values.contains_key(&text) => {

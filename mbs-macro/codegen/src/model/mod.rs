@@ -18,7 +18,6 @@ mod loads;
 mod measures;
 mod names;
 mod places;
-mod profiles;
 mod reactions;
 mod resolver;
 mod sketch;
@@ -26,6 +25,7 @@ mod solver;
 mod starts;
 mod statements;
 mod states;
+mod tables;
 mod warnings;
 
 use mbs_symbolic::units::Dimension;

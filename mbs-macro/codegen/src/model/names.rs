@@ -10,8 +10,8 @@ use super::Meaning;
 use super::Requirement;
 use super::measures::{Energies, Source};
 use super::places::{Frame, GROUND};
-use super::profiles::Profile;
 use super::reactions::KnownJoint;
+use super::tables::Table;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::Motion;
 use crate::syntax::Formula;
@@ -118,7 +118,7 @@ pub struct Scope<'a> {
     pub meanings: Vec<Meaning>,
     pub motion: Motion,
     pub values: BTreeMap<String, Value<'a>>,
-    /// The names of values and profiles that formulas use.
+    /// The names of values and tables that formulas use.
     pub used: BTreeSet<String>,
     /// Bodies, and the ground.
     pub bodies: BTreeMap<String, Frame>,
@@ -133,7 +133,7 @@ pub struct Scope<'a> {
     pub local: Option<Local>,
     /// Definitions that are being resolved, one in the other.
     pub depth: usize,
-    pub profiles: BTreeMap<String, Profile>,
+    pub tables: BTreeMap<String, Table>,
     /// Conditions on parameters, those of statements and those of laws in formulas.
     pub requirements: Vec<Requirement>,
 }
@@ -171,7 +171,7 @@ impl<'a> Scope<'a> {
             local: None,
             depth: 0,
             requirements: Vec::new(),
-            profiles: BTreeMap::new(),
+            tables: BTreeMap::new(),
         }
     }
 

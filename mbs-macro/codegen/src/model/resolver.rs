@@ -34,8 +34,8 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     resolver.each(declaration, Resolver::declare_rows);
     resolver.each(declaration, Resolver::resolve_value);
     resolver.each(declaration, |resolver, item| {
-        if let ItemKind::Profile(profile) = &item.kind {
-            resolver.resolve_profile(profile);
+        if let ItemKind::Table(table) = &item.kind {
+            resolver.resolve_table(table);
         }
     });
     resolver.each(declaration, Resolver::resolve_places);

@@ -2,29 +2,32 @@
 
 use std::collections::BTreeMap;
 
+use mbs_symbolic::Interpolation;
+
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Declaration, ItemKind, Profile};
+use crate::syntax::{Declaration, ItemKind, Outside, Table};
 
 /// A spline that leaves a dwell by less than this share of its range is not spoken of: one of three points of equal
 /// values or more, and one of two, which may be a peak between points on both of its sides.
 const OVERSHOOT: [f64; 2] = [1e-3, 2e-2];
 
 impl Resolver<'_> {
-    /// The warnings of a declaration: names that no formula uses, and used profiles that leave their dwells.
+    /// The warnings of a declaration: names that no formula uses, and used tables that leave their dwells.
     pub(super) fn warnings(&self, declaration: &Declaration) -> Vec<Diagnostic> {
-        let profiles = declaration.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Profile(profile) if self.scope.used.contains(&profile.name.to_string()) => {
-                self.overshoot(profile)
+        let tables = declaration.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Table(table) if self.scope.used.contains(&table.name.to_string()) => {
+                self.overshoot(table)
             }
             _ => None,
         });
-        self.unused(declaration).into_iter().chain(profiles).collect()
+        self.unused(declaration).into_iter().chain(tables).collect()
     }
 
-    /// The largest way that a profile goes between two points of equal values.
-    fn overshoot(&self, profile: &Profile) -> Option<Diagnostic> {
-        let spline = self.spline_named(&profile.name)?;
+    /// The largest way that a cubic table goes between two points of equal values.
+    fn overshoot(&self, table: &Table) -> Option<Diagnostic> {
+        let spline =
+            self.spline_named(&table.name).filter(|_| table.interpolation == Interpolation::Cubic)?;
         let values = || spline.segments.iter().map(|segment| segment.coefficients[0]);
         let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
         let dwells: Vec<(usize, f64)> = spline.overshoots().collect();
@@ -37,17 +40,22 @@ impl Resolver<'_> {
         let told =
             dwells.iter().map(|(at, away)| (*at, away / range)).filter(|(at, share)| is_told(*at, *share));
         let (at, share) = told.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
-        let (name, percent) = (&profile.name, 100.0 * share);
+        let (name, percent) = (&table.name, 100.0 * share);
         let message = format!(
             "behind this point `{name}` goes away from its value by {percent:.1} % of its range, and comes back"
         );
-        Some(Diagnostic::new(profile.points[at].x.span, message).help(
+        // the value that holds before the first point is no piece between two
+        let before = usize::from(matches!(table.outside, Outside::Hold | Outside::Refuse));
+        let point = table.points.get(at.checked_sub(before)?)?;
+        Some(Diagnostic::new(point.x.span, message).help(if table.word == "profile" {
             "a cubic spline overshoots where it is to dwell; give more points there, or compose the motion of laws that \
-             rest at both ends, such as `cycloidal`",
-        ))
+             rest at both ends, such as `cycloidal`"
+        } else {
+            "a `cubic` table overshoots; a `monotone` one does not"
+        }))
     }
 
-    /// Parameters, inputs, definitions and profiles that no formula uses. The copies that a loop or an assembly
+    /// Parameters, inputs, definitions and tables that no formula uses. The copies that a loop or an assembly
     /// makes of a statement are unused if all of them are.
     fn unused(&self, declaration: &Declaration) -> Vec<Diagnostic> {
         let mut statements: BTreeMap<usize, Option<Diagnostic>> = BTreeMap::new();
@@ -56,7 +64,7 @@ impl Resolver<'_> {
                 ItemKind::Parameter { name, .. } | ItemKind::Binding { name, .. } => ("parameter", name),
                 ItemKind::Input { name, .. } => ("input", name),
                 ItemKind::Let { name, .. } => ("definition", name),
-                ItemKind::Profile(profile) => ("profile", &profile.name),
+                ItemKind::Table(table) => (table.word, &table.name),
                 _ => continue,
             };
             let warning = || {

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{ItemKind, Role, items, joints, profiles, solver};
+use super::{ItemKind, Role, items, joints, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -67,7 +67,8 @@ pub const STATEMENTS: &[Statement] = &[
     ("constraint", "constraint rod: x = l*cos(theta);", "an equation between coordinates", |input, _| items::constraint(input, Role::Constraint)),
     ("drive", "drive motor: theta = omega*t;", "an equation that is enforced from outside", |input, _| items::constraint(input, Role::Drive)),
     ("coupler", "coupler screw: x = lead/(2*pi)*theta;", "an equation that is a transmission", |input, _| items::constraint(input, Role::Coupler)),
-    ("profile", "profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];", "a periodic function through points", |input, _| profiles::profile(input)),
+    ("table", "table damping(speed) = [(-1 [m/s], -900 [N]), …] linear outside extend;", "a function through points", |input, _| tables::table(input)),
+    ("profile", "profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];", "a periodic function through points", |input, _| tables::profile(input)),
     ("force", "force push on rod.tip = (fx, fy);", "a force on a body, or along a coordinate", |input, _| items::force(input, false)),
     ("torque", "torque turn on rod = m;", "a torque on a body", |input, _| items::force(input, true)),
     ("start", "start { theta = 30 [deg]; guess x = l; }", "where the motion starts", |input, _| items::start(input)),

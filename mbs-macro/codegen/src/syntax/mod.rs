@@ -7,14 +7,14 @@ mod indices;
 mod items;
 mod joints;
 mod keywords;
-mod profiles;
 mod solver;
 mod statements;
+mod tables;
 mod words;
 
 use mbs_interface::Tableau;
-use mbs_symbolic::Number;
 use mbs_symbolic::units::Unit;
+use mbs_symbolic::{Interpolation, Number};
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
@@ -96,8 +96,8 @@ pub enum ItemKind {
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
-    /// `profile lift = spline((0, 0), …) period 360 [deg];`
-    Profile(Profile),
+    /// `table gas(angle) = [(0, 0), …] cubic outside hold;`, or a `profile`.
+    Table(Table),
     /// `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`
     Element(Box<Element>),
     /// `start { … }`
@@ -192,12 +192,28 @@ pub enum Clause {
     Carrier(Ident),
 }
 
-/// A periodic function through points of (argument, value).
+/// A function through points of (argument, value).
 #[derive(Clone)]
-pub struct Profile {
+pub struct Table {
+    /// The word of its statement.
+    pub word: &'static str,
     pub name: Ident,
     pub points: Vec<Vector>,
-    pub period: Formula,
+    pub interpolation: Interpolation,
+    pub outside: Outside,
+}
+
+/// The values of a table outside of its points.
+#[derive(Clone)]
+pub enum Outside {
+    /// `hold`: those of the outermost points.
+    Hold,
+    /// `extend`: those of the outermost pieces, continued.
+    Extend,
+    /// `periodic`, where the last point is the first one again, or `period 360 [deg]`, after which it is.
+    Periodic(Option<Formula>),
+    /// `refuse`: none.
+    Refuse,
 }
 
 /// A force element: spring, motor, friction, drag.

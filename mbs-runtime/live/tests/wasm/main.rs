@@ -205,7 +205,7 @@ fn reduced_states() {
     agree(&text);
 }
 
-/// Every elementary function, sines of far angles too; those of the host are here the ones of Rust.
+/// Every elementary function and kind of table, sines of far angles too; those of the host are here the ones of Rust.
 #[test]
 fn every_function() {
     agree(&Text::declaration("functions.mbs", FUNCTIONS));
@@ -224,6 +224,12 @@ const FUNCTIONS: &str = "Functions {
     force elementary on x = -k*(sin(u) + cos(w) + tan(u/4) + asin(u/8) + acos(w/8) + atan(w) + sqrt(1 + u^2)
         + exp(-w^2) + ln(2 + u^2) + tanh(w) + abs(u) + sign(w) + sin(1e6*w) + cos(1e6*u));
     force others on y = k*(atan2(u, 1 + w^2) + min(u, w) + max(u, second) + pow(1 + u^2, w/3) - 2*w);
+    table rises(u) = [(-1, -0.3), (0, 0), (0.25, 0.5), (2, 0.7)] monotone outside hold;
+    table bends(u) = [(-0.5, 1), (0, 0.5), (0.4, 2), (0.9, -1)] cubic outside extend;
+    table kinks(w) = [(-0.3, 0), (0, 1), (0.3, 0)] linear outside periodic;
+    table steps(w) = [(-0.2, 1), (0.1, 2)] step outside extend;
+    table all(w) = [(-100, 0.5), (0, 1), (100, 3)] cubic outside refuse;
+    force by_tables on x = k*(rises(u) + bends(2*w) + kinks(w) - steps(u) + all(w));
     start { x = 0.3 [m]; y = -0.4 [m]; der(x) = 1 [m/s]; }
     output largest = max(u, w);
     output far = sin(1e7*u);

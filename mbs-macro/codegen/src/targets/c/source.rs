@@ -158,7 +158,7 @@ fn quoted(text: &str) -> String {
 
 fn splines(target: &Target<'_>, code: &str) -> String {
     let splines = &target.compiled.splines;
-    // a profile that nothing uses would be an unused constant
+    // a table that nothing uses would be an unused constant
     if !code.contains(&format!("{}_splines[", target.names.prefix)) {
         return String::new();
     }
@@ -173,7 +173,8 @@ fn splines(target: &Target<'_>, code: &str) -> String {
         let declaration = format!("static const struct NAME_segment NAME_segments_{at}[]");
         text += &comment(&spline.name, "");
         text += &table(target, &declaration, segments.collect(), "{0, {0, 0, 0, 0}}");
-        let (origin, period, count) = (number(spline.origin), number(spline.period), spline.segments.len());
+        let (origin, period, count) =
+            (number(spline.origin), number(spline.period.unwrap_or_default()), spline.segments.len());
         rows.push(format!("{{{origin}, {period}, {count}, {}_segments_{at}}}", target.names.prefix));
     }
     text + &table(target, "static const struct NAME_spline NAME_splines[]", rows, "{0, 0, 0, 0}")

@@ -168,22 +168,27 @@ fn pair_of_terms(code: &mut InstructionSink<'_>, z: u32, [c0, c1]: [f64; 2]) {
 fn interpolate() -> Function {
     let (x, spline, order) = (0, 1, 2);
     let (u, c0, c1, c2, c3) = (3, 4, 5, 6, 7);
-    let (segment, last) = (8, 9);
-    let mut function = Function::new([(5, ValType::F64), (2, ValType::I32)]);
+    let (segment, steps, middle) = (8, 9, 10);
+    let mut function = Function::new([(5, ValType::F64), (3, ValType::I32)]);
     let mut code = function.instructions();
     let bytes = |numbers: usize| 8 * numbers as i32;
     // u = x − origin, less whole periods
-    code.local_get(x).local_get(spline).f64_load(word(0)).f64_sub().local_tee(u);
-    code.local_get(u).local_get(spline).f64_load(word(1)).f64_div().f64_floor();
-    code.local_get(spline).f64_load(word(1)).f64_mul().f64_sub().local_set(u);
-    code.local_get(spline).i32_const(bytes(HEAD)).i32_add().local_tee(segment);
-    code.local_get(spline).f64_load(word(2)).i32_trunc_sat_f64_s().i32_const(1).i32_sub();
-    code.i32_const(bytes(SEGMENT)).i32_mul().i32_add().local_set(last);
-    // to the next segment while it begins at u or before
+    code.local_get(x).local_get(spline).f64_load(word(0)).f64_sub().local_set(u);
+    code.local_get(spline).f64_load(word(1)).f64_const(0.0.into()).f64_gt().if_(BlockType::Empty);
+    code.local_get(u).local_get(u).local_get(spline).f64_load(word(1)).f64_div().f64_floor();
+    code.local_get(spline).f64_load(word(1)).f64_mul().f64_sub().local_set(u).end();
+    // the segment is one of so many steps from here on
+    code.local_get(spline).i32_const(bytes(HEAD)).i32_add().local_set(segment);
+    code.local_get(spline).f64_load(word(2)).i32_trunc_sat_f64_s().i32_const(1).i32_sub().local_set(steps);
     code.block(BlockType::Empty).loop_(BlockType::Empty);
-    code.local_get(segment).local_get(last).i32_ge_u().br_if(1);
-    code.local_get(segment).f64_load(word(SEGMENT)).local_get(u).f64_le().i32_eqz().br_if(1);
-    code.local_get(segment).i32_const(bytes(SEGMENT)).i32_add().local_set(segment).br(0).end().end();
+    code.local_get(steps).i32_eqz().br_if(1);
+    // from the middle on, if that begins at u or before, else before it
+    code.local_get(steps).i32_const(1).i32_add().i32_const(1).i32_shr_u().i32_const(bytes(SEGMENT)).i32_mul();
+    code.local_get(segment).i32_add().local_tee(middle).f64_load(word(0)).local_get(u).f64_le();
+    code.if_(BlockType::Empty).local_get(middle).local_set(segment);
+    code.local_get(steps).i32_const(1).i32_shr_u().local_set(steps).else_();
+    code.local_get(steps).i32_const(1).i32_sub().i32_const(1).i32_shr_u().local_set(steps).end();
+    code.br(0).end().end();
     // x − x is 0, or not a number
     code.local_get(u).local_get(segment).f64_load(word(0)).f64_sub();
     code.local_get(x).local_get(x).f64_sub().f64_add().local_set(u);

@@ -20,13 +20,13 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// With these splines and this many slots. Of a spline there are origin, period, the number of segments as a
-    /// number, and per segment where it begins and its coefficients.
+    /// With these splines and this many slots. Of a spline there are origin, period or 0, the number of segments
+    /// as a number, and per segment where it begins and its coefficients.
     pub fn new(splines: &[Rc<Spline>], slots: usize) -> Self {
         let (mut bytes, mut addresses) = (Vec::new(), Vec::new());
         for spline in splines {
             addresses.push(bytes.len());
-            let head = [spline.origin, spline.period, spline.segments.len() as f64];
+            let head = [spline.origin, spline.period.unwrap_or_default(), spline.segments.len() as f64];
             let segments = spline.segments.iter().flat_map(|it| [it.from].into_iter().chain(it.coefficients));
             bytes.extend(head.into_iter().chain(segments).flat_map(f64::to_le_bytes));
         }

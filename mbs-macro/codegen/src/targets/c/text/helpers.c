@@ -36,11 +36,12 @@ static inline real NAME_greater(real a, real b)
     return a > b ? (real)1 : (real)0;
 }
 
-/* The derivative of this order of a periodic spline, the function itself for 0. */
+/* The derivative of this order of a spline, the function itself for 0. */
 static real NAME_interpolate(const struct NAME_spline *spline, int order, real x)
 {
     const double offset = (double)x - spline->origin;
-    const double distance = offset - floor(offset / spline->period) * spline->period;
+    const double period = spline->period;
+    const double distance = period > 0 ? offset - floor(offset / period) * period : offset;
     int first = 0, last = spline->count - 1;
     while (first < last) {
         const int middle = (first + last + 1) / 2;

@@ -3,8 +3,8 @@ struct NAME_segment {
     double from, coefficients[4];
 };
 
-/* A periodic function, cubic from point to point; the argument of the first point is its
-   origin. */
+/* A function that is cubic from point to point. The argument of the first point is its origin,
+   the period of one that is not periodic 0. */
 struct NAME_spline {
     double origin, period;
     int count;

@@ -1,17 +1,19 @@
-//! Profiles: functions through given points, as splines.
+//! Tables and profiles: functions through given points, as splines.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Spline, SplineId};
+use mbs_symbolic::{Interpolation, Outside as Beyond, Spline, SplineId};
 use proc_macro2::{Ident, Span};
 
 use super::functions;
 use super::names::{Place, Scope, Typed, duplicate};
 use super::resolver::Resolver;
-use crate::diagnostics::{Diagnostic, Diagnostics, described};
-use crate::syntax::{self, Formula, FormulaKind};
+use crate::diagnostics::{Diagnostic, Diagnostics, counted, described};
+use crate::syntax::{self, Formula, FormulaKind, Outside};
 
-/// A profile as formulas know it.
-pub struct Profile {
+/// A table as formulas know it.
+pub struct Table {
+    /// The word of its statement.
+    word: &'static str,
     span: Span,
     state: State,
 }
@@ -24,8 +26,9 @@ enum State {
 }
 
 impl Resolver<'_> {
-    /// Enters the name of a profile, once all quantities are known.
-    pub(super) fn declare_profile(&mut self, name: &Ident) {
+    /// Enters the name of a table, once all quantities are known.
+    pub(super) fn declare_table(&mut self, table: &syntax::Table) {
+        let name = &table.name;
         let text = name.to_string();
         if functions::is_known(&text) {
             let message = format!("`{text}` is a function of the language and cannot be declared");
@@ -33,35 +36,44 @@ impl Resolver<'_> {
             return;
         }
         let quantity = self.scope.values.get(&text).map(|value| value.span());
-        let earlier = self.scope.profiles.get(&text).map(|profile| profile.span).or(quantity);
+        let earlier = self.scope.tables.get(&text).map(|table| table.span).or(quantity);
         match earlier {
             Some(earlier) => self.errors.push(duplicate(name, earlier)),
             None => {
-                let profile = Profile { span: name.span(), state: State::Untouched };
-                self.scope.profiles.insert(text, profile);
+                let table = Table { word: table.word, span: name.span(), state: State::Untouched };
+                self.scope.tables.insert(text, table);
             }
         }
     }
 
-    pub(super) fn resolve_profile(&mut self, profile: &syntax::Profile) {
-        let state = self.spline_of(profile).unwrap_or(State::Failed);
-        if let Some(known) = self.scope.profiles.get_mut(&profile.name.to_string()) {
+    pub(super) fn resolve_table(&mut self, table: &syntax::Table) {
+        let state = self.spline_of(table).unwrap_or(State::Failed);
+        if let Some(known) = self.scope.tables.get_mut(&table.name.to_string()) {
             known.state = state;
         }
     }
 
-    fn spline_of(&mut self, profile: &syntax::Profile) -> Option<State> {
-        let name = &profile.name;
+    fn spline_of(&mut self, table: &syntax::Table) -> Option<State> {
+        let name = &table.name;
         let (arguments, values): (Vec<_>, Vec<_>) =
-            profile.points.iter().map(|point| (&point.x, &point.y)).unzip();
-        let arguments = arguments.into_iter().chain([&profile.period]).collect();
+            table.points.iter().map(|point| (&point.x, &point.y)).unzip();
+        let period = if let Outside::Periodic(period) = &table.outside { period.as_ref() } else { None };
+        let arguments = arguments.into_iter().chain(period).collect();
         let arguments = self.numbers(&format!("an argument of `{name}`"), arguments);
         let values = self.numbers(&format!("a value of `{name}`"), values);
         let ((mut arguments, argument), (values, value)) = (arguments?, values?);
-        let period = arguments.pop()?;
-        self.errors.take(check(profile, &arguments, period))?;
-        let points: Vec<_> = arguments.into_iter().zip(values).collect();
-        let Some(spline) = Spline::periodic(&name.to_string(), &points, period) else {
+        let period = period.and_then(|period| Some((period, arguments.pop()?)));
+        let mut points: Vec<_> = arguments.into_iter().zip(values).collect();
+        self.errors.take(check(table, &points, period))?;
+        let outside = match table.outside {
+            Outside::Hold => Beyond::Hold,
+            Outside::Extend => Beyond::Extend,
+            Outside::Refuse => Beyond::Refuse,
+            Outside::Periodic(Some(_)) => Beyond::Periodic(period?.1),
+            // the last point is the first one again
+            Outside::Periodic(None) => Beyond::Periodic(points.pop()?.0 - points.first()?.0),
+        };
+        let Some(spline) = Spline::through(&name.to_string(), &points, table.interpolation, outside) else {
             let message = format!("the points of `{name}` do not give finite slopes");
             self.errors.push(Diagnostic::new(name.span(), message).help("check their size and distances"));
             return None;
@@ -69,9 +81,9 @@ impl Resolver<'_> {
         Some(State::Done { spline: self.scope.arena.add_spline(spline), argument, value })
     }
 
-    /// The spline of a profile that was resolved.
+    /// The spline of a table that was resolved.
     pub(super) fn spline_named(&self, name: &Ident) -> Option<&Spline> {
-        match self.scope.profiles.get(&name.to_string())?.state {
+        match self.scope.tables.get(&name.to_string())?.state {
             State::Done { spline, .. } => {
                 self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
             }
@@ -103,27 +115,39 @@ impl Resolver<'_> {
 }
 
 /// Points enough, in order and within the period.
-fn check(profile: &syntax::Profile, arguments: &[f64], period: f64) -> Result<(), Diagnostic> {
-    let name = &profile.name;
-    let (Some(first), true) = (arguments.first(), arguments.len() >= 3) else {
-        let message = format!("profile `{name}` has {} points", arguments.len());
-        return Err(Diagnostic::new(name.span(), message).help("a periodic spline needs at least three"));
+fn check(
+    table: &syntax::Table,
+    points: &[(f64, f64)],
+    period: Option<(&Formula, f64)>,
+) -> Result<(), Diagnostic> {
+    let (name, word) = (&table.name, table.word);
+    let is_closed = matches!(table.outside, Outside::Periodic(None));
+    let is_smooth = table.interpolation == Interpolation::Cubic && (is_closed || period.is_some());
+    let (needed, help) = match (is_smooth, is_closed) {
+        (true, false) => (3, "a periodic spline needs at least three"),
+        (true, true) => (4, "a periodic cubic one needs at least four, of which the last is the first again"),
+        (false, true) => (3, "a periodic one needs at least three, of which the last is the first again"),
+        (false, false) => (2, "give it two or more"),
     };
-    if period <= 0.0 {
-        let message = format!("the period of `{name}` is not positive");
-        return Err(Diagnostic::new(profile.period.span, message)
+    let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() >= needed) else {
+        let count = counted(points.len(), "point");
+        return Err(Diagnostic::new(name.span(), format!("{word} `{name}` has {count}")).help(help));
+    };
+    if let Some((formula, _)) = period.filter(|(_, period)| *period <= 0.0) {
+        return Err(Diagnostic::new(formula.span, format!("the period of `{name}` is not positive"))
             .help("it is the distance after which the first point returns, as in `period 360 [deg]`"));
     }
-    for (pair, point) in arguments.windows(2).zip(profile.points.iter().skip(1)) {
-        if pair[1] <= pair[0] {
+    for (pair, point) in points.windows(2).zip(table.points.iter().skip(1)) {
+        // written so that what is not a number fails
+        if !(pair[0].0 < pair[1].0) {
             return Err(Diagnostic::new(point.x.span, format!("the points of `{name}` are out of order"))
                 .help("this argument has to be larger than the one before it"));
         }
-        if pair[1] - first >= period {
+        if let Some((formula, _)) = period.filter(|(_, period)| pair[1].0 - first.0 >= *period) {
             let is_bare = |formula: &Formula| matches!(formula.kind, FormulaKind::Number { unit: None, .. });
             let message = format!("this point of `{name}` is a period or more behind the first one");
             return Err(Diagnostic::new(point.x.span, message).help(
-                if is_bare(&point.x) && !is_bare(&profile.period) {
+                if is_bare(&point.x) && !is_bare(formula) {
                     "give it the unit that the period has"
                 } else {
                     "leave it out: after a period the first point returns by itself"
@@ -131,26 +155,32 @@ fn check(profile: &syntax::Profile, arguments: &[f64], period: f64) -> Result<()
             ));
         }
     }
+    if let Some(point) = table.points.last().filter(|_| is_closed && last.1 != first.1) {
+        let message = format!("`{name}` does not close: its last point is not the first one again");
+        return Err(Diagnostic::new(point.y.span, message).help(
+            "a periodic table ends with the value that it begins with; its period is the distance of these points",
+        ));
+    }
     Ok(())
 }
 
 impl Scope<'_> {
     /// `lift(angle)`
-    pub(super) fn profile(
+    pub(super) fn table(
         &mut self,
         name: &Ident,
         arguments: &[Formula],
         place: Place,
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
-        let profile = self.profiles.get(&name.to_string())?;
+        let table = self.tables.get(&name.to_string())?;
         self.used.insert(name.to_string());
-        let (spline, argument, value) = match profile.state {
+        let (spline, argument, value) = match table.state {
             State::Done { spline, argument, value } => (spline, argument, value),
             State::Failed => return None,
             State::Untouched => {
-                let message = format!("`{name}` cannot stand here: profiles are given by numbers");
-                let span = profile.span;
+                let message = format!("`{name}` cannot stand here: {}s are given by numbers", table.word);
+                let span = table.span;
                 errors.push(
                     Diagnostic::new(name.span(), message)
                         .note(span, format!("`{name}` is declared here"))

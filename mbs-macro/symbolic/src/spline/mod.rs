@@ -1,0 +1,135 @@
+//! Splines: functions of one argument given by a table, cubic from point to point.
+//!
+//! The compiler solves for the coefficients. Generated code holds them as a constant.
+
+mod through;
+
+use crate::arena::Expr;
+
+/// A spline: a handle into an [`Arena`](crate::Arena)'s list of splines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SplineId(pub(crate) u32);
+
+impl SplineId {
+    /// Its position in the list of splines.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// How a spline leads from point to point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// By straight lines.
+    Linear,
+    /// By cubics with two continuous derivatives. At the ends of one that is not periodic the second
+    /// derivative is 0 (the natural spline).
+    Cubic,
+    /// By cubics with one continuous derivative, which rise or fall where the points do and do not overshoot:
+    /// F. N. Fritsch and J. Butland, A method for constructing local monotone piecewise cubic interpolants,
+    /// SIAM Journal on Scientific and Statistical Computing 5 (1984), 300–304.
+    Monotone,
+    /// Each value holds up to the next point.
+    Step,
+}
+
+/// The value of a spline outside of its points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outside {
+    /// That of the nearest point.
+    Hold,
+    /// That of the outermost piece, continued.
+    Extend,
+    /// That of a period before: the first point returns after this period.
+    Periodic(f64),
+    /// None: it is not a number.
+    Refuse,
+}
+
+/// One cubic: c₀ + c₁u + c₂u² + c₃u³ from `from` on, u counted from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Distance from the first point.
+    pub from: f64,
+    /// c₀ … c₃
+    pub coefficients: [f64; 4],
+}
+
+/// A function through given points, cubic between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    /// The way in which it is called.
+    pub name: String,
+    /// The argument of the first point.
+    pub origin: f64,
+    /// The period, of a periodic one.
+    pub period: Option<f64>,
+    /// In ascending order. The first one holds before its beginning, too, and the last one for ever.
+    pub segments: Vec<Segment>,
+}
+
+impl Spline {
+    /// Overshoots between neighbouring points of equal values: the index of the first point, and the largest distance
+    /// of the cubic from that value. The cubic leaves the value where it has a slope at both ends.
+    pub fn overshoots(&self) -> impl Iterator<Item = (usize, f64)> {
+        let next = self.segments.iter().skip(1).chain(self.segments.first());
+        self.segments.iter().zip(next).enumerate().filter_map(|(at, (segment, next))| {
+            let Segment { from, coefficients: [c0, c1, c2, c3] } = *segment;
+            let end = if at + 1 == self.segments.len() { self.period? } else { next.from };
+            // u (c₁ + u (c₂ + u c₃)) vanishes at both ends; where it is flat, its slope does
+            let root = (c2 * c2 - 3.0 * c1 * c3).sqrt();
+            let flat = [-c2 - root, -c2 + root].map(|q| [q / (3.0 * c3), c1 / q]);
+            let inside = flat.into_iter().flatten().filter(|u| *u > 0.0 && *u < end - from);
+            let away = inside.map(|u| (u * (c1 + u * (c2 + u * c3))).abs()).fold(0.0, f64::max);
+            (next.coefficients[0] == c0 && end > from).then_some((at, away))
+        })
+    }
+
+    /// The largest order of a derivative that is not 0 everywhere.
+    pub fn degree(&self) -> u8 {
+        let is_there =
+            |order: &u8| self.segments.iter().any(|it| it.coefficients[usize::from(*order)] != 0.0);
+        (1..4).rev().find(is_there).unwrap_or(0)
+    }
+
+    /// A length that distances from a segment's beginning do not exceed much, to judge rounding by.
+    pub(crate) fn span(&self) -> f64 {
+        self.period.or_else(|| self.segments.last().map(|last| last.from)).unwrap_or_default()
+    }
+
+    /// The derivative of this order at x, the function itself for 0; as the
+    /// runtime computes it.
+    pub fn derivative(&self, order: u8, x: f64) -> f64 {
+        let x = x - self.origin;
+        let u = self.period.map_or(x, |period| x - (x / period).floor() * period);
+        let at = self.segments.partition_point(|segment| segment.from <= u).saturating_sub(1);
+        let Some(Segment { from, coefficients: [c0, c1, c2, c3] }) = self.segments.get(at).copied() else {
+            return f64::NAN;
+        };
+        let u = u - from;
+        match order {
+            0 => c0 + u * (c1 + u * (c2 + u * c3)),
+            1 => c1 + u * (2.0 * c2 + u * (3.0 * c3)),
+            2 => 2.0 * c2 + u * (6.0 * c3),
+            _ => 6.0 * c3,
+        }
+    }
+}
+
+impl crate::Arena {
+    /// Adds a spline.
+    pub fn add_spline(&mut self, spline: Spline) -> SplineId {
+        self.splines.push(std::rc::Rc::new(spline));
+        SplineId((self.splines.len() - 1) as u32)
+    }
+
+    /// The splines, by their index.
+    pub fn splines(&self) -> &[std::rc::Rc<Spline>] {
+        &self.splines
+    }
+
+    /// The value of a spline at x.
+    pub fn spline(&mut self, spline: SplineId, x: Expr) -> Expr {
+        self.spline_derivative(spline, 0, x)
+    }
+}
