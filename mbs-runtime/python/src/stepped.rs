@@ -1,5 +1,6 @@
 //! A run that takes its steps when it is asked to, and the inputs that Python gives it.
 
+use mbs_analysis::Signal;
 use mbs_runtime::{Info, SystemClone};
 use mbs_workbench::{Error, Start, StartKind, StartState, Unit, quantity};
 use numpy::PyReadonlyArray1;
@@ -25,11 +26,13 @@ pub struct Stepped {
     held: Vec<f64>,
     q: Vec<f64>,
     v: Vec<f64>,
+    /// The units in which positions and rates are shown.
+    units: Vec<Unit>,
 }
 
 impl Clone for Stepped {
     fn clone(&self) -> Self {
-        let Self { run, start_time, inputs, held, q, v } = self;
+        let Self { run, start_time, inputs, held, q, v, units } = self;
         Self {
             run: run.boxed_clone(),
             start_time: *start_time,
@@ -37,6 +40,7 @@ impl Clone for Stepped {
             held: held.clone(),
             q: q.clone(),
             v: v.clone(),
+            units: units.clone(),
         }
     }
 }
@@ -44,10 +48,12 @@ impl Clone for Stepped {
 impl Stepped {
     /// A run at its start.
     pub fn begun(mechanism: &Mechanism, start: &Start) -> Result<Self, Error> {
-        let (run, n) = (mechanism.model.start(start)?, mechanism.model.info().coordinates.len());
+        let (run, info) = (mechanism.model.start(start)?, mechanism.model.info());
+        let n = info.coordinates.len();
+        let units = Signal::states(info).iter().map(|signal| Unit::of_signal(info, signal)).collect();
         let start_time = start.state.as_ref().map_or_else(|| run.time(), |state| state.start_time);
         let (inputs, held) = (start.inputs.clone(), start.inputs.clone());
-        Ok(Self { run, start_time, inputs, held, q: vec![f64::NAN; n], v: vec![f64::NAN; n] })
+        Ok(Self { run, start_time, inputs, held, q: vec![f64::NAN; n], v: vec![f64::NAN; n], units })
     }
 
     /// The run that was where it is saved. One that has a constant step goes on to the same bits.
@@ -71,10 +77,11 @@ impl Stepped {
         self.run.state(&mut self.q, &mut self.v);
     }
 
-    /// Positions and rates, one after the other.
+    /// Positions and rates, one after the other, in the units in which they are shown.
     pub fn write_state(&mut self, to: &mut [f64]) {
         self.see();
-        to.iter_mut().zip(self.q.iter().chain(&self.v)).for_each(|(to, from)| *to = *from);
+        let values = self.q.iter().chain(&self.v).zip(&self.units).map(|(value, unit)| unit.shown(*value));
+        to.iter_mut().zip(values).for_each(|(to, from)| *to = from);
     }
 
     /// Takes some steps with the inputs as they are.

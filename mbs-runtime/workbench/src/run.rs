@@ -20,7 +20,7 @@ const MAX_ROWS: u64 = 5_000_000;
 /// Instants at which the power is looked at.
 const POWERS: u64 = 100;
 
-/// A coordinate or its rate at the start of a run, in SI units.
+/// A coordinate, its rate or an own state at the start of a run, in the unit in which it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartValue {
     /// The coordinate, or `der(…)` of it.
@@ -42,7 +42,7 @@ impl dyn Model + '_ {
         self.start_values_with(&self.defaults())
     }
 
-    /// The same with other parameters. Values are in SI units.
+    /// The same with other parameters.
     ///
     /// # Errors
     /// As [`start_values`](Model#method.start_values).
@@ -60,8 +60,9 @@ impl dyn Model + '_ {
         };
         let values = state(&declared)?.into_iter().zip(state(&kept)?);
         let value = |(signal, (declared, kept)): (Signal, (f64, f64))| {
-            let unit = Unit::of_signal(info, &signal).name().to_owned();
-            StartValue { name: signal.name, declared, kept, unit }
+            let unit = Unit::of_signal(info, &signal);
+            let [declared, kept] = [declared, kept].map(|value| unit.shown(value));
+            StartValue { name: signal.name, declared, kept, unit: unit.name().to_owned() }
         };
         Ok(Signal::states(info).into_iter().zip(values).map(value).collect())
     }
@@ -147,6 +148,8 @@ fn places(run: &dyn System, t: f64, q: &[f64]) -> Vec<[f64; 2]> {
 struct Recorder {
     info: &'static Info,
     columns: Vec<Column>,
+    /// Those of coordinates, rates and own states.
+    units: Vec<Unit>,
     summary: Summary,
     watch: Watch,
     /// The size of the mechanism at the start in m.
@@ -172,10 +175,12 @@ impl Recorder {
         let summary = Summary { energy_start: energy(run, &now), ..Summary::default() };
         let watch = Watch::new(info, model.derivation(), size);
         let phi = vec![0.0; info.constraints.len()];
+        let units = Signal::states(info).iter().map(|signal| Unit::of_signal(info, signal)).collect();
         let (columns, until, occurrences) = (columns(info), until.cloned(), Vec::new());
         Self {
             info,
             columns,
+            units,
             summary,
             watch,
             size,
@@ -294,14 +299,15 @@ impl Recorder {
     }
 
     fn append_row(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
-        let Self { info, columns, now, reactions, size, .. } = self;
+        let Self { info, columns, now, reactions, size, units, .. } = self;
         now.solve(run)?;
         reactions.see(run, now, *size);
         // what is not finite is shown as it is, and doubted
         let _ = now.measure(run);
         let outputs =
             now.outputs.iter().zip(info.outputs).map(|(value, output)| Unit::of(output).shown(*value));
-        let numbers = now.q.iter().chain(&now.v).chain(&now.multipliers).copied();
+        let states = now.q.iter().chain(&now.v).zip(&*units).map(|(value, unit)| unit.shown(*value));
+        let numbers = states.chain(now.multipliers.iter().copied());
         let [violation, _] = run.violations();
         let row = [run.time()].into_iter().chain(numbers).chain(outputs).chain([violation]);
         for (column, value) in columns.iter_mut().zip(row) {

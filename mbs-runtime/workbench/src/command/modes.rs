@@ -183,7 +183,8 @@ impl Shown<'_> {
             let coordinate = self.info.coordinates.get(at)?;
             let components = self.modes.iter().map(|mode| component(mode.shape[at]));
             let unit = match self.info.is_own(at) {
-                true => Unit::of(coordinate),
+                // shapes are ratios of SI units
+                true => Unit::si(coordinate.dimension),
                 false => Unit::of_coordinate(coordinate),
             };
             let unit = unit.name().to_owned();

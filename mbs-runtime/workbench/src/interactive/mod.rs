@@ -28,7 +28,7 @@ use base64::engine::general_purpose::STANDARD as BASE64;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use mbs_runtime::{Info, Quantity, Stabilization};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::html::{DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, escaped, escaped_json, filled};
@@ -76,6 +76,9 @@ impl dyn Model + '_ {
         let recording = self.simulate(settings, &mut |_, _| ())?;
         let picture = Picture::of(&self.motion(settings, &recording)?);
         let info = self.info();
+        // what is not named is in SI units
+        let own = (info.lines..).zip(shown(info.coordinates.get(info.lines..).unwrap_or_default()));
+        let rates: Map<String, Value> = own.map(|(at, unit)| (at.to_string(), unit)).collect();
         let data = json!({
             "file": file,
             "step": settings.step,
@@ -85,6 +88,7 @@ impl dyn Model + '_ {
             "parameters": shown(info.parameters),
             "inputs": shown(info.inputs),
             "outputs": shown(info.outputs),
+            "rates": rates,
             "start": { "parameters": parameters, "inputs": inputs },
             "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
             "picture": drawn(&picture),
@@ -149,8 +153,11 @@ impl Sources {
     pub fn of_pages() -> Self {
         let scripts =
             [&[UPLOT_SCRIPT, DRAWING_SCRIPT, SHAPES_SCRIPT, mbs_live::RUN_SCRIPT][..], &SCRIPTS].concat();
+        // comments stay at home: a page is to be small
+        let is_code = |line: &&str| !line.trim_start().starts_with("//");
+        let lines: Vec<&str> = scripts.iter().flat_map(|script| script.lines()).filter(is_code).collect();
         // the module is unpacked while nothing waits for it
-        let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", scripts.join("\n"));
+        let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", lines.join("\n"));
         Self { style: format!("{UPLOT_STYLE}\n{STYLE}"), script }
     }
 }

@@ -20,8 +20,8 @@ const session = await (async () => {
   // The columns of a recording: time, coordinates, rates, multipliers, outputs, violation.
   function record() {
     const { multipliers, outputs } = run.results();
-    const shown = Array.from(outputs, (value, at) => value / data.outputs[at].scale);
-    rows.push([run.t, ...run.q, ...run.v, ...multipliers, ...shown, run.violation()]);
+    const shown = (values, of) => Array.from(values, (value, at) => value / (of[at]?.scale ?? 1));
+    rows.push([run.t, ...run.q, ...shown(run.v, data.rates), ...multipliers, ...shown(outputs, data.outputs), run.violation()]);
     if (rows.length > MOST_ROWS) rows.splice(0, MOST_ROWS / 10);
   }
 

@@ -10,6 +10,7 @@ mod fits;
 mod imports;
 mod linear;
 mod linkages;
+mod own_states;
 mod pages;
 mod pmks;
 mod pmks_refused;
