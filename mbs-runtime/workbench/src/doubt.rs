@@ -75,6 +75,15 @@ pub enum Doubt {
         /// The error of one step, as a share of the fastest motion.
         share: f64,
     },
+    /// A state of the mechanism's own was as small as the absolute error that every step might have.
+    Small {
+        /// The state.
+        state: &'static str,
+        /// Its largest value, in SI units.
+        largest: f64,
+        /// The absolute tolerance of the run, in SI units.
+        atol: f64,
+    },
     /// A quantity was not a number, or infinite.
     NotFinite {
         /// The quantity.
@@ -132,6 +141,12 @@ impl fmt::Display for Doubt {
                 significant(100.0 * share, 2),
                 digits(*at)
             ),
+            Self::Small { state, largest, atol } => write!(
+                f,
+                "the state `{state}` is at most {largest:.1e} SI units, and the absolute tolerance is {atol:.1e} of \
+                 them: its digits are not to be trusted; give --atol {:.0e}",
+                1e-6 * largest
+            ),
             Self::NotFinite { name, value, at } => {
                 write!(f, "`{name}` is {value} from t = {} s on", digits(*at))
             }
@@ -145,6 +160,24 @@ fn plain(step: f64) -> String {
     // to one digit, down
     let rounded = (step / power).floor().max(1.0) * power;
     if rounded >= 1e-6 { format!("{}ms", significant(1e3 * rounded, 1)) } else { format!("{rounded:.0e}") }
+}
+
+/// States of a mechanism's own that are lost in the absolute tolerance of a run which recorded these columns: their
+/// largest value is below ten times it, and more than a rounding of it.
+pub(crate) fn small_states<'a>(
+    info: &'static Info,
+    columns: &'a [Column],
+    atol: f64,
+) -> impl Iterator<Item = Doubt> + 'a {
+    let own = info.coordinates.iter().enumerate().skip(info.lines);
+    own.filter_map(move |(at, quantity)| {
+        // behind the time and the positions
+        let column = columns.get(1 + info.coordinates.len() + at)?;
+        let largest = column.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let largest = Unit::of(quantity).read(largest);
+        let is_small = (1e-6 * atol..10.0 * atol).contains(&largest);
+        is_small.then_some(Doubt::Small { state: quantity.name, largest, atol })
+    })
 }
 
 /// A watch over the constraints and the energy during a run.

@@ -5,7 +5,7 @@ use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 
 use crate::digits::Reactions;
-use crate::doubt::{Watch, few_digits, size};
+use crate::doubt::{Watch, few_digits, size, small_states};
 use crate::instant::Instant;
 use crate::model::Model;
 use crate::notes::{end_note, notes};
@@ -108,7 +108,11 @@ impl dyn Model + '_ {
         recorder.resolution = Resolution::new(info, &start, recorder.size, steps);
         let notes = notes(self, settings).into_iter().chain(end_note(&*run, steps, settings.end)).collect();
         let ended = recorder.follow(&mut *run, [steps, every], goes_on).err();
-        Ok(Recording { notes, ..recorder.finish(&*run, ended) })
+        let mut recording = Recording { notes, ..recorder.finish(&*run, ended) };
+        if let Some(tolerances) = start.tolerances {
+            recording.doubts.extend(small_states(info, &recording.columns, tolerances.atol));
+        }
+        Ok(recording)
     }
 
     /// Where the points of the mechanism were during a run with these settings,

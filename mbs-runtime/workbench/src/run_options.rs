@@ -241,8 +241,8 @@ fn misplaced(error: Error, info: &Info, parameters: &[(String, String)]) -> Erro
     let found = others.find_map(|(name, text)| {
         let (what, option) = if is_known(info.inputs, name) {
             ("an input", "--input")
-        } else if is_known(info.coordinates, name) {
-            ("a coordinate", "--from")
+        } else if let Some(at) = info.coordinates.iter().position(|q| q.name == name) {
+            (if info.is_own(at) { "a state" } else { "a coordinate" }, "--from")
         } else {
             return None;
         };

@@ -251,11 +251,23 @@ impl Scope<'_> {
                 } else {
                     format!("`{name}` cannot stand here, since it depends on {culprit}")
                 };
-                errors.push(Diagnostic::new(name.span(), message).help(place.rule()));
+                let help = match self.meaning(symbol) {
+                    Meaning::Acceleration(_) if self.is_rate_of_state(symbol) => format!(
+                        "give the right side of its equation a name and use that: `let rate = …; {} = rate;`",
+                        self.arena.name(symbol)
+                    ),
+                    _ => place.rule().to_owned(),
+                };
+                errors.push(Diagnostic::new(name.span(), message).help(help));
                 return None;
             }
         }
         Some(typed)
+    }
+
+    /// True for `der(z)` of a state z.
+    fn is_rate_of_state(&self, symbol: Symbol) -> bool {
+        !self.arena.name(symbol).starts_with("der(der(")
     }
 
     pub(super) fn describe(&self, symbol: Symbol) -> String {
@@ -268,7 +280,7 @@ impl Scope<'_> {
             // the velocity of a coordinate has no name of its own
             Meaning::Velocity(_) if !name.starts_with("der(") => format!("the state `{name}`"),
             Meaning::Velocity(_) => format!("the velocity `{name}`"),
-            Meaning::Acceleration(_) if !name.starts_with("der(der(") => format!("the rate `{name}`"),
+            Meaning::Acceleration(_) if self.is_rate_of_state(symbol) => format!("the rate `{name}`"),
             Meaning::Acceleration(_) => format!("the acceleration `{name}`"),
             _ => format!("the multiplier `{name}`"),
         }

@@ -94,6 +94,10 @@ impl Dimension {
         if let Some((_, _, unit)) = self.named() {
             return (*unit).to_owned();
         }
+        // the rate of a quantity that has a unit of its own: V/s
+        if let Some((_, _, unit)) = self.times(Self::TIME).named().filter(|(.., unit)| !unit.contains('/')) {
+            return format!("{unit}/s");
+        }
         let factors = |sign: i16| {
             let powers = BASE.into_iter().zip(self.sixths.map(|sixths| sign * sixths));
             let raised = |(unit, sixths): (&str, i16)| match Number::ratio(sixths.into(), SIXTHS.into()) {
@@ -226,6 +230,7 @@ const UNITS: &[(&str, Scale, &[i16])] = &[
     ("s", Scale::Exact(1, 1), &[0, 0, 1]),
     ("ms", Scale::Exact(1, 1000), &[0, 0, 1]),
     ("us", Scale::Exact(1, 1_000_000), &[0, 0, 1]),
+    ("ns", Scale::Exact(1, 1_000_000_000), &[0, 0, 1]),
     ("min", Scale::Exact(60, 1), &[0, 0, 1]),
     ("h", Scale::Exact(3600, 1), &[0, 0, 1]),
     ("Hz", Scale::Exact(1, 1), &[0, 0, -1]),
@@ -260,21 +265,25 @@ const UNITS: &[(&str, Scale, &[i16])] = &[
     ("L", Scale::Exact(1, 1000), &[0, 3, 0]),
     ("mL", Scale::Exact(1, 1_000_000), &[0, 3, 0]),
     ("A", Scale::Exact(1, 1), &[0, 0, 0, 1]),
+    ("uA", Scale::Exact(1, 1_000_000), &[0, 0, 0, 1]),
     ("mA", Scale::Exact(1, 1000), &[0, 0, 0, 1]),
     ("kA", Scale::Exact(1000, 1), &[0, 0, 0, 1]),
     ("C", Scale::Exact(1, 1), &[0, 0, 1, 1]),
     ("Ah", Scale::Exact(3600, 1), &[0, 0, 1, 1]),
     ("mAh", Scale::Exact(18, 5), &[0, 0, 1, 1]),
     ("V", Scale::Exact(1, 1), &[1, 2, -3, -1]),
+    ("uV", Scale::Exact(1, 1_000_000), &[1, 2, -3, -1]),
     ("mV", Scale::Exact(1, 1000), &[1, 2, -3, -1]),
     ("kV", Scale::Exact(1000, 1), &[1, 2, -3, -1]),
     ("ohm", Scale::Exact(1, 1), &[1, 2, -3, -2]),
     ("mohm", Scale::Exact(1, 1000), &[1, 2, -3, -2]),
     ("kohm", Scale::Exact(1000, 1), &[1, 2, -3, -2]),
+    ("Mohm", Scale::Exact(1_000_000, 1), &[1, 2, -3, -2]),
     ("F", Scale::Exact(1, 1), &[-1, -2, 4, 2]),
     ("mF", Scale::Exact(1, 1000), &[-1, -2, 4, 2]),
     ("uF", Scale::Exact(1, 1_000_000), &[-1, -2, 4, 2]),
     ("nF", Scale::Exact(1, 1_000_000_000), &[-1, -2, 4, 2]),
+    ("pF", Scale::Exact(1, 1_000_000_000_000), &[-1, -2, 4, 2]),
     ("H", Scale::Exact(1, 1), &[1, 2, -2, -2]),
     ("mH", Scale::Exact(1, 1000), &[1, 2, -2, -2]),
     ("uH", Scale::Exact(1, 1_000_000), &[1, 2, -2, -2]),

@@ -38,3 +38,34 @@ fn values_are_in_declared_units() {
         assert!((value / truth - 1.0).abs() < 1e-5, "{found}");
     }
 }
+
+/// A charge of a nanocoulomb is as small as the usual absolute tolerance: its run was off by two thirds in silence.
+#[test]
+fn a_state_that_is_lost_in_the_tolerance_is_doubted() {
+    let folder = tempfile::tempdir().unwrap();
+    let circuit =
+        "Rc { dof = 0; param R = 1 [kohm]; param c = 1 [nF]; state q [C] = 1e-9 [C]; der(q) = -q/c/R; }";
+    std::fs::write(folder.path().join("rc.mbs"), circuit).unwrap();
+    let run = |options: &str| mbs(folder.path(), &format!("simulate rc.mbs --end 5us --step 1us {options}"));
+    let doubted = run("--rtol 1e-9");
+    assert_eq!(doubted.status.code(), Some(3));
+    let told = text(doubted.stderr);
+    assert!(
+        told.contains("the state `q` is at most 1.0e-9 SI units") && told.contains("--atol 1e-15"),
+        "{told}"
+    );
+    let good = run("--rtol 1e-9 --atol 1e-15 --json");
+    assert!(good.status.success(), "{}", text(good.stderr));
+    let json: serde_json::Value = serde_json::from_slice(&good.stdout).unwrap();
+    // to 1e-6 of the start, which the message asks for
+    let end = json["final"]["q"]["value"].as_f64().unwrap();
+    assert!((end / 1e-9 - (-5.0_f64).exp()).abs() < 1e-6, "{end:e}");
+}
+
+#[test]
+fn a_state_is_no_parameter() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tank.mbs"), TANK).unwrap();
+    let told = text(mbs(folder.path(), "simulate tank.mbs --set p=1bar").stderr);
+    assert!(told.contains("it is a state, and no parameter; give `--from p=1bar`"), "{told}");
+}
