@@ -222,3 +222,50 @@ fn spring_without_length_is_regular_where_its_places_coincide() -> Result<(), Er
     }
     Ok(())
 }
+
+mechanism! {
+    /// Two bodies apart, with a spring and a torsion spring, and with laws that say the same.
+    Springs {
+        dof = 12;
+        param k = 40 [N/m];
+        const c = 0.7 [N*s/m];
+        const kt = 3 [N*m];
+        const ct = 0.2 [N*m*s];
+        body a (x1, y1, p1) { mass = 1 [kg]; inertia = 0.3 [kg*m^2]; }
+        body b (x2, y2, p2) { mass = 2 [kg]; inertia = 0.5 [kg*m^2]; }
+        body d (x3, y3, p3) { mass = 1 [kg]; inertia = 0.3 [kg*m^2]; }
+        body e (x4, y4, p4) { mass = 2 [kg]; inertia = 0.5 [kg*m^2]; }
+        point tip on b = (0.2 [m], 0.1 [m]);
+        point tip on e = (0.2 [m], 0.1 [m]);
+        spring pull (a, b.tip) { stiffness = k; length = 0.4 [m]; damping = c; }
+        torsion_spring turn (a, b) { stiffness = kt; angle = 0.1; damping = ct; }
+        force law (d, e.tip) = k*(length - 0.4 [m]) + c*rate;
+        torque twist (d, e) = -kt*(angle - 0.1) - ct*rate;
+        start {
+            x2 = 1 [m]; der(y2) = 1 [m/s]; p1 = 0.5; der(p2) = -1 [rad/s];
+            x4 = 1 [m]; der(y4) = 1 [m/s]; p3 = 0.5; der(p4) = -1 [rad/s];
+        }
+        output tension [N] = force(pull) - force(law);
+        output moment [N*m] = torque(turn) - torque(twist);
+        output lost [W] = power(law) + power(twist) - der(kinetic_energy())/2;
+        output apart [m] = length(pull) - length(law);
+    }
+}
+
+/// A law is what it says: a spring with a damper in other words moves in the same bits.
+#[test]
+fn a_law_is_a_spring_in_other_words() -> Result<(), Error> {
+    let mut run = Simulation::new(Springs::declared(), 1e-3)?;
+    for _ in 0..20 {
+        run.advance_to(run.time() + 0.1)?;
+        let state = run.state();
+        for numbers in [state.q.into_array(), state.v.into_array()] {
+            assert_eq!(numbers[..6], numbers[6..], "{}", run.time());
+        }
+        let outputs = run.outputs()?;
+        assert_eq!([outputs.tension, outputs.moment, outputs.apart], [0.0; 3]);
+        // both pairs have the same power; terms of 50 W, ten roundings of each
+        assert!(outputs.lost.abs() < 50.0 * 10.0 * f64::EPSILON, "{}", outputs.lost);
+    }
+    Ok(())
+}

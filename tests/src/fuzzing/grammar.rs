@@ -266,6 +266,11 @@ fn statement(random: &mut Random, depth: usize) -> String {
 
 /// Most of its properties are given that it needs.
 fn element(r: &mut Random, name: &str) -> String {
+    if r.once_in(6) {
+        let known = r.of(&["length", "rate", "angle", "x"]);
+        let word = r.of(&["force", "torque"]);
+        return format!("{word} {name} ({}, {}) = {}*{known};", place(r), place(r), formula(r, 2));
+    }
     let word = *r.of(&words(KeywordKind::Element));
     let properties: &[&str] = match word {
         "spring" => &["stiffness", "length", "damping"],

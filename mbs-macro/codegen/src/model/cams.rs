@@ -36,11 +36,11 @@ impl Resolver<'_> {
 
     fn profile_at(&mut self, joint: &Joint, formula: &Formula, angle: Expr) -> Option<Expr> {
         let typed = Typed { expr: angle, dimension: Some(Dimension::NONE) };
-        self.scope.local = Some(Local { name: POLAR_ANGLE, typed });
+        self.scope.locals.push(Local { name: POLAR_ANGLE, typed });
         let what = format!("the profile of `{}`", joint.name);
         let place = (what.as_str(), Dimension::LENGTH);
         let profile = self.scope.formula_of(formula, Place::Property, place, &mut self.errors);
-        self.scope.local = None;
+        self.scope.locals.clear();
         profile
     }
 

@@ -80,14 +80,14 @@ impl Scope<'_> {
         let (formula, place) =
             (definition.formula, if definition.is_constant { Place::Constant } else { Place::Anywhere });
         // a definition means the same wherever it is used
-        let local = self.local.take();
+        let locals = std::mem::take(&mut self.locals);
         let mut typed = self.formula(formula, place, errors);
         if let Some(typed) = &mut typed
             && self.arena.is_larger_than(typed.expr, LARGEST_OPEN)
         {
             typed.expr = self.arena.share(typed.expr);
         }
-        self.local = local;
+        self.locals = locals;
         if let Some(Value::Definition(definition)) = self.values.get_mut(name) {
             definition.state = typed.map_or(State::Failed, State::Done);
         }

@@ -7,7 +7,7 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::hints::in_radians;
-use super::names::Place;
+use super::names::{Local, Place, Typed};
 use super::reactions::KnownJoint;
 use super::resolver::Resolver;
 use super::{Check, Gap};
@@ -54,13 +54,54 @@ impl Resolver<'_> {
             Some(second) => self.scope.attachment(second, &mut self.errors),
             None => first,
         };
-        let values = self.element_properties(element)?;
-        let (first, second) = (first?, second?);
+        match first.zip(second) {
+            Some((first, second)) => self.scope.locals = self.known(element, first, second),
+            // a law in quantities of places that are not there
+            None if element.kind.properties.iter().any(|row| row.name == elements::LAW) => return None,
+            None => {}
+        }
+        let values = self.element_properties(element);
+        self.scope.locals.clear();
+        let (values, first, second) = (values?, first?, second?);
         let along = match &element.along {
             Some(along) => self.direction_of(&element.name, along)?,
             None => [self.scope.arena.one(), self.scope.arena.zero()],
         };
         Some(Resolved { first, second, along, values })
+    }
+
+    /// The names that properties of an element know beside others.
+    fn known(&mut self, element: &Element, first: Placed, second: Placed) -> Vec<Local> {
+        let along = [self.scope.arena.one(), self.scope.arena.zero()];
+        let resolved = Resolved { first, second, along, values: BTreeMap::new() };
+        let effects = Effects::new(&self.scope.motion);
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let known = (element.kind.knows)(&resolved.on(&algebra), &effects);
+        let local = |known: elements::Known<'_>| Local {
+            name: known.name,
+            typed: Typed { expr: known.value.expr(), dimension: Some(known.dimension) },
+        };
+        known.into_iter().map(local).collect()
+    }
+
+    /// Refuses a name that means something of the element here, and something else elsewhere.
+    fn check_ambiguous(&mut self, element: &Element, formula: &Formula) -> Option<()> {
+        let names = formula.names();
+        let is_ambiguous = |local: &&Local| {
+            names.iter().any(|name| name == local.name) && self.scope.values.contains_key(local.name)
+        };
+        let Some(local) = self.scope.locals.iter().find(is_ambiguous) else { return Some(()) };
+        let name = local.name;
+        let message = format!("`{name}` has two meanings here");
+        let mut error = Diagnostic::new(formula.span, message).help(format!(
+            "in the law of a {} it is that of its places; call the other one differently",
+            element.kind.word
+        ));
+        if let Some(value) = self.scope.values.get(name) {
+            error = error.note(value.span(), format!("`{name}` is declared here"));
+        }
+        self.errors.push(error);
+        None
     }
 
     fn element_properties(&mut self, element: &Element) -> Option<BTreeMap<&'static str, Vec<Expr>>> {
@@ -114,6 +155,9 @@ impl Resolver<'_> {
                 return None;
             }
         };
+        for formula in &formulas {
+            self.check_ambiguous(element, formula)?;
+        }
         let place = if row.varies { Place::Load } else { Place::Property };
         let mut read = |formula: &Formula| {
             if row.is_angle {

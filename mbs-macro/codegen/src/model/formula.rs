@@ -191,7 +191,7 @@ impl Scope<'_> {
 
     fn name(&mut self, name: &Ident, place: Place, errors: &mut Diagnostics) -> Option<Typed> {
         let text = name.to_string();
-        if let Some(local) = self.local.filter(|local| local.name == text) {
+        if let Some(local) = self.locals.iter().find(|local| local.name == text) {
             return Some(local.typed);
         }
         if text == "pi" {

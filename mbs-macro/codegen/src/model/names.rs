@@ -130,7 +130,7 @@ pub struct Scope<'a> {
     /// Known once all forces are.
     pub energies: Option<Energies>,
     pub time: Symbol,
-    pub local: Option<Local>,
+    pub locals: Vec<Local>,
     /// Definitions that are being resolved, one in the other.
     pub depth: usize,
     pub tables: BTreeMap<String, Table>,
@@ -168,7 +168,7 @@ impl<'a> Scope<'a> {
             sources: BTreeMap::new(),
             energies: None,
             time,
-            local: None,
+            locals: Vec::new(),
             depth: 0,
             requirements: Vec::new(),
             tables: BTreeMap::new(),

@@ -2,13 +2,13 @@
 //! `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`.
 
 use syn::parse::ParseStream;
-use syn::{Result, braced};
+use syn::{Ident, Result, braced};
 
 use super::formula::is_vector;
 use super::joints::two_places;
-use super::words::{block, equals, expect_word, name, semicolon};
+use super::words::{block, equals, expect_word, helped, name, semicolon};
 use super::{Element, ElementProperty, ItemKind, Load};
-use crate::mechanics::elements::{ElementKind, Places};
+use crate::mechanics::elements::{ElementKind, LAW, Places};
 
 pub(super) fn element(input: ParseStream<'_>, kind: &'static ElementKind) -> Result<ItemKind> {
     let name = name(input)?;
@@ -35,6 +35,26 @@ pub(super) fn element(input: ParseStream<'_>, kind: &'static ElementKind) -> Res
         properties.push(property(&content)?);
     }
     Ok(ItemKind::Element(Box::new(Element { name, kind, first, second, along, properties })))
+}
+
+/// `(a.p, b.q) = k*(length - l) + c*rate;` behind the name of a force or a torque.
+pub(super) fn law(input: ParseStream<'_>, name: Ident, kind: &'static ElementKind) -> Result<ItemKind> {
+    let example = format!("{} {name} {}", kind.word, kind.example);
+    let (first, second) = two_places(input, "what it connects is", &format!("this {}", kind.word), &example)?;
+    let equals = equals(input)?;
+    if is_vector(input) {
+        let help = format!("as in `{example}`");
+        return Err(helped(
+            input.span(),
+            format!("the law of a {} between two places is a scalar", kind.word),
+            help,
+        ));
+    }
+    let value = Load::Scalar(input.parse()?);
+    semicolon(input)?;
+    let properties = vec![ElementProperty { name: Ident::new(LAW, equals), value }];
+    let second = Some(second);
+    Ok(ItemKind::Element(Box::new(Element { name, kind, first, second, along: None, properties })))
 }
 
 /// `stiffness = 3 [N/m];` or `wind = (5, 0) [m/s];`

@@ -15,7 +15,7 @@ use super::words::{block, definition, doc, equals, helped, name, name_before_uni
 use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
-use crate::mechanics::elements::ELEMENTS;
+use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
 use crate::quantity::{Comparison, Crossing};
 
 /// Reads a declaration.
@@ -305,6 +305,9 @@ pub(super) fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind>
 pub(super) fn force(input: ParseStream<'_>, is_torque: bool) -> Result<ItemKind> {
     let word = if is_torque { "torque" } else { "force" };
     let what = name(input)?;
+    if input.peek(token::Paren) {
+        return elements::law(input, what, if is_torque { &TORQUE_BETWEEN } else { &FORCE_BETWEEN });
+    }
     let on = input.span();
     if what == "on" || !Ident::parse_any(input).is_ok_and(|word| word == "on") {
         let span = if what == "on" { what.span() } else { on };

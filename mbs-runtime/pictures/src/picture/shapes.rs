@@ -230,7 +230,7 @@ impl<'a> Maker<'a> {
     fn spring(&mut self, spring: &Spring) {
         let between = [spring.first, spring.second];
         match spring.kind {
-            "spring" => {
+            "spring" | "force" => {
                 self.ends(between);
                 self.shapes.push(Shape::Spring { between });
             }

@@ -4,13 +4,16 @@
 mod drag;
 mod effects;
 mod friction;
+mod law;
 mod motor;
 mod properties;
 mod spring;
 
 use mbs_symbolic::Scalar;
+use mbs_symbolic::units::Dimension;
 
 pub use effects::{Effects, Element, Exerts};
+pub use law::{FORCE_BETWEEN, LAW, TORQUE_BETWEEN};
 pub use properties::{Given, Property, Range, Unsaid};
 
 use super::joints::Holds;
@@ -37,6 +40,8 @@ pub struct ElementKind {
     pub properties: &'static [Property],
     /// Checks that the properties that are given say how it acts.
     pub said: fn(&Given<'_>) -> Result<(), Unsaid>,
+    /// The names that its properties know beside those of all formulas.
+    pub knows: for<'a> fn(&Element<'a>, &Effects<'_>) -> Vec<Known<'a>>,
     /// The lengths or angles of which at least one has to depend on coordinates.
     pub moved: for<'a> fn(&Element<'a>) -> Vec<Scalar<'a>>,
     /// How to mend one of which nothing moves.
@@ -45,6 +50,18 @@ pub struct ElementKind {
     pub needs: Option<Freedom>,
     /// Adds its effects; `None` where a property is missing, which has its error.
     pub forces: for<'a> fn(&Element<'a>, &mut Effects<'_>) -> Option<()>,
+}
+
+/// A quantity of an element that its properties may name.
+pub struct Known<'a> {
+    pub name: &'static str,
+    pub value: Scalar<'a>,
+    pub dimension: Dimension,
+}
+
+/// Of most elements the properties know nothing more.
+fn nothing_more<'a>(_: &Element<'a>, _: &Effects<'_>) -> Vec<Known<'a>> {
+    Vec::new()
 }
 
 /// Where an element acts.

@@ -1,0 +1,65 @@
+//! Forces and torques between two places by a law of the declaration's own:
+//! `force f (a.p, b.q) = k*(length - l) + c*rate;`, `torque m (a, b) = -k*angle;`.
+//!
+//! The law of a force knows the distance d of its places as `length` and ḋ as `rate`. It is a tension F: it does
+//! the work −F δd. The law of a torque knows φ = φ₁ − φ₂ as `angle` and φ̇ as `rate`, and turns the first body: it
+//! does the work T δφ.
+
+use mbs_symbolic::units::Dimension;
+
+use super::properties::{FORCE, Property, RATE, SPEED, TORQUE};
+use super::{ElementKind, Known, Places};
+
+/// The name of the law among the properties.
+pub const LAW: &str = "law";
+
+pub const FORCE_BETWEEN: ElementKind = ElementKind {
+    word: "force",
+    meaning: "pulls two points together by a law",
+    example: "(arm.end, ground) = 100 [N/m]*(length - 0.1 [m]) + 5 [N*s/m]*rate;",
+    places: Places::Two,
+    properties: &[Property::varying(LAW, FORCE)],
+    said: |_| Ok(()),
+    knows: |force, effects| {
+        let distance = force.first.distance_to(force.second);
+        let known = |name, value, dimension| Known { name, value, dimension };
+        vec![
+            known("length", distance, Dimension::LENGTH),
+            known("rate", effects.rate(distance).shared(), SPEED),
+        ]
+    },
+    moved: |force| (force.first.position - force.second.position).components().into(),
+    mend: "let it act between points that move apart",
+    needs: None,
+    forces: |force, effects| {
+        let distance = force.first.distance_to(force.second);
+        effects.gap = Some((distance.expr(), force.algebra.number(0).expr()));
+        let tension = force.get(LAW)?.shared();
+        effects.apply(-tension, distance);
+        effects.exert(tension, FORCE);
+        Some(())
+    },
+};
+
+pub const TORQUE_BETWEEN: ElementKind = ElementKind {
+    word: "torque",
+    meaning: "turns two bodies against each other by a law",
+    example: "(arm, ground) = -5 [N*m]*angle - 0.1 [N*m*s]*rate;",
+    places: Places::Two,
+    properties: &[Property::varying(LAW, TORQUE)],
+    said: |_| Ok(()),
+    knows: |torque, effects| {
+        let angle = torque.relative_angle();
+        let known = |name, value, dimension| Known { name, value, dimension };
+        vec![known("angle", angle, Dimension::NONE), known("rate", effects.rate(angle), RATE)]
+    },
+    moved: |torque| vec![torque.relative_angle()],
+    mend: "one of its bodies has to turn",
+    needs: None,
+    forces: |element, effects| {
+        let (torque, angle) = (element.get(LAW)?.shared(), element.relative_angle());
+        effects.apply(torque, angle);
+        effects.exert(torque, TORQUE);
+        Some(())
+    },
+};
