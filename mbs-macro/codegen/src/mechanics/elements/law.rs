@@ -8,7 +8,7 @@
 use mbs_symbolic::units::Dimension;
 
 use super::properties::{FORCE, Property, RATE, SPEED, TORQUE};
-use super::{ElementKind, Known, Places};
+use super::kind::{ElementKind, Known, Places};
 
 /// The name of the law among the properties.
 pub const LAW: &str = "law";

@@ -3,7 +3,6 @@
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Scalar, Vector};
 
-use super::Wrench;
 use crate::mechanics::Placed;
 
 /// A joint with its places and clauses resolved; what plays no part in it has
@@ -35,6 +34,14 @@ pub enum Part {
     First,
     Second,
     Carrier,
+}
+
+/// A force or a torque on the second body; the first feels the opposite.
+#[derive(Clone, Copy)]
+pub enum Wrench<'a> {
+    /// In the ground frame.
+    Force(Vector<Scalar<'a>>),
+    Torque(Scalar<'a>),
 }
 
 impl Connection {
