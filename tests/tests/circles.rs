@@ -11,16 +11,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Circles that are known: the crate, one of the files, and what closes them.
-const KNOWN: [(&str, &str, &str); 12] = [
+const KNOWN: [(&str, &str, &str); 9] = [
     ("mbs-macro/codegen", "independence::rank", "rows and verdicts stand beside the search for them"),
     ("mbs-macro/codegen", "model::names", "a scope has places and measures, which are resolved in it"),
-    ("mbs-macro/codegen", "targets::c", "`Target` stands in the parent"),
-    (
-        "mbs-macro/codegen",
-        "targets::rust",
-        "`tokens` stands in the parent; programs and long programs print each other",
-    ),
-    ("mbs-macro/codegen", "targets::wasm", "`Signature` stands in the parent"),
     ("mbs-macro/symbolic", "arena", "nodes, operators and their algebra make each other"),
     ("mbs-macro/symbolic", "eliminate::steps", "steps of a single loop are steps"),
     ("mbs-macro/symbolic", "lower", "`Hoisted` stands in the parent"),

@@ -1,7 +1,7 @@
 //! Comments, and the page that explains the files.
 
-use super::{Scalar, Target};
-use crate::compiled::{Constraint, FunctionId};
+use super::target::{Scalar, Target};
+use crate::compiled::FunctionId;
 
 /// A text as a comment, which Doxygen reads.
 pub fn comment(text: &str, indent: &str) -> String {
@@ -13,11 +13,6 @@ pub fn comment(text: &str, indent: &str) -> String {
     let text = lines.join("\n");
     let text = text.trim_start();
     if text.is_empty() { String::new() } else { format!("{indent}/** {text} */\n") }
-}
-
-/// The documentation of a constraint: its doc comment and its equation.
-pub fn constraint(constraint: &Constraint) -> String {
-    format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
 }
 
 /// Fills in a file that builds the code; its version is that of the compiler of mechanisms.

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use mbs_interface::Explicit;
 
-use super::Target;
 use super::docs::comment;
 use super::kernels::Kernel;
 use super::names::Struct;
+use super::target::Target;
 use crate::compiled::Results;
 use crate::targets::words::errors;
 

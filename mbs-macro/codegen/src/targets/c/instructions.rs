@@ -7,8 +7,8 @@ use std::ops::Range;
 use mbs_symbolic::layout::{Array, Component, Layout, Place};
 use mbs_symbolic::{Function, Inconsistency, Operand, Operation, Program, SinCos};
 
-use super::Target;
 use super::names::plain;
+use super::target::Target;
 use crate::compiled::{Input, Vector};
 
 /// The text before a member of a vector.

@@ -2,10 +2,10 @@
 
 use mbs_symbolic::{Block, Inconsistency, Operations, Program};
 
-use super::Target;
 use super::docs::comment;
 use super::instructions::{Kept, Printer};
 use super::loops;
+use super::target::Target;
 use crate::compiled::{Argument, Count, FunctionId, Kinds, Property, Results};
 
 /// A function of C.

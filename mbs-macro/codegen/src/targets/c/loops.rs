@@ -9,8 +9,8 @@ use mbs_symbolic::layout::{
 };
 use mbs_symbolic::{Program, Repetition};
 
-use super::Target;
 use super::instructions::{Kept, Printer, elements};
+use super::target::Target;
 use crate::compiled::Vector;
 
 const INSIDE: &str = "        ";

@@ -18,6 +18,7 @@ mod kernels;
 mod loops;
 mod names;
 mod source;
+mod target;
 
 use std::cell::RefCell;
 
@@ -26,15 +27,9 @@ use mbs_symbolic::Inconsistency;
 use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use names::Names;
+use target::Target;
 
-/// The floating-point type that C computes with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scalar {
-    /// `double`
-    Double,
-    /// `float`
-    Float,
-}
+pub use target::Scalar;
 
 /// A file with its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,34 +67,6 @@ impl CSources {
     pub fn named_alike(&self) -> impl Iterator<Item = &File> {
         let [cmake, make, _] = &self.build;
         [&self.example, &self.readme, cmake, make].into_iter()
-    }
-}
-
-/// A mechanism to be printed, with its names and its type of numbers.
-struct Target<'a> {
-    compiled: &'a Compiled,
-    names: &'a Names,
-    scalar: Scalar,
-    /// Programs that were not written as they were checked.
-    faults: RefCell<Vec<Inconsistency>>,
-}
-
-impl Target<'_> {
-    /// C text of this target, in which `NAME` and `CAPS` stand for what names begin with, `SCALAR`
-    /// for the type, `STATES` for what is integrated, `STAGE` for a moment of it, and `SQRT` and `FABS` for functions. No name of a declaration may be in it.
-    fn fill(&self, text: &str) -> String {
-        let states = self.names.states();
-        let stage = if self.compiled.has_reduced_states() { "stage" } else { "state" };
-        // names last, because they may be any word
-        text.replace("STATE_COUNT", &format!("CAPS_{}", states.name.to_uppercase()))
-            .replace("NAME_STATES", &format!("NAME_{}", states.name))
-            .replace("NAME_STAGE", &format!("NAME_{stage}"))
-            .replace("SCALAR", self.scalar.name())
-            .replace("SCHEME", self.compiled.choices.scheme.title)
-            .replace("SQRT", &self.scalar.of_math("sqrt"))
-            .replace("FABS", &self.scalar.of_math("fabs"))
-            .replace("NAME", &self.names.prefix)
-            .replace("CAPS", &self.names.capitals)
     }
 }
 
@@ -164,37 +131,4 @@ fn printed(compiled: &Compiled, scalar: Scalar, has_tangents: bool) -> Result<CS
         ],
         prefix: names.prefix,
     })
-}
-
-impl Scalar {
-    /// The type.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Double => "double",
-            Self::Float => "float",
-        }
-    }
-
-    /// The nearest number of the type as an expression that needs no parentheses.
-    fn literal(self, value: f64) -> String {
-        let (value, text) = match self {
-            Self::Double => (value, format!("{value:?}")),
-            Self::Float => (f64::from(value as f32), format!("{:?}f", value as f32)),
-        };
-        match value {
-            _ if value.is_nan() => "NAN".to_owned(),
-            f64::INFINITY => "INFINITY".to_owned(),
-            f64::NEG_INFINITY => "(-INFINITY)".to_owned(),
-            _ if value.is_sign_negative() => format!("({text})"),
-            _ => text,
-        }
-    }
-
-    /// A function of `math.h`.
-    fn of_math(self, name: &str) -> String {
-        match self {
-            Self::Double => name.to_owned(),
-            Self::Float => format!("{name}f"),
-        }
-    }
 }

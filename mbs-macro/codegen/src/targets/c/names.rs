@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::docs::constraint;
-use crate::compiled::{Compiled, Quantity, Results, Vector};
+use crate::compiled::{Compiled, Constraint, Quantity, Results, Vector};
 use crate::targets::words::{coordinate, quantity};
 
 /// The names of a printed mechanism.
@@ -117,6 +116,11 @@ fn members<'a>(declared: impl Iterator<Item = (&'a String, String)>) -> Vec<Memb
         doc,
     };
     declared.map(member).collect()
+}
+
+/// The documentation of a constraint: its doc comment and its equation.
+fn constraint(constraint: &Constraint) -> String {
+    format!("{}\n\n`{} = 0`", constraint.doc, constraint.formula)
 }
 
 /// A name that C takes and nobody has yet.

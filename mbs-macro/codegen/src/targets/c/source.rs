@@ -9,7 +9,7 @@ use super::docs::comment;
 use super::kernels::Kernel;
 use super::loops::lines;
 use super::names::Struct;
-use super::{Scalar, Target};
+use super::target::{Scalar, Target};
 use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
 use crate::targets::words;
 

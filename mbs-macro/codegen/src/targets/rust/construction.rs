@@ -8,8 +8,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::access::Access;
+use super::body::Body;
 use super::names::Names;
-use super::program::{Body, body};
+use super::program::body;
 use super::splines::splines;
 use super::tokens;
 use crate::compiled::{Comparison, Compiled, Condition, FunctionId};

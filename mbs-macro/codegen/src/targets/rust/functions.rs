@@ -1,15 +1,16 @@
 //! The generated functions.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
+use super::body::{Body, named};
 use super::derivation;
 use super::docs;
 use super::info;
 use super::matrices;
-use super::names::{Names, field};
-use super::program::{Body, body, named};
+use super::names::{Fields, Names, field};
+use super::program::body;
 use super::sketch;
 use super::solver;
 use super::stages;
@@ -19,23 +20,6 @@ use crate::compiled::{Argument, Compiled, FunctionId, Property, Results};
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
-
-/// The fields of the vectors that most functions return.
-pub(super) struct Fields {
-    pub coordinates: Vec<Ident>,
-    pub states: Vec<Ident>,
-    pub rows: Vec<Ident>,
-}
-
-impl Fields {
-    pub fn new(compiled: &Compiled) -> Self {
-        Self {
-            coordinates: compiled.coordinates.iter().map(|c| field(&c.name)).collect(),
-            states: compiled.states.iter().map(|&at| field(&compiled.coordinates[at].name)).collect(),
-            rows: compiled.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
-        }
-    }
-}
 
 /// The attribute that forces functions into the step that calls them, or leaves them to the compiler.
 ///

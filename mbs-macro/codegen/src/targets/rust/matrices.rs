@@ -7,9 +7,10 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
+use super::body::Body;
 use super::docs;
 use super::names::Names;
-use super::program::{Body, body};
+use super::program::body;
 use crate::compiled::{Compiled, FunctionId};
 
 /// Larger matrices are not offered: returned by value, 2¹⁷ entries are 1 MiB of

@@ -2,6 +2,7 @@
 //! loops and slots that does not compute what its program does is a mistake of the compiler.
 
 mod access;
+mod body;
 mod construction;
 mod derivation;
 mod docs;
@@ -11,6 +12,7 @@ mod long;
 mod matrices;
 mod names;
 mod on_pairs;
+mod places;
 mod program;
 mod sketch;
 mod solver;
@@ -21,6 +23,7 @@ mod tokens;
 mod transposes;
 mod types;
 mod weave;
+mod writer;
 
 use proc_macro2::TokenStream;
 use quote::quote;

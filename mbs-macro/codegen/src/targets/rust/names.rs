@@ -77,6 +77,23 @@ impl Names {
     }
 }
 
+/// The fields of the vectors that most functions return.
+pub struct Fields {
+    pub coordinates: Vec<Ident>,
+    pub states: Vec<Ident>,
+    pub rows: Vec<Ident>,
+}
+
+impl Fields {
+    pub fn new(compiled: &Compiled) -> Self {
+        Self {
+            coordinates: compiled.coordinates.iter().map(|c| field(&c.name)).collect(),
+            states: compiled.states.iter().map(|&at| field(&compiled.coordinates[at].name)).collect(),
+            rows: compiled.constraints.iter().map(|constraint| field(&constraint.name)).collect(),
+        }
+    }
+}
+
 /// A name of the declaration as an identifier of generated code.
 pub fn field(name: &str) -> Ident {
     match name.strip_prefix("r#") {

@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::body::Body;
 use super::names::Names;
-use super::program::Body;
 use crate::compiled::{Link, Sketch};
 
 /// The value of `SKETCH`.

@@ -9,9 +9,10 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::access::Access;
-use super::long::places::{ACCELERATION, FEEDBACK};
+use super::body::Body;
 use super::names::Names;
-use super::program::{Body, body};
+use super::places::{ACCELERATION, FEEDBACK};
+use super::program::body;
 use super::tokens;
 use crate::compiled::{Compiled, FunctionId};
 

@@ -8,9 +8,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
-use super::functions::Fields;
-use super::names::Names;
-use super::program::named;
+use super::body::named;
+use super::names::{Fields, Names};
 use super::tokens;
 use super::{on_pairs, weave};
 use crate::compiled::{Compiled, Kinds};

@@ -8,8 +8,9 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::access::Access;
+use super::body::Body;
 use super::names::Names;
-use super::program::{Body, body_of};
+use super::program::body_of;
 use super::tokens;
 use crate::compiled::{Compiled, Kinds, Transposed, Vector};
 

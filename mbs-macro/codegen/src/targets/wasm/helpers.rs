@@ -3,8 +3,7 @@
 use mbs_interface::sine::{COSINE, HALF_PI, RANGE, SHIFT, SINE};
 use wasm_encoder::{BlockType, Function, InstructionSink, ValType};
 
-use super::memory::{HEAD, SEGMENT};
-use super::program::word;
+use super::memory::{HEAD, SEGMENT, word};
 
 /// The functions of `Math` with their numbers of arguments.
 pub const IMPORTS: [(&str, usize); 11] = [

@@ -5,8 +5,9 @@ use mbs_symbolic::layout::{Array, Column, Home, Kept, Layout, Loop, Part, Place,
 use mbs_symbolic::{Inconsistency, Operation, Repetition};
 use wasm_encoder::{BlockType, MemArg};
 
-use super::Signature;
-use super::program::{Printer, fault, word};
+use super::memory::word;
+use super::planned::Signature;
+use super::program::{Printer, fault};
 use super::slot::Slot;
 use crate::compiled::Vector;
 

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use mbs_symbolic::Spline;
+use wasm_encoder::{MemArg, MemArgTarget};
 
 /// How many numbers stand before the segments of a spline.
 pub const HEAD: usize = 3;
@@ -73,4 +74,9 @@ impl Memory {
     pub fn data(&self) -> [(usize, &[u8]); 2] {
         [(0, &self.splines), (self.tables_at(), &self.tables)]
     }
+}
+
+/// The place of a number behind an address.
+pub fn word(at: usize) -> MemArg {
+    MemArg { offset: 8 * at as u64, align: 3, target: MemArgTarget::default(), ordering: None }
 }

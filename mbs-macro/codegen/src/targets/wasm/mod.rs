@@ -16,22 +16,22 @@
 mod helpers;
 mod loops;
 mod memory;
+mod planned;
 mod program;
 mod slot;
 mod tables;
 
-use mbs_symbolic::layout::Layout;
-use mbs_symbolic::{Block, Inconsistency, Program};
+use mbs_symbolic::Inconsistency;
 use wasm_encoder::{
     CodeSection, ConstExpr, DataSection, EntityType, ExportKind, ExportSection, FunctionSection,
     GlobalSection, GlobalType, ImportSection, MemorySection, MemoryType, Module, TypeSection, ValType,
 };
 
-use crate::compiled::{Argument, Compiled, FunctionId, Kinds, Vector};
+use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use memory::Memory;
+use planned::{Signature, planned};
 use program::body;
-use slot::Slot;
 
 /// The JavaScript that runs a mechanism in its module: it defines `mbs.Mechanism` and `mbs.Run`. The order of
 /// operations is that of the C target, so that numbers agree with those of C and Rust to the bit.
@@ -81,25 +81,6 @@ pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
     Ok(Wasm { module, tables: tables::tables(compiled) })
 }
 
-/// A function, before it is written.
-struct Planned<'a> {
-    signature: Signature,
-    program: &'a Program,
-    /// Of a long program.
-    layout: Option<Layout<Vector>>,
-}
-
-/// The parameters and results of a function.
-struct Signature {
-    name: &'static str,
-    /// Its parameters, in their order.
-    slots: Vec<Slot>,
-    /// How many numbers it writes to each address of results.
-    lengths: Vec<usize>,
-    /// True if the last output is returned.
-    returns: bool,
-}
-
 fn module(compiled: &Compiled) -> Result<Vec<u8>, Inconsistency> {
     let planned = planned(compiled)?;
     let slots = planned.iter().filter_map(|it| Some(it.layout.as_ref()?.slots)).max().unwrap_or(0);
@@ -121,43 +102,6 @@ fn module(compiled: &Compiled) -> Result<Vec<u8>, Inconsistency> {
         parts.exports.export(name, ExportKind::Func, at);
     }
     Ok(parts.module(&memory))
-}
-
-/// The functions of a mechanism.
-fn planned(compiled: &Compiled) -> Result<Vec<Planned<'_>>, Inconsistency> {
-    let mut planned = Vec::new();
-    for id in compiled.functions() {
-        let (signature, program) = (Signature::of(compiled, id), compiled.program(id));
-        let blocks = compiled.blocks(program);
-        let is_long = !matches!(blocks[..], [] | [Block::Straight(_)]);
-        let layout = is_long.then(|| compiled.layout(program, &blocks, &signature.lengths)).transpose()?;
-        planned.push(Planned { signature, program, layout });
-    }
-    if let Some(step) = &compiled.fused_step {
-        let Kinds { held, per_stage } = &step.alone;
-        for (name, program) in [("step_held", held), ("step_per_stage", per_stage)] {
-            planned.push(Planned { signature: Signature::of_step(compiled, name), program, layout: None });
-        }
-    }
-    Ok(planned)
-}
-
-impl Signature {
-    fn of(compiled: &Compiled, id: FunctionId) -> Self {
-        let slots =
-            [Slot::Mechanism].into_iter().chain(id.arguments().iter().map(|&argument| Slot::of(argument)));
-        let lengths = id.written().map(|(_, kind)| compiled.length(kind)).collect();
-        Self { name: id.name(), slots: slots.collect(), lengths, returns: id.returns() }
-    }
-
-    /// Of a whole step, which gives the next positions and velocities and returns the growth.
-    fn of_step(compiled: &Compiled, name: &'static str) -> Self {
-        let arguments =
-            [Argument::Time, Argument::Positions, Argument::Velocities, Argument::Inputs, Argument::Gains];
-        let slots = [Slot::Mechanism].into_iter().chain(arguments.map(Slot::of));
-        let slots = slots.chain([Slot::Step, Slot::HalfStep, Slot::NextTime]).collect();
-        Self { name, slots, lengths: vec![compiled.states.len(); 2], returns: true }
-    }
 }
 
 /// The sections of a module as they grow.

@@ -8,12 +8,13 @@ use mbs_symbolic::layout::{Array, Place as Kept};
 use mbs_symbolic::{
     Function as Elementary, Inconsistency, Instruction, Operand, Operation, Program, SinCos, Wasm,
 };
-use wasm_encoder::{Function, InstructionSink, MemArg, MemArgTarget, ValType};
+use wasm_encoder::{Function, InstructionSink, MemArg, ValType};
 
 use super::helpers::{Helper, import};
-use super::memory::Memory;
+use super::loops;
+use super::memory::{Memory, word};
+use super::planned::{Planned, Signature};
 use super::slot::Slot;
-use super::{Planned, Signature, loops};
 use crate::compiled::{Compiled, Input};
 
 /// Results nest at most so deep, so that the printer's own stack is bounded.
@@ -351,11 +352,6 @@ impl Printer<'_> {
             (false, _) => Ok(()),
         }
     }
-}
-
-/// The place of a number behind an address.
-pub fn word(at: usize) -> MemArg {
-    MemArg { offset: 8 * at as u64, align: 3, target: MemArgTarget::default(), ordering: None }
 }
 
 pub fn fault(rule: &'static str) -> Inconsistency {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 use crate::compiled::{Compiled, Vector};
 use crate::targets::rust::access::{Access, Argument};
@@ -14,40 +14,6 @@ use crate::targets::rust::names::Names;
 pub struct Arrays(BTreeSet<Vector>);
 
 impl Vector {
-    /// True if stages on arrays are given the vector as one.
-    pub(in crate::targets::rust) fn is_given(self) -> bool {
-        match self {
-            Self::Positions
-            | Self::Velocities
-            | Self::StatePositions
-            | Self::StateVelocities
-            | Self::Feedback => true,
-            Self::Parameters
-            | Self::Inputs
-            | Self::Accelerations
-            | Self::Multipliers
-            | Self::Predicted
-            | Self::Weights => false,
-        }
-    }
-
-    /// The name of its array.
-    pub(in crate::targets::rust) fn ident(self) -> Ident {
-        let name = match self {
-            Self::Parameters => "parameter",
-            Self::Inputs => "input",
-            // no function is given both
-            Self::Positions | Self::StatePositions => "position",
-            Self::Velocities | Self::StateVelocities => "velocity",
-            Self::Accelerations => "acceleration",
-            Self::Multipliers => "multiplier",
-            Self::Feedback => "feedback",
-            Self::Predicted => "predicted",
-            Self::Weights => "weight",
-        };
-        format_ident!("{name}_array")
-    }
-
     /// The vector in the function around the loops.
     fn place(self, access: &Access) -> TokenStream {
         let Access { parameters, positions, velocities, .. } = access;

@@ -7,10 +7,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::{Context, places};
+use super::context::Context;
 use crate::compiled::Vector;
-use crate::targets::rust::program::Writer;
-use crate::targets::rust::tokens;
+use crate::targets::rust::writer::Writer;
+use crate::targets::rust::{places, tokens};
 
 /// The operands that differ from copy to copy, and the names that they have so far.
 pub struct Columns<'a> {

@@ -7,43 +7,28 @@
 //! Every operation is done on the same operands as in straight lines, so results agree to the bit
 //! (`tests/tests/loops.rs`). `paired` writes a copy on pairs where that saves an eighth of its operations.
 
+mod around;
 mod arrays;
 mod columns;
+mod context;
 mod paired;
-pub mod places;
 mod repeated;
 
 use std::collections::BTreeSet;
 
-use mbs_symbolic::layout::{Array, Layout, Part, Straight};
+use mbs_symbolic::layout::{Array, Part, Straight};
 use mbs_symbolic::{Block, Inconsistency, Operand, Program, SinCos};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use self::arrays::Arrays;
+use self::context::{Context, Definition};
 use super::access::{Access, Argument};
+use super::body::Body;
 use super::names::Names;
-use super::program::{Body, Writer};
-use crate::compiled::{Compiled, Vector};
-
-/// The data that the functions of a program share.
-struct Context<'a> {
-    compiled: &'a Compiled,
-    names: &'a Names,
-    program: &'a Program,
-    /// How symbols are read within the functions.
-    access: &'a Access,
-    pairs: &'a SinCos,
-    layout: &'a Layout<Vector>,
-}
-
-/// The statements of a function, and what it takes.
-struct Definition {
-    name: Ident,
-    doc: Option<String>,
-    statements: TokenStream,
-    arguments: Vec<Argument>,
-}
+use super::places;
+use super::writer::Writer;
+use crate::compiled::Compiled;
 
 /// The functions of a program, and the statements that call them.
 #[derive(Default)]

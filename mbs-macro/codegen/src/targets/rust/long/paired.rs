@@ -7,17 +7,17 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Context;
+use super::around::Around;
 use super::columns::{Columns, carried_name, head};
-use super::repeated::Around;
+use super::context::Context;
 use crate::compiled::Vector;
 use crate::targets::rust::on_pairs::{self, of_lane, single};
-use crate::targets::rust::{program, tokens};
+use crate::targets::rust::{tokens, writer};
 
 /// A loop over the copies, each of which reads its columns, computes on pairs, and stores.
 pub fn copies(context: &Context<'_>, repeated: &Loop<Vector>, copy: &WovenCopy) -> TokenStream {
     let Context { compiled, program, access, pairs, layout, .. } = *context;
-    let outside = program::Writer::new(compiled, program, access, pairs, 0..0).with_layout(layout);
+    let outside = writer::Writer::new(compiled, program, access, pairs, 0..0).with_layout(layout);
     let carried = Variables::new(copy);
     let mut columns = Columns::new(context, repeated);
     let mut read = |given: Given| match given {

@@ -2,16 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use mbs_symbolic::layout::{Angle, Carried, Column, Home, Kept, Loop, Read};
+use mbs_symbolic::layout::{Angle, Carried, Column, Home, Loop, Read};
 use mbs_symbolic::{Function, Inconsistency, Operand, Operation, Repetition};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use quote::{format_ident, quote};
 
+use super::around::Around;
 use super::arrays::Arrays;
 use super::columns::{Columns, carried_values, element, head, store, vectors};
-use super::{Context, Definition, paired, places};
+use super::context::{Context, Definition};
+use super::paired;
 use crate::compiled::Vector;
-use crate::targets::rust::program::Writer;
+use crate::targets::rust::writer::Writer;
 
 /// A loop over the copies.
 pub fn definition(
@@ -70,29 +72,6 @@ fn copies(context: &Context<'_>, repeated: &Loop<Vector>) -> TokenStream {
     let body = writer.statements;
     let Around { before, after, .. } = around;
     quote!(#before #first #head { #body #next } #after)
-}
-
-/// Statements around a loop.
-#[derive(Default)]
-pub struct Around {
-    pub before: TokenStream,
-    pub after: TokenStream,
-    /// How many results of the last copy are kept so far.
-    count: usize,
-}
-
-impl Around {
-    /// Keeps the result of a step: that of every copy at once, that of the last one after
-    /// the loop.
-    pub fn keep(&mut self, context: &Context<'_>, kept: Kept, value: &impl ToTokens) -> TokenStream {
-        let Kept::Last(place) = kept else { return store(context, kept, value) };
-        let last = format_ident!("last_{}", self.count);
-        self.count += 1;
-        let place = places::element(place);
-        self.before.extend(quote!(let mut #last = T::from_f64(0.0);));
-        self.after.extend(quote!(#place = #last;));
-        quote!(#last = #value;)
-    }
 }
 
 /// Loops over the sines and cosines of components, which are taken two at once.
