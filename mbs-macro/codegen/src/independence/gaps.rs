@@ -4,7 +4,7 @@ use mbs_symbolic::units::Dimension;
 
 use super::Samples;
 use super::assembly::Assembly;
-use super::rank::Rows;
+use super::rows::Rows;
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::{Meaning, Model};

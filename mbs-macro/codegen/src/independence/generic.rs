@@ -10,7 +10,7 @@
 use mbs_symbolic::{Arena, Point, Residue};
 
 use super::exact::dependent_rows;
-use super::rank::Dependent;
+use super::rows::Dependent;
 use super::sparse::SparseRow;
 use crate::derive::Equations;
 

@@ -8,7 +8,7 @@
 use super::Samples;
 use super::assembly::{Assembly, Closing, Position};
 use super::echelon::{Echelon, RANK_TOLERANCE, row_echelon_within};
-use super::rank::Dependent;
+use super::rows::Dependent;
 use super::samples::Generator;
 use crate::model::Model;
 

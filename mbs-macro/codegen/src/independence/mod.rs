@@ -23,6 +23,7 @@ mod generic;
 mod manifold;
 mod rank;
 pub mod redundancy;
+mod rows;
 pub mod samples;
 mod size;
 mod sparse;
@@ -30,7 +31,7 @@ pub mod words;
 
 use mbs_symbolic::Stage;
 
-pub use rank::Rows;
+pub use rows::Rows;
 pub use samples::Samples;
 
 use crate::derive::Equations;

@@ -7,27 +7,11 @@ use super::assembly::Assembly;
 use super::generic;
 use super::manifold::Manifold;
 use super::redundancy;
+use super::rows::{Dependent, Rows};
 use super::words::{Part, repeats, touches};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, counted, listing};
 use crate::model::Model;
-
-/// A row that is a combination of earlier ones, and of which.
-pub type Dependent = (usize, Vec<usize>);
-
-/// The constraints that are solved for, and those that are met with them.
-#[derive(Clone, Debug)]
-pub struct Rows {
-    pub basis: Vec<usize>,
-    pub redundant: Vec<usize>,
-}
-
-impl Rows {
-    /// All of `count` rows but those that are redundant.
-    pub fn without(count: usize, redundant: Vec<usize>) -> Self {
-        Self { basis: (0..count).filter(|row| !redundant.contains(row)).collect(), redundant }
-    }
-}
 
 /// Every constraint adds something that the ones before it do not say, in
 /// general and wherever the mechanism is assembled at its declared dimensions,

@@ -7,7 +7,7 @@ use super::Samples;
 use super::assembly::{Assembly, Closing};
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
-use super::rank::Rows;
+use super::rows::Rows;
 use super::words::{Part, unit};
 use crate::diagnostics::{Diagnostic, joined};
 use crate::model::Model;
