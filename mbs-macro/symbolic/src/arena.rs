@@ -154,6 +154,17 @@ impl Arena {
         self.symbols.len()
     }
 
+    /// Adds a spline.
+    pub fn add_spline(&mut self, spline: Spline) -> SplineId {
+        self.splines.push(Rc::new(spline));
+        SplineId((self.splines.len() - 1) as u32)
+    }
+
+    /// The splines, by their index.
+    pub fn splines(&self) -> &[Rc<Spline>] {
+        &self.splines
+    }
+
     /// A constant.
     pub fn number(&mut self, value: Number) -> Expr {
         self.intern(Node::Number(value))

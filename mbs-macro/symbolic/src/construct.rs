@@ -284,6 +284,11 @@ impl Arena {
         })
     }
 
+    /// The value of a spline at x.
+    pub fn spline(&mut self, spline: SplineId, x: Expr) -> Expr {
+        self.spline_derivative(spline, 0, x)
+    }
+
     /// The derivative of this order of a spline at x: 0 beyond its degree.
     pub(crate) fn spline_derivative(&mut self, spline: SplineId, order: u8, x: Expr) -> Expr {
         if order > self.splines[spline.index()].degree() {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::matrix::{Kkt, Unknown};
 use super::order::{Pivot, Strategy};
+use super::single_loop::SingleLoop;
 use super::steps::Step;
 use super::sums::{LONGEST_OPEN, Sums, length};
 use super::unit;
@@ -215,6 +216,16 @@ impl<'a> Work<'a> {
         self.watch_diagonal(unknown, pivot, inverse);
         self.matrix.remove(unknown);
         self.steps.push(Step::Diagonal { unknown, inverse, multipliers });
+    }
+
+    /// The last row with its two coordinates, see [`super::single_loop`].
+    fn eliminate_loop(&mut self, row: Unknown, coordinates: [Unknown; 2]) {
+        let taken = SingleLoop::new(self.arena, &self.matrix, row, coordinates);
+        self.watch_loop(&taken);
+        for unknown in [row, coordinates[0], coordinates[1]] {
+            self.matrix.remove(unknown);
+        }
+        self.steps.push(Step::Loop(taken));
     }
 
     /// The entry (i, j), computed once. That of a row with itself is made of

@@ -15,84 +15,53 @@
 
 use std::collections::BTreeMap;
 
-use super::factorization::Work;
-use super::matrix::Unknown;
-use super::steps::{Half, Step};
+use super::matrix::{Kkt, Unknown};
 use super::sums::Sums;
 use crate::arena::{Arena, Expr};
-use crate::number::Number;
 
 /// The step; names as in the module's equations.
 pub(super) struct SingleLoop {
-    row: Unknown,
-    coordinates: [Unknown; 2],
+    pub(super) row: Unknown,
+    pub(super) coordinates: [Unknown; 2],
     /// (a, b)
-    entries: [Expr; 2],
+    pub(super) entries: [Expr; 2],
     /// A, B, C
-    masses: [Expr; 3],
+    pub(super) masses: [Expr; 3],
     /// (p, q)
     momentum: [Expr; 2],
     /// 1/D
-    inverse: Expr,
+    pub(super) inverse: Expr,
 }
 
-impl Work<'_> {
-    pub(super) fn eliminate_loop(&mut self, row: Unknown, coordinates: [Unknown; 2]) {
+impl SingleLoop {
+    /// The step that takes these unknowns out of the matrix.
+    pub(super) fn new(arena: &mut Arena, matrix: &Kkt, row: Unknown, coordinates: [Unknown; 2]) -> Self {
         let [first, second] = coordinates;
-        let zero = self.arena.zero();
+        let zero = arena.zero();
         let mut entry = |one, other| {
-            let entry = self.matrix.get(one, other).unwrap_or(zero);
-            self.arena.share(entry)
+            let entry = matrix.get(one, other).unwrap_or(zero);
+            arena.share(entry)
         };
         let [a, b] = [entry(row, first), entry(row, second)];
         let masses = [entry(first, first), entry(first, second), entry(second, second)];
 
         let momentum = [
-            difference(self.arena, (a, masses[1]), (b, masses[0])),
-            difference(self.arena, (a, masses[2]), (b, masses[1])),
+            difference(arena, (a, masses[1]), (b, masses[0])),
+            difference(arena, (a, masses[2]), (b, masses[1])),
         ];
-        let determinant = difference(self.arena, (a, momentum[1]), (b, momentum[0]));
-        let inverse = self.inverse(determinant);
-        self.watch_loop(row, coordinates, [a, b], [masses[0], masses[2]], inverse);
-
-        for unknown in [row, first, second] {
-            self.matrix.remove(unknown);
-        }
-        self.steps.push(Step::Loop(SingleLoop {
-            row,
-            coordinates,
-            entries: [a, b],
-            masses,
-            momentum,
-            inverse,
-        }));
+        let determinant = difference(arena, (a, momentum[1]), (b, momentum[0]));
+        let inverse = arena.powi(determinant, -1);
+        let inverse = arena.share(inverse);
+        Self { row, coordinates, entries: [a, b], masses, momentum, inverse }
     }
 
-    /// Measures D against b²A + a²C: with what a and b can be at most, and what the masses
-    /// never fall below.
-    fn watch_loop(
-        &mut self,
-        row: Unknown,
-        coordinates: [Unknown; 2],
-        entries: [Expr; 2],
-        masses: [Expr; 2],
-        inverse: Expr,
-    ) {
-        let [a, b] = entries.map(|entry| self.arena.bound(entry));
-        let bounds = a.zip(b);
-        let (a, b) = bounds.unwrap_or((entries[0], entries[1]));
-        let [of_a, of_b] = masses.map(|mass| self.arena.anchor(mass).unwrap_or(mass));
-        let terms = [&[(b, 2), (of_a, 1)], &[(a, 2), (of_b, 1)]];
-        let terms = terms.map(|factors| (self.arena.product(factors), Number::ONE));
-        let size = self.arena.sum(&terms);
-        let squared = self.ratio(size, inverse);
-        self.watch(Some(row), Some(coordinates[1]), [None, Some(squared)], bounds.is_some());
-    }
-}
-
-impl SingleLoop {
     /// Takes (f, g, h) out of the right-hand side; gives r, h, f and g.
-    pub(super) fn forward(&self, arena: &mut Arena, rhs: &mut BTreeMap<Unknown, Expr>, sums: Sums) -> Half {
+    pub(super) fn forward(
+        &self,
+        arena: &mut Arena,
+        rhs: &mut BTreeMap<Unknown, Expr>,
+        sums: Sums,
+    ) -> [Expr; 4] {
         let zero = arena.zero();
         let mut take = |unknown| {
             let value = rhs.remove(&unknown).unwrap_or(zero);
@@ -107,7 +76,7 @@ impl SingleLoop {
     pub(super) fn backward(
         &self,
         arena: &mut Arena,
-        [r, h, f, g]: Half,
+        [r, h, f, g]: [Expr; 4],
         solution: &mut BTreeMap<Unknown, Expr>,
     ) {
         let ([a, b], [p, q]) = (self.entries, self.momentum);

@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 
 use super::factorization::{Factorization, Work};
 use super::matrix::Unknown;
+use super::single_loop::SingleLoop;
 use crate::arena::{Arena, Expr};
 use crate::number::Number;
 use crate::operators::Function;
@@ -68,6 +69,21 @@ impl Work<'_> {
         let size = size.unwrap_or_else(|| self.arena.share(pivot));
         let growth = self.ratio(size, inverse);
         self.watch(Some(row), Some(coordinate), [Some(growth), None], can_cancel);
+    }
+
+    /// Measures the determinant D of a [`SingleLoop`] against b²A + a²C: with what a and b can be at most,
+    /// and what the masses never fall below.
+    pub(super) fn watch_loop(&mut self, taken: &SingleLoop) {
+        let SingleLoop { row, coordinates, entries, masses: [mass, _, other], inverse, .. } = *taken;
+        let [a, b] = entries.map(|entry| self.arena.bound(entry));
+        let bounds = a.zip(b);
+        let (a, b) = bounds.unwrap_or((entries[0], entries[1]));
+        let [of_a, of_b] = [mass, other].map(|mass| self.arena.anchor(mass).unwrap_or(mass));
+        let terms = [&[(b, 2), (of_a, 1)], &[(a, 2), (of_b, 1)]];
+        let terms = terms.map(|factors| (self.arena.product(factors), Number::ONE));
+        let size = self.arena.sum(&terms);
+        let squared = self.ratio(size, inverse);
+        self.watch(Some(row), Some(coordinates[1]), [None, Some(squared)], bounds.is_some());
     }
 
     /// The size that a pivot without a bound is measured against: Σ |Φ_q| over the coordinates of its

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Hoisted;
+use super::hoisted::Hoisted;
 use crate::arena::{Arena, Expr, Node, Stage};
 use crate::number::Number;
 use crate::operators::{Function, Parity};

@@ -22,38 +22,16 @@
 mod factoring;
 mod flatten;
 mod fusion;
+mod hoisted;
 mod order;
 mod schedule;
 mod signs;
 
-use rustc_hash::FxHashMap as HashMap;
+pub use hoisted::Hoisted;
 
 use crate::arena::{Arena, Expr};
 use crate::inconsistency::Inconsistency;
 use crate::program::Program;
-
-/// Values that depend on parameters alone, shared by the programs of a
-/// mechanism.
-#[derive(Default)]
-pub struct Hoisted {
-    values: Vec<Expr>,
-    index: HashMap<Expr, usize>,
-}
-
-impl Hoisted {
-    /// The position of a value, which is added if it is new.
-    fn position(&mut self, expr: Expr) -> usize {
-        *self.index.entry(expr).or_insert_with(|| {
-            self.values.push(expr);
-            self.values.len() - 1
-        })
-    }
-
-    /// The hoisted values in the order of their positions.
-    pub fn values(&self) -> &[Expr] {
-        &self.values
-    }
-}
 
 /// The program that computes `outputs`, with everything that depends on
 /// parameters alone moved into `hoisted`. One of more than `unrolled` values is ordered such

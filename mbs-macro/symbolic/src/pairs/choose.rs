@@ -11,10 +11,13 @@ use std::collections::{BTreeMap, BinaryHeap};
 use rustc_hash::FxHashMap as HashMap;
 
 use super::ancestors::Ancestors;
+use super::angles::{Angles, is_sine_or_cosine};
 use super::interval::interval;
+use super::kinds::{Kind, Partner, kind, matchings};
+use super::layout::Layout;
 use super::nodes::Nodes;
+use super::steps::Lane;
 use super::trial::Trial;
-use super::{Angles, Kind, Lane, Layout, Partner, is_sine_or_cosine, kind, matchings};
 use crate::program::{Instruction, Operand, Program};
 
 /// The costs of moves, in operations. Moves into both lanes are used again and again,

@@ -9,7 +9,7 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Layout;
+use super::layout::Layout;
 use super::nodes::Nodes;
 use crate::arena::Symbol;
 use crate::program::{Operand, Program};

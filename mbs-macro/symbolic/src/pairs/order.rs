@@ -15,7 +15,9 @@
 
 use std::cmp::Reverse;
 
-use super::{Given, Layout, Scalar, Step, Woven};
+use super::layout::Layout;
+use super::steps::{Given, Scalar, Step};
+use super::woven::Woven;
 use crate::program::Operation;
 
 /// The runs that are followed, so that what they have in common shows.

@@ -8,7 +8,7 @@ use std::ops::{Add, Mul, Sub};
 
 use mbs_interface::sine::Octant;
 
-use super::{Step, Term};
+use super::steps::{Step, Term};
 use crate::program::Operation;
 
 /// Appends the sines and cosines of the pair of angles `of`, and returns the step of the sines.

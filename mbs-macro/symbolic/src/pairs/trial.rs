@@ -1,6 +1,7 @@
 //! Pairs that are tried out.
 
-use super::{Lane, Partner};
+use super::kinds::Partner;
+use super::steps::Lane;
 
 /// Pairs in the order in which they came, and who is in them.
 pub(super) struct Trial {

@@ -7,7 +7,12 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::{Angles, Given, Kind, Lane, Lanes, Layout, Partner, Scalar, Step, Woven, crossings, kind, sines};
+use super::angles::{Angles, Lanes};
+use super::kinds::{Kind, Partner, crossings, kind};
+use super::layout::Layout;
+use super::sines;
+use super::steps::{Given, Lane, Scalar, Step};
+use super::woven::Woven;
 use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 

@@ -4,8 +4,6 @@
 
 mod through;
 
-use crate::arena::Expr;
-
 /// A spline: a handle into an [`Arena`](crate::Arena)'s list of splines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SplineId(pub(crate) u32);
@@ -113,23 +111,5 @@ impl Spline {
             2 => 2.0 * c2 + u * (6.0 * c3),
             _ => 6.0 * c3,
         }
-    }
-}
-
-impl crate::Arena {
-    /// Adds a spline.
-    pub fn add_spline(&mut self, spline: Spline) -> SplineId {
-        self.splines.push(std::rc::Rc::new(spline));
-        SplineId((self.splines.len() - 1) as u32)
-    }
-
-    /// The splines, by their index.
-    pub fn splines(&self) -> &[std::rc::Rc<Spline>] {
-        &self.splines
-    }
-
-    /// The value of a spline at x.
-    pub fn spline(&mut self, spline: SplineId, x: Expr) -> Expr {
-        self.spline_derivative(spline, 0, x)
     }
 }
