@@ -3,12 +3,11 @@
 //! `System` is for runs as `Equations` is for mechanisms: names, parameters, state, steps, reactions,
 //! outputs, energies and points, for a type or for a text.
 
-use crate::equations::{At, Described, Equations, read, write};
-use crate::mechanism::is_fused_for;
+use crate::equations::{At, Described, Equations};
 use crate::watch::WorstPlace;
-use crate::{Derivation, Effort, Error, Event, Mechanism, Method, Reactions, Real, Simulation, Sketch};
+use crate::{Derivation, Effort, Error, Event, Real, Sketch};
 
-/// A mechanism in motion as tools see it: a [`Simulation`] of a type that the compiler
+/// A mechanism in motion as tools see it: a [`Simulation`](crate::Simulation) of a type that the compiler
 /// knew, or a run of a mechanism that was read from a text. `T` is its scalar: `f64`, or a
 /// [`Dual`](crate::Dual) for derivatives.
 ///
@@ -107,7 +106,7 @@ pub trait System<T: Real = f64>: Send {
     /// Advances by one step.
     ///
     /// # Errors
-    /// As [`Simulation::step`]; the state stays that of the last good step.
+    /// As [`Simulation::step`](crate::Simulation::step); the state stays that of the last good step.
     fn step(&mut self) -> Result<(), Error>;
 
     /// Advances to the next event if there is one before the end of the step, and by a step
@@ -130,7 +129,7 @@ pub trait System<T: Real = f64>: Send {
     /// Writes q̈ and λ of the present state, without feedback terms.
     ///
     /// # Errors
-    /// As [`Simulation::reactions`].
+    /// As [`Simulation::reactions`](crate::Simulation::reactions).
     fn reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error>;
 
     /// Writes what the declaration measures, given q̈ and λ of the present state.
@@ -160,13 +159,13 @@ pub trait System<T: Real = f64>: Send {
         None
     }
 
-    /// The largest pivot growth so far; see [`Simulation::worst_growth`].
+    /// The largest pivot growth so far; see [`Simulation::worst_growth`](crate::Simulation::worst_growth).
     fn worst_growth(&self) -> T;
 
-    /// Where it was; see [`Simulation::worst_place`].
+    /// Where it was; see [`Simulation::worst_place`](crate::Simulation::worst_place).
     fn worst_place(&self) -> Option<WorstPlace>;
 
-    /// The digits that it left; see [`Simulation::digits_left`].
+    /// The digits that it left; see [`Simulation::digits_left`](crate::Simulation::digits_left).
     fn digits_left(&self) -> f64;
 }
 
@@ -206,84 +205,5 @@ pub trait SystemClone<T: Real = f64>: System<T> {
 impl<T: Real, S: System<T> + Clone + 'static> SystemClone<T> for S {
     fn boxed_clone(&self) -> std::boxed::Box<dyn SystemClone<T>> {
         std::boxed::Box::new(self.clone())
-    }
-}
-
-impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
-    fn described(&self) -> &dyn Described<M::Real> {
-        self.mechanism()
-    }
-
-    fn time(&self) -> M::Real {
-        self.time()
-    }
-
-    fn state(&self, q: &mut [M::Real], v: &mut [M::Real]) {
-        let state = self.state();
-        write(state.q, q);
-        write(state.v, v);
-    }
-
-    fn inputs(&self, inputs: &mut [M::Real]) {
-        write(*self.inputs(), inputs);
-    }
-
-    fn set_inputs(&mut self, inputs: &[M::Real]) {
-        *self.inputs_mut() = read(inputs);
-    }
-
-    fn step_size(&self) -> M::Real {
-        self.step_size()
-    }
-
-    fn steps(&self) -> u64 {
-        self.steps()
-    }
-
-    fn steps_to(&self, end: f64) -> Result<u64, Error> {
-        self.steps_to(end)
-    }
-
-    // Other methods than the declared one run in stages on slices, which give the same numbers
-    // and are compiled once for all of them.
-    fn step(&mut self) -> Result<(), Error> {
-        if is_fused_for::<M, X>() && X::EXPLICIT.is_held() { self.step() } else { self.step_in_stages() }
-    }
-
-    fn reactions(&self, acceleration: &mut [M::Real], multipliers: &mut [M::Real]) -> Result<(), Error> {
-        let solved = self.reactions()?;
-        write(solved.acceleration, acceleration);
-        write(solved.multipliers, multipliers);
-        Ok(())
-    }
-
-    fn outputs(
-        &self,
-        acceleration: &[M::Real],
-        multipliers: &[M::Real],
-        outputs: &mut [M::Real],
-    ) -> Result<(), Error> {
-        let growth = M::Real::default();
-        let reactions =
-            Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
-        let measured = self.mechanism().outputs(&self.state(), self.inputs(), &reactions);
-        write(measured, outputs);
-        self.check_outputs(measured)
-    }
-
-    fn violations(&self) -> [M::Real; 2] {
-        [self.violation(), self.velocity_violation()]
-    }
-
-    fn worst_growth(&self) -> M::Real {
-        self.worst_growth()
-    }
-
-    fn worst_place(&self) -> Option<WorstPlace> {
-        self.worst_place()
-    }
-
-    fn digits_left(&self) -> f64 {
-        self.digits_left()
     }
 }

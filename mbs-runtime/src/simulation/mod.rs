@@ -6,6 +6,7 @@ mod on_slices;
 #[cfg(feature = "std")]
 mod reverse;
 mod steps;
+mod system;
 
 pub use self::builder::Builder;
 
