@@ -125,6 +125,7 @@ mod dual;
 pub mod equations;
 mod error;
 pub mod explicit;
+mod floats;
 pub mod gradients;
 pub mod implicit;
 mod info;
@@ -155,6 +156,7 @@ mod spline;
 pub mod start;
 mod straight;
 mod system;
+mod two;
 mod vectors;
 mod view;
 mod watch;
@@ -181,13 +183,14 @@ pub use mbs_macro::mechanism;
 pub use mechanism::{Accelerations, Gains, Mechanism, Reactions, Stabilized, State, Stepped, growth_limit};
 pub use method::*;
 pub use pack::Pack;
-pub use pair::{NoTerm, Pair, Single, Term, Two};
+pub use pair::{Pair, Single, Term};
 pub use real::Real;
 pub use simulation::{Builder, Simulation};
 pub use sketch::Sketch;
 pub use system::System;
 #[cfg(feature = "std")]
 pub use system::SystemClone;
+pub use two::{NoTerm, Two};
 pub use watch::WorstPlace;
 
 /// The interface that generated code calls. Not part of the public interface.

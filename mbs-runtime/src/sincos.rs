@@ -11,7 +11,7 @@ use mbs_interface::sine::{Octant, RANGE, SHIFT};
 use wide::bytemuck::cast;
 use wide::{f64x2, u64x2};
 
-use crate::Two;
+use crate::two::Two;
 
 /// (sin x, cos x) for |x| ≤ [`RANGE`], within 2 units in the last place up to 10³
 /// rad. Up to 10⁵ rad, 3·10⁻⁴ of a unit in the last place of x are added. Beyond, they are those
@@ -91,6 +91,33 @@ pub(crate) fn turned_vector(octant: Octant<f64x2>) -> (f64x2, f64x2) {
     let s = (sine ^ second_half) ^ exchange;
     let c = (cosine ^ (second_half ^ (swap & sign))) ^ exchange;
     (s, c)
+}
+
+/// Sine and cosine of any angle, inlined within the range, which few mechanisms leave.
+#[inline(always)]
+pub(crate) fn sin_cos_f64(x: f64) -> (f64, f64) {
+    if x.abs() <= RANGE { sin_cos(x) } else { far_sin_cos(x) }
+}
+
+/// The library's, for angles of more than 10⁸ turns, infinities and NaN. A
+/// compiler that sees through it calls it for every angle in a loop, to choose
+/// afterwards.
+#[cold]
+#[inline(never)]
+fn far_sin_cos(x: f64) -> (f64, f64) {
+    #[cfg(feature = "std")]
+    return x.sin_cos();
+    #[cfg(not(feature = "std"))]
+    return libm::sincos(x);
+}
+
+/// Sines and cosines of two angles of which at least one is beyond the range, each as the scalar
+/// does it.
+#[cold]
+#[inline(never)]
+pub(crate) fn far_sin_cos_of_two(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    let [(s, c), (sine, cosine)] = angles.map(sin_cos_f64);
+    ([s, sine], [c, cosine])
 }
 
 #[cfg(all(test, feature = "std"))]
