@@ -57,8 +57,9 @@
 
 use mbs_interface::{Estimate, Implicit, Interpolant, Row};
 
-use crate::adaptive::{AdaptiveScheme, Moment, copy};
+use crate::adaptive::{AdaptiveScheme, Moment, Sealed};
 use crate::explicit::Slopes;
+use crate::vectors::assign;
 use crate::{Dynamics, Heun, Real, vectors};
 
 /// A visitor of the type of an implicit scheme, for [`with_type`].
@@ -76,6 +77,8 @@ macro_rules! schemes {
         $($(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum $name {}
+
+        impl Sealed for $name {}
 
         impl AdaptiveScheme for $name {
             const WORD: &'static str = $scheme.word;
@@ -112,7 +115,7 @@ macro_rules! schemes {
                 there: &mut D::States,
                 to: &mut Moment<D::Real, D::States>,
             ) -> Option<D::Real> {
-                copy(&mut to.a, accelerations.get($scheme.stages.len())?);
+                assign(&mut to.a, accelerations.get($scheme.stages.len())?);
                 Some(relax(&$scheme, of, h, there, to))
             }
 
@@ -165,8 +168,8 @@ fn stages<D: Dynamics>(
     let (accelerations, [of_a]) = accelerations.split_at_mut_checked(scheme.stage_count())? else {
         return None;
     };
-    copy(velocities.first_mut()?, &from.v);
-    copy(accelerations.first_mut()?, &from.a);
+    assign(velocities.first_mut()?, &from.v);
+    assign(accelerations.first_mut()?, &from.a);
     for rest in [&mut *of_v, of_a] {
         vectors::fill(rest.as_mut(), D::Real::default());
     }
@@ -177,13 +180,13 @@ fn stages<D: Dynamics>(
         let t = stage_time(scheme, row, [from.t, h, to.t]);
         // the correction of the acceleration, and the acceleration that is corrected
         let correction = &mut to.a;
-        copy(a, rates.last()?);
+        assign(a, rates.last()?);
         lead(row, h, &from.v, rates, v);
         vectors::add_scaled(v.as_mut(), own, a.as_ref());
         lead(row, h, &from.q, slopes, there);
         vectors::add_scaled(there.as_mut(), own, v.as_ref());
         for _ in 0..scheme.iterations {
-            copy(correction, a);
+            assign(correction, a);
             growth = growth + dynamics.implicit(t, [&*there, &*v], inputs, (own, &*correction), a);
             vectors::zip_map(correction.as_mut(), a.as_ref(), |before, after| after - before);
             vectors::add_scaled(v.as_mut(), own, correction.as_ref());
@@ -193,8 +196,8 @@ fn stages<D: Dynamics>(
         vectors::add_scaled(of_a.as_mut(), one, correction.as_ref());
         vectors::add_scaled(of_v.as_mut(), own, correction.as_ref());
     }
-    copy(&mut to.q, there);
-    copy(&mut to.v, velocities.last()?);
+    assign(&mut to.q, there);
+    assign(&mut to.v, velocities.last()?);
     Some(growth)
 }
 
@@ -212,7 +215,7 @@ fn relax<D: Dynamics>(
     let own = D::Real::from_f64(scheme.own) * h;
     let mut growth = D::Real::default();
     for _ in 0..2 {
-        copy(there, a);
+        assign(there, a);
         growth = growth + dynamics.implicit(*t, [&*q, &*v], inputs, (own, &*there), a);
     }
     vectors::zip_map(there.as_mut(), a.as_ref(), |before, after| after - before);
@@ -223,7 +226,7 @@ fn relax<D: Dynamics>(
 
 /// x = x₀ + (share · h) Σ w k
 fn lead<T: Real, V: AsRef<[T]> + AsMut<[T]>>(row: &Row, h: T, from: &V, slopes: &[V], to: &mut V) {
-    copy(to, from);
+    assign(to, from);
     let step = T::from_f64(row.share) * h;
     for (of, weight) in row.terms() {
         if let Some(slope) = slopes.get(of) {
@@ -251,7 +254,7 @@ fn begin<D: Dynamics>(
     let own = D::Real::from_f64(scheme.own) * h;
     let mut growth = D::Real::default();
     for _ in 0..2 {
-        copy(there, a);
+        assign(there, a);
         growth = growth + dynamics.implicit(*t, [q, v], inputs, (own, there), a);
     }
     growth

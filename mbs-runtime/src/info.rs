@@ -1,7 +1,5 @@
 //! The description of a mechanism for tools: names, units, equations, counts.
 
-use crate::Direction;
-
 /// A mechanism described for people and tools.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -77,6 +75,17 @@ pub struct DeclaredEvent {
     pub dimension: Dimension,
     /// Which changes of sign it is.
     pub direction: Direction,
+}
+
+/// Which changes of sign are events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Either,
 }
 
 /// Exponents of the base units.

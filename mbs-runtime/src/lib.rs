@@ -162,8 +162,8 @@ mod view;
 mod watch;
 
 pub use adaptive::{
-    Adaptive, AdaptiveBuilder, AdaptiveScheme, Direction, Dynamics, Effort, Event, MOST_EVENTS, Measured,
-    Moment, Sampled, Threshold, Tolerances,
+    Adaptive, AdaptiveBuilder, AdaptiveScheme, Dynamics, Effort, Event, MOST_EVENTS, Measured, Moment,
+    Sampled, Threshold, Tolerances,
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
@@ -171,7 +171,9 @@ pub use constant::{ConstantStep, ConstantStepBuilder, Kernel, Rattle, RattleStep
 pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
-pub use info::{Constraint, DeclaredEvent, Dimension, Function, Info, Operations, Pivot, Quantity};
+pub use info::{
+    Constraint, DeclaredEvent, Dimension, Direction, Function, Info, Operations, Pivot, Quantity,
+};
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 pub use mbs_interface::implicit::*;

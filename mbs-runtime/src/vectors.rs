@@ -84,6 +84,11 @@ pub(crate) fn copy<T: Real>(x: &mut [T], y: &[T]) {
     zip_map(x, y, |_, y| y);
 }
 
+#[inline(always)]
+pub(crate) fn assign<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut V, from: &V) {
+    copy(to.as_mut(), from.as_ref());
+}
+
 /// xᵢ becomes xᵢ + yᵢ.
 pub(crate) fn add<T: Real>(x: &mut [T], y: &[T]) {
     zip_map(x, y, |x, y| x + y);

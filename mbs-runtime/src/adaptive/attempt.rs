@@ -126,11 +126,6 @@ pub fn converge_partials<D: Dynamics>(dynamics: &D, t: D::Real, q: &mut D::State
     }
 }
 
-#[inline(always)]
-pub fn copy<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut V, from: &V) {
-    vectors::copy(to.as_mut(), from.as_ref());
-}
-
 /// True if a step with this growth and end is one.
 #[inline(always)]
 pub fn is_healthy<T: Real, V: AsRef<[T]>>(growth: T, to: &Moment<T, V>) -> bool {

@@ -3,9 +3,10 @@
 
 use mbs_interface::{Interpolant, Row};
 
-use super::attempt::{Attempt, copy};
+use super::attempt::Attempt;
 use super::{Dynamics, Moment};
 use crate::mechanism::growth_limit;
+use crate::vectors::assign;
 use crate::{Real, vectors};
 
 /// Slopes of an interpolant and then its terms, of positions and of velocities; see [`Interpolant`].
@@ -84,7 +85,7 @@ impl<R> Between<R> {
             if is_slope {
                 there.t = from.t + D::Real::from_f64(row.node()) * h;
                 let growth = dynamics.acceleration(there.t, &there.q, &there.v, inputs, of_v);
-                copy(of_q, &there.v);
+                assign(of_q, &there.v);
                 let is_healthy = growth < growth_limit() && vectors::is_finite(of_v.as_ref());
                 if !is_healthy {
                     return;

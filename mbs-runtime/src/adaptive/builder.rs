@@ -2,12 +2,13 @@
 
 use core::marker::PhantomData;
 
-use super::attempt::{Attempt, copy, is_healthy};
+use super::attempt::{Attempt, is_healthy};
 use super::between::Between;
 use super::events::Happened;
 use super::noise::Progress;
 use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
 use crate::equations::Start;
+use crate::vectors::assign;
 use crate::watch::Watch;
 use crate::{Components, Dopri5, Error, Mechanism, Real, State};
 
@@ -152,8 +153,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let first = if is_still { SMALLEST } else { 0.01 * of_state / of_slope };
         let first = first.min(tolerances.max_step);
         let h = D::Real::from_f64(first);
-        copy(&mut next.q, &now.q);
-        copy(&mut next.v, &now.v);
+        assign(&mut next.q, &now.q);
+        assign(&mut next.v, &now.v);
         crate::vectors::add_scaled(next.q.as_mut(), h, now.v.as_ref());
         crate::vectors::add_scaled(next.v.as_mut(), h, now.a.as_ref());
         next.t = now.t + h;
@@ -163,7 +164,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         // the changes of both slopes
         let of_velocities = &mut attempt.there;
-        copy(of_velocities, &next.v);
+        assign(of_velocities, &next.v);
         crate::vectors::add_scaled(of_velocities.as_mut(), D::Real::from_f64(-1.0), now.v.as_ref());
         crate::vectors::add_scaled(next.a.as_mut(), D::Real::from_f64(-1.0), now.a.as_ref());
         let change = tolerances.size([&now.q, &now.v], [of_velocities, &next.a]) / first;

@@ -7,18 +7,8 @@
 use super::dense::Moment;
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::equations::At;
+use crate::info::Direction;
 use crate::{Error, Mechanism, Real, State, vectors};
-
-/// Which changes of sign are events.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
-    /// From negative to positive.
-    Rising,
-    /// From positive to negative.
-    Falling,
-    /// Both.
-    Either,
-}
 
 /// A change of sign that a run has come to.
 #[derive(Clone, Copy, Debug, PartialEq)]

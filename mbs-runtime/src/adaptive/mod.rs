@@ -26,8 +26,8 @@ mod sampled;
 mod scheme;
 mod typed;
 
+pub(crate) use attempt::is_healthy;
 use attempt::{Attempt, converge_partials};
-pub(crate) use attempt::{copy, is_healthy};
 pub(crate) use beginning::Beginning;
 use between::Between;
 pub use builder::AdaptiveBuilder;
@@ -38,11 +38,12 @@ pub use dense::Moment;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
 use events::Happened;
-pub use events::{Direction, Event, MOST_EVENTS};
+pub use events::{Event, MOST_EVENTS};
 use noise::Progress;
 pub(crate) use noise::RISEN;
 pub use sampled::{Measured, Sampled, Threshold};
 pub use scheme::AdaptiveScheme;
+pub(crate) use scheme::Sealed;
 
 use core::fmt;
 
@@ -51,6 +52,7 @@ use mbs_interface::Estimate;
 use crate::diagnosis::check_inputs;
 use crate::explicit::{Beside, subtract};
 use crate::run::note_risen;
+use crate::vectors::assign;
 use crate::watch::{Watch, WorstPlace};
 use crate::{Dopri5, Error, Real, vectors};
 
@@ -340,8 +342,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let at = D::Real::from_f64(t);
         self.look_between();
         let (q, v) = self.interpolate(at)?;
-        copy(&mut self.now.q, &q);
-        copy(&mut self.now.v, &v);
+        assign(&mut self.now.q, &q);
+        assign(&mut self.now.v, &v);
         self.now.t = at;
         self.is_solved = false;
         self.before = self.now.clone();

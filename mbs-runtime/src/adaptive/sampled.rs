@@ -5,8 +5,9 @@
 use core::fmt;
 
 use super::events::Watched;
-use super::{Adaptive, AdaptiveScheme, Direction, Dynamics, Effort, Event, MOST_EVENTS};
+use super::{Adaptive, AdaptiveScheme, Dynamics, Effort, Event, MOST_EVENTS};
 use crate::equations::{At, Described};
+use crate::info::Direction;
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;

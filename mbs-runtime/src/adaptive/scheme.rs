@@ -4,21 +4,20 @@ use core::fmt::Debug;
 
 use mbs_interface::{Estimate, Interpolant};
 
-use super::attempt::copy;
 use super::{Dynamics, Moment};
 use crate::Scheme;
 use crate::explicit::{self, Slopes, Span};
+use crate::vectors::assign;
 
 mod sealed {
     pub trait Sealed {}
     impl<S: crate::Scheme> Sealed for S {}
-    impl Sealed for crate::implicit::TrBdf2 {}
-    impl Sealed for crate::implicit::Esdirk4 {}
 }
+pub(crate) use sealed::Sealed;
 
 /// A scheme that takes the steps of a run to a tolerance: an explicit [`Scheme`], or one of
 /// [`implicit`](crate::implicit) for stiff forces.
-pub trait AdaptiveScheme: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
+pub trait AdaptiveScheme: Sealed + Copy + Debug + Send + Sync + 'static {
     /// The word that asks for it.
     const WORD: &'static str;
     /// The estimate of the error of a step; `None` if the scheme has none.
@@ -121,8 +120,8 @@ impl<S: Scheme> AdaptiveScheme for S {
         there: &mut D::States,
         to: &mut Moment<D::Real, D::States>,
     ) -> Option<D::Real> {
-        copy(velocities.first_mut()?, &from.v);
-        copy(&mut to.q, &from.q);
+        assign(velocities.first_mut()?, &from.v);
+        assign(&mut to.q, &from.q);
         let span = Span { t: from.t, h: to.t - from.t, t_next: to.t };
         let slopes = Slopes { velocities: &mut *velocities, accelerations };
         let growth = explicit::step(S::TABLEAU, &span, &mut to.q, slopes, there, |stage, t, q, v, a| {
@@ -130,11 +129,11 @@ impl<S: Scheme> AdaptiveScheme for S {
                 return dynamics.acceleration(t, q, v, inputs, a);
             }
             // known from the end of the step before
-            copy(a, &from.a);
+            assign(a, &from.a);
             D::Real::default()
         });
-        copy(&mut to.v, velocities.first()?);
-        copy(velocities.first_mut()?, &from.v);
+        assign(&mut to.v, velocities.first()?);
+        assign(velocities.first_mut()?, &from.v);
         Some(growth)
     }
 

@@ -1,8 +1,8 @@
 //! A run to a tolerance of a mechanism whose coordinates have names.
 
-use super::attempt::copy;
 use super::events::Happened;
 use super::{Adaptive, AdaptiveScheme, Moment};
+use crate::vectors::assign;
 use crate::{Components, Error, Mechanism, Real, State};
 
 impl<M: Mechanism, S: AdaptiveScheme> Adaptive<M, S> {
@@ -65,8 +65,8 @@ impl<M: Mechanism, S: AdaptiveScheme> Adaptive<M, S> {
             self.arrival = self.now;
         }
         self.happened.is_set = true;
-        copy(&mut self.now.q, &M::states(state.q).into_array());
-        copy(&mut self.now.v, &M::states(state.v).into_array());
+        assign(&mut self.now.q, &M::states(state.q).into_array());
+        assign(&mut self.now.v, &M::states(state.v).into_array());
         self.now.t = state.t;
         self.is_solved = false;
         self.before = self.now;

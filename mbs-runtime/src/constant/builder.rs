@@ -1,8 +1,9 @@
 //! The choices before a run with a constant step starts.
 
 use super::{ConstantStep, Kernel};
-use crate::adaptive::{Beginning, Moment, copy};
+use crate::adaptive::{Beginning, Moment};
 use crate::equations::Start;
+use crate::vectors::assign;
 use crate::watch::Watch;
 use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
 
@@ -84,7 +85,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
             watch: Watch::new(length),
         };
         run.solve()?;
-        copy(&mut run.now.a, &run.next.a);
+        assign(&mut run.now.a, &run.next.a);
         Ok(run)
     }
 }

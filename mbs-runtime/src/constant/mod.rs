@@ -20,10 +20,11 @@ pub use trbdf2::{TrBdf2, TrBdf2Step};
 
 use core::fmt;
 
-use crate::adaptive::{Moment, RISEN, cause, copy, is_healthy};
+use crate::adaptive::{Moment, RISEN, cause, is_healthy};
 use crate::diagnosis::{check_inputs, singular};
 use crate::run::note_risen;
 use crate::simulation::clock;
+use crate::vectors::assign;
 use crate::watch::Watch;
 use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
 
@@ -196,8 +197,8 @@ impl<D: Dynamics, K: Kernel<D>> fmt::Debug for ConstantStep<D, K> {
 }
 
 fn copy_moment<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut Moment<T, V>, from: &Moment<T, V>) {
-    copy(&mut to.q, &from.q);
-    copy(&mut to.v, &from.v);
-    copy(&mut to.a, &from.a);
+    assign(&mut to.q, &from.q);
+    assign(&mut to.v, &from.v);
+    assign(&mut to.a, &from.a);
     to.t = from.t;
 }

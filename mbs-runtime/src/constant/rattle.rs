@@ -3,8 +3,9 @@
 use mbs_interface::{Composition, RATTLE};
 
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
-use crate::adaptive::{Moment, copy};
+use crate::adaptive::Moment;
 use crate::explicit::{Beside, subtract};
+use crate::vectors::assign;
 use crate::{Dynamics, Error, Info, Real, vectors};
 
 /// Corrections of positions, each of which takes off a share of the order of h, end at rounding
@@ -169,7 +170,7 @@ impl<V: Clone> RattleStep<V> {
         let Self { from, delta, .. } = self;
         let half = D::Real::from_f64(0.5) * h;
         let t_from = moment.t;
-        copy(from, &moment.q);
+        assign(from, &moment.q);
         vectors::add_scaled(moment.v.as_mut(), half, moment.a.as_ref());
         vectors::add_scaled(moment.q.as_mut(), h, moment.v.as_ref());
         moment.t = t;

@@ -3,8 +3,9 @@
 use mbs_interface::TRBDF2;
 
 use super::{ConstantStep, ConstantStepBuilder, Kernel};
-use crate::adaptive::{Moment, copy};
+use crate::adaptive::Moment;
 use crate::explicit::{Beside, subtract};
+use crate::vectors::assign;
 use crate::{Dynamics, Error, Info, Real, vectors};
 
 /// A mechanism being integrated by TR-BDF2, with a constant step: for springs, bushings and dampers
@@ -192,7 +193,7 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
         }
         let mut growth = D::Real::default();
         for _ in 0..2 {
-            copy(predicted, a);
+            assign(predicted, a);
             growth = growth + dynamics.implicit(*t, [q, v], inputs, (own, predicted), a);
         }
         growth
