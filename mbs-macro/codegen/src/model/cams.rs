@@ -8,7 +8,8 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Number, Symbol};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::names::{Local, Place, Typed};
+use super::known::Typed;
+use super::names::{Local, Place};
 use super::resolver::Resolver;
 use super::{Meaning, Requirement};
 use crate::diagnostics::Diagnostic;

@@ -6,8 +6,8 @@ use proc_macro2::{Ident, Span};
 
 use super::Check;
 use super::hints::in_radians;
+use super::known::GROUND;
 use super::names::Place;
-use super::places::GROUND;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
 use crate::mechanics::joints::{Connection, Part};

@@ -4,8 +4,7 @@ use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Symbol};
 use proc_macro2::Ident;
 
-use super::places::GROUND;
-use super::reactions::KnownJoint;
+use super::known::{GROUND, KnownJoint};
 use super::resolver::Resolver;
 use super::{Constraint, Meaning, Source};
 use crate::diagnostics::Diagnostic;

@@ -4,9 +4,8 @@ use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Number, Stage};
 use proc_macro2::Ident;
 
-use super::measures::Source;
-use super::names::{Definition, Row, State, Value, duplicate};
-use super::places::{Frame, GROUND};
+use super::known::{Definition, Frame, GROUND, Row, Source, State, Value};
+use super::names::duplicate;
 use super::resolver::Resolver;
 use super::{Block, Body, Coordinate, Direction, Meaning, Parameter};
 use crate::diagnostics::Diagnostic;

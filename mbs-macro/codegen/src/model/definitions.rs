@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::names::{Place, Scope, State, Typed, Value};
+use super::known::{State, Typed, Value};
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 
 /// Names may build on each other this deep before those below are resolved first.

@@ -7,8 +7,8 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::hints::in_radians;
-use super::names::{Local, Place, Typed};
-use super::reactions::KnownJoint;
+use super::known::{KnownJoint, Typed};
+use super::names::{Local, Place};
 use super::resolver::Resolver;
 use super::{Check, Gap};
 use crate::diagnostics::{Diagnostic, listing, nearest};

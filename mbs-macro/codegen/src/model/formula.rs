@@ -7,7 +7,8 @@ use proc_macro2::{Ident, Span};
 use super::Meaning;
 use super::functions;
 use super::hints::unit_help_for_products;
-use super::names::{Place, Scope, State, Typed, Value};
+use super::known::{State, Typed, Value};
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::syntax::{Formula, FormulaKind, Operation, Operator};
 

@@ -7,8 +7,9 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::Meaning;
 use super::hints::in_radians;
+use super::known::Typed;
 use super::measures::MEASURES;
-use super::names::{Place, Scope, Typed};
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, described, listing, nearest};
 use crate::mechanics::laws::LAWS;
 use crate::syntax::{Attachment, Formula, FormulaKind};

@@ -5,7 +5,8 @@ use mbs_symbolic::{Algebra, Expr, Number};
 use proc_macro2::Ident;
 
 use super::Requirement;
-use super::names::{Place, Scope, Typed};
+use super::known::Typed;
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, described};
 use crate::mechanics::laws::{Law, LawKind, clamped};
 use crate::quantity::Comparison;

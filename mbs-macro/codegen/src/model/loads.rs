@@ -5,7 +5,8 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::ReactiveLoad;
-use super::names::{Place, Value, duplicate};
+use super::known::Value;
+use super::names::{Place, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, listing, nearest};
 use crate::mechanics::elements::Exerts;

@@ -3,15 +3,14 @@
 
 use std::collections::BTreeSet;
 
+use mbs_symbolic::Algebra;
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Algebra, Expr};
-use proc_macro2::{Ident, Span};
+use proc_macro2::Ident;
 
-use super::names::{Place, Scope, Typed};
-use super::reactions;
+use super::known::{Energies, Source, Typed};
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
-use crate::mechanics::elements::Exerts;
-use crate::mechanics::{Inertia, Work, kinetic, norm, potential};
+use crate::mechanics::{kinetic, norm, potential};
 use crate::syntax::{Attachment, Formula, FormulaKind};
 
 /// The functions of this file.
@@ -29,24 +28,6 @@ pub const MEASURES: &[&str] = &[
 
 pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
 pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
-
-/// A named force, torque or element.
-pub struct Source {
-    /// The word that declares it.
-    pub word: &'static str,
-    pub span: Span,
-    /// Where it acts between two places.
-    pub ends: Option<[Attachment; 2]>,
-    pub work: Vec<Work>,
-    /// The scalar that it exerts, if it has one.
-    pub exerts: Option<Exerts>,
-}
-
-/// The parts of the energies: inertias, and the energies of springs.
-pub struct Energies {
-    pub inertias: Vec<Inertia>,
-    pub springs: Vec<Expr>,
-}
 
 impl Scope<'_> {
     pub(super) fn measure(
@@ -68,7 +49,7 @@ impl Scope<'_> {
             ("length", [of]) => self.length(name, of, errors).transpose()?,
             ("speed", [of]) => self.speed(name, of, errors).transpose()?,
             ("reaction", [joint]) => self.reaction(name, joint),
-            ("reaction", [joint, body]) => Err(reactions::is_vector(name, joint, body)),
+            ("reaction", [joint, body]) => Err(is_vector(name, joint, body)),
             ("transmission_angle", [a, b]) => self.transmission_angle(a, b),
             (text, _) => Err(wrong_arguments(name, text)),
         };
@@ -245,5 +226,19 @@ pub(super) fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = 
         Some(near) => error.help(format!("did you mean `{near}`?")),
         None if known.is_empty() => error.help("declare it first"),
         None => error.help(format!("declared are {}", listing(known))),
+    }
+}
+
+/// The error for a reaction on a body without a component.
+fn is_vector(name: &Ident, joint: &Formula, body: &Formula) -> Diagnostic {
+    let call = format!("reaction({}, {})", text_of(joint), text_of(body));
+    Diagnostic::new(name.span(), "a reaction on a body is a vector")
+        .help(format!("write `{call}.x`, `{call}.y` or `{call}.torque`"))
+}
+
+fn text_of(formula: &Formula) -> String {
+    match &formula.kind {
+        FormulaKind::Name(name) => name.to_string(),
+        _ => "…".to_owned(),
     }
 }

@@ -13,6 +13,7 @@ mod events;
 mod formula;
 mod functions;
 mod hints;
+mod known;
 mod laws;
 mod loads;
 mod measures;

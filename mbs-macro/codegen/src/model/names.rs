@@ -1,59 +1,18 @@
-//! Names, what they stand for, and where they may stand.
+//! Names, and where they may stand.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Arena, Expr, Stage, Symbol};
+use mbs_symbolic::{Arena, Stage, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
 use super::Requirement;
-use super::measures::{Energies, Source};
-use super::places::{Frame, GROUND};
-use super::reactions::KnownJoint;
-use super::tables::Table;
+use super::known::{Energies, Frame, GROUND, KnownJoint, Row, Source, Table, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::Motion;
-use crate::syntax::Formula;
 
 /// Names that the language itself defines.
 pub const RESERVED: &[&str] = &["t", "pi", "der", "lambda", "effort"];
-
-/// An expression with its dimension; `None` for the literal 0, which fits any.
-#[derive(Clone, Copy)]
-pub struct Typed {
-    pub expr: Expr,
-    pub dimension: Option<Dimension>,
-}
-
-/// The meaning of a name in a formula.
-pub enum Value<'a> {
-    Symbol {
-        symbol: Symbol,
-        dimension: Dimension,
-        span: Span,
-    },
-    Definition(Definition<'a>),
-    /// Declared with an error: what uses it has none of its own.
-    Refused(Span),
-}
-
-/// A `let` or `const`, resolved when first needed.
-pub struct Definition<'a> {
-    pub formula: &'a Formula,
-    pub is_constant: bool,
-    pub span: Span,
-    pub state: State,
-}
-
-#[derive(Clone, Copy)]
-pub enum State {
-    Untouched,
-    /// Being resolved: meeting it again is a cycle.
-    Open,
-    Done(Typed),
-    Failed,
-}
 
 /// Where a formula stands, which decides what it may depend on.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -138,19 +97,6 @@ pub struct Scope<'a> {
     pub requirements: Vec<Requirement>,
 }
 
-pub struct Row {
-    pub position: usize,
-    pub is_drive: bool,
-    pub span: Span,
-    pub multiplier: Symbol,
-    /// Dimension of Φ; known once the constraint is resolved.
-    pub dimension: Option<Dimension>,
-    /// Known with the dimension.
-    pub phi: Option<Expr>,
-    /// Its equation has errors, which are reported there.
-    pub is_broken: bool,
-}
-
 impl<'a> Scope<'a> {
     pub fn new() -> Self {
         let mut arena = Arena::new();
@@ -202,16 +148,6 @@ impl<'a> Scope<'a> {
             return;
         }
         self.values.insert(text, value);
-    }
-}
-
-impl Value<'_> {
-    pub fn span(&self) -> Span {
-        match self {
-            Self::Symbol { span, .. } => *span,
-            Self::Definition(definition) => definition.span,
-            Self::Refused(span) => *span,
-        }
     }
 }
 

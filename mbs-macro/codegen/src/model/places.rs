@@ -1,49 +1,17 @@
 //! Points on bodies, and what a formula or a joint can say of them.
 
-use std::collections::BTreeMap;
-
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Algebra, Expr, Node};
+use mbs_symbolic::{Algebra, Node};
 use proc_macro2::{Ident, Span};
 
-use super::names::{Place, Scope, Typed, duplicate};
+use super::known::{Frame, Point, Typed};
+use super::names::{Place, Scope, duplicate};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::Placed;
 use crate::syntax::{Attachment, Vector};
 
-/// The name of the body without coordinates, at the origin.
-pub const GROUND: &str = "ground";
-
 /// Words behind a dot that are no points.
 const MEMBERS: &[&str] = &["x", "y", "angle"];
-
-/// A body as the frame of its points.
-pub struct Frame {
-    /// The names of its coordinates.
-    pub coordinates: Vec<String>,
-    pub origin: [Expr; 2],
-    pub angle: Expr,
-    /// Its coordinates have errors: what uses it has none of its own.
-    pub is_broken: bool,
-    points: BTreeMap<String, Point>,
-}
-
-struct Point {
-    span: Span,
-    /// Its place on the body; `None` until resolved, or if that failed.
-    local: Option<[Expr; 2]>,
-}
-
-impl Frame {
-    pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
-        Self { coordinates, origin, angle, is_broken: false, points: BTreeMap::new() }
-    }
-
-    /// The place on the body of the point called `name`, if there is one.
-    pub fn local(&self, name: &str) -> Option<[Expr; 2]> {
-        self.points.get(name)?.local
-    }
-}
 
 impl Scope<'_> {
     /// Enters the name of a point.

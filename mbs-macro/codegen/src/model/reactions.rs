@@ -1,25 +1,15 @@
 //! Functions that tell what joints exert.
 
 use mbs_symbolic::{Algebra, Scalar, Symbol, Vector};
-use proc_macro2::{Ident, Span};
+use proc_macro2::Ident;
 
+use super::known::Typed;
 use super::measures::{ENERGY, FORCE, name_of, unknown, wrong_arguments};
-use super::names::{Place, Scope, Typed};
+use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
-use crate::mechanics::joints::{Connection, JointKind, Row, Wrench};
+use crate::mechanics::joints::{Connection, Row, Wrench};
 use crate::mechanics::norm;
-use crate::syntax::{Attachment, Formula, FormulaKind};
-
-/// A declared joint.
-pub struct KnownJoint {
-    pub kind: &'static JointKind,
-    pub span: Span,
-    pub ends: [Attachment; 2],
-    /// Those of its rows that it has, with their multipliers.
-    pub rows: Vec<(&'static Row, Symbol)>,
-    /// Known once its rows are.
-    pub connection: Option<Connection>,
-}
+use crate::syntax::{Formula, FormulaKind};
 
 impl Scope<'_> {
     /// `reaction(pin, rod).x`: a component of what a joint exerts on a body.
@@ -155,19 +145,5 @@ fn component<'a>(wrench: &Wrench<'a>, member: &Ident) -> Result<Option<Scalar<'a
         ("x" | "y" | "torque", _) => Ok(None),
         _ => Err(Diagnostic::new(member.span(), format!("a reaction has no `{member}`"))
             .help("it has `x`, `y` and `torque`")),
-    }
-}
-
-/// The error for a reaction on a body without a component.
-pub(super) fn is_vector(name: &Ident, joint: &Formula, body: &Formula) -> Diagnostic {
-    let call = format!("reaction({}, {})", text_of(joint), text_of(body));
-    Diagnostic::new(name.span(), "a reaction on a body is a vector")
-        .help(format!("write `{call}.x`, `{call}.y` or `{call}.torque`"))
-}
-
-fn text_of(formula: &Formula) -> String {
-    match &formula.kind {
-        FormulaKind::Name(name) => name.to_string(),
-        _ => "…".to_owned(),
     }
 }

@@ -12,8 +12,8 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap as HashMap;
 
-use super::measures::Energies;
-use super::names::{Definition, Scope, State, Value};
+use super::known::{Definition, Energies, State, Value};
+use super::names::Scope;
 use super::{
     Block, Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
     ReactiveLoad, Solver, Start,

@@ -7,8 +7,8 @@ use mbs_symbolic::{Algebra, Arena, Expr};
 use proc_macro2::Ident;
 
 use super::Direction;
+use super::known::GROUND;
 use super::names::Place;
-use super::places::GROUND;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::Placed;

@@ -3,7 +3,8 @@
 use mbs_symbolic::units::Dimension;
 
 use super::hints::in_radians;
-use super::names::{Place, Value};
+use super::known::Value;
+use super::names::Place;
 use super::resolver::Resolver;
 use super::{Meaning, Start};
 use crate::diagnostics::{Diagnostic, listing, nearest};

@@ -6,7 +6,8 @@ use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
 use super::hints::unit_help_for_products;
-use super::names::{Place, Typed, Value, duplicate};
+use super::known::{Typed, Value};
+use super::names::{Place, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Source};
 use crate::diagnostics::{Diagnostic, described, nearest};

@@ -8,7 +8,8 @@ use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
 use super::declare::quantity;
-use super::names::{Place, Value};
+use super::known::Value;
+use super::names::Place;
 use super::resolver::Resolver;
 use super::{Block, Coordinate, Meaning, Start};
 use crate::diagnostics::{Diagnostic, listing, nearest};

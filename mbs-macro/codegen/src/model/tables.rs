@@ -1,29 +1,16 @@
 //! Tables and profiles: functions through given points, as splines.
 
+use mbs_symbolic::Spline;
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Interpolation, Outside as Beyond, Spline, SplineId};
-use proc_macro2::{Ident, Span};
+use mbs_symbolic::{Interpolation, Outside as Beyond};
+use proc_macro2::Ident;
 
 use super::functions;
-use super::names::{Place, Scope, Typed, duplicate};
+use super::known::{Curve, Table, Typed};
+use super::names::{Place, Scope, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, Diagnostics, counted, described};
 use crate::syntax::{self, Formula, FormulaKind, Outside};
-
-/// A table as formulas know it.
-pub struct Table {
-    /// The word of its statement.
-    word: &'static str,
-    span: Span,
-    state: State,
-}
-
-#[derive(Clone, Copy)]
-enum State {
-    Untouched,
-    Failed,
-    Done { spline: SplineId, argument: Dimension, value: Dimension },
-}
 
 impl Resolver<'_> {
     /// Enters the name of a table, once all quantities are known.
@@ -40,20 +27,20 @@ impl Resolver<'_> {
         match earlier {
             Some(earlier) => self.errors.push(duplicate(name, earlier)),
             None => {
-                let table = Table { word: table.word, span: name.span(), state: State::Untouched };
+                let table = Table { word: table.word, span: name.span(), curve: Curve::Untouched };
                 self.scope.tables.insert(text, table);
             }
         }
     }
 
     pub(super) fn resolve_table(&mut self, table: &syntax::Table) {
-        let state = self.spline_of(table).unwrap_or(State::Failed);
+        let curve = self.spline_of(table).unwrap_or(Curve::Failed);
         if let Some(known) = self.scope.tables.get_mut(&table.name.to_string()) {
-            known.state = state;
+            known.curve = curve;
         }
     }
 
-    fn spline_of(&mut self, table: &syntax::Table) -> Option<State> {
+    fn spline_of(&mut self, table: &syntax::Table) -> Option<Curve> {
         let name = &table.name;
         let (arguments, values): (Vec<_>, Vec<_>) =
             table.points.iter().map(|point| (&point.x, &point.y)).unzip();
@@ -78,16 +65,16 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), message).help("check their size and distances"));
             return None;
         };
-        Some(State::Done { spline: self.scope.arena.add_spline(spline), argument, value })
+        Some(Curve::Done { spline: self.scope.arena.add_spline(spline), argument, value })
     }
 
     /// The spline of a table that was resolved.
     pub(super) fn spline_named(&self, name: &Ident) -> Option<&Spline> {
-        match self.scope.tables.get(&name.to_string())?.state {
-            State::Done { spline, .. } => {
+        match self.scope.tables.get(&name.to_string())?.curve {
+            Curve::Done { spline, .. } => {
                 self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
             }
-            State::Untouched | State::Failed => None,
+            Curve::Untouched | Curve::Failed => None,
         }
     }
 
@@ -175,10 +162,10 @@ impl Scope<'_> {
     ) -> Option<Typed> {
         let table = self.tables.get(&name.to_string())?;
         self.used.insert(name.to_string());
-        let (spline, argument, value) = match table.state {
-            State::Done { spline, argument, value } => (spline, argument, value),
-            State::Failed => return None,
-            State::Untouched => {
+        let (spline, argument, value) = match table.curve {
+            Curve::Done { spline, argument, value } => (spline, argument, value),
+            Curve::Failed => return None,
+            Curve::Untouched => {
                 let message = format!("`{name}` cannot stand here: {}s are given by numbers", table.word);
                 let span = table.span;
                 errors.push(

@@ -1,0 +1,149 @@
+//! What the names of a declaration stand for, as far as it is known.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, SplineId, Symbol};
+use proc_macro2::Span;
+
+use crate::mechanics::elements::Exerts;
+use crate::mechanics::joints::{self, Connection, JointKind};
+use crate::mechanics::{Inertia, Work};
+use crate::syntax::{Attachment, Formula};
+
+/// The name of the body without coordinates, at the origin.
+pub const GROUND: &str = "ground";
+
+/// An expression with its dimension; `None` for the literal 0, which fits any.
+#[derive(Clone, Copy)]
+pub struct Typed {
+    pub expr: Expr,
+    pub dimension: Option<Dimension>,
+}
+
+/// The meaning of a name in a formula.
+pub enum Value<'a> {
+    Symbol {
+        symbol: Symbol,
+        dimension: Dimension,
+        span: Span,
+    },
+    Definition(Definition<'a>),
+    /// Declared with an error: what uses it has none of its own.
+    Refused(Span),
+}
+
+/// A `let` or `const`, resolved when first needed.
+pub struct Definition<'a> {
+    pub formula: &'a Formula,
+    pub is_constant: bool,
+    pub span: Span,
+    pub state: State,
+}
+
+#[derive(Clone, Copy)]
+pub enum State {
+    Untouched,
+    /// Being resolved: meeting it again is a cycle.
+    Open,
+    Done(Typed),
+    Failed,
+}
+
+impl Value<'_> {
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Symbol { span, .. } => *span,
+            Self::Definition(definition) => definition.span,
+            Self::Refused(span) => *span,
+        }
+    }
+}
+
+/// A body as the frame of its points.
+pub struct Frame {
+    /// The names of its coordinates.
+    pub coordinates: Vec<String>,
+    pub origin: [Expr; 2],
+    pub angle: Expr,
+    /// Its coordinates have errors: what uses it has none of its own.
+    pub is_broken: bool,
+    pub points: BTreeMap<String, Point>,
+}
+
+/// A point on a body.
+pub struct Point {
+    pub span: Span,
+    /// Its place on the body; `None` until resolved, or if that failed.
+    pub local: Option<[Expr; 2]>,
+}
+
+impl Frame {
+    pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
+        Self { coordinates, origin, angle, is_broken: false, points: BTreeMap::new() }
+    }
+
+    /// The place on the body of the point called `name`, if there is one.
+    pub fn local(&self, name: &str) -> Option<[Expr; 2]> {
+        self.points.get(name)?.local
+    }
+}
+
+/// A table as formulas know it.
+pub struct Table {
+    /// The word of its statement.
+    pub word: &'static str,
+    pub span: Span,
+    pub curve: Curve,
+}
+
+/// The spline of a profile.
+#[derive(Clone, Copy)]
+pub enum Curve {
+    Untouched,
+    Failed,
+    Done { spline: SplineId, argument: Dimension, value: Dimension },
+}
+
+/// A constraint or a drive.
+pub struct Row {
+    pub position: usize,
+    pub is_drive: bool,
+    pub span: Span,
+    pub multiplier: Symbol,
+    /// Dimension of Φ; known once the constraint is resolved.
+    pub dimension: Option<Dimension>,
+    /// Known with the dimension.
+    pub phi: Option<Expr>,
+    /// Its equation has errors, which are reported there.
+    pub is_broken: bool,
+}
+
+/// A declared joint.
+pub struct KnownJoint {
+    pub kind: &'static JointKind,
+    pub span: Span,
+    pub ends: [Attachment; 2],
+    /// Those of its rows that it has, with their multipliers.
+    pub rows: Vec<(&'static joints::Row, Symbol)>,
+    /// Known once its rows are.
+    pub connection: Option<Connection>,
+}
+
+/// A named force, torque or element.
+pub struct Source {
+    /// The word that declares it.
+    pub word: &'static str,
+    pub span: Span,
+    /// Where it acts between two places.
+    pub ends: Option<[Attachment; 2]>,
+    pub work: Vec<Work>,
+    /// The scalar that it exerts, if it has one.
+    pub exerts: Option<Exerts>,
+}
+
+/// The parts of the energies: inertias, and the energies of springs.
+pub struct Energies {
+    pub inertias: Vec<Inertia>,
+    pub springs: Vec<Expr>,
+}
