@@ -1,4 +1,4 @@
-//! What the names of a declaration stand for, as far as it is known.
+//! The meanings of the names of a declaration, as far as they are known.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What is computed once, when a mechanism is made.
+//! Values that are computed once, when a mechanism is made.
 
 use rustc_hash::FxHashMap as HashMap;
 

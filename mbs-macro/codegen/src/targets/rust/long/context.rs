@@ -1,4 +1,4 @@
-//! What the functions of a program share, and what each of them is.
+//! The data that the functions of a long program share, and the parts of such a function.
 
 use mbs_symbolic::layout::Layout;
 use mbs_symbolic::{Program, SinCos};
