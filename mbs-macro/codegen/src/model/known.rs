@@ -97,7 +97,7 @@ pub struct Table {
     pub curve: Curve,
 }
 
-/// The spline of a profile.
+/// The spline of a table.
 #[derive(Clone, Copy)]
 pub enum Curve {
     Untouched,

@@ -7,8 +7,8 @@
 
 use mbs_symbolic::units::Dimension;
 
-use super::properties::{FORCE, Property, RATE, SPEED, TORQUE};
 use super::kind::{ElementKind, Known, Places};
+use super::properties::{FORCE, Property, RATE, SPEED, TORQUE};
 
 /// The name of the law among the properties.
 pub const LAW: &str = "law";
