@@ -252,7 +252,7 @@ mechanism! {
     }
 }
 
-/// A law is what it says: a spring with a damper in other words moves in the same bits.
+/// A law is what it says: a spring with a damper in other words moves as a spring.
 #[test]
 fn a_law_is_a_spring_in_other_words() -> Result<(), Error> {
     let mut run = Simulation::new(Springs::declared(), 1e-3)?;
@@ -260,12 +260,18 @@ fn a_law_is_a_spring_in_other_words() -> Result<(), Error> {
         run.advance_to(run.time() + 0.1)?;
         let state = run.state();
         for numbers in [state.q.into_array(), state.v.into_array()] {
-            assert_eq!(numbers[..6], numbers[6..], "{}", run.time());
+            let (springs, laws) = numbers.split_at(6);
+            // terms may be added in another order: a rounding of 5 for each of 2000 steps
+            let bound = 2000.0 * 5.0 * f64::EPSILON;
+            assert!(springs.iter().zip(laws).all(|(a, b)| (a - b).abs() < bound), "{springs:?} {laws:?}");
         }
         let outputs = run.outputs()?;
-        assert_eq!([outputs.tension, outputs.moment, outputs.apart], [0.0; 3]);
-        // both pairs have the same power; terms of 50 W, ten roundings of each
-        assert!(outputs.lost.abs() < 50.0 * 10.0 * f64::EPSILON, "{}", outputs.lost);
+        let differences = [outputs.tension, outputs.moment, outputs.apart];
+        // forces of stiffness 40 N/m follow positions
+        let bound = 40.0 * 2000.0 * 5.0 * f64::EPSILON;
+        assert!(differences.iter().all(|it| it.abs() < bound), "{differences:?}");
+        // both pairs have the same power: speeds of 10 m/s
+        assert!(outputs.lost.abs() < 10.0 * bound, "{}", outputs.lost);
     }
     Ok(())
 }
