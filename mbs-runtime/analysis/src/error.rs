@@ -61,6 +61,20 @@ pub enum Error {
         /// The iterations that were made.
         iterations: u32,
     },
+    /// No values of own states were found at which they keep them.
+    #[error(
+        "no equilibrium was found in {iterations} iterations: the state `{state}` changes by {rate:.3e} (SI) a second at \
+         the best position; a state rests where its rate is 0: check that the rate depends on it, or begin nearer to \
+         where it rests"
+    )]
+    NoRest {
+        /// The state whose rate is largest, measured by its scale.
+        state: &'static str,
+        /// Its rate in SI units.
+        rate: f64,
+        /// The iterations that were made.
+        iterations: u32,
+    },
     /// A vector of the wrong length.
     #[error("{what} are {found} numbers, but the mechanism has {expected}")]
     Length {

@@ -257,14 +257,23 @@ impl Linearization {
         let mut roots: Vec<Complex<f64>> = eigenvalues.iter().map(|root| known(&(root / rate))).collect();
         roots.retain(|root| root.im >= 0.0);
         roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-        Ok(roots.into_iter().map(|root| self.mode_with_states(root, rate)).collect())
+        // the next shape of an eigenvalue that has been there before
+        let before = |at: usize| roots[..at].iter().filter(|root| **root == roots[at]).count();
+        Ok(roots
+            .iter()
+            .enumerate()
+            .map(|(at, root)| self.mode_with_states(*root, rate, before(at)))
+            .collect())
     }
 
-    fn mode_with_states(&self, root: Complex<f64>, rate: f64) -> Mode {
+    fn mode_with_states(&self, root: Complex<f64>, rate: f64, number: usize) -> Mode {
         let (f, eigenvalue) = (self.dof(), root * rate);
-        let [right, left] = null_vectors(&self.pencil(eigenvalue), 1, 0.0);
+        let pencil = self.pencil(eigenvalue);
+        let small = DEFECT * pencil.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        let [right, left] = null_vectors(&pencil, number + 1, small);
         let none = || DVector::zeros(self.a.nrows() - f);
-        let [right, left] = [right, left].map(|vectors| vectors.into_iter().next().unwrap_or_else(none));
+        // one that is defective has a single shape
+        let [right, left] = [right, left].map(|vectors| vectors.into_iter().nth_back(0).unwrap_or_else(none));
         let (z, states) = (right.rows(0, f).clone_owned(), right.rows(f, right.len() - f).clone_owned());
         let all = self.directions.map(Complex::from) * z;
         let lines = all.len() - states.len();

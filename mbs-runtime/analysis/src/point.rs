@@ -1,11 +1,11 @@
 //! Where a mechanism is linearized.
 
-use mbs_runtime::System;
 use mbs_runtime::equations::Described;
+use mbs_runtime::{Info, System};
 use nalgebra::DVector;
 
 use crate::tangent::Rest;
-use crate::{Equilibrium, Error, Variable};
+use crate::{Error, Variable};
 
 /// A state is on its constraints if a correction that leads there is shorter than this share of the
 /// scales. A run with feedback stays nearer than that, and what is found differs by such a share.
@@ -42,6 +42,40 @@ impl OperatingPoint {
     pub fn at_rest(t: f64, q: &[f64], inputs: &[f64]) -> Self {
         let v = vec![0.0; q.len()];
         Self { t, q: q.to_vec(), v, inputs: inputs.to_vec(), drives: Drives::Held }
+    }
+
+    /// The same, with the values of own states behind the positions, as those of a [`Search`](crate::Search) and of an
+    /// [`Equilibrium`] are.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::{OperatingPoint, Variable};
+    /// # use mbs_runtime::{Mechanism, mechanism};
+    ///
+    /// mechanism! {
+    ///     pub Coil {
+    ///         dof = 1;
+    ///         body anchor (x) { mass = 1 [kg]; }
+    ///         state current [A];
+    ///         der(current) = -2 [1/s]*current;
+    ///         force pull on x = 3 [N/A]*current - 5 [N/m]*x;
+    ///     }
+    /// }
+    ///
+    /// let point = OperatingPoint::resting(<Coil as Mechanism>::INFO, 0.0, &[0.1, 2.0], &[]);
+    /// assert_eq!((&point.q[..], &point.v[..]), (&[0.1, 0.0][..], &[0.0, 2.0][..]));
+    /// assert_eq!(point.value(Variable::Velocity(1), &[]), 2.0);
+    /// ```
+    pub fn resting(info: &Info, t: f64, q: &[f64], inputs: &[f64]) -> Self {
+        Self::split(t, q, info.lines, inputs)
+    }
+
+    pub(crate) fn split(t: f64, q: &[f64], lines: usize, inputs: &[f64]) -> Self {
+        let (positions, states) = q.split_at(lines.min(q.len()));
+        let mut point = Self::at_rest(t, positions, inputs);
+        point.q.resize(q.len(), 0.0);
+        point.v.extend_from_slice(states);
+        point
     }
 
     /// A state in motion, in which drives move on.
@@ -157,15 +191,5 @@ impl OperatingPoint {
     /// The mechanism at this position and time.
     pub(crate) fn rest<'a>(&'a self, mechanism: &'a dyn Described<f64>) -> Rest<'a> {
         Rest::new(mechanism, self.t, &self.inputs, &self.q)
-    }
-}
-
-impl From<&Equilibrium> for OperatingPoint {
-    fn from(rest: &Equilibrium) -> Self {
-        let (positions, states) = rest.q.split_at(rest.lines.min(rest.q.len()));
-        let mut point = Self::at_rest(rest.t, positions, &rest.inputs);
-        point.q.resize(rest.q.len(), 0.0);
-        point.v.extend_from_slice(states);
-        point
     }
 }

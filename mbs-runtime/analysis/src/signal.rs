@@ -170,14 +170,20 @@ impl Signal {
         chosen("coordinate", &Self::all(info, info.coordinates.len(), Variable::Coordinate), names)
     }
 
-    /// The outputs with these names: declared ones, coordinates, their rates and multipliers. Without
-    /// names the declared ones, or the coordinates of a mechanism that declares none.
+    /// The outputs with these names: declared ones, coordinates, their rates, own states and multipliers. Without
+    /// names the declared ones, or the coordinates and own states of a mechanism that declares none. The integral of
+    /// an own state is none: a linear system does not have it.
     pub(crate) fn outputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
         if let Some(names) = names {
-            return chosen("output", &Self::observable(info), names);
+            let is_integral =
+                |signal: &Self| matches!(signal.variable, Variable::Coordinate(at) if info.is_own(at));
+            let mut known = Self::observable(info);
+            known.retain(|signal| !is_integral(signal));
+            return chosen("output", &known, names);
         }
         let declared = Self::all(info, info.outputs.len(), Variable::Output);
-        let coordinates = || Self::all(info, info.coordinates.len(), Variable::Coordinate);
+        let of = |at: usize| if info.is_own(at) { Variable::Velocity(at) } else { Variable::Coordinate(at) };
+        let coordinates = || Self::all(info, info.coordinates.len(), of);
         Ok(if declared.is_empty() { coordinates() } else { declared })
     }
 }

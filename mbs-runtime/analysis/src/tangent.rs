@@ -294,4 +294,9 @@ impl Tangent {
     pub fn minimal(&self, w: &DVector<f64>) -> DVector<f64> {
         self.orthonormal.transpose() * w.component_div(&self.weights)
     }
+
+    /// How large z may be of a w of these sizes.
+    pub fn minimal_sizes(&self, sizes: &DVector<f64>) -> DVector<f64> {
+        self.orthonormal.transpose().abs() * sizes.component_div(&self.weights)
+    }
 }

@@ -82,21 +82,24 @@ impl About {
     }
 }
 
-/// The positions of a start with those that are given in their place, and the others moved onto the
-/// constraints.
+/// The positions of a start, behind them the values of own states, with those that are given in their place, and the
+/// others moved onto the constraints.
 fn positions(run: &dyn System, t: f64, given: &[(String, String)]) -> Result<Vec<f64>, Error> {
     let info = run.equations().info();
     let n = info.coordinates.len();
-    let coordinates = info.coordinates.get(..info.lines).unwrap_or(info.coordinates);
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     run.state(&mut q, &mut v);
+    q.iter_mut().zip(&v).skip(info.lines).for_each(|(q, value)| *q = *value);
     let mut kept = Vec::new();
     for (name, text) in given {
-        let mut known = coordinates.iter().zip(&mut q);
-        let Some((coordinate, place)) = known.find(|(coordinate, _)| coordinate.name == name) else {
-            return Err(Error::unknown("coordinate", name, coordinates.iter().map(|q| q.name)));
+        let mut known = info.coordinates.iter().zip(&mut q).enumerate();
+        let Some((at, (coordinate, place))) = known.find(|(_, (coordinate, _))| coordinate.name == name)
+        else {
+            let kind = if info.lines == n { "coordinate" } else { "coordinate or state" };
+            return Err(Error::unknown(kind, name, info.coordinates.iter().map(|q| q.name)));
         };
-        *place = quantity::parse_in(name, text, coordinate.dimension, &Unit::of_coordinate(coordinate))?;
+        let unit = if info.is_own(at) { Unit::of(coordinate) } else { Unit::of_coordinate(coordinate) };
+        *place = quantity::parse_in(name, text, coordinate.dimension, &unit)?;
         kept.push(coordinate.name);
     }
     if !kept.is_empty() || t != run.time() {
@@ -129,7 +132,8 @@ impl<'a> Operating<'a> {
         let run = model.start(&start)?;
         let search = about.search(&*run)?;
         let rest = if about.is_here { None } else { Some(equilibrium(run.described(), &search)?) };
-        let here = || OperatingPoint::at_rest(search.t, search.from.as_deref().unwrap_or(&[]), &start.inputs);
+        let from = search.from.as_deref().unwrap_or(&[]);
+        let here = || OperatingPoint::resting(model.info(), search.t, from, &start.inputs);
         let point = rest.as_ref().map_or_else(here, OperatingPoint::from);
         Ok(Self { name, model, run, point, rest, search, start })
     }

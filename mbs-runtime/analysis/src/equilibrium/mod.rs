@@ -9,12 +9,14 @@ mod relaxation;
 mod stiffness;
 
 use mbs_runtime::equations::Described;
-use nalgebra::DVector;
+use nalgebra::{Complex, DVector};
 
 use self::newton::newton;
 use self::relaxation::relax;
 use self::stiffness::Stiffness;
 use crate::Error;
+use crate::linearization::{Ports, linearize};
+use crate::point::OperatingPoint;
 use crate::tangent::Rest;
 
 /// The method by which an equilibrium is looked for.
@@ -107,6 +109,9 @@ pub struct Equilibrium {
     /// The share of the largest stiffness below which a stiffness counts as zero: 10⁻¹² with derivatives by the chain
     /// rule, 10⁻⁹ with differences. Derivatives are known to about a hundredth of that.
     pub resolution: f64,
+    /// λ of deviations e^{λt} with own states, in 1/s, one of each conjugate pair; empty for a mechanism without own
+    /// states, or where they were not found.
+    pub rates: Vec<Complex<f64>>,
     /// The number of iterations.
     pub iterations: u32,
 }
@@ -141,7 +146,8 @@ struct Found {
 impl Equilibrium {
     /// The response to small disturbances, as far as the stiffness tells. Friction, dampers and gyroscopic
     /// terms are not asked; forces that follow the motion may make a position unstable by flutter although
-    /// its stiffness is positive.
+    /// its stiffness is positive. Of a mechanism with own states it is what their linear system tells, with all of
+    /// these: a controller holds what falls without it.
     ///
     /// # Example
     /// ```
@@ -164,6 +170,16 @@ impl Equilibrium {
     /// # Ok::<(), mbs_analysis::Error>(())
     /// ```
     pub fn stability(&self) -> Stability {
+        if !self.rates.is_empty() {
+            let growing = |rate: &&Complex<f64>| rate.re > 0.0;
+            // of a pair both grow
+            let of = |rate: &Complex<f64>| if rate.im == 0.0 { 1 } else { 2 };
+            return match self.rates.iter().filter(growing).map(of).sum() {
+                0 if self.rates.iter().all(|rate| rate.norm() > 0.0) => Stability::Stable,
+                0 => Stability::Indifferent,
+                directions => Stability::Unstable { directions },
+            };
+        }
         let largest = self.stiffness.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let directions = self.stiffness.iter().filter(|x| **x < -self.resolution * largest).count();
         match directions {
@@ -176,6 +192,12 @@ impl Equilibrium {
     /// True if every small displacement is driven back. See the example of [`Strategy`].
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
+    }
+}
+
+impl From<&Equilibrium> for OperatingPoint {
+    fn from(rest: &Equilibrium) -> Self {
+        Self::split(rest.t, &rest.q, rest.lines, &rest.inputs)
     }
 }
 
@@ -233,7 +255,7 @@ impl Equilibrium {
 /// ```
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`], [`Error::Length`]; [`Error::Undefined`] and
+/// [`Error::NoEquilibrium`], [`Error::NoRest`], [`Error::Length`]; [`Error::Undefined`] and
 /// [`Error::Slope`] where a force has no value or an infinite slope; of the mechanism
 /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
 ///
@@ -256,7 +278,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let is_held = info.dof == 0 && info.lines == info.coordinates.len();
     let Found { q, iterations } = match search.strategy {
         _ if is_held => Found { q: start, iterations: 0 },
-        Strategy::Newton => newton(&rest, start, ITERATIONS)?,
+        Strategy::Newton => newton(&rest, &rest, start, ITERATIONS)?,
         Strategy::Relaxation => relax(&rest, start)?,
         Strategy::Automatic => automatic(&rest, start)?,
     };
@@ -265,16 +287,27 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let is_known = info.dof != 0 || multipliers.iter().all(|x| x.is_finite());
     let stiffness = if is_known { stiffness(&rest, &q) } else { None };
     let Some(stiffness) = stiffness else { return Err(lost(&rest, &q, iterations)) };
-    Ok(Equilibrium {
+    let mut found = Equilibrium {
         t: search.t,
         q: q.as_slice().to_vec(),
         lines: info.lines,
         multipliers: multipliers.as_slice().to_vec(),
         stiffness,
         resolution: rest.resolution(),
+        rates: Vec::new(),
         iterations,
         inputs,
-    })
+    };
+    if info.lines < info.coordinates.len() {
+        found.rates = rates(mechanism, &found).unwrap_or_default();
+    }
+    Ok(found)
+}
+
+/// λ of all modes of the linear system about an equilibrium.
+fn rates(mechanism: &dyn Described<f64>, rest: &Equilibrium) -> Result<Vec<Complex<f64>>, Error> {
+    let linear = linearize(mechanism, &OperatingPoint::from(rest), &Ports::default())?;
+    Ok(linear.modes()?.into_iter().map(|mode| mode.eigenvalue).collect())
 }
 
 fn stiffness(rest: &Rest<'_>, q: &DVector<f64>) -> Option<Vec<f64>> {
@@ -289,7 +322,7 @@ fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Erro
 /// does not at the start.
 fn automatic(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
     let falls = |q| Stiffness::at(rest, q).is_some_and(|found| found.falling > 0.0);
-    match newton(rest, start.clone(), ITERATIONS) {
+    match newton(rest, rest, start.clone(), ITERATIONS) {
         Ok(found) if falls(&start) || !falls(&found.q) => Ok(found),
         found => relax(rest, start).or(found),
     }
@@ -314,5 +347,8 @@ fn lost(rest: &Rest<'_>, q: &DVector<f64>, iterations: u32) -> Error {
         return Error::Slope { of: format!("the acceleration of `{}`", name(at)) };
     }
     let at = a.component_div(&rest.scales()).iamax();
+    if rest.mechanism.info().is_own(at) {
+        return Error::NoRest { state: name(at), rate: a[at], iterations };
+    }
     Error::NoEquilibrium { coordinate: name(at), acceleration: a[at], iterations }
 }

@@ -22,7 +22,13 @@ const REMEMBERED: usize = 4;
 /// search). Accelerations would be no measure: a step along the curved valley of a stiff spring enlarges
 /// them, however near it leads. One correction before is not enough: in such a valley a short correction,
 /// which leads back to the floor, follows each long one.
-pub fn newton(rest: &Rest<'_>, start: DVector<f64>, iterations: u32) -> Result<Found, Error> {
+/// What balances is measured by the scales `at_first`, those of the position from which the search began.
+pub fn newton(
+    rest: &Rest<'_>,
+    at_first: &Rest<'_>,
+    start: DVector<f64>,
+    iterations: u32,
+) -> Result<Found, Error> {
     let mut q = start;
     let acceleration = rest.acceleration(&q).0;
     let strongest = rest.measure(&acceleration);
@@ -32,18 +38,18 @@ pub fn newton(rest: &Rest<'_>, start: DVector<f64>, iterations: u32) -> Result<F
     let mut made = 0;
     for iteration in 1..=iterations {
         made = iteration;
-        let (Some(rest), Some(now)) = (near(rest, &q), correction) else { break };
+        let (Some(grown), Some(now)) = (near(rest, &q), correction) else { break };
         let longest = lengths.into_iter().fold(0.0, f64::max);
         // what is rounding does not fall any more
         let has_stalled = longest < now.rounding.min(KNOWN) && now.length > 0.5 * longest;
-        if (now.length < SMALL || has_stalled) && now.is_balanced(strongest) {
-            let q = rest.moved(&q, &now.step)?;
+        if (now.length < SMALL || has_stalled) && now.is_balanced(strongest, at_first) {
+            let q = grown.moved(&q, &now.step)?;
             return Ok(Found { q, iterations: iteration });
         }
         lengths[iteration as usize % REMEMBERED] = now.length;
         let longest = lengths.into_iter().fold(0.0, f64::max);
-        (q, correction) = stepped(&rest, &q, &now, longest)?;
-        let size = rest.measure(&rest.acceleration(&q).0);
+        (q, correction) = stepped(&grown, &q, &now, longest)?;
+        let size = grown.measure(&grown.acceleration(&q).0);
         if size < best.0 {
             best = (size, q.clone());
         }

@@ -39,19 +39,19 @@ pub fn relax(rest: &Rest<'_>, start: DVector<f64>) -> Result<Found, Error> {
     let mut made = 0;
     for iteration in 1..=ITERATIONS {
         made = iteration;
-        let Some(rest) = &near(rest, &q) else { break };
-        let Some(stiffness) = Stiffness::at(rest, &q) else { break };
-        if let Some(push) = push(rest, &stiffness, &q) {
-            q = rest.moved(&q, &push)?;
+        let Some(grown) = &near(rest, &q) else { break };
+        let Some(stiffness) = Stiffness::at(grown, &q) else { break };
+        if let Some(push) = push(grown, &stiffness, &q) {
+            q = grown.moved(&q, &push)?;
             continue;
         }
         if stiffness.falling == 0.0
-            && let Some(q) = settled(rest, &q)
+            && let Some(q) = settled(rest, grown, &q)
         {
             return Ok(Found { q, iterations: iteration });
         }
         s = s.max(2.0 * stiffness.falling);
-        let Some((y, length)) = implicit_step(rest, &q, s) else {
+        let Some((y, length)) = implicit_step(grown, &q, s) else {
             s *= CHANGE;
             continue;
         };
@@ -73,8 +73,8 @@ fn push(rest: &Rest<'_>, stiffness: &Stiffness, q: &DVector<f64>) -> Option<DVec
 }
 
 /// Where Newton's method leads from a position, if that is near and the mechanism does not fall from there.
-fn settled(rest: &Rest<'_>, q: &DVector<f64>) -> Option<DVector<f64>> {
-    let found = newton(rest, q.clone(), LAST).ok()?.q;
+fn settled(at_first: &Rest<'_>, rest: &Rest<'_>, q: &DVector<f64>) -> Option<DVector<f64>> {
+    let found = newton(rest, at_first, q.clone(), LAST).ok()?.q;
     let is_held = Stiffness::at(rest, &found)?.falling == 0.0;
     (is_held && rest.measure(&(&found - q)) <= LONGEST).then_some(found)
 }

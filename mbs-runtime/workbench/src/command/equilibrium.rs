@@ -119,9 +119,17 @@ impl<'a> Found<'a> {
     /// The stability of the equilibrium, in words.
     fn stability(&self) -> String {
         match self.rest.stability() {
-            Stability::Stable if self.rest.stiffness.is_empty() => "held: nothing is free to move".into(),
+            Stability::Stable if self.rest.stiffness.is_empty() && self.states.is_empty() => {
+                "held: nothing is free to move".into()
+            }
             Stability::Stable => "stable".into(),
             Stability::Indifferent => "indifferent: some displacements are not driven back".into(),
+            Stability::Unstable { directions: 1 } if !self.states.is_empty() => {
+                "unstable: a deviation grows".into()
+            }
+            Stability::Unstable { directions } if !self.states.is_empty() => {
+                format!("unstable: {directions} deviations grow")
+            }
             Stability::Unstable { directions: 1 } => "unstable: it falls away in one direction".into(),
             Stability::Unstable { directions } => {
                 format!("unstable: it falls away in {directions} directions")
@@ -132,9 +140,6 @@ impl<'a> Found<'a> {
     fn table(&self) -> Table {
         let mut table = Table::new([self.name, "at rest", ""]);
         table.row(["stability", self.stability().as_str()]);
-        if !self.states.is_empty() {
-            table.row(["", "while states are held; `modes` tells how they act"]);
-        }
         if let Stability::Unstable { .. } = self.rest.stability() {
             table.row(["", "--relax finds where it falls to"]);
         }

@@ -71,7 +71,9 @@ impl Point {
             after: self.after.clone(),
         };
         Operating::of(found.name(), found.model(), &options, &about).map_err(|error| match error {
-            Error::Analysis(error @ mbs_analysis::Error::NoEquilibrium { .. }) => Error::NoEquilibrium(error),
+            Error::Analysis(
+                error @ (mbs_analysis::Error::NoEquilibrium { .. } | mbs_analysis::Error::NoRest { .. }),
+            ) => Error::NoEquilibrium(error),
             other => other,
         })
     }

@@ -69,3 +69,21 @@ fn a_state_is_no_parameter() {
     let told = text(mbs(folder.path(), "simulate tank.mbs --set p=1bar").stderr);
     assert!(told.contains("it is a state, and no parameter; give `--from p=1bar`"), "{told}");
 }
+
+/// Regression: an equilibrium was looked for from states of 0, and their starts could not be given.
+#[test]
+fn an_equilibrium_begins_where_states_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let text_of = "Lorenz { dof = 0; param x0 = 7; param z0 = 30; const s = 1 [1/s]; state x [1] = x0; state y [1] = x0;
+        state z [1] = z0; der(x) = 10*s*(y - x); der(y) = s*(x*(28 - z) - y); der(z) = s*(x*y - 8/3*z); }";
+    std::fs::write(folder.path().join("lorenz.mbs"), text_of).unwrap();
+    for (asked, x) in [("", 8.4852814), ("--set x0=-7", -8.4852814), ("--from x=-7 --from y=-7", -8.4852814)]
+    {
+        let output = mbs(folder.path(), &format!("equilibrium lorenz.mbs {asked} --json"));
+        assert!(output.status.success(), "{}", text(output.stderr));
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = json["states"]["x"]["value"].as_f64().unwrap();
+        assert!((found - x).abs() < 1e-7, "{asked}: {json}");
+        assert_eq!(json["is_stable"], false);
+    }
+}
