@@ -27,6 +27,7 @@
 //! | [`PlanetaryGear`] | 1 | gears on a carrier, tooth forces |
 //! | [`GearedMotor`] | 1 | a torque–speed line, a pair of gears |
 //! | [`DcMotor`] | 1 | states of its own: a current, a controller's integral |
+//! | [`Suspension`] | 2 | tables, a force by a law between two bodies |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -69,6 +70,7 @@ pub mod scotch_yoke;
 pub mod slider_crank;
 pub mod slider_crank_free;
 pub mod spring_mass_damper;
+pub mod suspension;
 pub mod tipper;
 pub mod toggle_press;
 pub mod trammel_of_archimedes;
@@ -109,6 +111,7 @@ pub use scotch_yoke::{ScotchYoke, ScotchYokeInputs, ScotchYokeParameters};
 pub use slider_crank::{SliderCrank, SliderCrankParameters};
 pub use slider_crank_free::{SliderCrankFree, SliderCrankFreeInputs, SliderCrankFreeParameters};
 pub use spring_mass_damper::{SpringMassDamper, SpringMassDamperInputs, SpringMassDamperParameters};
+pub use suspension::{Suspension, SuspensionParameters};
 pub use tipper::{Tipper, TipperParameters};
 pub use toggle_press::{TogglePress, TogglePressInputs, TogglePressParameters};
 pub use trammel_of_archimedes::{TrammelOfArchimedes, TrammelOfArchimedesParameters};

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 39] = entries! {
+static LIBRARY: [Entry; 40] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -56,6 +56,7 @@ static LIBRARY: [Entry; 39] = entries! {
     "planetary-gear", "planetary_gear.rs", "PlanetaryGear";
     "geared-motor", "geared_motor.rs", "GearedMotor";
     "dc-motor", "dc_motor.rs", "DcMotor";
+    "suspension", "suspension.rs", "Suspension";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
     "chebyshev", "chebyshev.rs", "Chebyshev";

@@ -17,7 +17,8 @@ use models::{
     Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
     Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
     NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank,
-    SliderCrankFree, SpringMassDamper, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
+    SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
+    WattLinkage,
 };
 
 use paths::STRIDE;
@@ -128,6 +129,8 @@ library! {
         p.stall*(1.0 - at.v.phi1/p.no_load)*at.v.phi1 + (u.load - p.viscous*at.v.phi2)*at.v.phi2
     };
     DcMotor: 0.5e-3, 10.0, ["constant"], |p, at, u| (p.constant*at.v.current + u.load)*at.v.theta;
+    // without spring, damper and tyre it falls
+    Suspension: 0.5e-3, 10.0, ["spring", "damper", "tyre_stiffness"], |p, at, _| power_of_suspension(p, at);
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;
@@ -137,6 +140,26 @@ library! {
     Jansen: 0.5e-3, 10.0, [], |_, at, u| u.beach*at.v.yf;
     JansenWalker: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Klann: 0.5e-3, 10.0, [], |_, at, u| u.support*at.v.yf;
+}
+
+/// The strut takes the power of its tension, which the road's bump does not change; the tyre gives the wheel's.
+fn power_of_suspension(
+    p: &<Suspension as Mechanism>::Parameters,
+    at: &State<<Suspension as Mechanism>::Coordinates>,
+) -> f64 {
+    let between = |points: &[(f64, f64)], x: f64| {
+        let piece = points.windows(2).rfind(|pair| pair[0].0 <= x).unwrap_or(&points[..2]);
+        piece[0].1 + (piece[1].1 - piece[0].1) / (piece[1].0 - piece[0].0) * (x - piece[0].0)
+    };
+    let spring = [(0.2, 12e3), (0.25, 5.2e3), (0.5, 0.2e3), (0.52, -2e3)];
+    let damper = [(-2.0, -0.9e3), (-0.2, -0.15e3), (0.0, 0.0), (0.2, 0.45e3), (2.0, 2.7e3)];
+    let (apart, opening) = (at.q.y_c - at.q.y_w, at.v.y_c - at.v.y_w);
+    // a distance has no sign
+    let (length, rate) = (apart.abs(), opening * apart.signum());
+    let tension = p.damper * between(&damper, rate) - p.spring * between(&spring, length);
+    let u = p.speed * at.t - 1.0;
+    let road = if (0.0..1.0).contains(&u) { 4.0 * u * (1.0 - u) } else { 0.0 };
+    -tension * rate + p.tyre_stiffness * (p.bump * road - at.q.y_w).max(0.0) * at.v.y_w
 }
 
 /// In any state M q̈ + Φ_qᵀ λ = Q and Φ_q q̈ = γ, and the energy changes by the power of drives, inputs and dampers.

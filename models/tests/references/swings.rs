@@ -4,7 +4,7 @@ use mbs_runtime::{Error, Mechanism, Simulation, start};
 use models::{
     CartPendulum, CartPendulumInputs, CartPendulumParameters, DoublePendulum, DoublePendulumParameters,
     Metronome, MetronomeParameters, Pendulum, SpringMassDamper, SpringMassDamperInputs,
-    SpringMassDamperParameters,
+    SpringMassDamperParameters, Suspension, SuspensionParameters,
 };
 use paths::{Single, through_double_paths, through_every_path};
 
@@ -152,4 +152,45 @@ fn metronome_beats_as_its_spring_and_weight_say() -> Result<(), Error> {
         case.near("after a period", run.now()?.q.phi / p.release, 1.0, 1e-6);
         Ok(())
     })
+}
+
+/// Between two points of a table, as they stand in the file.
+fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
+    let piece = points.windows(2).rfind(|pair| pair[0].0 <= x).unwrap_or(&points[..2]);
+    let [(x0, y0), (x1, y1)] = [piece[0], piece[1]];
+    y0 + (y1 - y0) / (x1 - x0) * (x - x0)
+}
+
+/// It rests until the bump, which is a parabola: 4u(1 − u) behind the first metre. On it and behind it the accelerations
+/// are those of the equations by hand, with forces of 20 kN and their roundings.
+#[test]
+fn suspension_rests_and_meets_a_bump() -> Result<(), Error> {
+    let p: SuspensionParameters<f64> = SuspensionParameters::default();
+    let mut run = Simulation::new(Suspension::declared(), 0.5e-3)?;
+    let length = 0.25 + (5200.0 - p.chassis_mass * G) / 20e3;
+    near("strut at rest", run.outputs()?.strut_length, length, EXACT);
+    near("load at rest", run.outputs()?.wheel_load, (p.chassis_mass + p.wheel_mass) * G, 1e-11);
+    let start = run.state();
+    run.advance_to(0.0995)?;
+    near("chassis before the bump", run.state().q.y_c, start.q.y_c, 1e-12);
+    let spring = [(0.2, 12e3), (0.25, 5.2e3), (0.5, 0.2e3), (0.52, -2e3)];
+    let damper = [(-2.0, -0.9e3), (-0.2, -0.15e3), (0.0, 0.0), (0.2, 0.45e3), (2.0, 2.7e3)];
+    let mut shortest = length;
+    for t in [0.11, 0.13, 0.15, 0.17, 0.19, 0.21, 0.3, 0.5, 1.0] {
+        run.advance_to(t)?;
+        let (at, u) = (run.state(), p.speed * run.time() - 1.0);
+        let (q, v) = (at.q, at.v);
+        let road = if u < 1.0 { p.bump * 4.0 * u * (1.0 - u) } else { 0.0 };
+        let tension = interpolated(&damper, v.y_c - v.y_w) - interpolated(&spring, q.y_c - q.y_w);
+        let tyre = p.tyre_stiffness * (road - q.y_w).max(0.0);
+        let found = run.reactions()?.acceleration;
+        near("chassis", found.y_c, -tension / p.chassis_mass - G, 1e-10);
+        near("wheel", found.y_w, (tension + tyre) / p.wheel_mass - G, 1e-9);
+        near("force", run.outputs()?.strut_force, tension, 1e-8);
+        shortest = shortest.min(q.y_c - q.y_w);
+    }
+    // it comes to the soft part of the table and swings out
+    near("chassis behind the bump", run.state().q.y_c, start.q.y_c, 0.01);
+    assert!((0.2..length - 0.02).contains(&shortest), "{shortest}");
+    Ok(())
 }
