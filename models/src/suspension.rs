@@ -14,7 +14,7 @@
 //!
 //! The strut is a force between chassis and wheel by a law of its own: a spring by a table of its
 //! length ℓ, with a bump stop below 250 mm and a rebound stop above 500 mm, and a damper by a table of
-//! ℓ̇ that resists rebound three times as much as bump. The tyre pushes only. With gravity g and masses
+//! ℓ̇ that resists a fast rebound three times as much as a bump. The tyre pushes only. With gravity g and masses
 //! m_c and m_w
 //!
 //! m_c ÿ_c = F_s(ℓ) − F_d(ℓ̇) − m_c g,  m_w ÿ_w = F_d(ℓ̇) − F_s(ℓ) + k max(0, y_r − y_w) − m_w g,
@@ -52,7 +52,7 @@ mechanism! {
             (200 [mm], 12 [kN]), (250 [mm], 5.2 [kN]), (500 [mm], 0.2 [kN]), (520 [mm], -2 [kN])
         ] linear outside extend;
         table damper_force(rate) = [
-            (-2 [m/s], -0.9 [kN]), (-0.2 [m/s], -0.15 [kN]), (0 [m/s], 0 [kN]), (0.2 [m/s], 0.45 [kN]), (2 [m/s], 2.7 [kN])
+            (-2 [m/s], -0.9 [kN]), (-0.1 [m/s], -0.12 [kN]), (0.1 [m/s], 0.12 [kN]), (2 [m/s], 2.7 [kN])
         ] linear outside extend;
         table road(way) = [(1 [m], 0), (1.5 [m], 1), (2 [m], 0)] monotone outside hold;
 

@@ -152,7 +152,7 @@ fn power_of_suspension(
         piece[0].1 + (piece[1].1 - piece[0].1) / (piece[1].0 - piece[0].0) * (x - piece[0].0)
     };
     let spring = [(0.2, 12e3), (0.25, 5.2e3), (0.5, 0.2e3), (0.52, -2e3)];
-    let damper = [(-2.0, -0.9e3), (-0.2, -0.15e3), (0.0, 0.0), (0.2, 0.45e3), (2.0, 2.7e3)];
+    let damper = [(-2.0, -0.9e3), (-0.1, -0.12e3), (0.1, 0.12e3), (2.0, 2.7e3)];
     let (apart, opening) = (at.q.y_c - at.q.y_w, at.v.y_c - at.v.y_w);
     // a distance has no sign
     let (length, rate) = (apart.abs(), opening * apart.signum());
