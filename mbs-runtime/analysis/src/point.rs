@@ -45,7 +45,7 @@ impl OperatingPoint {
     }
 
     /// The same, with the values of own states behind the positions, as those of a [`Search`](crate::Search) and of an
-    /// [`Equilibrium`] are.
+    /// [`Equilibrium`](crate::Equilibrium) are.
     ///
     /// # Example
     /// ```

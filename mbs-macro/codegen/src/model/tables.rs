@@ -125,8 +125,7 @@ fn check(
             .help("it is the distance after which the first point returns, as in `period 360 [deg]`"));
     }
     for (pair, point) in points.windows(2).zip(table.points.iter().skip(1)) {
-        // written so that what is not a number fails
-        if !(pair[0].0 < pair[1].0) {
+        if pair[1].0 <= pair[0].0 {
             return Err(Diagnostic::new(point.x.span, format!("the points of `{name}` are out of order"))
                 .help("this argument has to be larger than the one before it"));
         }
