@@ -330,6 +330,11 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn greater(self, other: Self) -> Self {
         Self::constant(self.value.greater(other.value))
     }
+    #[inline(always)]
+    fn gate(self, other: Self) -> Self {
+        let gate = self.value;
+        Self { value: gate.gate(other.value), partials: other.partials.map(|partial| gate.gate(partial)) }
+    }
 
     #[inline(always)]
     fn is_same(self, other: Self) -> bool {

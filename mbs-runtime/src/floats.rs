@@ -127,6 +127,10 @@ macro_rules! real {
             fn greater(self, other: Self) -> Self {
                 if self > other { 1.0 } else { 0.0 }
             }
+            #[inline(always)]
+            fn gate(self, other: Self) -> Self {
+                if self == 0.0 { 0.0 } else { other }
+            }
             elementary!($float: $($elementary)*);
             $($own!();)?
         }

@@ -270,7 +270,7 @@ impl<T: Lane, const N: usize> Real for Lanes<T, N> {
     }
     lane_by_lane!(
         tan asin acos atan sqrt exp ln tanh abs sign;
-        atan2 pow min max greater
+        atan2 pow min max greater gate
     );
     #[inline(always)]
     fn interpolate(self, spline: &Spline, order: u8) -> Self {

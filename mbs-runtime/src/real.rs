@@ -102,6 +102,8 @@ pub trait Real:
     fn max(self, other: Self) -> Self;
     /// 1 if `self > other`, else 0: the slope of `max`.
     fn greater(self, other: Self) -> Self;
+    /// `other` where `self`, which is 0 or 1, is 1; 0 elsewhere, even if `other` is NaN.
+    fn gate(self, other: Self) -> Self;
 
     /// A spline's derivative of this order at `self`.
     #[doc(hidden)]

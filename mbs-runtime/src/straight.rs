@@ -98,7 +98,7 @@ impl<T: Lane> Real for Straight<T> {
     }
     of_the_scalar!(
         tan asin acos atan sqrt exp ln tanh abs sign;
-        atan2 pow min max greater
+        atan2 pow min max greater gate
     );
     #[inline(always)]
     fn interpolate(self, spline: &Spline, order: u8) -> Self {

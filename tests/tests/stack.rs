@@ -111,7 +111,7 @@ impl Real for Probe {
         (self.sin(), self.cos())
     }
     unary! { sin cos tan asin acos atan sqrt exp ln tanh abs sign }
-    binary! { atan2 pow min max greater }
+    binary! { atan2 pow min max greater gate }
 }
 
 /// The stack that a step takes, in bytes.

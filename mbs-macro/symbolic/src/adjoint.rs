@@ -20,6 +20,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::growing::{Growing, ZERO, broken};
 use crate::inconsistency::Inconsistency;
+use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
 impl Program {
@@ -116,6 +117,7 @@ impl Transpose {
                 [Some((a, share)), Some((b, grows.negative(back)))]
             }
             Operation::Neg => [Some((a, grows.negative(weight))), None],
+            Operation::Call(Function::Gate) => [None, Some((b, grows.push(step.operation, a, weight)))],
             Operation::Call(function) => {
                 let is_active = [a, b].map(|operand| active.contains(&operand));
                 let slopes = grows.slopes(function, [a, b, result], is_active)?;

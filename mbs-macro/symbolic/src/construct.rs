@@ -242,6 +242,14 @@ impl Arena {
     /// f of its arguments, x twice where it has one.
     pub fn apply(&mut self, function: Function, [x, y]: [Expr; 2]) -> Expr {
         let parity = function.row().parity;
+        if function == Function::Gate {
+            return match self.as_number(x) {
+                Some(shut) if shut.is_zero() => self.zero(),
+                Some(_) => y,
+                None if self.is_zero(y) => y,
+                None => self.intern(Node::Call(function, [x, y])),
+            };
+        }
         if function == Function::Pow {
             self.pow(x, y)
         } else if parity != Parity::Neither && self.leads_negative(x) && self.fold(function, [x, y]).is_none()

@@ -124,6 +124,14 @@ impl Arena {
                 format!("{before}{}{behind}", self.typeset(*x, Binding::Sum, names))
             }
             (Latex::Operator(operator), [x]) => format!("{operator} {}", self.argument(*x, names)),
+            (Latex::Bracket(sign), [x, y]) => {
+                let [x, y] = [x, y].map(|side| self.typeset(*side, Binding::Sum, names));
+                format!(r"\left[{x} {sign} {y}\right]")
+            }
+            (Latex::Product, [x, y]) => {
+                let [x, y] = [x, y].map(|factor| self.typeset(*factor, Binding::Product, names));
+                format!(r"{x} \, {y}")
+            }
             _ => {
                 let arguments: Vec<_> =
                     arguments.iter().map(|&x| self.typeset(x, Binding::Sum, names)).collect();

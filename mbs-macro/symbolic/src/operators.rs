@@ -73,6 +73,8 @@ pub enum Pieces {
     Kinked,
     /// It jumps, and is constant elsewhere.
     Steps,
+    /// It is its second argument where the first one is not 0, and 0 elsewhere, whatever the second one is.
+    Gate,
 }
 
 /// The dimensions of the arguments and the value of a function.
@@ -106,15 +108,19 @@ pub enum Latex {
     Operator(&'static str),
     /// By what stands before and behind its argument.
     Around(&'static str, &'static str),
+    /// By Iverson's bracket, which is 1 where its comparison holds and 0 elsewhere.
+    Bracket(&'static str),
+    /// As the product of its arguments.
+    Product,
     /// By its name and arguments in parentheses.
     Name,
 }
 
 use Dimensions::{Lost, Root, Same};
 use Function as F;
-use Latex::{Around, Name, Operator};
+use Latex::{Around, Bracket, Name, Operator};
 use Parity::{Even, Neither, Odd};
-use Pieces::{Kinked, One, Steps};
+use Pieces::{Gate, Kinked, One, Steps};
 use Range::{All, NotNegative, Unit};
 use Wasm::{Code, Host, Module};
 
@@ -231,7 +237,11 @@ functions! {
         { c: Some("pow"), ..BINARY };
     /// 1 if the first argument is larger, else 0
     Greater: "greater", |x, y| f64::from(u8::from(x > y)), |x, _, _| [x.constant(0); 2],
-        { is_word: false, range: Unit, pieces: Steps, dimensions: Lost, wasm: Code(&[0x64, 0xb8]), ..BINARY };
+        { is_word: false, range: Unit, pieces: Steps, dimensions: Lost, wasm: Code(&[0x64, 0xb8]),
+          latex: Bracket(">"), ..BINARY };
+    /// second argument where the first, which is 0 or 1, is 1; 0 elsewhere, even if the second is no number
+    Gate: "gate", |x, y| if x == 0.0 { 0.0 } else { y }, |x, _, _| [x.constant(0), x.call(F::Gate, x.constant(1))],
+        { is_word: false, pieces: Gate, latency: 4, wasm: Module, latex: Latex::Product, ..BINARY };
 }
 
 impl Function {

@@ -64,6 +64,8 @@ impl Arithmetic for Rounded {
                 passed_on + OF_A_FUNCTION * value.abs()
             }
             Pieces::Kinked => self.error.max(y.error),
+            Pieces::Gate if self.value == 0.0 && self.error == 0.0 => 0.0,
+            Pieces::Gate => self.error.max(y.error),
             // where rounding decides between the pieces, nothing is known
             Pieces::Steps if (self.value - y.value).abs() <= 4.0 * (self.error + y.error) => f64::INFINITY,
             Pieces::Steps => 0.0,

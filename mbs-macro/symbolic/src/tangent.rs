@@ -19,6 +19,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::growing::{Growing, ZERO};
 use crate::inconsistency::Inconsistency;
+use crate::operators::Function;
 use crate::program::{Instruction, Operand, Operation, Program};
 
 impl Program {
@@ -101,6 +102,8 @@ impl Tangent {
                 if above == ZERO { ZERO } else { grows.push(Operation::Div, above, b) }
             }
             Operation::Neg => grows.negative(along_a),
+            Operation::Call(Function::Gate) if along_b == ZERO => ZERO,
+            Operation::Call(Function::Gate) => grows.push(step.operation, a, along_b),
             Operation::Call(function) => {
                 let is_active = [a, b].map(|operand| active.contains(&operand));
                 let [slope_a, slope_b] = grows.slopes(function, [a, b, result], is_active)?;

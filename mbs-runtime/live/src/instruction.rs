@@ -144,5 +144,6 @@ fn call<T: Real, const C: usize>(function: Function, values: &mut [[T; C]], slot
         Function::Max => binary(values, slots, |a, b| a.max(b)),
         Function::Pow => binary(values, slots, |a, b| a.pow(b)),
         Function::Greater => binary(values, slots, |a, b| a.greater(b)),
+        Function::Gate => binary(values, slots, |a, b| a.gate(b)),
     }
 }

@@ -331,12 +331,18 @@ fn formula(r: &mut Random, depth: usize) -> String {
             _ => format!("{}.{}", place(r), r.of(&["x", "y", "angle"])),
         };
     }
-    match r.below(8) {
+    match r.below(9) {
         0 => format!("{}({})", r.of(FUNCTIONS), formula(r, depth + 1)),
         1 => format!("{}({}, {})", r.of(FUNCTIONS), formula(r, depth + 1), formula(r, depth + 1)),
         2 => format!("({}) [{}]", formula(r, depth + 1), r.of(UNITS)),
         3 => format!("-{}", formula(r, depth + 1)),
         4 => format!("({})", formula(r, depth + 1)),
+        5 => {
+            let join = r.of(&["", "", "&& !", "||", "and"]);
+            let test = format!("{} {} {}", formula(r, depth + 2), comparison(r), formula(r, depth + 2));
+            let test = if join.is_empty() { test } else { format!("{test} {join} ({test})") };
+            format!("if {test} {{ {} }} else {{ {} }}", formula(r, depth + 1), formula(r, depth + 1))
+        }
         _ => {
             let op = *r.of(&["+", "-", "*", "/", "^", "*", "+", "%", "**", "=="]);
             format!("{} {op} {}", formula(r, depth + 1), formula(r, depth + 1))

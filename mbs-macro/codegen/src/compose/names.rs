@@ -6,6 +6,7 @@
 
 use proc_macro2::Ident;
 
+use crate::mechanics::joints::POLAR_ANGLE;
 use crate::syntax::{
     Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Vector,
 };
@@ -70,6 +71,20 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Require { .. }
         | ItemKind::Assembly { .. }
         | ItemKind::Instance { .. } => Vec::new(),
+    }
+}
+
+/// The names of quantities that a statement declares.
+pub fn quantities(item: &Item) -> Vec<&Ident> {
+    match &item.kind {
+        ItemKind::Parameter { name, .. }
+        | ItemKind::Constant { name, .. }
+        | ItemKind::Input { name, .. }
+        | ItemKind::State { name, .. }
+        | ItemKind::Let { name, .. }
+        | ItemKind::Binding { name, .. } => vec![name],
+        ItemKind::Body { coordinates, .. } => coordinates.iter().map(|coordinate| &coordinate.name).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -148,8 +163,10 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
                     Clause::Angle(value)
                     | Clause::Place(value)
                     | Clause::Distance(value)
-                    | Clause::Profile(value)
                     | Clause::Radius(value) => in_formula(value, visit),
+                    Clause::Profile(value) => {
+                        in_formula(value, &mut beside(|name| name == POLAR_ANGLE, visit));
+                    }
                     Clause::Carrier(body) => visit(Mention::Name(body)),
                 }
             }
@@ -166,7 +183,9 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             visit(Mention::Place(&mut element.first));
             element.second.iter_mut().for_each(|second| visit(Mention::Place(second)));
             element.along.iter_mut().for_each(|along| in_vector(along, visit));
-            element.properties.iter_mut().for_each(|property| in_load(&mut property.value, visit));
+            let known = element.kind.knows;
+            let mut visit = beside(|name| known.iter().any(|known| name == known.name), visit);
+            element.properties.iter_mut().for_each(|property| in_load(&mut property.value, &mut visit));
         }
         ItemKind::Start { entries, .. } => {
             for entry in entries {
@@ -185,6 +204,14 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         | ItemKind::Method { .. }
         | ItemKind::Gradients { .. }
         | ItemKind::Assembly { .. } => {}
+    }
+}
+
+/// The names beside those that a formula knows by where it stands.
+fn beside(is_known: impl Fn(&Ident) -> bool, visit: &mut dyn FnMut(Mention<'_>)) -> impl FnMut(Mention<'_>) {
+    move |mention| match mention {
+        Mention::Formula(FormulaKind::Name(name)) if is_known(name) => {}
+        other => visit(other),
     }
 }
 
@@ -219,6 +246,11 @@ fn in_formula(formula: &mut Formula, visit: &mut dyn FnMut(Mention<'_>)) {
         FormulaKind::Power { base, exponent, .. } => {
             in_formula(base, visit);
             in_formula(exponent, visit);
+        }
+        FormulaKind::Choice(choice) => {
+            choice.test.formulas_mut().into_iter().for_each(|compared| in_formula(compared, visit));
+            in_formula(&mut choice.value, visit);
+            in_formula(&mut choice.otherwise, visit);
         }
         FormulaKind::Call { function, arguments } => {
             visit(Mention::Function(function));

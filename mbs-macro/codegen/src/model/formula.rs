@@ -33,6 +33,7 @@ impl Scope<'_> {
                 self.power(base, exponent, *op_span, place, errors)
             }
             FormulaKind::Chain { first, rest } => self.chain(first, rest, place, errors),
+            FormulaKind::Choice(choice) => self.choice(choice, place, errors),
             FormulaKind::Call { function, arguments } => self.call(function, arguments, place, errors),
             FormulaKind::Component { call, member } => self.component(call, member, place, errors),
             FormulaKind::WithUnit { inner, unit } => {

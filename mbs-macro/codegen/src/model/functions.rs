@@ -6,6 +6,7 @@ use proc_macro2::Ident;
 use rustc_hash::FxHashMap as HashMap;
 
 use super::Meaning;
+use super::choices::PIECES;
 use super::hints::in_radians;
 use super::known::Typed;
 use super::measures::MEASURES;
@@ -33,6 +34,9 @@ impl Scope<'_> {
             text => {
                 if let Some(function) = Function::named(text) {
                     return self.function(function, name, arguments, place, errors);
+                }
+                if PIECES.contains(&text) {
+                    return self.pieces(name, arguments, place, errors);
                 }
                 if let Some(law) = LAWS.iter().find(|law| law.name == text) {
                     return self.law(law, name, arguments, place, errors);
@@ -249,6 +253,7 @@ impl Scope<'_> {
 fn known<'a>() -> impl Iterator<Item = &'a str> {
     let elementary = mbs_symbolic::FUNCTIONS.iter().filter(|row| row.is_word).map(|row| row.name);
     elementary
+        .chain(PIECES.iter().copied())
         .chain(LAWS.iter().map(|law| law.name))
         .chain(["der", "lambda", "effort", "distance"])
         .chain(MEASURES.iter().copied())

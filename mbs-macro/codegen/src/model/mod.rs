@@ -4,6 +4,7 @@
 //! expressions in SI units, and positions in lists.
 
 mod cams;
+mod choices;
 mod clauses;
 mod connections;
 mod declare;

@@ -8,6 +8,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 use syn::{Error, Ident, Lit, Result, Token, bracketed, parenthesized, token};
 
+use super::choices::choice;
 use super::words::{helped, usable};
 use super::{Formula, FormulaKind, Operation, Operator, UnitText, Vector};
 
@@ -32,10 +33,10 @@ impl Formula {
     }
 
     /// The plain names in it.
-    pub fn names(&self) -> Vec<String> {
+    pub fn names(&self) -> Vec<&Ident> {
         match &self.kind {
             FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
-            FormulaKind::Name(name) => vec![name.to_string()],
+            FormulaKind::Name(name) => vec![name],
             FormulaKind::Negative(inner)
             | FormulaKind::Component { call: inner, .. }
             | FormulaKind::WithUnit { inner, .. } => inner.names(),
@@ -45,6 +46,10 @@ impl Formula {
             }
             FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
             FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
+            FormulaKind::Choice(choice) => {
+                let compared = choice.test.formulas().into_iter();
+                compared.chain([&choice.value, &choice.otherwise]).flat_map(Self::names).collect()
+            }
         }
     }
 }
@@ -55,7 +60,7 @@ impl Parse for Formula {
     }
 }
 
-fn sum(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
+pub(super) fn sum(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
     chain(input, &|input| product(input, depth), &[('+', Operator::Plus), ('-', Operator::Minus)])
 }
 
@@ -88,11 +93,15 @@ fn next_operator(input: ParseStream<'_>, operators: &[(char, Operator)]) -> Opti
     operators.iter().find(|(mark, _)| *mark == punct.as_char()).map(|(_, operator)| *operator)
 }
 
+/// Refuses what is nested too deeply.
+pub(super) fn checked(input: ParseStream<'_>, depth: usize) -> Result<()> {
+    let message = "this formula is nested too deeply; name a part of it with `let`";
+    if depth > DEEPEST { Err(input.error(message)) } else { Ok(()) }
+}
+
 /// A sign binds looser than `^`: −x² is −(x²).
 fn signed(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
-    if depth > DEEPEST {
-        return Err(input.error("this formula is nested too deeply; name a part of it with `let`"));
-    }
+    checked(input, depth)?;
     if input.peek(Token![-]) {
         let (_, span) = operator(input)?;
         let inner = signed(input, depth + 1)?;
@@ -169,14 +178,13 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
         end(&content)?;
         return Ok(Formula { span: paren.span.join(), kind: inner.kind });
     }
+    if input.peek(Token![if]) {
+        return choice(input, depth);
+    }
     if input.peek(Ident::peek_any) {
         let name = Ident::parse_any(input)?;
         let span = name.span();
-        if !input.peek(token::Paren) || name == "if" {
-            if name == "if" {
-                let help = "a value that depends on a sign is written with `max(0, x)`, `min(a, b)`, `abs(x)` or `(1 + sign(x))/2`";
-                return Err(helped(span, "`if` chooses statements and cannot stand in a formula", help));
-            }
+        if !input.peek(token::Paren) {
             return Ok(Formula { span, kind: path(input, usable(name)?)? });
         }
         let content;

@@ -7,6 +7,7 @@ use syn::parse::{ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{Error, Result, Token, braced, parenthesized, token};
 
+use super::choices::comparison;
 use super::formula::{end, is_vector};
 use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
@@ -16,7 +17,7 @@ use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, 
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
-use crate::quantity::{Comparison, Crossing};
+use crate::quantity::Crossing;
 
 /// Reads a declaration.
 ///
@@ -131,15 +132,7 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
     let ahead = input.fork();
     let left = input.parse()?;
     let comparison_span = input.span();
-    let comparison = if input.parse::<Option<Token![<=]>>()?.is_some() {
-        Comparison::LessOrEqual
-    } else if input.parse::<Option<Token![>=]>>()?.is_some() {
-        Comparison::GreaterOrEqual
-    } else if input.parse::<Option<Token![<]>>()?.is_some() {
-        Comparison::Less
-    } else if input.parse::<Option<Token![>]>>()?.is_some() {
-        Comparison::Greater
-    } else {
+    let Some(comparison) = comparison(input)? else {
         return Err(input.error("one of `<`, `<=`, `>`, `>=` is expected here, as in `where l1 > 0`"));
     };
     let right = input.parse()?;

@@ -1,5 +1,6 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
+mod choices;
 mod elements;
 mod formula;
 mod groups;
@@ -299,6 +300,45 @@ pub struct Formula {
     pub kind: FormulaKind,
 }
 
+/// A value by a condition.
+#[derive(Clone)]
+pub struct Choice {
+    pub test: Test,
+    /// The value where the condition holds,
+    pub value: Formula,
+    /// and where it does not.
+    pub otherwise: Formula,
+}
+
+/// The condition of a choice.
+#[derive(Clone)]
+pub enum Test {
+    Compared { left: Formula, comparison: Comparison, span: Span, right: Formula },
+    Both(Box<[Test; 2]>),
+    Either(Box<[Test; 2]>),
+    Not(Box<Test>),
+}
+
+impl Test {
+    /// The formulas that are compared, from left to right.
+    pub fn formulas(&self) -> Vec<&Formula> {
+        match self {
+            Self::Compared { left, right, .. } => vec![left, right],
+            Self::Both(both) | Self::Either(both) => both.iter().flat_map(Self::formulas).collect(),
+            Self::Not(inner) => inner.formulas(),
+        }
+    }
+
+    /// The same to be changed.
+    pub fn formulas_mut(&mut self) -> Vec<&mut Formula> {
+        match self {
+            Self::Compared { left, right, .. } => vec![left, right],
+            Self::Both(both) | Self::Either(both) => both.iter_mut().flat_map(Self::formulas_mut).collect(),
+            Self::Not(inner) => inner.formulas_mut(),
+        }
+    }
+}
+
 /// An operator of a chain with what stands behind it.
 #[derive(Clone)]
 pub struct Operation {
@@ -341,6 +381,8 @@ pub enum FormulaKind {
         function: Ident,
         arguments: Vec<Formula>,
     },
+    /// `if a < b { p } else { q }`
+    Choice(Box<Choice>),
     /// `reaction(pin, rod).x`
     Component {
         call: Box<Formula>,

@@ -264,17 +264,21 @@ fn condition(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result
 }
 
 /// Moves behind the next `;`, or behind a `{ … }` that ends a statement with its
-/// `else`, and gives what stands before.
+/// `else`, and gives what stands before. Behind an `if` in a formula only a `;` ends it.
 fn take_statement(input: ParseStream<'_>) -> TokenStream {
     let mut tokens = TokenStream::new();
+    let (mut is_behind_sign, mut has_choice) = (false, false);
     while let Ok(token) = input.parse::<TokenTree>() {
-        let is_end = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ';');
+        has_choice |= is_behind_sign && matches!(&token, TokenTree::Ident(word) if word == "if");
+        is_behind_sign = matches!(&token, TokenTree::Punct(punct) if punct.as_char() != ';');
+        let mut is_end = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ';');
         let is_block = matches!(&token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
         tokens.extend([token]);
         if is_block && input.peek(Token![;]) {
             tokens.extend(input.parse::<TokenTree>());
+            is_end = true;
         }
-        if is_end || (is_block && !input.peek(Token![else])) {
+        if is_end || (is_block && !has_choice && !input.peek(Token![else])) {
             break;
         }
     }

@@ -195,6 +195,11 @@ impl<'a> Scalar<'a> {
         self.call(Function::Greater, other)
     }
 
+    /// The other one where this, which is 0 or 1, is 1; else 0.
+    pub fn gate(self, other: Self) -> Self {
+        self.call(Function::Gate, other)
+    }
+
     /// ∂x/∂symbol
     pub fn partial(self, symbol: Symbol) -> Self {
         self.algebra.make((self.expr, symbol), |arena, (x, symbol)| arena.partial(x, symbol))

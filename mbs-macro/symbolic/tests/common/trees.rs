@@ -24,8 +24,8 @@ const UNARY: [Function; 12] = [
     Function::Sign,
 ];
 
-const BINARY: [Function; 5] =
-    [Function::Atan2, Function::Min, Function::Max, Function::Pow, Function::Greater];
+const BINARY: [Function; 6] =
+    [Function::Atan2, Function::Min, Function::Max, Function::Pow, Function::Greater, Function::Gate];
 
 fn boxed(tree: Tree) -> Box<Tree> {
     Box::new(tree)

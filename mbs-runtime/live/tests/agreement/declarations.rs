@@ -164,6 +164,8 @@ declare! { FUNCTIONS;
         table steps(w) = [(-0.2, 1), (0.1, 2)] step outside extend;
         table all(w) = [(-100, 0.5), (0, 1), (100, 3)] cubic outside refuse;
         force by_tables on x = k*(rises(u) + bends(2*w) + kinks(w) - steps(u) + all(w));
+        force chosen on y = k*(if u > w && !(w > 0.2) { sqrt(u - w) } else if u < -0.1 || t < 0.1 [s] { u } else { ln(w) })
+            + k*(clamp(u, -0.1, w) - step(u) + ramp(w));
         start { x = 0.3 [m]; y = -0.4 [m]; der(x) = 1 [m/s]; }
         output largest = max(u, w);
     }

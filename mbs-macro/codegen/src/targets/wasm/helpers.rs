@@ -31,6 +31,8 @@ pub enum Helper {
     Max,
     /// −1, 0 or 1; what is not a number stays so.
     Sign,
+    /// The second where the first, which is 0 or 1, is 1; else 0.
+    Gate,
     /// The derivative of a spline: x, its address, the order.
     Interpolate,
 }
@@ -43,7 +45,7 @@ impl Helper {
 
     /// The one that computes the elementary function of this name.
     pub fn named(name: &str) -> Option<Self> {
-        [("min", Self::Min), ("max", Self::Max), ("sign", Self::Sign)]
+        [("min", Self::Min), ("max", Self::Max), ("sign", Self::Sign), ("gate", Self::Gate)]
             .into_iter()
             .find_map(|(of, helper)| (of == name).then_some(helper))
     }
@@ -62,7 +64,7 @@ pub struct Written {
 }
 
 /// In the order of [`Helper`].
-pub fn all() -> [Written; 5] {
+pub fn all() -> [Written; 6] {
     use ValType::{F64, I32};
     let written = |parameters: &[ValType], results: &[ValType], body| Written {
         parameters: parameters.to_vec(),
@@ -74,6 +76,7 @@ pub fn all() -> [Written; 5] {
         written(&[F64, F64], &[F64], extreme(|code| code.f64_lt())),
         written(&[F64, F64], &[F64], extreme(|code| code.f64_gt())),
         written(&[F64], &[F64], sign()),
+        written(&[F64, F64], &[F64], gate()),
         written(&[F64, I32, I32], &[F64], interpolate()),
     ]
 }
@@ -94,6 +97,13 @@ fn sign() -> Function {
     code.f64_const(1.0.into());
     code.f64_const((-1.0).into()).local_get(0).local_get(0).f64_const(zero()).f64_lt().select();
     code.local_get(0).f64_const(zero()).f64_gt().select().end();
+    function
+}
+
+fn gate() -> Function {
+    let mut function = Function::new([]);
+    let mut code = function.instructions();
+    code.f64_const(0.0.into()).local_get(1).local_get(0).f64_const(0.0.into()).f64_eq().select().end();
     function
 }
 

@@ -36,6 +36,12 @@ static inline real NAME_greater(real a, real b)
     return a > b ? (real)1 : (real)0;
 }
 
+/* b where a, which is 0 or 1, is 1; else 0, even if b is not a number. */
+static inline real NAME_gate(real a, real b)
+{
+    return a == 0 ? (real)0 : b;
+}
+
 /* The derivative of this order of a spline, the function itself for 0. */
 static real NAME_interpolate(const struct NAME_spline *spline, int order, real x)
 {

@@ -1,0 +1,145 @@
+//! Formulas that choose by a condition: their values, derivatives and motions.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
+use core::f64::consts::PI;
+
+use mbs_runtime::{Adaptive, Components, Dual, Error, Mechanism, Real, State, Tolerances, mechanism};
+use tests::random::Random;
+
+/// All outputs in their order.
+fn values(found: &PiecesOutputs<f64>) -> [f64; 11] {
+    let PiecesOutputs { root, rate, both, either, neither, mixed, bound, strict, folded, clamped, stepped } =
+        *found;
+    [root, rate, both, either, neither, mixed, bound, strict, folded, clamped, stepped]
+}
+
+mechanism! {
+    /// Outputs with all that conditions are made of.
+    Pieces {
+        dof = 1;
+        param gap = 0.3 [m];
+        body cart (x) { mass = 1 [kg]; }
+        let u = x/gap;
+        output root = if x > gap { sqrt(u - 1) } else if x < -gap { ln(-u) } else { 0 };
+        output rate [1/s] = der(if x > gap { sqrt(u - 1) } else if x < -gap { ln(-u) } else { 0 });
+        output both = if x > 0 [m] && der(x) > 0 [m/s] { 1 } else { 2 };
+        output either = if x > 0 [m] || der(x) > 0 [m/s] { 1 } else { 2 };
+        output neither = if !(x > 0 [m] || der(x) > 0 [m/s]) { 1 } else { 2 };
+        output mixed = if x > 0 [m] || x < 0 [m] && der(x) >= 0 [m/s] { 1 } else { 2 };
+        output bound = if x <= gap { 1 } else { 2 } + if x >= gap { 10 } else { 20 };
+        output strict = if x < gap { 1 } else { 2 } + if x > gap { 10 } else { 20 };
+        output folded = if 1 < 2 { x/gap } else { ln(-1 - x^2/gap^2) };
+        output clamped [m] = clamp(x, -gap, 2*gap);
+        output stepped = step(u) + ramp(u);
+    }
+}
+
+fn outputs<T: Real>(x: T, rate: T) -> <Pieces<T> as Mechanism>::Outputs {
+    let cart = Pieces::<T>::new(Default::default()).expect("declared parameters");
+    let state = State { t: T::from_f64(0.0), q: Components::splat(x), v: Components::splat(rate) };
+    let inputs = Default::default();
+    let reactions = cart.reactions(&state, &inputs, &Components::splat(T::from_f64(0.0)));
+    cart.outputs(&state, &inputs, &reactions)
+}
+
+/// Of x and its rate, as Rust says it.
+fn expected(x: f64, rate: f64) -> [f64; 11] {
+    let u = x / 0.3;
+    let root = if x > 0.3 {
+        (u - 1.0).sqrt()
+    } else if x < -0.3 {
+        (-u).ln()
+    } else {
+        0.0
+    };
+    let slope = if x > 0.3 {
+        0.5 / (u - 1.0).sqrt()
+    } else if x < -0.3 {
+        1.0 / u
+    } else {
+        0.0
+    };
+    let one_or_two = |holds: bool| if holds { 1.0 } else { 2.0 };
+    [
+        root,
+        slope * rate / 0.3,
+        one_or_two(x > 0.0 && rate > 0.0),
+        one_or_two(x > 0.0 || rate > 0.0),
+        one_or_two(!(x > 0.0 || rate > 0.0)),
+        one_or_two(x > 0.0 || x < 0.0 && rate >= 0.0),
+        one_or_two(x <= 0.3) + if x >= 0.3 { 10.0 } else { 20.0 },
+        one_or_two(x < 0.3) + if x > 0.3 { 10.0 } else { 20.0 },
+        u,
+        x.clamp(-0.3, 0.6),
+        if u < 0.0 { 0.0 } else { 1.0 + u },
+    ]
+}
+
+/// The values are those of Rust's own `if`, at the ends of pieces too. What a condition shuts out has no value
+/// there: the root and the logarithm of negative numbers. Derivatives are those of the piece, in `der` and by dual
+/// numbers, to roundings of one quotient and one product more.
+#[test]
+fn conditions_choose_values_and_derivatives() {
+    let mut random = Random::new(7);
+    let mut places = vec![[0.0, 0.0], [0.3, 1.0], [-0.3, 1.0], [0.3, 0.0], [0.0, -1.0], [0.6, 1.0]];
+    places.extend((0..100).map(|_| [random.between(-1.0, 1.0), random.between(-1.0, 1.0)]));
+    for [x, rate] in places {
+        let found = outputs(x, rate);
+        for (at, (found, expected)) in values(&found).into_iter().zip(expected(x, rate)).enumerate() {
+            let allowed = 4.0 * f64::EPSILON * expected.abs();
+            assert!((found - expected).abs() <= allowed, "output {at} at {x}, {rate}: {found} {expected}");
+        }
+        let moved = outputs(Dual::<f64, 1>::variable(x, 0), Dual::constant(rate));
+        let slope = outputs(x, 1.0).rate;
+        let partial = moved.root.partials[0];
+        assert!((partial - slope).abs() <= 8.0 * f64::EPSILON * slope.abs(), "{x}: {partial} {slope}");
+    }
+}
+
+const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
+
+mechanism! {
+    /// A ball between two springs, of which one is four times as stiff.
+    Bilinear {
+        dof = 1;
+        gradients = reverse;
+        param soft = 100 [N/m];
+        param hard = 400 [N/m];
+        body ball (x) { mass = 1 [kg]; }
+        force springs on x = if x > 0 [m] { -soft*x } else { -hard*x };
+        start { x = 0.1 [m]; }
+    }
+}
+
+/// Half a period takes π/10 s on the one side and π/20 s on the other.
+#[test]
+fn a_ball_between_two_springs_keeps_its_period() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Bilinear::declared()).tolerances(TIGHT).build()?;
+    run.advance_to(20.0 * (PI / 10.0 + PI / 20.0))?;
+    let state = run.state();
+    assert!((state.q.x - 0.1).abs() < 1e-8 && state.v.x.abs() < 1e-8, "{state:?}");
+    Ok(())
+}
+
+mechanism! {
+    /// A slide that a motor drives there and back, with all of its force: the drive that takes the least time.
+    BangBang {
+        dof = 1;
+        param force = 2 [N];
+        param way = 1 [m];
+        body slide (x) { mass = 2 [kg]; }
+        let switching = der(x)*abs(der(x))/(2 [m/s^2]) + (x - way);
+        force motor on x = if x >= way { 0 } else if switching < 0 [m] { force } else { -force };
+        start { x = 0 [m]; }
+    }
+}
+
+/// It accelerates on the first half of its way and brakes on the second one.
+#[test]
+fn a_bang_bang_drive_switches_half_way() -> Result<(), Error> {
+    let mut run = Adaptive::builder(BangBang::declared()).tolerances(TIGHT).build()?;
+    run.advance_to(1.0)?;
+    let half = run.state();
+    assert!((half.q.x - 0.5).abs() < 1e-9 && (half.v.x - 1.0).abs() < 1e-9, "{half:?}");
+    Ok(())
+}
