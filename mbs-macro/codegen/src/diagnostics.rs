@@ -7,7 +7,7 @@
 use std::fmt;
 
 use mbs_symbolic::units::Dimension;
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote_spanned;
 
 /// The text between an error and how to mend it.
@@ -226,6 +226,14 @@ fn distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
+}
+
+/// The error of a name that is known to the law of an element, and declared elsewhere.
+pub fn two_meanings(name: &Ident, element: &str, declared: Span) -> Diagnostic {
+    let message = format!("`{name}` has two meanings here");
+    Diagnostic::new(name.span(), message).note(declared, format!("`{name}` is declared here")).help(format!(
+        "in the law of a {element} it is that between the two places; call the other one differently"
+    ))
 }
 
 /// A dimension with its article: `a mass [kg]`, `an area [m^2]`.

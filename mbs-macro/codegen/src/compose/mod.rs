@@ -17,8 +17,8 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use self::names::Mention;
-use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
-use crate::syntax::{Declaration, FormulaKind, Item, ItemKind, Property};
+use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest, two_meanings};
+use crate::syntax::{Declaration, FormulaKind, Item, ItemKind, Load, Property};
 
 /// Assemblies within assemblies may nest this deep.
 const DEEPEST: usize = 16;
@@ -157,6 +157,7 @@ fn instantiate(
     errors: &mut Diagnostics,
 ) -> Vec<Item> {
     let declared = Declared::new(&items);
+    check_laws(&items, errors);
     for item in &mut items {
         if let ItemKind::Dof { keyword, .. }
         | ItemKind::Crate { keyword, .. }
@@ -195,6 +196,23 @@ fn instantiate(
         !matches!(item.kind, ItemKind::Dof { .. } | ItemKind::Crate { .. } | ItemKind::Gravity { .. })
     });
     items
+}
+
+/// Refuses a name in a law that means something of its two places, and something else in the assembly.
+fn check_laws(items: &[Item], errors: &mut Diagnostics) {
+    let quantities: Vec<&Ident> = items.iter().flat_map(names::quantities).collect();
+    for item in items {
+        let ItemKind::Element(element) = &item.kind else { continue };
+        let is_known = |name: &Ident| element.kind.knows.iter().any(|known| name == known.name);
+        for property in &element.properties {
+            let Load::Scalar(law) = &property.value else { continue };
+            for name in law.names().into_iter().filter(|name| is_known(name)) {
+                if let Some(declared) = quantities.iter().find(|declared| **declared == name) {
+                    errors.push(two_meanings(name, element.kind.word, declared.span()));
+                }
+            }
+        }
+    }
 }
 
 fn unknown_parameter(name: &Ident, instance: &Ident, assembly: &Ident, items: &[Item]) -> Diagnostic {

@@ -13,11 +13,9 @@ use super::names::{Local, Place};
 use super::resolver::Resolver;
 use super::{Meaning, Requirement};
 use crate::diagnostics::Diagnostic;
+use crate::mechanics::joints::POLAR_ANGLE;
 use crate::quantity::Comparison;
 use crate::syntax::{Formula, Joint};
-
-/// The name of the polar angle in the profile of a cam.
-const POLAR_ANGLE: &str = "angle";
 
 /// A jump of this share of the radius is one. Single precision meets it with
 /// sines of several turns.

@@ -34,7 +34,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// Rows and points, once all bodies are known.
-    pub(super) fn declare_rows(&mut self, item: &Item) {
+    pub(super) fn declare_rows(&mut self, item: &'a Item) {
         match &item.kind {
             ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),

@@ -38,7 +38,9 @@ impl Scope<'_> {
     /// The definitions that one builds on, each behind its own.
     fn untouched_below(&self, name: &str) -> Vec<String> {
         let names_in = |name: &str| match self.values.get(name) {
-            Some(Value::Definition(definition)) if self.is_untouched(name) => definition.formula.names(),
+            Some(Value::Definition(definition)) if self.is_untouched(name) => {
+                definition.formula.names().into_iter().map(ToString::to_string).collect()
+            }
             _ => Vec::new(),
         };
         let mut seen = BTreeSet::from([name.to_owned()]);

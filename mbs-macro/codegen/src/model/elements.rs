@@ -11,7 +11,7 @@ use super::known::{KnownJoint, Typed};
 use super::names::{Local, Place};
 use super::resolver::Resolver;
 use super::{Check, Gap};
-use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::diagnostics::{Diagnostic, listing, nearest, two_meanings};
 use crate::mechanics::Placed;
 use crate::mechanics::elements::{self, Effects, Freedom, Given, Property, Range, Unsaid};
 use crate::mechanics::joints::Holds;
@@ -76,31 +76,25 @@ impl Resolver<'_> {
         let resolved = Resolved { first, second, along, values: BTreeMap::new() };
         let effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
-        let known = (element.kind.knows)(&resolved.on(&algebra), &effects);
-        let local = |known: elements::Known<'_>| Local {
+        let on = resolved.on(&algebra);
+        let local = |known: &elements::Known| Local {
             name: known.name,
-            typed: Typed { expr: known.value.expr(), dimension: Some(known.dimension) },
+            typed: Typed { expr: (known.value)(&on, &effects).expr(), dimension: Some(known.dimension) },
         };
-        known.into_iter().map(local).collect()
+        element.kind.knows.iter().map(local).collect()
     }
 
     /// Refuses a name that means something of the element here, and something else elsewhere.
     fn check_ambiguous(&mut self, element: &Element, formula: &Formula) -> Option<()> {
-        let names = formula.names();
-        let is_ambiguous = |local: &&Local| {
-            names.iter().any(|name| name == local.name) && self.scope.values.contains_key(local.name)
+        let locals = &self.scope.locals;
+        let is_local = |name: &Ident| locals.iter().any(|local| *name == local.name);
+        let mut names = formula.names().into_iter().filter(|name| is_local(name));
+        let Some((name, span)) =
+            names.find_map(|name| Some((name, self.scope.values.get(&name.to_string())?.span())))
+        else {
+            return Some(());
         };
-        let Some(local) = self.scope.locals.iter().find(is_ambiguous) else { return Some(()) };
-        let name = local.name;
-        let message = format!("`{name}` has two meanings here");
-        let mut error = Diagnostic::new(formula.span, message).help(format!(
-            "in the law of a {} it is that of its places; call the other one differently",
-            element.kind.word
-        ));
-        if let Some(value) = self.scope.values.get(name) {
-            error = error.note(value.span(), format!("`{name}` is declared here"));
-        }
-        self.errors.push(error);
+        self.errors.push(two_meanings(name, element.kind.word, span));
         None
     }
 

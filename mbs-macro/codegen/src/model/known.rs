@@ -90,10 +90,9 @@ impl Frame {
 }
 
 /// A table as formulas know it.
-pub struct Table {
-    /// The word of its statement.
-    pub word: &'static str,
+pub struct Table<'a> {
     pub span: Span,
+    pub points: &'a crate::syntax::Table,
     pub curve: Curve,
 }
 
@@ -101,8 +100,14 @@ pub struct Table {
 #[derive(Clone, Copy)]
 pub enum Curve {
     Untouched,
+    /// Being resolved: meeting it again is a cycle.
+    Open,
     Failed,
-    Done { spline: SplineId, argument: Dimension, value: Dimension },
+    Done {
+        spline: SplineId,
+        argument: Dimension,
+        value: Dimension,
+    },
 }
 
 /// A constraint or a drive.

@@ -92,7 +92,7 @@ pub struct Scope<'a> {
     pub locals: Vec<Local>,
     /// Definitions that are being resolved, one in the other.
     pub depth: usize,
-    pub tables: BTreeMap<String, Table>,
+    pub tables: BTreeMap<String, Table<'a>>,
     /// Conditions on parameters, those of statements and those of laws in formulas.
     pub requirements: Vec<Requirement>,
 }

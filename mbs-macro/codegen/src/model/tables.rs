@@ -12,9 +12,9 @@ use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, Diagnostics, counted, described};
 use crate::syntax::{self, Formula, FormulaKind, Outside};
 
-impl Resolver<'_> {
+impl<'a> Resolver<'a> {
     /// Enters the name of a table, once all quantities are known.
-    pub(super) fn declare_table(&mut self, table: &syntax::Table) {
+    pub(super) fn declare_table(&mut self, table: &'a syntax::Table) {
         let name = &table.name;
         let text = name.to_string();
         if functions::is_known(&text) {
@@ -24,34 +24,66 @@ impl Resolver<'_> {
         }
         let quantity = self.scope.values.get(&text).map(|value| value.span());
         let earlier = self.scope.tables.get(&text).map(|table| table.span).or(quantity);
-        match earlier {
-            Some(earlier) => self.errors.push(duplicate(name, earlier)),
-            None => {
-                let table = Table { word: table.word, span: name.span(), curve: Curve::Untouched };
-                self.scope.tables.insert(text, table);
+        if let Some(earlier) = earlier {
+            self.errors.push(duplicate(name, earlier));
+        }
+        // one without a curve has its error
+        let curve = if earlier.is_none() { Curve::Untouched } else { Curve::Failed };
+        let known = Table { span: name.span(), points: table, curve };
+        self.scope.tables.entry(text).or_insert(known);
+    }
+
+    pub(super) fn resolve_table(&mut self, table: &syntax::Table) {
+        self.scope.curve(&table.name, &mut self.errors);
+    }
+
+    /// The spline of a table that was resolved.
+    pub(super) fn spline_named(&self, name: &Ident) -> Option<&Spline> {
+        match self.scope.tables.get(&name.to_string())?.curve {
+            Curve::Done { spline, .. } => {
+                self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
+            }
+            Curve::Untouched | Curve::Open | Curve::Failed => None,
+        }
+    }
+}
+
+impl Scope<'_> {
+    /// The curve of a table, resolved when it is first needed.
+    fn curve(&mut self, name: &Ident, errors: &mut Diagnostics) -> Option<Curve> {
+        let text = name.to_string();
+        let table = self.tables.get_mut(&text)?;
+        match table.curve {
+            Curve::Done { .. } => Some(table.curve),
+            Curve::Failed => None,
+            Curve::Open => {
+                let error = Diagnostic::new(name.span(), format!("`{text}` is defined through itself"))
+                    .note(table.span, format!("the definition of `{text}` starts here"));
+                errors.push(error.help("break the circle: give one of its points a number"));
+                None
+            }
+            Curve::Untouched => {
+                table.curve = Curve::Open;
+                let points = table.points;
+                let curve = self.spline_of(points, errors);
+                self.tables.get_mut(&text)?.curve = curve.unwrap_or(Curve::Failed);
+                curve
             }
         }
     }
 
-    pub(super) fn resolve_table(&mut self, table: &syntax::Table) {
-        let curve = self.spline_of(table).unwrap_or(Curve::Failed);
-        if let Some(known) = self.scope.tables.get_mut(&table.name.to_string()) {
-            known.curve = curve;
-        }
-    }
-
-    fn spline_of(&mut self, table: &syntax::Table) -> Option<Curve> {
+    fn spline_of(&mut self, table: &syntax::Table, errors: &mut Diagnostics) -> Option<Curve> {
         let name = &table.name;
         let (arguments, values): (Vec<_>, Vec<_>) =
             table.points.iter().map(|point| (&point.x, &point.y)).unzip();
         let period = if let Outside::Periodic(period) = &table.outside { period.as_ref() } else { None };
         let arguments = arguments.into_iter().chain(period).collect();
-        let arguments = self.numbers(&format!("an argument of `{name}`"), arguments);
-        let values = self.numbers(&format!("a value of `{name}`"), values);
+        let arguments = self.numbers(&format!("an argument of `{name}`"), arguments, errors);
+        let values = self.numbers(&format!("a value of `{name}`"), values, errors);
         let ((mut arguments, argument), (values, value)) = (arguments?, values?);
         let period = period.and_then(|period| Some((period, arguments.pop()?)));
         let mut points: Vec<_> = arguments.into_iter().zip(values).collect();
-        self.errors.take(check(table, &points, period))?;
+        errors.take(check(table, &points, period))?;
         let outside = match table.outside {
             Outside::Hold => Beyond::Hold,
             Outside::Extend => Beyond::Extend,
@@ -62,27 +94,21 @@ impl Resolver<'_> {
         };
         let Some(spline) = Spline::through(&name.to_string(), &points, table.interpolation, outside) else {
             let message = format!("the points of `{name}` do not give finite slopes");
-            self.errors.push(Diagnostic::new(name.span(), message).help("check their size and distances"));
+            errors.push(Diagnostic::new(name.span(), message).help("check their size and distances"));
             return None;
         };
-        Some(Curve::Done { spline: self.scope.arena.add_spline(spline), argument, value })
-    }
-
-    /// The spline of a table that was resolved.
-    pub(super) fn spline_named(&self, name: &Ident) -> Option<&Spline> {
-        match self.scope.tables.get(&name.to_string())?.curve {
-            Curve::Done { spline, .. } => {
-                self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
-            }
-            Curve::Untouched | Curve::Failed => None,
-        }
+        Some(Curve::Done { spline: self.arena.add_spline(spline), argument, value })
     }
 
     /// Constants of one dimension.
-    fn numbers(&mut self, what: &str, formulas: Vec<&Formula>) -> Option<(Vec<f64>, Dimension)> {
-        let errors = &mut self.errors;
+    fn numbers(
+        &mut self,
+        what: &str,
+        formulas: Vec<&Formula>,
+        errors: &mut Diagnostics,
+    ) -> Option<(Vec<f64>, Dimension)> {
         let typed: Vec<_> =
-            formulas.iter().map(|formula| self.scope.formula(formula, Place::Constant, errors)).collect();
+            formulas.iter().map(|formula| self.formula(formula, Place::Constant, errors)).collect();
         let typed: Vec<Typed> = typed.into_iter().collect::<Option<_>>()?;
         let dimension = typed.iter().find_map(|typed| typed.dimension).unwrap_or(Dimension::NONE);
         let mut agree = true;
@@ -97,7 +123,7 @@ impl Resolver<'_> {
             }
         }
         let exprs: Vec<_> = typed.iter().map(|typed| typed.expr).collect();
-        agree.then(|| (self.scope.arena.evaluate(&exprs, &|_| f64::NAN), dimension))
+        agree.then(|| (self.arena.evaluate(&exprs, &|_| f64::NAN), dimension))
     }
 }
 
@@ -159,29 +185,22 @@ impl Scope<'_> {
         place: Place,
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
-        let table = self.tables.get(&name.to_string())?;
         self.used.insert(name.to_string());
-        let (spline, argument, value) = match table.curve {
-            Curve::Done { spline, argument, value } => (spline, argument, value),
-            Curve::Failed => return None,
-            Curve::Untouched => {
-                let message = format!("`{name}` cannot stand here: {}s are given by numbers", table.word);
-                let span = table.span;
-                errors.push(
-                    Diagnostic::new(name.span(), message)
-                        .note(span, format!("`{name}` is declared here"))
-                        .help("write the value itself"),
-                );
-                return None;
-            }
-        };
+        let Curve::Done { spline, argument, value } = self.curve(name, errors)? else { return None };
         let [x] = arguments else {
             let message = format!("`{name}` takes 1 argument, not {}", arguments.len());
             errors.push(Diagnostic::new(name.span(), message).help(format!("write `{name}(x)`")));
             return None;
         };
         let what = format!("the argument of `{name}`");
-        let x = self.formula_of(x, place, (&what, argument), errors)?;
-        Some(Typed { expr: self.arena.spline(spline, x), dimension: Some(value) })
+        let argument = self.formula_of(x, place, (&what, argument), errors)?;
+        let expr = self.arena.spline(spline, argument);
+        let is_refused = self.arena.as_number(argument).is_some() && self.arena.as_number(expr).is_none();
+        if is_refused {
+            let message = format!("this argument is outside of `{name}`, which refuses it");
+            errors.push(Diagnostic::new(x.span, message).help("change it, or say what holds `outside`"));
+            return None;
+        }
+        Some(Typed { expr, dimension: Some(value) })
     }
 }

@@ -1,8 +1,8 @@
 //! Warnings about parts of a declaration that compile and are likely mistakes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::Interpolation;
+use mbs_symbolic::{Interpolation, Node};
 
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
@@ -21,7 +21,32 @@ impl Resolver<'_> {
             }
             _ => None,
         });
-        self.unused(declaration).into_iter().chain(tables).collect()
+        self.unused(declaration).into_iter().chain(tables).chain(self.impacts()).collect()
+    }
+
+    /// Tables in constraints whose value or slope jumps: there the velocity does, too, by an impact that nothing
+    /// computes. Once a table.
+    fn impacts(&self) -> Vec<Diagnostic> {
+        let mut told = BTreeSet::new();
+        let mut found = Vec::new();
+        for constraint in &self.constraints {
+            for node in self.scope.arena.reachable(&[constraint.phi]) {
+                let Node::Spline(id, ..) = *self.scope.arena.node(node) else { continue };
+                let Some(spline) = self.scope.arena.splines().get(id.index()) else { continue };
+                let what = [("value", spline.jump(0)), ("slope", spline.jump(1))];
+                let jump = what.into_iter().find_map(|(what, jump)| Some((what, jump?.0)));
+                let Some((what, at)) = jump.filter(|_| told.insert(id)) else { continue };
+                let (name, table) = (&constraint.name, &spline.name);
+                let message = format!(
+                    "the {what} of `{table}` jumps at {at}: there `{name}` gives a jump of velocity, and no force of it"
+                );
+                found.push(Diagnostic::new(constraint.span, message).help(
+                    "between its points a `monotone` table has no jump; end it with two points of one value, and it has \
+                     none where that value is held",
+                ));
+            }
+        }
+        found
     }
 
     /// The largest way that a cubic table goes between two points of equal values.
@@ -45,7 +70,11 @@ impl Resolver<'_> {
             "behind this point `{name}` goes away from its value by {percent:.1} % of its range, and comes back"
         );
         // the value that holds before the first point is no piece between two
-        let before = usize::from(matches!(table.outside, Outside::Hold | Outside::Refuse));
+        let before = match table.outside {
+            Outside::Hold => 1,
+            Outside::Refuse => 2,
+            Outside::Extend | Outside::Periodic(_) => 0,
+        };
         let point = table.points.get(at.checked_sub(before)?)?;
         Some(Diagnostic::new(point.x.span, message).help(if table.word == "profile" {
             "a cubic spline overshoots where it is to dwell; give more points there, or compose the motion of laws that \

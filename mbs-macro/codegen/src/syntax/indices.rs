@@ -13,6 +13,7 @@ use syn::parse::{Parse, ParseStream, Parser};
 use syn::{Error, Result, Token, parenthesized, token};
 
 use super::words::{helped, usable};
+use crate::mechanics::elements::{FORCE_BETWEEN, TORQUE_BETWEEN};
 
 /// Whole numbers that are known while statements are read.
 #[derive(Clone, Default)]
@@ -55,11 +56,13 @@ impl Indices {
     /// These and a loop variable.
     ///
     /// # Errors
-    /// If its name is taken, or that of a unit, which would make `[m]` ambiguous.
+    /// If its name is taken, that of a unit, which would make `[m]` ambiguous, or known to the laws of forces.
     pub fn with(&self, variable: &Ident, value: i64) -> Result<Self> {
         let name = variable.to_string();
         let taken = self.variables.contains_key(&name) || self.constants.contains_key(&name);
-        if taken || units::lookup(&name).is_some() || name == "t" || name == "pi" {
+        let mut laws = [FORCE_BETWEEN.knows, TORQUE_BETWEEN.knows].into_iter().flatten();
+        let is_of_laws = laws.any(|known| name == known.name);
+        if taken || units::lookup(&name).is_some() || name == "t" || name == "pi" || is_of_laws {
             let what = if taken { "already has a value here" } else { "has a meaning of its own" };
             let help = "give the loop variable another name, such as `i`";
             return Err(helped(variable.span(), format!("`{name}` {what}"), help));

@@ -4,6 +4,9 @@
 
 mod through;
 
+/// A jump of a derivative is one if it is more than this share of the derivative.
+const JUMP: f64 = 1e-9;
+
 /// A spline: a handle into an [`Arena`](crate::Arena)'s list of splines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SplineId(pub(crate) u32);
@@ -36,7 +39,7 @@ pub enum Interpolation {
 pub enum Outside {
     /// That of the nearest point.
     Hold,
-    /// That of the outermost piece, continued.
+    /// That of the outermost piece, continued; of a monotone one that of the line that touches its end.
     Extend,
     /// That of a period before: the first point returns after this period.
     Periodic(f64),
@@ -51,6 +54,14 @@ pub struct Segment {
     pub from: f64,
     /// c₀ … c₃
     pub coefficients: [f64; 4],
+}
+
+impl Segment {
+    /// The coefficients of the same cubic counted from another place, where it has this value.
+    fn counted_from(&self, place: f64, value: f64) -> [f64; 4] {
+        let (u, [_, c1, c2, c3]) = (place - self.from, self.coefficients);
+        [value, c1 + u * (2.0 * c2 + u * (3.0 * c3)), c2 + u * (3.0 * c3), c3]
+    }
 }
 
 /// A function through given points, cubic between them.
@@ -81,6 +92,28 @@ impl Spline {
             let away = inside.map(|u| (u * (c1 + u * (c2 + u * c3))).abs()).fold(0.0, f64::max);
             (next.coefficients[0] == c0 && end > from).then_some((at, away))
         })
+    }
+
+    /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
+    /// where there is only that of rounding.
+    pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
+        let of = |coefficients: [f64; 4]| coefficients.get(usize::from(order)).copied().unwrap_or_default();
+        let wrapped = self.period.zip(self.segments.first());
+        let wrapped =
+            wrapped.map(|(period, first)| Segment { from: period, coefficients: first.coefficients });
+        let next = self.segments.iter().skip(1).copied().chain(wrapped);
+        let jumps = self.segments.iter().zip(next).filter_map(|(segment, next)| {
+            let u = next.from - segment.from;
+            let [c0, c1, c2, c3] = segment.coefficients;
+            let end = segment.counted_from(next.from, c0 + u * (c1 + u * (c2 + u * c3)));
+            let (before, behind) = (of(end), of(next.coefficients));
+            let jump = (behind - before).abs();
+            // of a value that is held before the first point, there is no length
+            let rounded = if u > 0.0 { c0.abs() / u.powi(order.into()) } else { 0.0 };
+            let size = before.abs().max(behind.abs()).max(rounded);
+            (jump > JUMP * size).then_some((self.origin + next.from, jump))
+        });
+        jumps.max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// The largest order of a derivative that is not 0 everywhere.

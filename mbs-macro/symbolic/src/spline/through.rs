@@ -2,6 +2,9 @@
 
 use super::{Interpolation, Outside, Segment, Spline};
 
+/// A table that refuses what is outside has so many roundings of its points for arguments at its ends.
+const ROUNDINGS: f64 = 4.0;
+
 impl Spline {
     /// The periodic cubic spline through `points` of (argument, value). The first point returns after the
     /// period by itself. `None` as for [`through`](Self::through).
@@ -46,20 +49,38 @@ impl Spline {
         }
         let constant = |from, value| Segment { from, coefficients: [value, 0.0, 0.0, 0.0] };
         let length = last.0 - first.0;
+        // the outermost pieces, counted from the outermost points
+        let begin = segments.first()?.coefficients;
+        let end = match interpolation {
+            Interpolation::Step => [last.1, 0.0, 0.0, 0.0],
+            _ => segments.last()?.counted_from(length, last.1),
+        };
         match outside {
             Outside::Periodic(_) => {}
             // what was there before the first point is continued
-            Outside::Extend if interpolation != Interpolation::Step => {}
-            Outside::Extend => segments.push(constant(length, last.1)),
+            Outside::Extend => match interpolation {
+                Interpolation::Linear | Interpolation::Cubic => {}
+                Interpolation::Step => segments.push(constant(length, last.1)),
+                Interpolation::Monotone => {
+                    // a cubic that goes on turns around
+                    let line =
+                        |from, [c0, c1, ..]: [f64; 4]| Segment { from, coefficients: [c0, c1, 0.0, 0.0] };
+                    segments.insert(0, line(0.0, begin));
+                    segments.push(line(length, end));
+                }
+            },
             Outside::Hold => {
                 segments.insert(0, constant(0.0, first.1));
                 segments.push(constant(length, last.1));
             }
             Outside::Refuse => {
                 let none = |from| Segment { from, coefficients: [f64::NAN; 4] };
-                segments.insert(0, none(0.0));
-                segments.push(constant(length, last.1));
-                segments.push(none(length.next_up()));
+                // an argument that is an end but for its rounding is within
+                let slack = ROUNDINGS * f64::EPSILON * first.0.abs().max(last.0.abs());
+                segments.insert(0, Segment { from: -slack, coefficients: begin });
+                segments.insert(0, none(-slack));
+                segments.push(Segment { from: length, coefficients: end });
+                segments.push(none(length + slack));
             }
         }
         Some(Self { name: name.to_owned(), origin: first.0, period, segments })

@@ -105,7 +105,7 @@ fn an_interrupt_ends_what_keeps_nothing_at_once() {
         assert!(running.try_wait().unwrap().is_none(), "`{arguments}` ended by itself");
         let interrupt = format!("kill -INT {}", running.id());
         assert!(Command::new("sh").args(["-c", &interrupt]).status().unwrap().success());
-        let ended = (0..500).find_map(|_| {
+        let ended = (0..3000).find_map(|_| {
             std::thread::sleep(Duration::from_millis(10));
             running.try_wait().unwrap()
         });

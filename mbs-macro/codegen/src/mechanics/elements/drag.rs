@@ -22,7 +22,7 @@ pub const DRAG: ElementKind = ElementKind {
         let example = "{ density = 1.2 [kg/m^3]; area = 0.1 [m^2]; coefficient = 1; }";
         given.all(&["density", "area", "coefficient"], example)
     },
-    knows: super::kind::nothing_more,
+    knows: &[],
     moved: |drag| drag.first.position.components().into(),
     mend: "let it act on a body that has a position",
     needs: None,

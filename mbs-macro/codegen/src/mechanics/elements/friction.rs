@@ -27,7 +27,7 @@ pub const FRICTION: ElementKind = ElementKind {
         let example = "{ coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }";
         is_said(given, &["coefficient", "normal"], [example; 2])
     },
-    knows: super::kind::nothing_more,
+    knows: &[],
     moved: |friction| vec![slide(friction)],
     mend: "let it act where two bodies slide along each other",
     needs: Some(Freedom {
@@ -60,7 +60,7 @@ pub const TORSION_FRICTION: ElementKind = ElementKind {
         let by_force = "{ coefficient = 0.1; normal = 20 [N]; radius = 5 [mm]; transition = 0.1 [rad/s]; }";
         is_said(given, &["coefficient", "normal", "radius"], [by_torque, by_force])
     },
-    knows: super::kind::nothing_more,
+    knows: &[],
     moved: |friction| vec![friction.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: Some(Freedom { from: Holds::Angle, verb: "turns", mend: "friction of a guide is `friction`" }),

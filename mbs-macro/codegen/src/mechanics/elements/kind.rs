@@ -20,7 +20,7 @@ pub struct ElementKind {
     /// Checks that the properties that are given say how it acts.
     pub said: fn(&Given<'_>) -> Result<(), Unsaid>,
     /// The names that its properties know beside those of all formulas.
-    pub knows: for<'a> fn(&Element<'a>, &Effects<'_>) -> Vec<Known<'a>>,
+    pub knows: &'static [Known],
     /// The lengths or angles of which at least one has to depend on coordinates.
     pub moved: for<'a> fn(&Element<'a>) -> Vec<Scalar<'a>>,
     /// How to mend one of which nothing moves.
@@ -32,15 +32,10 @@ pub struct ElementKind {
 }
 
 /// A quantity of an element that its properties may name.
-pub struct Known<'a> {
+pub struct Known {
     pub name: &'static str,
-    pub value: Scalar<'a>,
     pub dimension: Dimension,
-}
-
-/// Of most elements the properties know nothing more.
-pub(super) fn nothing_more<'a>(_: &Element<'a>, _: &Effects<'_>) -> Vec<Known<'a>> {
-    Vec::new()
+    pub value: for<'a> fn(&Element<'a>, &Effects<'_>) -> Scalar<'a>,
 }
 
 /// Where an element acts.

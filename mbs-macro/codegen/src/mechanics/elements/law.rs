@@ -20,14 +20,18 @@ pub const FORCE_BETWEEN: ElementKind = ElementKind {
     places: Places::Two,
     properties: &[Property::varying(LAW, FORCE)],
     said: |_| Ok(()),
-    knows: |force, effects| {
-        let distance = force.first.distance_to(force.second);
-        let known = |name, value, dimension| Known { name, value, dimension };
-        vec![
-            known("length", distance, Dimension::LENGTH),
-            known("rate", effects.rate(distance).shared(), SPEED),
-        ]
-    },
+    knows: &[
+        Known {
+            name: "length",
+            dimension: Dimension::LENGTH,
+            value: |force, _| force.first.distance_to(force.second),
+        },
+        Known {
+            name: "rate",
+            dimension: SPEED,
+            value: |force, effects| effects.rate(force.first.distance_to(force.second)).shared(),
+        },
+    ],
     moved: |force| (force.first.position - force.second.position).components().into(),
     mend: "let it act between points that move apart",
     needs: None,
@@ -48,11 +52,14 @@ pub const TORQUE_BETWEEN: ElementKind = ElementKind {
     places: Places::Two,
     properties: &[Property::varying(LAW, TORQUE)],
     said: |_| Ok(()),
-    knows: |torque, effects| {
-        let angle = torque.relative_angle();
-        let known = |name, value, dimension| Known { name, value, dimension };
-        vec![known("angle", angle, Dimension::NONE), known("rate", effects.rate(angle), RATE)]
-    },
+    knows: &[
+        Known { name: "angle", dimension: Dimension::NONE, value: |torque, _| torque.relative_angle() },
+        Known {
+            name: "rate",
+            dimension: RATE,
+            value: |torque, effects| effects.rate(torque.relative_angle()),
+        },
+    ],
     moved: |torque| vec![torque.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: None,

@@ -20,7 +20,7 @@ pub const MOTOR: ElementKind = ElementKind {
         Property::varying("level", Dimension::NONE),
     ],
     said: |given| given.all(&["stall", "no_load"], "{ stall = 2 [N*m]; no_load = 3000 [rpm]; }"),
-    knows: super::kind::nothing_more,
+    knows: &[],
     moved: |motor| vec![motor.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: None,

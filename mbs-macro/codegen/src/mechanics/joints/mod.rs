@@ -24,6 +24,9 @@ pub use connection::{Connection, Joint, Part, Wrench};
 pub use kind::{Holds, JointKind, Mend, Row};
 
 /// Every kind of joint.
+/// The name of the polar angle in the profile of a cam.
+pub const POLAR_ANGLE: &str = "angle";
+
 pub const JOINTS: &[&JointKind] = &[
     &revolute::REVOLUTE,
     &fixed::FIXED,
