@@ -96,6 +96,11 @@ pub trait Equations<T: Real> {
     /// The same for the corrections of a start, as an index into [`Info::start_pivots`].
     fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)>;
 
+    /// The first time behind `t` at which something bends or jumps; see [`Mechanism::next_corner`].
+    fn next_corner(&self, _t: T) -> T {
+        T::from_f64(f64::INFINITY)
+    }
+
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
 
@@ -108,6 +113,10 @@ pub trait Equations<T: Real> {
 }
 
 impl<M: Mechanism> Equations<M::Real> for M {
+    fn next_corner(&self, t: M::Real) -> M::Real {
+        Mechanism::next_corner(self, t)
+    }
+
     fn info(&self) -> &Info {
         M::INFO
     }

@@ -320,6 +320,12 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Potential energy of gravity (0 at the origin) and springs in J.
     fn potential_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
 
+    /// The first time behind `t` at which forces, constraints or events bend or jump because time passes a point of
+    /// a table or the end of a piece, such as `if t < 1 [s]`. Infinite where there is none.
+    fn next_corner(&self, _t: Self::Real) -> Self::Real {
+        Self::Real::from_f64(f64::INFINITY)
+    }
+
     /// The declared outputs, given q̈ and λ.
     fn outputs(
         &self,

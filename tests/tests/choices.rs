@@ -143,3 +143,60 @@ fn a_bang_bang_drive_switches_half_way() -> Result<(), Error> {
     assert!((half.q.x - 0.5).abs() < 1e-9 && (half.v.x - 1.0).abs() < 1e-9, "{half:?}");
     Ok(())
 }
+
+mechanism! {
+    /// Slides that are pushed for a moment each, long after the start.
+    Pulses {
+        dof = 4;
+        param begin = 20 [s];
+        param duration = 5 [ms];
+        param force = 4 [N];
+        body first (x1) { mass = 1 [kg]; }
+        body second (x2) { mass = 1 [kg]; }
+        body third (x3) { mass = 1 [kg]; }
+        body fourth (x4) { mass = 1 [kg]; }
+        let late = t - begin;
+        force one on x1 = if late > 0 [s] && late < duration { force } else { 0 };
+        // a triangle, a cycle of it and a trapezoid
+        force two on x2 = force*ramp(1 - abs(2*late/duration - 1));
+        table cycle(u) = [(0, 0 [N]), (0.1, 1 [N]), (0.2, 0 [N]), (10, 0 [N])] linear outside periodic;
+        force three on x3 = cycle(late/(2*duration));
+        force four on x4 = force*clamp(3 - abs(6*late/duration - 3), 0, 1);
+        table valve(u) = [(0, 0), (30, 0), (30.01, 1), (30.02, 0)] linear outside hold;
+        event opens: valve(t/(1 [s])) = 0.5 rising;
+    }
+}
+
+/// The speeds that the pulses give, F T, F T/2 and 5/6 F T, of the cycle one a second tenth of its period: steps that
+/// have grown to seconds end where a pulse begins. So they do for an event that is over in 20 ms.
+#[test]
+fn no_pulse_of_time_is_stepped_over() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Pulses::declared()).build()?;
+    run.advance_to(20.0 + 0.4)?;
+    let State { v, .. } = run.state();
+    let (impulse, cycles) = (4.0 * 5e-3, 20.4 / 0.1);
+    // triangles of 0.2 · 10 ms; at 20.4 s a cycle is over
+    let expected = [impulse, impulse / 2.0, cycles * 0.1 * 0.01, 5.0 / 6.0 * impulse];
+    for (found, expected) in v.into_array().into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+    let event = run.advance_to_event(40.0)?.map(|event| event.t);
+    assert!(event.is_some_and(|t| (t - 30.005).abs() < 1e-12), "{event:?}");
+    Ok(())
+}
+
+/// The derivatives by the begin and the end of a push: x = F T (t − b − T/2), whose jumps move with them.
+#[test]
+fn ends_of_pulses_have_derivatives() -> Result<(), Error> {
+    let [begin, duration] = [Dual::<f64, 2>::variable(0.5, 0), Dual::variable(0.25, 1)];
+    let parameters = PulsesParameters { begin, duration, force: Dual::constant(4.0) };
+    let mut run = Adaptive::builder(Pulses::new(parameters)?).tolerances(TIGHT).build()?;
+    run.advance_to(2.0)?;
+    let [x, v] = [run.state().q.x1, run.state().v.x1];
+    assert!((x.value - 1.0 * (1.5 - 0.125)).abs() < 1e-12 && (v.value - 1.0).abs() < 1e-12);
+    // −F T and F (t − b − T), 0 and F
+    for (found, expected) in x.partials.into_iter().chain(v.partials).zip([-1.0, 5.0, 0.0, 4.0]) {
+        assert!((found - expected).abs() < 1e-11, "{found} {expected}");
+    }
+    Ok(())
+}

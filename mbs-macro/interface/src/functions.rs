@@ -53,6 +53,8 @@ pub enum Results {
     Outputs,
     /// One number per event.
     Events,
+    /// Two numbers per corner over time.
+    Corners,
     /// Two numbers per point.
     Points,
     /// One number.
@@ -168,6 +170,8 @@ functions! {
         -> [result: Outputs], [Counted, Tangent, Transposed];
     /// The values whose changes of sign are declared as events.
     Events = "events"(Time, Positions, Velocities, Inputs) -> [result: Events], [Tangent];
+    /// The rate a and the offset b of values a t + b at whose knots forces, constraints or events bend or jump.
+    Corners = "corners"() -> [result: Corners], [Whole];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];
     /// The declared start, before guesses are corrected. Returns its time.

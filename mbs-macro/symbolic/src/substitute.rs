@@ -21,6 +21,19 @@ impl Arena {
         exprs.iter().map(|expr| known[expr]).collect()
     }
 
+    /// The expression with another one in the place of a part of it.
+    pub fn replace(&mut self, expr: Expr, part: Expr, other: Expr) -> Expr {
+        let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for operand in self.reachable(&[expr]) {
+            let replaced = match operand == part {
+                true => other,
+                false => self.substitute_in_node(operand, &HashMap::default(), &known),
+            };
+            known.insert(operand, replaced);
+        }
+        known[&expr]
+    }
+
     /// The substitute of every expression that these are made of.
     fn substituted(&mut self, exprs: &[Expr], values: &HashMap<Symbol, Expr>) -> FxHashMap<Expr, Expr> {
         let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();

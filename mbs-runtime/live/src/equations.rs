@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::__private::worst;
+use mbs_runtime::__private::{next_corner, worst};
 use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials};
 use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch};
 
@@ -92,6 +92,16 @@ impl<T: Real> Equations<T> for Live<T> {
 
     fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
         self.worst_of(FunctionId::StartPivots, t, q)
+    }
+
+    fn next_corner(&self, t: T) -> T {
+        let corners = self.corners();
+        if corners.is_empty() {
+            return T::from_f64(f64::INFINITY);
+        }
+        let mut lines = vec![T::ZERO; 2 * corners.len()];
+        self.call(FunctionId::Corners, &position(t, &[]), [&mut lines]);
+        next_corner(t, lines.as_chunks().0, corners)
     }
 
     fn kinetic_energy(&self, at: At<'_, T>) -> T {

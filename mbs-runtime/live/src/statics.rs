@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count, Crossing};
-use mbs_runtime::__private::{Segment, Spline};
+use mbs_runtime::__private::{Knots, Segment, Spline};
 use mbs_runtime::{
     Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Operations, Pivot, Quantity,
     Sketch,
@@ -25,6 +25,8 @@ pub struct Tables {
     pub info: Info,
     /// The functions given by tables.
     pub splines: &'static [Spline],
+    /// Where values over time bend or jump.
+    pub corners: &'static [Knots],
     /// The equations, for people to read.
     pub derivation: Derivation,
     /// The picture of the mechanism.
@@ -65,6 +67,7 @@ impl Tables {
         Self {
             info: info(compiled),
             splines: leak(compiled.splines.iter().map(|it| spline(it))),
+            corners: leak(compiled.corners.iter().map(knots)),
             derivation: words::derivation(&compiled.derivation),
             sketch: words::sketch(&compiled.sketch),
             step: compiled.choices.step,
@@ -101,6 +104,10 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.start_pivots.iter().map(pivot)),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
     )
+}
+
+fn knots(compiled::Knots { at, period }: &compiled::Knots) -> Knots {
+    Knots { at: leak(at.iter().copied()), period: period.unwrap_or_default() }
 }
 
 fn quantity(quantity: &compiled::Quantity, default: f64) -> Quantity {

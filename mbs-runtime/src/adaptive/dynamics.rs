@@ -70,8 +70,8 @@ pub trait Dynamics: Clone + Send {
 
     /// The first time behind `t` at which the accelerations have a corner, such as inputs of straight
     /// lines have between two of them; a step ends there. Infinite where there is none.
-    fn next_corner(&self, _t: Self::Real) -> Self::Real {
-        Self::Real::from_f64(f64::INFINITY)
+    fn next_corner(&self, t: Self::Real) -> Self::Real {
+        self.equations().next_corner(t)
     }
 
     /// Writes the values whose changes of sign are the declared events.

@@ -14,9 +14,11 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Counts a step of `h` seconds.
-    pub fn count(&mut self, h: f64) {
-        self.shortest = if self.steps == 0 { h } else { self.shortest.min(h) };
+    /// Counts a step of `h` seconds, which is the shortest one unless it leads over a corner that time passes.
+    pub fn count(&mut self, h: f64, is_over_corner: bool) {
+        if !is_over_corner {
+            self.shortest = if self.shortest > 0.0 { self.shortest.min(h) } else { h };
+        }
         self.longest = self.longest.max(h);
         self.steps += 1;
     }

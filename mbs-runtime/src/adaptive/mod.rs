@@ -15,6 +15,7 @@ mod builder;
 mod cause;
 mod change;
 mod control;
+mod corners;
 mod crossing;
 mod dense;
 mod dynamics;
@@ -34,6 +35,7 @@ pub use builder::AdaptiveBuilder;
 pub(crate) use cause::cause;
 use control::Control;
 pub use control::Tolerances;
+pub use corners::{Knots, next_corner};
 pub use dense::Moment;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
@@ -58,6 +60,8 @@ use crate::{Dopri5, Error, Real, vectors};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
+/// A step of so many roundings of the time leads over a corner.
+const OVER_CORNER: f64 = 64.0;
 /// The error that ends a run is looked for in steps up to this many seconds.
 const LONGEST: f64 = 1.0;
 
@@ -245,7 +249,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         core::mem::swap(now, next);
         (self.happened_before, self.happened) = (self.happened, Happened::default());
         self.between.begin(true);
-        self.effort.count((self.now.t - self.before.t).to_f64());
+        let (h, t) = ((self.now.t - self.before.t).to_f64(), self.now.t.to_f64());
+        self.effort.count(h, h <= OVER_CORNER * D::Real::EPSILON.to_f64() * t.abs());
         self.note_progress(growth);
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Knots, Link,
     Parameter, Pivot, Sketch, Written,
 };
 use crate::derive::Equations;
@@ -34,6 +34,12 @@ impl Compiled {
             kept: [false, true].map(|is_rate| kept(&model, is_rate)),
             start,
             splines: model.arena.splines().to_vec(),
+            corners: plan
+                .corners
+                .iter()
+                .cloned()
+                .map(|it| Knots { at: it.knots, period: it.period })
+                .collect(),
             jacobian: plan.phi_q_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
             start_pivots: pivots(&model, &plan.start_pivot_names),

@@ -70,6 +70,15 @@ pub use vectors::Vector;
 /// ten are left.
 pub const GROWTH_LIMIT: f64 = 1.0 / (1024.0 * f64::EPSILON);
 
+/// The arguments at which a function bends or jumps, over and over after a period if it has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Knots {
+    /// In ascending order.
+    pub at: Vec<f64>,
+    /// The period.
+    pub period: Option<f64>,
+}
+
 /// A compiled mechanism; see the [module](self).
 pub struct Compiled {
     /// The name of the mechanism.
@@ -116,6 +125,8 @@ pub struct Compiled {
     pub start: Vec<f64>,
     /// Functions given by a table, in the order of their handles.
     pub splines: Vec<Rc<Spline>>,
+    /// The knots of the values of [`FunctionId::Corners`].
+    pub corners: Vec<Knots>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// The pivot of each result of [`FunctionId::Pivots`].
@@ -334,6 +345,7 @@ impl Compiled {
             Results::StartPivots => self.start_pivots.len(),
             Results::Outputs => self.outputs.len(),
             Results::Events => self.events.len(),
+            Results::Corners => 2 * self.corners.len(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,
         }

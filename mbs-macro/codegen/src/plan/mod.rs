@@ -1,6 +1,7 @@
 //! Equations to programs: the elimination is fixed, what depends on parameters
 //! alone is hoisted, and every function has its instructions.
 
+mod corners;
 mod correction;
 mod minimum_norm;
 mod programs;
@@ -19,6 +20,8 @@ use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
+pub use corners::Corner;
+use corners::corners;
 use correction::correction;
 pub use programs::Programs;
 use programs::roots;
@@ -46,6 +49,8 @@ pub struct Plan {
     pub has_stiffness: bool,
     /// A whole step, of a mechanism that is small enough.
     pub fused_step: Option<FusedStep>,
+    /// Values over time at whose knots something bends or jumps.
+    pub corners: Vec<Corner>,
     /// (constraint, coordinate) of every watched pivot.
     pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
@@ -100,6 +105,8 @@ pub fn plan(
     roots.set(FunctionId::PositionCorrection, positions);
     roots.set(FunctionId::VelocityCorrection, velocities);
     roots.set(FunctionId::StartPivots, start_pivots.iter().map(|pivot| pivot.growth).collect());
+    let corners = corners(model, equations);
+    roots.set(FunctionId::Corners, corners.iter().flat_map(|corner| [corner.rate, corner.offset]).collect());
     let reactions_in_states = reduction.in_states(&mut model.arena, roots.of(FunctionId::Reactions));
     let mut hoisted = Hoisted::default();
     let mut programs = Programs::new(model, &roots, &mut hoisted)?;
@@ -117,6 +124,7 @@ pub fn plan(
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     Ok(Plan {
         phi_q_places: phi_q_places.collect(),
+        corners,
         pivot_names: names(&solver.factorization.pivots),
         start_pivot_names: names(&start_pivots),
         order: solver.factorization.order.clone(),

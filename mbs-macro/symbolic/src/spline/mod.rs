@@ -56,6 +56,31 @@ pub struct Segment {
     pub coefficients: [f64; 4],
 }
 
+/// The end of a piece of some width, which begins with a value, and the beginning of the next one.
+struct Joint {
+    at: f64,
+    width: f64,
+    value: f64,
+    before: [f64; 4],
+    behind: [f64; 4],
+}
+
+impl Joint {
+    /// The jump of c₀, c₁ or c₂, if it is more than rounding.
+    fn jump(&self, order: u8) -> Option<f64> {
+        let of = |all: &[f64; 4]| all.get(usize::from(order)).copied().unwrap_or_default();
+        let (before, behind) = (of(&self.before), of(&self.behind));
+        let jump = (behind - before).abs();
+        // of a value that is held before the first point, there is no width
+        let rounded = if self.width > 0.0 { self.value.abs() / self.width.powi(order.into()) } else { 0.0 };
+        (jump > JUMP * before.abs().max(behind.abs()).max(rounded)).then_some(jump)
+    }
+
+    fn jumps(&self) -> bool {
+        (0..3).any(|order| self.jump(order).is_some())
+    }
+}
+
 impl Segment {
     /// The coefficients of the same cubic counted from another place, where it has this value.
     fn counted_from(&self, place: f64, value: f64) -> [f64; 4] {
@@ -97,23 +122,37 @@ impl Spline {
     /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
     /// where there is only that of rounding.
     pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
-        let of = |coefficients: [f64; 4]| coefficients.get(usize::from(order)).copied().unwrap_or_default();
+        let jumps = self.joints().filter_map(|joint| Some((self.origin + joint.at, joint.jump(order)?)));
+        jumps.max_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
+    /// The arguments at which the value or one of its first two derivatives jumps, in ascending order; of a periodic
+    /// one those within a period.
+    pub fn knots(&self) -> Vec<f64> {
+        let mut knots: Vec<f64> =
+            self.joints().filter(Joint::jumps).map(|joint| self.origin + joint.at).collect();
+        if let (Some(period), Some(last)) = (self.period, knots.last_mut()) {
+            // the end of the period is its beginning
+            if *last == self.origin + period {
+                *last = self.origin;
+                knots.rotate_right(1);
+            }
+        }
+        knots
+    }
+
+    /// The places where a piece ends and another one begins.
+    fn joints(&self) -> impl Iterator<Item = Joint> {
         let wrapped = self.period.zip(self.segments.first());
         let wrapped =
             wrapped.map(|(period, first)| Segment { from: period, coefficients: first.coefficients });
         let next = self.segments.iter().skip(1).copied().chain(wrapped);
-        let jumps = self.segments.iter().zip(next).filter_map(|(segment, next)| {
-            let u = next.from - segment.from;
+        self.segments.iter().zip(next).map(|(segment, next)| {
+            let width = next.from - segment.from;
             let [c0, c1, c2, c3] = segment.coefficients;
-            let end = segment.counted_from(next.from, c0 + u * (c1 + u * (c2 + u * c3)));
-            let (before, behind) = (of(end), of(next.coefficients));
-            let jump = (behind - before).abs();
-            // of a value that is held before the first point, there is no length
-            let rounded = if u > 0.0 { c0.abs() / u.powi(order.into()) } else { 0.0 };
-            let size = before.abs().max(behind.abs()).max(rounded);
-            (jump > JUMP * size).then_some((self.origin + next.from, jump))
-        });
-        jumps.max_by(|(_, a), (_, b)| a.total_cmp(b))
+            let end = segment.counted_from(next.from, c0 + width * (c1 + width * (c2 + width * c3)));
+            Joint { at: next.from, width, value: c0, before: end, behind: next.coefficients }
+        })
     }
 
     /// The largest order of a derivative that is not 0 everywhere.

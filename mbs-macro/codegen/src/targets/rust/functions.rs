@@ -16,7 +16,7 @@ use super::solver;
 use super::stages;
 use super::step;
 use super::tokens;
-use crate::compiled::{Argument, Compiled, FunctionId, Property, Results};
+use crate::compiled::{Argument, Compiled, FunctionId, Knots, Property, Results};
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
@@ -132,6 +132,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         let (statements, values) = (&body.statements, body.array(0..compiled.events.len()));
         quote!(#statements #values)
     };
+    let next_corner = next_corner(compiled, names);
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
@@ -204,7 +205,32 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             fn outputs(&self, at: &#state, inputs: &#inputs, reactions: &#reactions) -> #outputs { #output_values }
             #inline
             fn events(&self, at: &#state, inputs: &#inputs) -> [T; #events] { #event_values }
+            #next_corner
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
+        }
+    }
+}
+
+/// Where time passes a knot; nothing without one.
+fn next_corner(compiled: &Compiled, names: &Names) -> TokenStream {
+    if compiled.corners.is_empty() {
+        return TokenStream::new();
+    }
+    let runtime = &names.runtime;
+    let body = body(compiled, names, FunctionId::Corners, &Access::of_position());
+    let (statements, values) = (&body.statements, body.array(0..2 * compiled.corners.len()));
+    let (values_count, count) = (2 * compiled.corners.len(), compiled.corners.len());
+    let [values_count, count] = [values_count, count].map(Literal::usize_unsuffixed);
+    let knots = compiled.corners.iter().map(|Knots { at, period }| {
+        let period = period.unwrap_or_default();
+        quote!(#runtime::__private::Knots { at: &[#(#at),*], period: #period })
+    });
+    quote! {
+        fn next_corner(&self, t: T) -> T {
+            const KNOTS: [#runtime::__private::Knots; #count] = [#(#knots),*];
+            #statements
+            let lines: [T; #values_count] = #values;
+            #runtime::__private::next_corner(t, lines.as_chunks().0, &KNOTS)
         }
     }
 }

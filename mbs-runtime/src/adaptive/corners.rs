@@ -1,0 +1,110 @@
+//! Times at which laws bend or jump, where a step ends.
+
+use crate::Real;
+
+/// The arguments at which a function bends or jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knots {
+    /// In ascending order; of a periodic function those within one period.
+    pub at: &'static [f64],
+    /// After which they come again; 0 without one.
+    pub period: f64,
+}
+
+/// Roundings of the argument a t + b, within which a knot may be on either side.
+const ROUNDINGS: f64 = 4.0;
+
+/// The first time behind `t` at which one of some values a t + b passes a knot; infinite without one.
+///
+/// Every passage is two times, right before and right behind all roundings of it: the step that ends at the first one
+/// sees nothing of what is behind, and the one between them, as short as rounding, changes nothing.
+pub fn next_corner<T: Real>(t: T, lines: &[[T; 2]], knots: &[Knots]) -> T {
+    let times = lines.iter().zip(knots).flat_map(|(line, knots)| passages(t, *line, knots));
+    times
+        .flatten()
+        .filter(|time| *time > t)
+        .fold(T::from_f64(f64::INFINITY), |first, time| if time < first { time } else { first })
+}
+
+/// The times around the knots next to a t + b.
+fn passages<T: Real>(t: T, [rate, offset]: [T; 2], knots: &Knots) -> [[T; 2]; 4] {
+    let (a, b) = (rate.to_f64(), offset.to_f64());
+    let value = a * t.to_f64() + b;
+    let count = knots.at.len() as f64;
+    let rounds = match knots.at.first() {
+        Some(first) if knots.period > 0.0 => floor((value - first) / knots.period),
+        _ => 0.0,
+    };
+    let within = value - rounds * knots.period;
+    let next = knots.at.partition_point(|knot| *knot <= within) as f64;
+    [-2.0, -1.0, 0.0, 1.0].map(|beside| {
+        let at = next + beside;
+        // of a periodic one, those of the rounds before and behind
+        let turns = if knots.period > 0.0 { floor(at / count) } else { 0.0 };
+        let index = at - turns * count;
+        let Some(knot) = knots.at.get(index as usize).filter(|_| index >= 0.0) else {
+            return [T::from_f64(f64::NAN); 2];
+        };
+        let knot = knot + (rounds + turns) * knots.period;
+        let time = (T::from_f64(knot) - offset) / rate;
+        let size = time.to_f64().abs() + (b.abs() + knot.abs()) / a.abs();
+        let width = T::from_f64(ROUNDINGS * T::EPSILON.to_f64() * size);
+        [time - width, time + width]
+    })
+}
+
+/// The largest whole number that is not larger.
+fn floor(x: f64) -> f64 {
+    let truncated = x as i64 as f64;
+    if truncated > x { truncated - 1.0 } else { truncated }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec;
+    use std::vec::Vec;
+
+    use super::{Knots, next_corner};
+
+    /// Times as a run meets them, each twice.
+    fn times(line: [f64; 2], knots: Knots, end: f64) -> Vec<f64> {
+        let mut times = Vec::new();
+        let mut t = 0.0;
+        loop {
+            t = next_corner(t, &[line], &[knots]);
+            if t > end {
+                return times;
+            }
+            times.push(t);
+        }
+    }
+
+    #[test]
+    fn every_passage_is_met_on_both_sides() {
+        let knots = Knots { at: &[1.0, 2.0, 4.0], period: 0.0 };
+        for (line, expected) in [
+            ([1.0, 0.0], vec![1.0, 2.0, 4.0]),
+            ([2.0, -1.0], vec![1.0, 1.5, 2.5]),
+            ([-1.0, 5.0], vec![1.0, 3.0, 4.0]),
+            ([1.0, 5.0], vec![]),
+        ] {
+            let found = times(line, knots, 100.0);
+            let pairs: Vec<&[f64]> = found.chunks(2).collect();
+            assert_eq!(pairs.len(), expected.len(), "{line:?}: {found:?}");
+            for (pair, expected) in pairs.into_iter().zip(expected) {
+                let inside = pair[0] < expected && expected < pair[1];
+                assert!(inside && pair[1] - pair[0] < 1e-13, "{line:?}: {pair:?} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_period_comes_again() {
+        let knots = Knots { at: &[0.0, 0.25], period: 1.0 };
+        for (line, count) in [([1.0, 0.0], 21), ([-1.0, 0.0], 20), ([10.0, 0.1], 200)] {
+            // the corner at 0 is behind the start, or just before it
+            let found = times(line, knots, 10.0 + 1e-9);
+            assert!(found.len().abs_diff(2 * count) <= 2, "{line:?}: {} {found:?}", found.len());
+        }
+    }
+}
