@@ -4,7 +4,7 @@
 //! does it for a type.
 
 use crate::equations::{At, Described, Equations, read};
-use crate::{Derivation, Dual, Error, Gains, Info, Mechanism, Sketch};
+use crate::{Derivation, Dual, Error, Gains, Info, Mechanism, Sketch, Switch};
 
 /// How many partial derivatives [`Differentiable`] equations carry at once.
 pub const PARTIALS: usize = 4;
@@ -106,6 +106,8 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::worst_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
         Equations::worst_start_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
         Equations::next_corner(t: f64) -> f64;
+        Equations::switching() -> &'static [Switch];
+        Equations::switches(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
         Equations::kinetic_energy(at: At<'_, f64>) -> f64;
     }
 }

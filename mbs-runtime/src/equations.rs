@@ -20,7 +20,7 @@ pub use crate::start::preparation::{Preparation, Start};
 pub use crate::start::projection::project;
 pub use crate::watch::Watch;
 
-use crate::{Components, Gains, Info, Mechanism, Real, State, vectors};
+use crate::{Components, Gains, Info, Mechanism, Real, State, Switch, vectors};
 
 /// Time, positions and velocities as slices.
 #[derive(Clone, Copy, Debug)]
@@ -101,6 +101,14 @@ pub trait Equations<T: Real> {
         T::from_f64(f64::INFINITY)
     }
 
+    /// The values at whose knots laws bend or jump, as a run to a tolerance watches them.
+    fn switching(&self) -> &'static [Switch] {
+        &[]
+    }
+
+    /// Writes those values.
+    fn switches(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
+
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
 
@@ -115,6 +123,14 @@ pub trait Equations<T: Real> {
 impl<M: Mechanism> Equations<M::Real> for M {
     fn next_corner(&self, t: M::Real) -> M::Real {
         Mechanism::next_corner(self, t)
+    }
+
+    fn switching(&self) -> &'static [Switch] {
+        M::SWITCHES
+    }
+
+    fn switches(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
+        Mechanism::switches(self, &at.state(), &read(inputs), values);
     }
 
     fn info(&self) -> &Info {

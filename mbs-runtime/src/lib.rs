@@ -162,8 +162,8 @@ mod view;
 mod watch;
 
 pub use adaptive::{
-    Adaptive, AdaptiveBuilder, AdaptiveScheme, Dynamics, Effort, Event, MOST_EVENTS, Measured, Moment,
-    Sampled, Threshold, Tolerances,
+    Adaptive, AdaptiveBuilder, AdaptiveScheme, Dynamics, Effort, Event, Knots, MOST_EVENTS, Measured, Moment,
+    Sampled, Switch, Threshold, Tolerances,
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};

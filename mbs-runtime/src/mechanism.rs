@@ -4,7 +4,7 @@
 //! `INFO`. `DERIVATION` has the equations and their elimination as text and LaTeX. Pictures are made of
 //! `SKETCH` and `points`. Both constants are apart from `INFO`, so that firmware does not carry them.
 
-use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch};
+use crate::{Components, Derivation, Error, Info, Method, Real, Scheme, Sketch, Switch};
 
 /// Position and velocity of a mechanism at an instant.
 ///
@@ -134,6 +134,10 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// The picture of the mechanism. It is apart from [`INFO`](Self::INFO), so that a
     /// program without pictures does not carry it.
     const SKETCH: &'static Sketch;
+
+    /// The values of the motion at whose knots forces, constraints or events bend or jump; at most
+    /// [`MOST_EVENTS`](crate::MOST_EVENTS).
+    const SWITCHES: &'static [Switch] = &[];
 
     /// The mechanism with these parameters.
     ///
@@ -325,6 +329,9 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn next_corner(&self, _t: Self::Real) -> Self::Real {
         Self::Real::from_f64(f64::INFINITY)
     }
+
+    /// Writes the values of [`SWITCHES`](Self::SWITCHES).
+    fn switches(&self, _at: &State<Self::Coordinates>, _inputs: &Self::Inputs, _values: &mut [Self::Real]) {}
 
     /// The declared outputs, given q̈ and λ.
     fn outputs(

@@ -3,7 +3,10 @@
 
 use core::f64::consts::PI;
 
-use mbs_runtime::{Adaptive, Components, Dual, Error, Mechanism, Real, State, Tolerances, mechanism};
+use mbs_runtime::{
+    Adaptive, AdaptiveScheme, Components, Dop853, Dopri5, Dual, Error, Mechanism, Real, State, Tolerances,
+    mechanism,
+};
 use tests::random::Random;
 
 /// All outputs in their order.
@@ -198,5 +201,88 @@ fn ends_of_pulses_have_derivatives() -> Result<(), Error> {
     for (found, expected) in x.partials.into_iter().chain(v.partials).zip([-1.0, 5.0, 0.0, 4.0]) {
         assert!((found - expected).abs() < 1e-11, "{found} {expected}");
     }
+    Ok(())
+}
+
+mechanism! {
+    /// A cart on a spring, which a motor pushes by the sign of what it measures, or smoothly.
+    Relay {
+        dof = 3;
+        const k = 10 [N/m];
+        const f = 2 [N];
+        body timed (x) { mass = 1 [kg]; }
+        body placed (y) { mass = 1 [kg]; }
+        body smooth (x = z) { mass = 1 [kg]; }
+        param of_time = 0;
+        param of_place = 0;
+        force on_timed on x = of_time*f*sign(sin(3 [rad/s]*t)) - k*x;
+        force on_placed on y = of_place*f*(if y > 0.2 [m] { 1 } else { -1 }) - k*y;
+        force on_smooth on z = f*sin(3 [rad/s]*t) - k*z;
+        start { y = 1 [m]; z = 1 [m]; x = 1 [m]; }
+    }
+}
+
+/// The end of a run of 20 s in which a force jumps twenty times, the steps that it took, and those of smooth forces.
+fn relay<S: AdaptiveScheme>(of_time: f64, of_place: f64) -> Result<(State<RelayCoordinates>, u64), Error> {
+    let parameters = RelayParameters { of_time, of_place };
+    let mut run = Adaptive::builder(Relay::new(parameters)?).scheme::<S>().tolerances(TIGHT).build()?;
+    run.advance_to(20.0)?;
+    Ok((run.state(), run.effort().steps))
+}
+
+/// Between its jumps at π/3, 2π/3 … a force of time is constant, and the cart turns about where it rests with the
+/// force: x + i v/ω. A force of place has the potential −f |y − 0.2|. Both take less than three times the steps of
+/// the smooth motion.
+#[test]
+fn jumps_cost_few_steps() -> Result<(), Error> {
+    let w = 10.0_f64.sqrt();
+    let (mut x, mut v, mut t, mut rest) = (1.0_f64, 0.0_f64, 0.0_f64, 0.2);
+    while t < 20.0 {
+        let next = (((t * 3.0 / PI).round() + 1.0) * PI / 3.0).min(20.0);
+        let (sine, cosine) = (w * (next - t)).sin_cos();
+        let (from, speed) = (x - rest, v / w);
+        (x, v) = (rest + cosine * from + sine * speed, w * (cosine * speed - sine * from));
+        (t, rest) = (next, -rest);
+    }
+    let energy = |y: f64, v: f64| v * v / 2.0 + 5.0 * y * y - 2.0 * (y - 0.2).abs();
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+    let check = |[smooth, timed, placed]: [(State<RelayCoordinates>, u64); 3]| {
+        near(timed.0.q.x, x);
+        near(timed.0.v.x, v);
+        near(energy(placed.0.q.y, placed.0.v.y), energy(1.0, 0.0));
+        assert!(timed.1.max(placed.1) < 3 * smooth.1, "{} {} {}", timed.1, placed.1, smooth.1);
+    };
+    check([relay::<Dopri5>(0.0, 0.0)?, relay::<Dopri5>(1.0, 0.0)?, relay::<Dopri5>(0.0, 1.0)?]);
+    check([relay::<Dop853>(0.0, 0.0)?, relay::<Dop853>(1.0, 0.0)?, relay::<Dop853>(0.0, 1.0)?]);
+    Ok(())
+}
+
+mechanism! {
+    /// Dry friction by the sign of the velocity, and a push.
+    Dry {
+        dof = 1;
+        param push = 0.5 [N];
+        body sled (x) { mass = 1 [kg]; }
+        force ground on x = push - 2 [N]*sign(der(x));
+        start { der(x) = 1 [m/s]; }
+    }
+}
+
+/// Regression: at its rest after 1/(2 − push) s the run took steps of 10⁻⁸ s without end. A push that is stronger than
+/// the friction turns the sled around, and the run goes on.
+#[test]
+fn a_jump_that_holds_is_named() -> Result<(), Error> {
+    let run = |push: f64| -> Result<f64, Error> {
+        let mut run = Adaptive::builder(Dry::new(DryParameters { push })?).build()?;
+        run.advance_to(2.0)?;
+        Ok(run.state().v.x)
+    };
+    for push in [0.5, -0.5, 0.0] {
+        let error = run(push).expect_err("it rests");
+        let Error::Sliding { t, name } = error else { panic!("{error}") };
+        assert!((t - 1.0 / (2.0 - push)).abs() < 1e-5 && name == "der(x)", "{push}: {error}");
+    }
+    // −5 m/s² for 0.2 s, then −1 m/s²
+    assert!((run(-3.0)? - -1.8).abs() < 1e-6);
     Ok(())
 }

@@ -55,6 +55,8 @@ pub enum Results {
     Events,
     /// Two numbers per corner over time.
     Corners,
+    /// One number per switch.
+    Switches,
     /// Two numbers per point.
     Points,
     /// One number.
@@ -78,6 +80,8 @@ pub enum Property {
     Whole,
     /// It exists only where a force depends on positions or velocities.
     Stiff,
+    /// Runs to a tolerance call it, and nobody else: other languages do not have it.
+    Adaptive,
 }
 
 /// The row of a function.
@@ -122,7 +126,7 @@ macro_rules! functions {
     };
 }
 
-use Property::{Counted, Method, Stiff, Tangent, Transposed, Whole};
+use Property::{Adaptive, Counted, Method, Stiff, Tangent, Transposed, Whole};
 
 functions! {
     /// The values that depend on parameters alone.
@@ -171,7 +175,9 @@ functions! {
     /// The values whose changes of sign are declared as events.
     Events = "events"(Time, Positions, Velocities, Inputs) -> [result: Events], [Tangent];
     /// The rate a and the offset b of values a t + b at whose knots forces, constraints or events bend or jump.
-    Corners = "corners"() -> [result: Corners], [Whole];
+    Corners = "corners"() -> [result: Corners], [Adaptive, Whole];
+    /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
+    Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];
     /// The declared start, before guesses are corrected. Returns its time.

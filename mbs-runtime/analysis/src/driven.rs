@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use mbs_runtime::equations::{At, Described, Differentiable, Equations, Room};
 use mbs_runtime::explicit::Beside;
-use mbs_runtime::{Derivation, Dynamics, Error, Gains, Info, Real, Scheme, Sketch};
+use mbs_runtime::{Derivation, Dynamics, Error, Gains, Info, Real, Scheme, Sketch, Switch};
 
 use crate::InputTable;
 
@@ -214,6 +214,7 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         constrained(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
         implicit(shift: D::Real, predicted: &[D::Real], a: &mut [D::Real]) -> D::Real;
         accelerations(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
+        switches(values: &mut [D::Real]);
     }
     unchanged! {
         info() -> &Info;
@@ -227,6 +228,7 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         worst_start_pivot(t: D::Real, q: &[D::Real]) -> Option<(usize, D::Real)>;
         kinetic_energy(at: At<'_, D::Real>) -> D::Real;
         states(all: &[D::Real], states: &mut [D::Real]);
+        switching() -> &'static [Switch];
     }
 }
 

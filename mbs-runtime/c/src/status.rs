@@ -116,7 +116,8 @@ impl From<Error> for Failure {
             Error::StepTooShort { .. }
             | Error::TooManySteps { .. }
             | Error::NotConverged { .. }
-            | Error::EndlessEvents { .. } => Status::Accuracy,
+            | Error::EndlessEvents { .. }
+            | Error::Sliding { .. } => Status::Accuracy,
             // a new kind of error has to be given a status here
             _ => Status::Internal,
         };

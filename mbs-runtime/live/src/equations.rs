@@ -5,7 +5,7 @@ use std::any::Any;
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::{next_corner, worst};
 use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials};
-use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch};
+use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch, Switch};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -94,8 +94,18 @@ impl<T: Real> Equations<T> for Live<T> {
         self.worst_of(FunctionId::StartPivots, t, q)
     }
 
+    fn switching(&self) -> &'static [Switch] {
+        self.programs().tables.switches
+    }
+
+    fn switches(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
+        let given = Arguments { inputs: single(inputs), ..state(at) };
+        let count = self.switching().len().min(values.len());
+        self.call(FunctionId::Switches, &given, [&mut values[..count]]);
+    }
+
     fn next_corner(&self, t: T) -> T {
-        let corners = self.corners();
+        let corners = self.programs().tables.corners;
         if corners.is_empty() {
             return T::from_f64(f64::INFINITY);
         }

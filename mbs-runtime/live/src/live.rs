@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use mbs_codegen::compiled::{self, Condition, Feedback, FusedStep};
 use mbs_codegen::{Compiled, FunctionId};
-use mbs_runtime::__private::Knots;
 use mbs_runtime::{Derivation, Error, Explicit, Info, Real, Sketch, Stabilization, Tableau};
 use mbs_symbolic::Inconsistency;
 
@@ -360,11 +359,6 @@ impl<T: Real> Live<T> {
     /// The number in a slot that does not change from run to run.
     pub(crate) fn fixed(&self, fixed: Fixed) -> T {
         fixed.value(&self.parameters, &self.hoisted)
-    }
-
-    /// Where values over time bend or jump.
-    pub(crate) fn corners(&self) -> &'static [Knots] {
-        self.programs.tables.corners
     }
 
     /// Runs a function; `results` are its results, one vector after the other.

@@ -10,10 +10,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count, Crossing};
-use mbs_runtime::__private::{Knots, Segment, Spline};
+use mbs_runtime::__private::{Segment, Spline};
 use mbs_runtime::{
-    Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Operations, Pivot, Quantity,
-    Sketch,
+    Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Knots, Operations, Pivot,
+    Quantity, Sketch, Switch,
 };
 use mbs_symbolic::{Block, units};
 
@@ -27,6 +27,8 @@ pub struct Tables {
     pub splines: &'static [Spline],
     /// Where values over time bend or jump.
     pub corners: &'static [Knots],
+    /// Where values of the motion do.
+    pub switches: &'static [Switch],
     /// The equations, for people to read.
     pub derivation: Derivation,
     /// The picture of the mechanism.
@@ -68,6 +70,9 @@ impl Tables {
             info: info(compiled),
             splines: leak(compiled.splines.iter().map(|it| spline(it))),
             corners: leak(compiled.corners.iter().map(knots)),
+            switches: leak(
+                compiled.switches.iter().map(|(name, at)| Switch { name: text(name), knots: knots(at) }),
+            ),
             derivation: words::derivation(&compiled.derivation),
             sketch: words::sketch(&compiled.sketch),
             step: compiled.choices.step,

@@ -6,6 +6,7 @@ use super::attempt::{Attempt, is_healthy};
 use super::between::Between;
 use super::events::Happened;
 use super::noise::Progress;
+use super::switches::Switching;
 use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
 use crate::equations::Start;
 use crate::vectors::assign;
@@ -116,6 +117,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
             watch: Watch::new(length),
             effort: Effort::default(),
             progress: Progress::new(),
+            switching: Switching::new(),
             happened: Happened { is_set: true, ..Happened::default() },
             happened_before: Happened::default(),
         };

@@ -54,7 +54,7 @@ fn passages<T: Real>(t: T, [rate, offset]: [T; 2], knots: &Knots) -> [[T; 2]; 4]
 }
 
 /// The largest whole number that is not larger.
-fn floor(x: f64) -> f64 {
+pub(super) fn floor(x: f64) -> f64 {
     let truncated = x as i64 as f64;
     if truncated > x { truncated - 1.0 } else { truncated }
 }

@@ -25,6 +25,7 @@ mod events;
 mod noise;
 mod sampled;
 mod scheme;
+mod switches;
 mod typed;
 
 pub(crate) use attempt::is_healthy;
@@ -46,6 +47,8 @@ pub(crate) use noise::RISEN;
 pub use sampled::{Measured, Sampled, Threshold};
 pub use scheme::AdaptiveScheme;
 pub(crate) use scheme::Sealed;
+pub use switches::Switch;
+use switches::Switching;
 
 use core::fmt;
 
@@ -131,6 +134,7 @@ pub struct Adaptive<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     watch: Watch<D::Real>,
     effort: Effort,
     progress: Progress<D::Real>,
+    switching: Switching,
     /// Events at the present time.
     happened: Happened,
     /// Events at the start of the last step.
@@ -173,6 +177,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let corner = self.dynamics.next_corner(self.now.t);
         let limit = if corner < limit { corner } else { limit };
         self.step_within(limit)?;
+        self.look_at_switches(self.effort.rejected != rejected)?;
         let is_cut = self.now.t >= limit && self.effort.rejected == rejected;
         if is_cut && self.control.next < next {
             self.control.next = next;
@@ -225,6 +230,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 Some(_) => attempt.error(&self.estimate, &self.tolerances, now, next),
                 None => f64::NAN,
             };
+            let ratio = self.judged(ratio);
             let is_good = self.control.judge(h, ratio, &self.estimate);
             if let (Some(growth), true) = (growth, is_good) {
                 return self.accept(growth);
@@ -355,6 +361,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.between.begin(false);
         self.happened = Happened::default();
         self.progress.go_on();
+        self.switching.go_on();
         Ok(())
     }
 
@@ -389,6 +396,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.look_between();
         self.is_solved = false;
         self.progress.go_on();
+        self.switching.go_on();
         &mut self.inputs
     }
 

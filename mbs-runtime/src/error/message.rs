@@ -67,6 +67,12 @@ impl fmt::Display for Error {
                     t = Shown(t)
                 )
             }
+            Self::Sliding { t, name } => write!(
+                f,
+                "from t = {t} s on a jump in a law of `{name}` leads back to itself from both sides, and no motion goes on; \
+                 give the jump a slope, as `tanh(v/v0)` has in the place of `sign(v)`, or take the element `friction`",
+                t = Shown(t)
+            ),
             Self::NotConverged { t, step } => write!(
                 f,
                 "the equations of the step from t = {t} s could not be solved; take a step shorter than {step} s; \

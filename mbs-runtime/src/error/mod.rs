@@ -89,6 +89,14 @@ pub enum Error {
         /// Its place among the events or values.
         index: usize,
     },
+    /// A force jumps where a value passes a knot of its law, and leads the value back from both sides, as
+    /// `-f*sign(der(x))` does where x comes to rest: there is no motion beyond.
+    Sliding {
+        /// When, in s.
+        t: f64,
+        /// The value, as people read it.
+        name: &'static str,
+    },
     /// The equations of a step, of an implicit method or those that keep positions on the constraints, have no
     /// solution that is found.
     NotConverged {

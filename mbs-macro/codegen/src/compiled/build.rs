@@ -2,7 +2,7 @@
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Knots, Link,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link,
     Parameter, Pivot, Sketch, Written,
 };
 use crate::derive::Equations;
@@ -34,11 +34,11 @@ impl Compiled {
             kept: [false, true].map(|is_rate| kept(&model, is_rate)),
             start,
             splines: model.arena.splines().to_vec(),
-            corners: plan
-                .corners
+            corners: plan.corners.iter().map(|corner| corner.knots.clone()).collect(),
+            switches: plan
+                .switches
                 .iter()
-                .cloned()
-                .map(|it| Knots { at: it.knots, period: it.period })
+                .map(|it| (readable(&model.arena, it.value), it.knots.clone()))
                 .collect(),
             jacobian: plan.phi_q_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),

@@ -16,9 +16,10 @@ pub struct Count {
 }
 
 impl Compiled {
-    /// The functions that the mechanism has.
+    /// The functions that the mechanism has in every language.
     pub fn functions(&self) -> impl Iterator<Item = FunctionId> {
-        FunctionId::all().filter(|function| self.has_stiffness || !function.is(Property::Stiff))
+        let is_there = |function: &FunctionId| self.has_stiffness || !function.is(Property::Stiff);
+        FunctionId::all().filter(is_there).filter(|function| !function.is(Property::Adaptive))
     }
 
     /// The costs of the functions that people ask for.

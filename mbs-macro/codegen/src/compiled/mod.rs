@@ -58,7 +58,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use crate::diagnostics::Diagnostic;
 
 pub use crate::inputs::Input;
-pub use crate::plan::{FusedStep, Kinds};
+pub use crate::plan::{FusedStep, Kinds, Knots};
 pub use crate::quantity::{Comparison, Crossing, Quantity};
 pub use costs::Count;
 pub use derivation::{Derivation, Elimination, Formula};
@@ -69,15 +69,6 @@ pub use vectors::Vector;
 /// The pivot growth from which on a position is singular to double precision: of 53 bits
 /// ten are left.
 pub const GROWTH_LIMIT: f64 = 1.0 / (1024.0 * f64::EPSILON);
-
-/// The arguments at which a function bends or jumps, over and over after a period if it has one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Knots {
-    /// In ascending order.
-    pub at: Vec<f64>,
-    /// The period.
-    pub period: Option<f64>,
-}
 
 /// A compiled mechanism; see the [module](self).
 pub struct Compiled {
@@ -127,6 +118,8 @@ pub struct Compiled {
     pub splines: Vec<Rc<Spline>>,
     /// The knots of the values of [`FunctionId::Corners`].
     pub corners: Vec<Knots>,
+    /// The values of [`FunctionId::Switches`], as people read them, with their knots.
+    pub switches: Vec<(String, Knots)>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// The pivot of each result of [`FunctionId::Pivots`].
@@ -346,6 +339,7 @@ impl Compiled {
             Results::Outputs => self.outputs.len(),
             Results::Events => self.events.len(),
             Results::Corners => 2 * self.corners.len(),
+            Results::Switches => self.switches.len(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,
         }

@@ -1,11 +1,13 @@
 //! Times at which forces, constraints or events bend or jump: points of tables of time, `if t < 1 [s]`, `step(t - 1 [s])`.
 //!
-//! A run to a tolerance ends a step there. Steps that grow while nothing happens would go over a short pulse.
+//! A run to a tolerance ends a step there. Steps that grow while nothing happens would go over a short pulse. Values of
+//! the motion that pass such a place are switches: a run looks at them between its steps.
 
 use mbs_symbolic::{Arena, Expr, Function, Node, Pieces, Stage};
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
+use crate::inputs::{Input, Inputs};
 use crate::model::Model;
 
 /// A run looks for so many values at each step. What is beyond is left to the control of the error.
@@ -13,44 +15,75 @@ const MOST: usize = 64;
 /// `clamp(t, a, b)` has a piece within a piece; so many of one value are looked at.
 const MOST_PIECES: usize = 16;
 
-/// A value a t + b that has its knots at these arguments, over and over after a period.
+/// The arguments at which a function bends or jumps, over and over after a period if it has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Knots {
+    /// In ascending order.
+    pub at: Vec<f64>,
+    /// The period.
+    pub period: Option<f64>,
+}
+
+/// A value a t + b that has its knots where time passes them.
 #[derive(Clone, PartialEq)]
 pub struct Corner {
     pub rate: Expr,
     pub offset: Expr,
-    pub knots: Vec<f64>,
-    pub period: Option<f64>,
+    pub knots: Knots,
 }
 
-/// The corners of all that a run computes.
-pub fn corners(model: &mut Model, equations: &Equations) -> Vec<Corner> {
+/// A value that depends on the motion, too.
+#[derive(Clone, PartialEq)]
+pub struct Switch {
+    pub value: Expr,
+    pub knots: Knots,
+}
+
+/// The corners and switches of all that a run computes.
+pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Vec<Corner>, Vec<Switch>) {
     let events = model.events.iter().map(|event| event.value);
     let roots: Vec<Expr> =
         equations.phi.iter().chain(&equations.total_forces).copied().chain(events).collect();
     let time = model.arena.variable(model.time);
     let of_time = OfTime::new(&model.arena, &roots, time);
-    let mut corners = Vec::new();
-    for node in of_time.pieces(&model.arena) {
-        let (argument, knots, period) = match *model.arena.node(node) {
-            Node::Spline(spline, _, argument) => {
-                let Some(spline) = model.arena.splines().get(spline.index()) else { continue };
-                (argument, spline.knots(), spline.period)
-            }
-            Node::Call(function, [x, y]) if function.row().arity == 2 => {
-                (model.arena.sub(x, y), vec![0.0], None)
-            }
-            Node::Call(_, [x, _]) => (x, vec![0.0], None),
-            _ => continue,
+    let is_known = |symbol| !matches!(inputs.of(symbol), Some(Input::Multiplier(_) | Input::Acceleration(_)));
+    let (mut corners, mut switches) = (Vec::new(), Vec::new());
+    for (node, is_of_time) in of_time.pieces(&model.arena) {
+        let Some((argument, knots)) = knots(&mut model.arena, node).filter(|(_, knots)| !knots.at.is_empty())
+        else {
+            continue;
         };
-        for argument in alternatives(&mut model.arena, argument, time) {
-            let Some([rate, offset]) = affine(&mut model.arena, argument, model.time, time) else { continue };
-            let corner = Corner { rate, offset, knots: knots.clone(), period };
-            if corners.len() < MOST && !knots.is_empty() && !corners.contains(&corner) {
-                corners.push(corner);
+        let pieces = if is_of_time { alternatives(&mut model.arena, argument, time) } else { vec![argument] };
+        for piece in pieces {
+            let line = affine(&mut model.arena, piece, model.time, time).filter(|_| is_of_time);
+            if let Some([rate, offset]) = line {
+                push(&mut corners, Corner { rate, offset, knots: knots.clone() });
+            } else if model.arena.symbols_in(argument).into_iter().all(is_known) {
+                push(&mut switches, Switch { value: argument, knots: knots.clone() });
             }
         }
     }
-    corners
+    (corners, switches)
+}
+
+fn push<T: PartialEq>(all: &mut Vec<T>, new: T) {
+    if all.len() < MOST && !all.contains(&new) {
+        all.push(new);
+    }
+}
+
+/// The argument of a function of pieces, and where these meet.
+fn knots(arena: &mut Arena, node: Expr) -> Option<(Expr, Knots)> {
+    let zero = || Knots { at: vec![0.0], period: None };
+    match *arena.node(node) {
+        Node::Spline(spline, _, argument) => {
+            let spline = arena.splines().get(spline.index())?;
+            Some((argument, Knots { at: spline.knots(), period: spline.period }))
+        }
+        Node::Call(function, [x, y]) if function.row().arity == 2 => Some((arena.sub(x, y), zero())),
+        Node::Call(_, [x, _]) => Some((x, zero())),
+        _ => None,
+    }
 }
 
 /// Of expressions, whether they depend on time, and on no other variable.
@@ -77,10 +110,13 @@ impl OfTime {
         Self(all, depends)
     }
 
-    /// What has pieces and depends on time alone.
-    fn pieces(&self, arena: &Arena) -> Vec<Expr> {
-        let is_of_time = |node: &Expr| self.1.get(node) == Some(&[true, false]);
-        self.0.iter().copied().filter(|node| is_of_time(node) && has_pieces(arena, *node)).collect()
+    /// What has pieces and varies, and whether it depends on time alone.
+    fn pieces(&self, arena: &Arena) -> Vec<(Expr, bool)> {
+        let varies = |node: Expr| match self.1.get(&node)? {
+            [false, false] => None,
+            [is_of_time, is_of_others] => Some((node, *is_of_time && !is_of_others)),
+        };
+        self.0.iter().copied().filter(|node| has_pieces(arena, *node)).filter_map(varies).collect()
     }
 }
 

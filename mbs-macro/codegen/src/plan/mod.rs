@@ -20,8 +20,8 @@ use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
-pub use corners::Corner;
 use corners::corners;
+pub use corners::{Corner, Knots, Switch};
 use correction::correction;
 pub use programs::Programs;
 use programs::roots;
@@ -51,6 +51,8 @@ pub struct Plan {
     pub fused_step: Option<FusedStep>,
     /// Values over time at whose knots something bends or jumps.
     pub corners: Vec<Corner>,
+    /// The same of values of the motion.
+    pub switches: Vec<Switch>,
     /// (constraint, coordinate) of every watched pivot.
     pub pivot_names: Vec<(Option<usize>, Option<usize>)>,
     pub start_pivot_names: Vec<(Option<usize>, Option<usize>)>,
@@ -105,7 +107,8 @@ pub fn plan(
     roots.set(FunctionId::PositionCorrection, positions);
     roots.set(FunctionId::VelocityCorrection, velocities);
     roots.set(FunctionId::StartPivots, start_pivots.iter().map(|pivot| pivot.growth).collect());
-    let corners = corners(model, equations);
+    let (corners, switches) = corners(model, equations, &inputs);
+    roots.set(FunctionId::Switches, switches.iter().map(|switch| switch.value).collect());
     roots.set(FunctionId::Corners, corners.iter().flat_map(|corner| [corner.rate, corner.offset]).collect());
     let reactions_in_states = reduction.in_states(&mut model.arena, roots.of(FunctionId::Reactions));
     let mut hoisted = Hoisted::default();
@@ -125,6 +128,7 @@ pub fn plan(
     Ok(Plan {
         phi_q_places: phi_q_places.collect(),
         corners,
+        switches,
         pivot_names: names(&solver.factorization.pivots),
         start_pivot_names: names(&start_pivots),
         order: solver.factorization.order.clone(),

@@ -132,7 +132,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         let (statements, values) = (&body.statements, body.array(0..compiled.events.len()));
         quote!(#statements #values)
     };
-    let next_corner = next_corner(compiled, names);
+    let (next_corner, (switches, switch_values)) = (next_corner(compiled, names), switches(compiled, names));
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
@@ -164,6 +164,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             const INFO: &'static #runtime::Info = &#info;
             const DERIVATION: &'static #runtime::Derivation = &#derivation;
             const SKETCH: &'static #runtime::Sketch = &#sketch;
+            #switches
 
             fn new(parameters: #parameters<T>) -> ::core::result::Result<Self, #runtime::Error> {
                 Self::new(parameters)
@@ -206,9 +207,40 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             #inline
             fn events(&self, at: &#state, inputs: &#inputs) -> [T; #events] { #event_values }
             #next_corner
+            #switch_values
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
     }
+}
+
+fn knots(Knots { at, period }: &Knots, names: &Names) -> TokenStream {
+    let (runtime, period) = (&names.runtime, period.unwrap_or_default());
+    quote!(#runtime::Knots { at: &[#(#at),*], period: #period })
+}
+
+/// The switches and their values; nothing without one.
+fn switches(compiled: &Compiled, names: &Names) -> (TokenStream, TokenStream) {
+    if compiled.switches.is_empty() {
+        return (TokenStream::new(), TokenStream::new());
+    }
+    let Names { runtime, state, inputs, .. } = names;
+    let inputs = &inputs.of_t;
+    let switches = compiled.switches.iter().map(|(name, at)| {
+        let knots = knots(at, names);
+        quote!(#runtime::Switch { name: #name, knots: #knots })
+    });
+    let body = body(compiled, names, FunctionId::Switches, &Access::of_state());
+    let (statements, values) = (&body.statements, body.array(0..compiled.switches.len()));
+    let declared = quote!(const SWITCHES: &'static [#runtime::Switch] = &[#(#switches),*];);
+    let written = quote! {
+        fn switches(&self, at: &#state, inputs: &#inputs, values: &mut [T]) {
+            #statements
+            for (to, from) in values.iter_mut().zip(#values) {
+                *to = from;
+            }
+        }
+    };
+    (declared, written)
 }
 
 /// Where time passes a knot; nothing without one.
@@ -221,13 +253,10 @@ fn next_corner(compiled: &Compiled, names: &Names) -> TokenStream {
     let (statements, values) = (&body.statements, body.array(0..2 * compiled.corners.len()));
     let (values_count, count) = (2 * compiled.corners.len(), compiled.corners.len());
     let [values_count, count] = [values_count, count].map(Literal::usize_unsuffixed);
-    let knots = compiled.corners.iter().map(|Knots { at, period }| {
-        let period = period.unwrap_or_default();
-        quote!(#runtime::__private::Knots { at: &[#(#at),*], period: #period })
-    });
+    let knots = compiled.corners.iter().map(|it| knots(it, names));
     quote! {
         fn next_corner(&self, t: T) -> T {
-            const KNOTS: [#runtime::__private::Knots; #count] = [#(#knots),*];
+            const KNOTS: [#runtime::Knots; #count] = [#(#knots),*];
             #statements
             let lines: [T; #values_count] = #values;
             #runtime::__private::next_corner(t, lines.as_chunks().0, &KNOTS)
