@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::abbreviated::Names;
 use crate::arena::{Arena, Expr, Node};
 use crate::number::Number;
+use crate::operators::Latex;
 
 /// How tightly an expression binds; a looser one needs parentheses inside a
 /// tighter one.
@@ -45,9 +46,21 @@ impl Arena {
             Node::Symbol(symbol) => out.push_str(self.name(*symbol)),
             Node::Sum(constant, terms) => self.write_sum(out, *constant, terms, names),
             Node::Product(factors) => self.write_product(out, factors, names),
-            Node::Call(function, both) => {
-                self.write_call(out, function.row().name, function.arguments(both), names);
-            }
+            Node::Call(function, [x, y]) => match function.row().latex {
+                Latex::Bracket(sign) => {
+                    out.push('[');
+                    self.write(out, *x, Binding::Sum, names);
+                    let _ = write!(out, " {sign} ");
+                    self.write(out, *y, Binding::Sum, names);
+                    out.push(']');
+                }
+                Latex::Product => {
+                    self.write(out, *x, Binding::Product, names);
+                    out.push('*');
+                    self.write(out, *y, Binding::Product, names);
+                }
+                _ => self.write_call(out, function.row().name, function.arguments(&[*x, *y]), names),
+            },
             Node::Spline(spline, order, x) => {
                 let primes = "'".repeat((*order).into());
                 let name = &self.splines()[spline.index()].name;
@@ -71,6 +84,7 @@ impl Arena {
             Node::Number(Number::Rational(_, d)) if *d != 1 => Binding::Product,
             // prints itself with the parentheses that its content needs
             Node::Shared(_) | Node::Number(_) | Node::Symbol(_) => Binding::Power,
+            Node::Call(function, _) if function.row().latex == Latex::Product => Binding::Product,
             Node::Call(..) | Node::Spline(..) => Binding::Power,
         }
     }

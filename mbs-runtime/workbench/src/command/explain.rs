@@ -6,14 +6,18 @@
 use std::fmt::Write;
 
 use clap::Args;
-use mbs_runtime::{Derivation, Info};
+use mbs_runtime::{Derivation, Info, Knots, Switch};
 
 use super::options::Named;
 use crate::StartValue;
 use crate::derivation::{GIVEN, RATES, energies, escaped, sections, typeset};
 use crate::models::Models;
 use crate::number::{counted, significant};
-use crate::{Error, Model, Table, say};
+use crate::settings::Start;
+use crate::{Error, Model, StartKind, Table, say};
+
+/// So many knots of a table are shown.
+const MOST_KNOTS: usize = 6;
 
 #[derive(Args)]
 #[command(about = "Print a mechanism's equations, their elimination and its cost")]
@@ -33,7 +37,10 @@ impl Arguments {
         let text = if self.latex {
             latex(info, derivation)
         } else {
-            plain(info, derivation) + &start(&model.start_values()?, info)
+            let declared = Start { kind: StartKind::Declared, ..Start::of(model, &model.defaults())? };
+            let run = model.start(&declared)?;
+            let switches = switches(run.described().switching());
+            plain(info, derivation) + &switches + &start(&model.start_values()?, info)
         };
         say(text.trim_end())
     }
@@ -105,6 +112,29 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         table.row(std::iter::once(function.name).chain(counts.iter().map(String::as_str)));
     }
     section(&mut text, "Operations per call, instructions as written, and loops over repeated parts", &table);
+    text
+}
+
+/// Where laws bend or jump, beside times; nothing where none does.
+fn switches(switching: &[Switch]) -> String {
+    let mut text = String::new();
+    if switching.is_empty() {
+        return text;
+    }
+    let mut table = Table::new(["", "at"]);
+    for Switch { name, knots: Knots { at, period } } in switching {
+        let mut knots = match at {
+            [first, .., last] if at.len() > MOST_KNOTS => {
+                format!("{} points from {} to {}", at.len(), significant(*first, 6), significant(*last, 6))
+            }
+            _ => at.iter().map(|knot| significant(*knot, 6)).collect::<Vec<_>>().join(", "),
+        };
+        if *period > 0.0 {
+            let _ = write!(knots, ", every {}", significant(*period, 6));
+        }
+        table.row([*name, &knots]);
+    }
+    section(&mut text, "Switches: laws bend or jump where these values pass", &table);
     text
 }
 
