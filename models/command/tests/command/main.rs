@@ -12,6 +12,7 @@ mod linear;
 mod linkages;
 mod own_states;
 mod pages;
+mod pieces;
 mod pmks;
 mod pmks_refused;
 mod prescribed;
