@@ -1,7 +1,10 @@
 //! Force elements against closed-form answers, a motor's run-up and a fall
 //! through air, and against the virtual work of their forces.
 
-use mbs_runtime::{Components, Error, Mechanism, Reactions, Simulation, State, mechanism};
+use mbs_runtime::{
+    Adaptive, Components, Dop853, Error, Mechanism, Reactions, Sampled, Simulation, State, System,
+    Tolerances, mechanism,
+};
 use tests::jet::{Jet, first, line};
 use tests::random::Random;
 
@@ -273,5 +276,105 @@ fn a_law_is_a_spring_in_other_words() -> Result<(), Error> {
         // both pairs have the same power: speeds of 10 m/s
         assert!(outputs.lost.abs() < 10.0 * bound, "{}", outputs.lost);
     }
+    Ok(())
+}
+
+mechanism! {
+    /// Two plates on a bushing between their corners, free in the plane.
+    Bushed {
+        dof = 6;
+        param torsion_damping = 0 [N*m*s];
+        body a (x1, y1, p1) { mass = 1 [kg]; inertia = 0.3 [kg*m^2]; }
+        body b (x2, y2, p2) { mass = 2 [kg]; inertia = 0.5 [kg*m^2]; }
+        point tip on a = (-0.3 [m], 0);
+        point tip on b = (0.2 [m], 0.1 [m]);
+        bushing eye (a.tip, b.tip) {
+            stiffness = (100, 300) [N/m]; torsion = 3 [N*m]; angle = 10 [deg];
+            torsion_damping = torsion_damping;
+        }
+        start { x1 = 0.4 [m]; x2 = -0.2 [m]; y2 = 0.1 [m]; der(p1) = 2 [rad/s]; der(y2) = 1 [m/s]; }
+        output momentum_x [kg*m/s] = 1 [kg]*der(x1) + 2 [kg]*der(x2);
+        output momentum_y [kg*m/s] = 1 [kg]*der(y1) + 2 [kg]*der(y2);
+        output spin [kg*m^2/s] = 1 [kg]*(x1*der(y1) - y1*der(x1)) + 0.3 [kg*m^2]*der(p1)
+            + 2 [kg]*(x2*der(y2) - y2*der(x2)) + 0.5 [kg*m^2]*der(p2);
+        output energy [J] = kinetic_energy() + potential_energy();
+        output lost [W] = der(kinetic_energy()) - power(eye);
+        output size [N] = force(eye);
+    }
+}
+
+/// What acts within a pair keeps its momenta about any place, and without dampers its energy: the forces stand in the axes of
+/// the second body, which turns under them.
+#[test]
+fn a_bushing_keeps_momenta_and_energy() -> Result<(), Error> {
+    let fine = Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() };
+    let run = Adaptive::builder(Bushed::declared()).scheme::<Dop853>().tolerances(fine).build()?;
+    let mut samples = Sampled::new(run, 0.1)?;
+    let mut first = None;
+    for _ in 0..50 {
+        samples.step()?;
+        let outputs = outputs(&samples)?;
+        let [.., lost, size] = outputs;
+        let kept: [f64; 4] = [outputs[0], outputs[1], outputs[2], outputs[3]];
+        let before = *first.get_or_insert(kept);
+        for (kept, before) in kept.into_iter().zip(before) {
+            assert!((kept - before).abs() < 1e-8, "{kept} {before}");
+        }
+        assert!(lost.abs() < 1e-12 && size >= 0.0, "{lost} {size}");
+    }
+    Ok(())
+}
+
+fn outputs<S: System>(run: &S) -> Result<[f64; 6], Error> {
+    let (mut a, mut outputs) = ([0.0; 6], [0.0; 6]);
+    run.reactions(&mut a, &mut [])?;
+    run.outputs(&a, &[], &mut outputs)?;
+    Ok(outputs)
+}
+
+mechanism! {
+    /// A rope and a strut, and laws that say the same, each on a ball that bounces within it.
+    Sided {
+        dof = 4;
+        param k = 200 [N/m];
+        param c = 3 [N*s/m];
+        const l = 0.5 [m];
+        body hung (x = a) { mass = 1 [kg]; }
+        body tied (x = b) { mass = 1 [kg]; }
+        body held (x = d) { mass = 1 [kg]; }
+        body borne (x = e) { mass = 1 [kg]; }
+        force one on hung = (-3 [N]*sin(a/(1 [m])), 0);
+        force two on tied = (-3 [N]*sin(b/(1 [m])), 0);
+        point hook on ground = (0, 0.2 [m]);
+        rope r (hung, ground.hook) { stiffness = k; length = l; damping = c; }
+        force rope_by_law (tied, ground.hook) = if length > l { max(0, k*(length - l) + c*rate) } else { 0 };
+        strut s (held, ground.hook) { stiffness = k; length = l; damping = c; }
+        force strut_by_law (borne, ground.hook) = if length < l { -max(0, k*(l - length) - c*rate) } else { 0 };
+        start {
+            a = 0.1 [m]; b = 0.1 [m]; der(a) = 3 [m/s]; der(b) = 3 [m/s];
+            d = 1 [m]; e = 1 [m]; der(d) = -3 [m/s]; der(e) = -3 [m/s];
+        }
+        output pull [N] = force(r);
+        output push [N] = force(s);
+        output by_laws [N] = force(r) - force(rope_by_law) + force(s) - force(strut_by_law);
+        output lost [W] = der(kinetic_energy()) - power(r) - power(s) - power(rope_by_law) - power(strut_by_law)
+            - power(one) - power(two);
+    }
+}
+
+/// A rope never pushes and a strut never pulls; both are what laws say in other words, to the rounding of steps.
+#[test]
+fn ropes_and_struts_act_on_one_side() -> Result<(), Error> {
+    let mut run = Simulation::new(Sided::declared(), 1e-3)?;
+    let (mut pulled, mut pushed, mut slack) = (0.0_f64, 0.0_f64, 0);
+    for _ in 0..3000 {
+        run.advance_to(run.time() + 1e-3)?;
+        let SidedOutputs { pull, push, by_laws, lost } = run.outputs()?;
+        // sums of four forces up to 100 N, of powers up to 1 kW
+        assert!(pull >= 0.0 && push <= 0.0 && by_laws.abs() < 1e-9 && lost.abs() < 1e-9, "{by_laws} {lost}");
+        (pulled, pushed) = (pulled.max(pull), pushed.min(push));
+        slack += u32::from(pull == 0.0 && push == 0.0);
+    }
+    assert!(pulled > 10.0 && pushed < -10.0 && slack > 100, "{pulled} {pushed} {slack}");
     Ok(())
 }

@@ -275,6 +275,8 @@ fn element(r: &mut Random, name: &str) -> String {
     let properties: &[&str] = match word {
         "spring" => &["stiffness", "length", "damping"],
         "torsion_spring" => &["stiffness", "angle", "damping"],
+        "rope" | "strut" => &["stiffness", "length", "damping"],
+        "bushing" => &["stiffness", "torsion", "damping"],
         "motor" => &["stall", "no_load", "level"],
         "friction" => &["coefficient", "normal", "transition", "viscous"],
         "torsion_friction" => &["torque", "coefficient", "normal", "radius", "transition", "viscous"],

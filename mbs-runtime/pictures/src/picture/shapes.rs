@@ -230,7 +230,15 @@ impl<'a> Maker<'a> {
     fn spring(&mut self, spring: &Spring) {
         let between = [spring.first, spring.second];
         match spring.kind {
-            "spring" | "force" => {
+            "rope" => {
+                self.ends(between);
+                self.shapes.push(Shape::Link { between });
+            }
+            "bushing" => {
+                self.ends(between);
+                self.shapes.push(Shape::Coil { at: spring.second });
+            }
+            "spring" | "force" | "strut" => {
                 self.ends(between);
                 self.shapes.push(Shape::Spring { between });
             }

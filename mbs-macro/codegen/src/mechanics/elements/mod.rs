@@ -1,12 +1,14 @@
 //! Force elements, a file each: how they are declared, their properties, and the forces
 //! that come of them. A new element is such a file and a row of [`ELEMENTS`].
 
+mod bushing;
 mod drag;
 mod effects;
 mod friction;
 mod kind;
 mod law;
 mod motor;
+mod one_sided;
 mod properties;
 mod spring;
 
@@ -19,6 +21,9 @@ pub use properties::{Given, Property, Range, Unsaid};
 pub const ELEMENTS: &[&ElementKind] = &[
     &spring::SPRING,
     &spring::TORSION_SPRING,
+    &one_sided::ROPE,
+    &one_sided::STRUT,
+    &bushing::BUSHING,
     &motor::MOTOR,
     &friction::FRICTION,
     &friction::TORSION_FRICTION,
