@@ -117,7 +117,8 @@ impl From<Error> for Failure {
             | Error::TooManySteps { .. }
             | Error::NotConverged { .. }
             | Error::EndlessEvents { .. }
-            | Error::Sliding { .. } => Status::Accuracy,
+            | Error::Sliding { .. }
+            | Error::Undecided { .. } => Status::Accuracy,
             // a new kind of error has to be given a status here
             _ => Status::Internal,
         };

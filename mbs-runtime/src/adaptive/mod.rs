@@ -231,7 +231,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 None => f64::NAN,
             };
             let ratio = self.judged(ratio);
-            let is_good = self.control.judge(h, ratio, &self.estimate);
+            // the step over a corner cannot be shorter
+            let is_over_corner =
+                t_next >= limit && h <= OVER_CORNER * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            let is_good = self.control.judge(h, ratio, &self.estimate) || is_over_corner;
             if let (Some(growth), true) = (growth, is_good) {
                 return self.accept(growth);
             }

@@ -18,15 +18,23 @@ pub struct Switch {
     pub knots: Knots,
 }
 
-/// Steps, beyond those that went on as they came, which turned back at a knot and after which a run has no motion to
-/// follow.
-const MOST_TURNS: u8 = 50;
-/// Only steps shorter than this share of the longest one can be held by a knot,
-const SHORT: f64 = 0.01;
-/// and only those that are to change the value by more than so many roundings.
-const ROUNDINGS: f64 = 1e5;
-/// The share of a step over which the rate of a value is taken.
-const RATE: f64 = 1e-4;
+/// A run ends where three looks in sequence find that a knot leads back to itself from both sides, or sixty that a value
+/// has turned around at it,
+const MOST_TURNS: u8 = 60;
+const LEADS_BACK: u8 = 20;
+const TURNED: u8 = 1;
+/// or where so many steps passed a knot by rounding alone.
+const MOST_ROUNDED: u8 = 100;
+/// A knot is looked at from as many steps before it.
+const NEAR: f64 = 4.0;
+/// The share of the longest step over which the rate of a value is taken,
+const RATE: f64 = 1e-5;
+/// and how far behind a knot the rate is taken at least.
+const BEHIND: f64 = 1e-9;
+/// Roundings of a value within which its rate is not known.
+const ROUNDINGS: f64 = 64.0;
+/// A value whose rate is less than this share of the rates of the states is held, but for rounding.
+const HELD: f64 = 1e-9;
 /// The estimate of the error of a step that passes a switch counts so many times.
 const STRICT: f64 = 100.0;
 /// Steps that grow again after a rejection are forgotten by this factor a step.
@@ -37,15 +45,17 @@ const FORGET: f64 = 0.9;
 pub(super) struct Switching {
     /// The pieces on which the values are, if they are known.
     pieces: Option<[f64; MOST_EVENTS]>,
-    /// How many steps of each switch were turned back, less those that went on.
+    /// How many looks in sequence found that a knot leads back to itself.
     turned: [u8; MOST_EVENTS],
+    /// How many steps passed a knot of a value that is held.
+    rounded: [u8; MOST_EVENTS],
     /// The length of steps before the last rejections in s.
     calm: f64,
 }
 
 impl Switching {
     pub const fn new() -> Self {
-        Self { pieces: None, turned: [0; MOST_EVENTS], calm: 0.0 }
+        Self { pieces: None, turned: [0; MOST_EVENTS], rounded: [0; MOST_EVENTS], calm: 0.0 }
     }
 
     /// From another state, or with other inputs.
@@ -64,13 +74,30 @@ impl Knots {
             [self.at.partition_point(|knot| *knot < within), self.at.partition_point(|knot| *knot <= within)];
         2.0 * rounds * self.at.len() as f64 + (below + reached) as f64
     }
+
+    /// The next knot from a value on, upwards or downwards; the value itself if it is one.
+    fn ahead(&self, value: f64, is_upwards: bool) -> Option<f64> {
+        let first = self.at.first()?;
+        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
+        let within = value - rounds * self.period;
+        let index = match is_upwards {
+            true => Some(self.at.partition_point(|knot| *knot < within)),
+            false => self.at.partition_point(|knot| *knot <= within).checked_sub(1),
+        };
+        match index.and_then(|index| self.at.get(index)) {
+            Some(knot) => Some(knot + rounds * self.period),
+            // the first one of the next period
+            None if is_upwards && self.period > 0.0 => Some(first + (rounds + 1.0) * self.period),
+            None => None,
+        }
+    }
 }
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Looks at the switches at the end of a step.
     ///
     /// # Errors
-    /// [`Error::Sliding`].
+    /// [`Error::Sliding`] and [`Error::Undecided`].
     pub(super) fn look_at_switches(&mut self, was_rejected: bool) -> Result<(), Error> {
         let switches = self.dynamics.equations().switching();
         if switches.is_empty() {
@@ -79,68 +106,112 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let next = self.control.next;
         let calm = if was_rejected { 0.0 } else { next };
         self.switching.calm = calm.max(FORGET * self.switching.calm);
-        let values = self.switch_values(false, 0.0);
+        let now = self.now.clone();
+        let values = self.switches_at(&now, 0.0);
         let mut pieces = [0.0; MOST_EVENTS];
         for ((piece, value), switch) in pieces.iter_mut().zip(values).zip(switches) {
-            *piece = switch.knots.piece(value.to_f64());
+            *piece = switch.knots.piece(value);
         }
         let Some(before) = self.switching.pieces.replace(pieces) else { return Ok(()) };
-        let is_short = (self.now.t - self.before.t).to_f64() < SHORT * self.effort.longest;
-        if pieces == before && !is_short {
-            return Ok(());
+        if pieces != before {
+            self.control.next = next.max(self.switching.calm);
         }
-        let at = |is_before: bool, run: &mut Self| {
-            [0.0, RATE, -RATE].map(|share| run.switch_values(is_before, share))
-        };
-        let ways = [at(true, self), at(false, self)];
-        for (index, (switch, turns)) in switches.iter().zip(&mut self.switching.turned).enumerate() {
-            let of = |[value, ahead, behind]: &[[D::Real; MOST_EVENTS]; 3]| {
-                let [value, ahead, behind] = [value, ahead, behind].map(|values| values.get(index).copied());
-                Some((value?.to_f64(), ahead?.to_f64() - behind?.to_f64()))
-            };
-            let (Some(from), Some(to)) = (before.get(index), pieces.get(index)) else { continue };
-            let [Some(start), Some(end)] = ways.each_ref().map(of) else { continue };
-            let is_passed = from != to && !to.is_nan();
-            let is_turned =
-                if is_passed { turned_behind(start, end) } else { is_held::<D::Real>(start, end) };
-            match is_turned {
-                true => *turns += 1,
-                false if is_passed => {
-                    *turns = 0;
-                    self.control.next = next.max(self.switching.calm);
+        if was_rejected { self.look_ahead(now, values, [before, pieces]) } else { Ok(()) }
+    }
+
+    /// Looks behind the knots to which values run.
+    fn look_ahead(
+        &mut self,
+        mut now: Moment<D::Real, D::States>,
+        values: [f64; MOST_EVENTS],
+        [before, pieces]: [[f64; MOST_EVENTS]; 2],
+    ) -> Result<(), Error> {
+        let rates = self.rates(&mut now);
+        let mut start = self.before.clone();
+        let rates_before = self.rates(&mut start);
+        let size =
+            vectors::largest(now.v.as_ref()).1.to_f64().max(vectors::largest(now.a.as_ref()).1.to_f64());
+        let rounding =
+            vectors::largest(now.q.as_ref()).1.to_f64().max(size) * ROUNDINGS * D::Real::EPSILON.to_f64();
+        let held = (HELD * size).max(rounding / (RATE * self.effort.longest));
+        let near = NEAR * (now.t - self.before.t).to_f64().max(self.control.next);
+        for (index, switch) in self.dynamics.equations().switching().iter().enumerate() {
+            let all = (values.get(index), rates.get(index), before.get(index), pieces.get(index));
+            let (Some(&value), Some(&rate), Some(from), Some(to)) = all else { continue };
+            let is_passed = from != to;
+            let t = self.now.t.to_f64();
+            if rate.abs() <= held {
+                if is_passed && self.count(index, 1, |switching| &mut switching.rounded) >= MOST_ROUNDED {
+                    return Err(Error::Undecided { t, name: switch.name });
                 }
-                false => *turns = turns.saturating_sub(1),
+                continue;
             }
-            if *turns >= MOST_TURNS {
-                return Err(Error::Sliding { t: self.now.t.to_f64(), name: switch.name });
+            let knot = switch.knots.ahead(value, rate > 0.0);
+            let until = knot.map_or(f64::INFINITY, |knot| (knot - value) / rate);
+            let came = rates_before.get(index).copied().unwrap_or(f64::NAN) * (to - from);
+            let found = if until <= near && self.leads_back(&now, index, rate, until) {
+                LEADS_BACK
+            } else if is_passed && came > 0.0 && rate * (to - from) < 0.0 {
+                TURNED
+            } else if is_passed {
+                if let Some(turned) = self.switching.turned.get_mut(index) {
+                    *turned = 0;
+                }
+                continue;
+            } else {
+                continue;
+            };
+            if self.count(index, found, |switching| &mut switching.turned) >= MOST_TURNS {
+                return Err(Error::Sliding { t, name: switch.name });
             }
         }
         Ok(())
     }
 
-    /// The values at the start or the end of the last step, and a share of it later.
-    fn switch_values(&mut self, is_before: bool, share: f64) -> [D::Real; MOST_EVENTS] {
-        let Self { before, now, next, .. } = self;
-        let dt = D::Real::from_f64(share) * (now.t - before.t);
-        let from = if is_before { before } else { now };
-        next.t = from.t + dt;
-        for (to, x, rate) in [(&mut next.q, &from.q, &from.v), (&mut next.v, &from.v, &from.a)] {
-            vectors::copy(to.as_mut(), x.as_ref());
-            vectors::add_scaled(to.as_mut(), dt, rate.as_ref());
-        }
-        self.switches_of_next()
+    /// Counts more of what is remembered of a switch.
+    fn count(&mut self, index: usize, more: u8, of: fn(&mut Switching) -> &mut [u8; MOST_EVENTS]) -> u8 {
+        let Some(count) = of(&mut self.switching).get_mut(index) else { return 0 };
+        *count = count.saturating_add(more);
+        *count
     }
 
-    /// The values at the end of the step that was tried.
-    fn switches_of_next(&mut self) -> [D::Real; MOST_EVENTS] {
-        let Self { dynamics, inputs, next: Moment { t, q, v, .. }, all, .. } = self;
-        dynamics.complete(*t, q, v, all);
+    /// Reports whether a value that comes to its knot after some time has the opposite rate right behind it, by a jump:
+    /// by how the rate changes on this side it would go on.
+    fn leads_back(&mut self, now: &Moment<D::Real, D::States>, index: usize, rate: f64, until: f64) -> bool {
+        let half = 0.5 * until;
+        let behind = 2.0 * until + BEHIND * self.effort.longest;
+        let [here, there] = [half, behind].map(|dt| {
+            let mut moment = moved(now, dt);
+            self.rates(&mut moment).get(index).copied().unwrap_or(f64::NAN)
+        });
+        let expected = if half > 0.0 { rate + (here - rate) * behind / half } else { rate };
+        expected * rate > 0.0 && there * rate < 0.0
+    }
+
+    /// The rates of the values in a state, whose accelerations are found.
+    fn rates(&mut self, moment: &mut Moment<D::Real, D::States>) -> [f64; MOST_EVENTS] {
+        let Moment { t, q, v, a } = moment;
+        self.dynamics.acceleration(*t, q, v, &self.inputs, a);
+        let dt = RATE * self.effort.longest;
+        let [ahead, behind] = [dt, -dt].map(|dt| self.switches_at(moment, dt));
+        let mut rates = [f64::NAN; MOST_EVENTS];
+        for (rate, (ahead, behind)) in rates.iter_mut().zip(ahead.iter().zip(behind)) {
+            *rate = (ahead - behind) / (2.0 * dt);
+        }
+        rates
+    }
+
+    /// The values in a state, some time later.
+    fn switches_at(&mut self, moment: &Moment<D::Real, D::States>, dt: f64) -> [f64; MOST_EVENTS] {
+        let Self { dynamics, inputs, all, .. } = self;
+        let Moment { t, q, v, .. } = if dt == 0.0 { moment.clone() } else { moved(moment, dt) };
+        dynamics.complete(t, &q, &v, all);
         let [q, v] = all;
-        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+        let at = At { t, q: q.as_ref(), v: v.as_ref() };
         let mut values = [D::Real::from_f64(f64::NAN); MOST_EVENTS];
         let equations = dynamics.described();
         dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
-        values
+        values.map(Real::to_f64)
     }
 
     /// The error of a step that was tried, as it is judged: of one that passes a switch the estimate, which sees
@@ -150,23 +221,22 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Some(pieces) = self.switching.pieces.filter(|_| ratio <= 1.0 && !switches.is_empty()) else {
             return ratio;
         };
-        let values = self.switches_of_next();
-        let mut ends = values.iter().zip(switches).zip(pieces);
-        let passes = ends.any(|((value, switch), piece)| switch.knots.piece(value.to_f64()) != piece);
+        let next = self.next.clone();
+        let values = self.switches_at(&next, 0.0);
+        let known = switches.iter().zip(pieces).zip(self.switching.rounded);
+        // rounding decides of which piece a value is that is held
+        let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
+        let passes = ends.any(|(value, ((switch, piece), _))| switch.knots.piece(value) != piece);
         if passes { STRICT * ratio } else { ratio }
     }
 }
 
-/// Reports whether a value that has passed a knot in a step, from a value with a change over two shares [`RATE`] of
-/// it to another one, runs back towards the knot.
-fn turned_behind((from, came): (f64, f64), (to, goes): (f64, f64)) -> bool {
-    came * (to - from) > 0.0 && came * goes < 0.0
-}
-
-/// Reports whether a value did not go half of the way that its rates at both ends of a short step tell.
-fn is_held<T: Real>((from, came): (f64, f64), (to, goes): (f64, f64)) -> bool {
-    // by the trapezoidal rule
-    let expected = (came + goes) / (4.0 * RATE);
-    let rounding = ROUNDINGS * T::EPSILON.to_f64() * from.abs().max(to.abs());
-    came * goes > 0.0 && came.signum() * (to - from) < 0.5 * expected.abs() && expected.abs() > rounding
+/// A state some time later, with the velocities and accelerations that it has.
+fn moved<T: Real, V: Clone + AsRef<[T]> + AsMut<[T]>>(from: &Moment<T, V>, dt: f64) -> Moment<T, V> {
+    let dt = T::from_f64(dt);
+    let mut moved = from.clone();
+    moved.t = from.t + dt;
+    vectors::add_scaled(moved.q.as_mut(), dt, from.v.as_ref());
+    vectors::add_scaled(moved.v.as_mut(), dt, from.a.as_ref());
+    moved
 }

@@ -70,7 +70,13 @@ impl fmt::Display for Error {
             Self::Sliding { t, name } => write!(
                 f,
                 "from t = {t} s on a jump in a law of `{name}` leads back to itself from both sides, and no motion goes on; \
-                 give the jump a slope, as `tanh(v/v0)` has in the place of `sign(v)`, or take the element `friction`",
+                 give the jump a slope, as `tanh(v/v0)` in the place of `sign(v)`; dry friction is the element `friction`",
+                t = Shown(t)
+            ),
+            Self::Undecided { t, name } => write!(
+                f,
+                "at t = {t} s rounding alone decides on which side of a jump in a law `{name}` is; leave the jump out, or let \
+                 it be where the value does not rest, as in `if x > 1e-6 [m]` for `if x > 0 [m]`",
                 t = Shown(t)
             ),
             Self::NotConverged { t, step } => write!(

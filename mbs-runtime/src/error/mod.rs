@@ -97,6 +97,13 @@ pub enum Error {
         /// The value, as people read it.
         name: &'static str,
     },
+    /// A law jumps with a value that is held at the jump, but for rounding.
+    Undecided {
+        /// When, in s.
+        t: f64,
+        /// The value, as people read it.
+        name: &'static str,
+    },
     /// The equations of a step, of an implicit method or those that keep positions on the constraints, have no
     /// solution that is found.
     NotConverged {

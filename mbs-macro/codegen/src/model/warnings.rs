@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::{Interpolation, Node};
+use mbs_symbolic::{Function, Interpolation, Node, Stage};
 
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
@@ -27,10 +27,24 @@ impl Resolver<'_> {
     /// Tables in constraints whose value or slope jumps: there the velocity does, too, by an impact that nothing
     /// computes. Once a table.
     fn impacts(&self) -> Vec<Diagnostic> {
-        let mut told = BTreeSet::new();
+        let (mut told, mut chosen) = (BTreeSet::new(), BTreeSet::new());
         let mut found = Vec::new();
         for constraint in &self.constraints {
             for node in self.scope.arena.reachable(&[constraint.phi]) {
+                if let Node::Call(Function::Greater | Function::Sign, _) = *self.scope.arena.node(node)
+                    && self.scope.arena.stage(node) == Stage::Variable
+                    && chosen.insert(&constraint.name)
+                {
+                    let name = &constraint.name;
+                    let message = format!(
+                        "`{name}` chooses by a condition: unless both values meet there with one slope, the velocity jumps, \
+                         and no force of it is known"
+                    );
+                    found.push(
+                        Diagnostic::new(constraint.span, message)
+                            .help("let the pieces meet smoothly, or take a `monotone` table"),
+                    );
+                }
                 let Node::Spline(id, ..) = *self.scope.arena.node(node) else { continue };
                 let Some(spline) = self.scope.arena.splines().get(id.index()) else { continue };
                 let what = [("value", spline.jump(0)), ("slope", spline.jump(1))];

@@ -173,7 +173,8 @@ fn primary(input: ParseStream<'_>, depth: usize) -> Result<Formula> {
         let inner = sum(&content, depth + 1)?;
         if content.peek(Token![,]) {
             let message = "a vector stands alone; here a scalar is needed";
-            return Err(Error::new(paren.span.join(), message));
+            let help = "write its components, as in `(if a < b { x } else { 0 }, 2*y)`";
+            return Err(helped(paren.span.join(), message, help));
         }
         end(&content)?;
         return Ok(Formula { span: paren.span.join(), kind: inner.kind });
