@@ -3,7 +3,7 @@
 #[cfg(feature = "macro")]
 pub use nalgebra;
 
-pub use crate::adaptive::next_corner;
+pub use crate::corners::next_corner;
 pub use crate::spline::{Segment, Spline};
 use crate::{Components, Error, Pair, Real, Single};
 

@@ -117,6 +117,7 @@ pub mod arrays;
 mod baumgarte;
 mod components;
 mod constant;
+mod corners;
 mod derivation;
 mod described;
 mod diagnosis;
@@ -162,12 +163,13 @@ mod view;
 mod watch;
 
 pub use adaptive::{
-    Adaptive, AdaptiveBuilder, AdaptiveScheme, Dynamics, Effort, Event, Knots, MOST_EVENTS, Measured, Moment,
-    Sampled, Switch, Threshold, Tolerances,
+    Adaptive, AdaptiveBuilder, AdaptiveScheme, Dynamics, Effort, Event, MOST_EVENTS, Measured, Moment,
+    Sampled, Threshold, Tolerances,
 };
 pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use constant::{ConstantStep, ConstantStepBuilder, Kernel, Rattle, RattleStep, TrBdf2, TrBdf2Step};
+pub use corners::{Knots, Switch};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;

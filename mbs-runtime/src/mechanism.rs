@@ -136,7 +136,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     const SKETCH: &'static Sketch;
 
     /// The values of the motion at whose knots forces, constraints or events bend or jump; at most
-    /// [`MOST_EVENTS`](crate::MOST_EVENTS).
+    /// 64.
     const SWITCHES: &'static [Switch] = &[];
 
     /// The mechanism with these parameters.

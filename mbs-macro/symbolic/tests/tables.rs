@@ -71,7 +71,7 @@ fn a_cubic_table_is_the_natural_spline() {
 #[test]
 fn a_monotone_table_is_that_of_fritsch_and_butland() {
     compare(
-        &table(Monotone, Extend),
+        &table(Monotone, Refuse),
         [
             [
                 1.2956027890238417,
@@ -174,17 +174,23 @@ fn outside_of_the_points() {
         for x in [(-0.5_f64).next_up(), -0.5, 1.0, 3.7] {
             assert_eq!(refuse.derivative(0, x), hold.derivative(0, x), "{interpolation:?} {x}");
         }
-        for x in [-0.6, 3.7_f64 + 1e-15, 4.0, -1e9, 1e9] {
+        for x in [-0.6, 3.7_f64 + 1e-14, 4.0, -1e9, 1e9] {
             for order in 0..=refuse.degree() {
                 assert!(refuse.derivative(order, x).is_nan(), "{interpolation:?} {order} {x}");
             }
         }
         // what is outside continues the cubic next to it: a fourth difference across the end vanishes
         let ends = [(-0.5, 0.1), (3.7, 0.1)];
-        for (end, h) in ends.into_iter().filter(|_| interpolation != Step) {
+        for (end, h) in ends.into_iter().filter(|_| matches!(interpolation, Linear | Cubic)) {
             let values = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| extend.derivative(0, end + h * k));
             let difference = values[0] - 4.0 * values[1] + 6.0 * values[2] - 4.0 * values[3] + values[4];
             assert!(difference.abs() < 1e-13, "{interpolation:?} {end} {difference:e}");
+        }
+        // a monotone one goes on by the lines that touch its ends
+        for (end, out) in [(-0.5, -0.3), (3.7, 0.3)].into_iter().filter(|_| interpolation == Monotone) {
+            let [value, slope] = [0, 1].map(|order| refuse.derivative(order, end));
+            assert!((extend.derivative(0, end + out) - (value + slope * out)).abs() < 1e-14);
+            assert_eq!(extend.derivative(2, end + out), 0.0);
         }
         for spline in [&hold, &extend, &refuse] {
             assert!(spline.derivative(0, f64::NAN).is_nan());

@@ -3,20 +3,10 @@
 //! A run looks at them at the ends of its steps. Behind a jump it takes steps as long as before, and where a jump
 //! leads back to itself from both sides, it ends.
 
-use super::corners::{Knots, floor};
-use super::events::MOST_EVENTS;
 use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
+use crate::corners::{Knots, MOST_SWITCHES, floor};
 use crate::equations::At;
 use crate::{Error, Real, vectors};
-
-/// A value at whose knots laws bend or jump.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Switch {
-    /// As people read it.
-    pub name: &'static str,
-    /// Its knots.
-    pub knots: Knots,
-}
 
 /// A run ends where three looks in sequence find that a knot leads back to itself from both sides, or sixty that a value
 /// has turned around at it,
@@ -25,8 +15,10 @@ const LEADS_BACK: u8 = 20;
 const TURNED: u8 = 1;
 /// or where so many steps passed a knot by rounding alone.
 const MOST_ROUNDED: u8 = 100;
-/// A knot is looked at from as many steps before it.
+/// A knot is looked at from as many steps before it,
 const NEAR: f64 = 4.0;
+/// which are shorter than this share of the longest one.
+const SHORT: f64 = 1e-5;
 /// The share of the longest step over which the rate of a value is taken,
 const RATE: f64 = 1e-5;
 /// and how far behind a knot the rate is taken at least.
@@ -44,18 +36,18 @@ const FORGET: f64 = 0.9;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switching {
     /// The pieces on which the values are, if they are known.
-    pieces: Option<[f64; MOST_EVENTS]>,
+    pieces: Option<[f64; MOST_SWITCHES]>,
     /// How many looks in sequence found that a knot leads back to itself.
-    turned: [u8; MOST_EVENTS],
+    turned: [u8; MOST_SWITCHES],
     /// How many steps passed a knot of a value that is held.
-    rounded: [u8; MOST_EVENTS],
+    rounded: [u8; MOST_SWITCHES],
     /// The length of steps before the last rejections in s.
     calm: f64,
 }
 
 impl Switching {
     pub const fn new() -> Self {
-        Self { pieces: None, turned: [0; MOST_EVENTS], rounded: [0; MOST_EVENTS], calm: 0.0 }
+        Self { pieces: None, turned: [0; MOST_SWITCHES], rounded: [0; MOST_SWITCHES], calm: 0.0 }
     }
 
     /// From another state, or with other inputs.
@@ -108,7 +100,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.switching.calm = calm.max(FORGET * self.switching.calm);
         let now = self.now.clone();
         let values = self.switches_at(&now, 0.0);
-        let mut pieces = [0.0; MOST_EVENTS];
+        let mut pieces = [0.0; MOST_SWITCHES];
         for ((piece, value), switch) in pieces.iter_mut().zip(values).zip(switches) {
             *piece = switch.knots.piece(value);
         }
@@ -123,8 +115,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn look_ahead(
         &mut self,
         mut now: Moment<D::Real, D::States>,
-        values: [f64; MOST_EVENTS],
-        [before, pieces]: [[f64; MOST_EVENTS]; 2],
+        values: [f64; MOST_SWITCHES],
+        [before, pieces]: [[f64; MOST_SWITCHES]; 2],
     ) -> Result<(), Error> {
         let rates = self.rates(&mut now);
         let mut start = self.before.clone();
@@ -134,7 +126,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let rounding =
             vectors::largest(now.q.as_ref()).1.to_f64().max(size) * ROUNDINGS * D::Real::EPSILON.to_f64();
         let held = (HELD * size).max(rounding / (RATE * self.effort.longest));
-        let near = NEAR * (now.t - self.before.t).to_f64().max(self.control.next);
+        let h = (now.t - self.before.t).to_f64();
+        let near = if h < SHORT * self.effort.longest { NEAR * h } else { 0.0 };
         for (index, switch) in self.dynamics.equations().switching().iter().enumerate() {
             let all = (values.get(index), rates.get(index), before.get(index), pieces.get(index));
             let (Some(&value), Some(&rate), Some(from), Some(to)) = all else { continue };
@@ -169,7 +162,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     /// Counts more of what is remembered of a switch.
-    fn count(&mut self, index: usize, more: u8, of: fn(&mut Switching) -> &mut [u8; MOST_EVENTS]) -> u8 {
+    fn count(&mut self, index: usize, more: u8, of: fn(&mut Switching) -> &mut [u8; MOST_SWITCHES]) -> u8 {
         let Some(count) = of(&mut self.switching).get_mut(index) else { return 0 };
         *count = count.saturating_add(more);
         *count
@@ -189,12 +182,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     /// The rates of the values in a state, whose accelerations are found.
-    fn rates(&mut self, moment: &mut Moment<D::Real, D::States>) -> [f64; MOST_EVENTS] {
+    fn rates(&mut self, moment: &mut Moment<D::Real, D::States>) -> [f64; MOST_SWITCHES] {
         let Moment { t, q, v, a } = moment;
         self.dynamics.acceleration(*t, q, v, &self.inputs, a);
         let dt = RATE * self.effort.longest;
         let [ahead, behind] = [dt, -dt].map(|dt| self.switches_at(moment, dt));
-        let mut rates = [f64::NAN; MOST_EVENTS];
+        let mut rates = [f64::NAN; MOST_SWITCHES];
         for (rate, (ahead, behind)) in rates.iter_mut().zip(ahead.iter().zip(behind)) {
             *rate = (ahead - behind) / (2.0 * dt);
         }
@@ -202,13 +195,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     /// The values in a state, some time later.
-    fn switches_at(&mut self, moment: &Moment<D::Real, D::States>, dt: f64) -> [f64; MOST_EVENTS] {
+    fn switches_at(&mut self, moment: &Moment<D::Real, D::States>, dt: f64) -> [f64; MOST_SWITCHES] {
         let Self { dynamics, inputs, all, .. } = self;
         let Moment { t, q, v, .. } = if dt == 0.0 { moment.clone() } else { moved(moment, dt) };
         dynamics.complete(t, &q, &v, all);
         let [q, v] = all;
         let at = At { t, q: q.as_ref(), v: v.as_ref() };
-        let mut values = [D::Real::from_f64(f64::NAN); MOST_EVENTS];
+        let mut values = [D::Real::from_f64(f64::NAN); MOST_SWITCHES];
         let equations = dynamics.described();
         dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
         values.map(Real::to_f64)

@@ -4,7 +4,7 @@
 
 mod through;
 
-/// A jump of a derivative is one if it is more than this share of the derivative.
+/// A jump of a derivative is one if it is more than this share of the largest terms of the derivative.
 const JUMP: f64 = 1e-9;
 
 /// A spline: a handle into an [`Arena`](crate::Arena)'s list of splines.
@@ -56,31 +56,6 @@ pub struct Segment {
     pub coefficients: [f64; 4],
 }
 
-/// The end of a piece of some width, which begins with a value, and the beginning of the next one.
-struct Joint {
-    at: f64,
-    width: f64,
-    value: f64,
-    before: [f64; 4],
-    behind: [f64; 4],
-}
-
-impl Joint {
-    /// The jump of c₀, c₁ or c₂, if it is more than rounding.
-    fn jump(&self, order: u8) -> Option<f64> {
-        let of = |all: &[f64; 4]| all.get(usize::from(order)).copied().unwrap_or_default();
-        let (before, behind) = (of(&self.before), of(&self.behind));
-        let jump = (behind - before).abs();
-        // of a value that is held before the first point, there is no width
-        let rounded = if self.width > 0.0 { self.value.abs() / self.width.powi(order.into()) } else { 0.0 };
-        (jump > JUMP * before.abs().max(behind.abs()).max(rounded)).then_some(jump)
-    }
-
-    fn jumps(&self) -> bool {
-        (0..3).any(|order| self.jump(order).is_some())
-    }
-}
-
 impl Segment {
     /// The coefficients of the same cubic counted from another place, where it has this value.
     fn counted_from(&self, place: f64, value: f64) -> [f64; 4] {
@@ -119,18 +94,12 @@ impl Spline {
         })
     }
 
-    /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
-    /// where there is only that of rounding.
-    pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
-        let jumps = self.joints().filter_map(|joint| Some((self.origin + joint.at, joint.jump(order)?)));
-        jumps.max_by(|(_, a), (_, b)| a.total_cmp(b))
-    }
-
     /// The arguments at which the value or one of its first two derivatives jumps, in ascending order; of a periodic
     /// one those within a period.
     pub fn knots(&self) -> Vec<f64> {
-        let mut knots: Vec<f64> =
-            self.joints().filter(Joint::jumps).map(|joint| self.origin + joint.at).collect();
+        let jumps = self.jumps();
+        let jumps = jumps.iter().filter(|(_, jumps)| jumps.iter().any(Option::is_some));
+        let mut knots: Vec<f64> = jumps.map(|(at, _)| self.origin + at).collect();
         if let (Some(period), Some(last)) = (self.period, knots.last_mut()) {
             // the end of the period is its beginning
             if *last == self.origin + period {
@@ -141,18 +110,38 @@ impl Spline {
         knots
     }
 
-    /// The places where a piece ends and another one begins.
-    fn joints(&self) -> impl Iterator<Item = Joint> {
+    /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
+    /// where there is only that of rounding.
+    pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
+        let jumps = self.jumps().into_iter();
+        let jumps =
+            jumps.filter_map(|(at, jumps)| Some((self.origin + at, (*jumps.get(usize::from(order))?)?)));
+        jumps.max_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
+    /// Where pieces meet, and the jumps of c₀, c₁ and c₂ there that are more than rounding.
+    fn jumps(&self) -> Vec<(f64, [Option<f64>; 3])> {
         let wrapped = self.period.zip(self.segments.first());
         let wrapped =
             wrapped.map(|(period, first)| Segment { from: period, coefficients: first.coefficients });
         let next = self.segments.iter().skip(1).copied().chain(wrapped);
-        self.segments.iter().zip(next).map(|(segment, next)| {
-            let width = next.from - segment.from;
+        let pairs: Vec<(Segment, Segment)> = self.segments.iter().copied().zip(next).collect();
+        let terms = pairs.iter().map(|(segment, next)| {
+            let ([c0, c1, c2, c3], w) = (segment.coefficients.map(f64::abs), next.from - segment.from);
+            [c0 + w * (c1 + w * (c2 + w * c3)), c1 + w * (2.0 * c2 + w * (3.0 * c3)), c2 + w * (3.0 * c3)]
+        });
+        let sizes = terms.fold([0.0_f64; 3], |sizes, terms| [0, 1, 2].map(|at| sizes[at].max(terms[at])));
+        let jumps_of = |(segment, next): &(Segment, Segment)| {
+            let w = next.from - segment.from;
             let [c0, c1, c2, c3] = segment.coefficients;
-            let end = segment.counted_from(next.from, c0 + width * (c1 + width * (c2 + width * c3)));
-            Joint { at: next.from, width, value: c0, before: end, behind: next.coefficients }
-        })
+            let end = segment.counted_from(next.from, c0 + w * (c1 + w * (c2 + w * c3)));
+            let jumps = [0, 1, 2].map(|order| {
+                let jump = (next.coefficients[order] - end[order]).abs();
+                (jump > JUMP * sizes[order]).then_some(jump)
+            });
+            (next.from, jumps)
+        };
+        pairs.iter().map(jumps_of).collect()
     }
 
     /// The largest order of a derivative that is not 0 everywhere.

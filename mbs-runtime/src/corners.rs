@@ -11,6 +11,18 @@ pub struct Knots {
     pub period: f64,
 }
 
+/// At most so many switches are watched.
+pub(crate) const MOST_SWITCHES: usize = 64;
+
+/// A value of the motion at whose knots laws bend or jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switch {
+    /// As people read it.
+    pub name: &'static str,
+    /// Its knots.
+    pub knots: Knots,
+}
+
 /// Roundings of the argument a t + b, within which a knot may be on either side.
 const ROUNDINGS: f64 = 4.0;
 
@@ -54,7 +66,7 @@ fn passages<T: Real>(t: T, [rate, offset]: [T; 2], knots: &Knots) -> [[T; 2]; 4]
 }
 
 /// The largest whole number that is not larger.
-pub(super) fn floor(x: f64) -> f64 {
+pub(crate) fn floor(x: f64) -> f64 {
     let truncated = x as i64 as f64;
     if truncated > x { truncated - 1.0 } else { truncated }
 }
