@@ -11,6 +11,35 @@ pub struct Knots {
     pub period: f64,
 }
 
+impl Knots {
+    /// The number of the piece on which a value is; knots count as pieces of their own.
+    pub(crate) fn piece(&self, value: f64) -> f64 {
+        let first = self.at.first().copied().unwrap_or_default();
+        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
+        let within = value - rounds * self.period;
+        let [below, reached] =
+            [self.at.partition_point(|knot| *knot < within), self.at.partition_point(|knot| *knot <= within)];
+        2.0 * rounds * self.at.len() as f64 + (below + reached) as f64
+    }
+
+    /// The next knot from a value on, upwards or downwards; the value itself if it is one.
+    pub(crate) fn ahead(&self, value: f64, is_upwards: bool) -> Option<f64> {
+        let first = self.at.first()?;
+        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
+        let within = value - rounds * self.period;
+        let index = match is_upwards {
+            true => Some(self.at.partition_point(|knot| *knot < within)),
+            false => self.at.partition_point(|knot| *knot <= within).checked_sub(1),
+        };
+        match index.and_then(|index| self.at.get(index)) {
+            Some(knot) => Some(knot + rounds * self.period),
+            // the first one of the next period
+            None if is_upwards && self.period > 0.0 => Some(first + (rounds + 1.0) * self.period),
+            None => None,
+        }
+    }
+}
+
 /// At most so many switches are watched.
 pub(crate) const MOST_SWITCHES: usize = 64;
 

@@ -6,7 +6,7 @@ use super::attempt::{Attempt, is_healthy};
 use super::between::Between;
 use super::events::Happened;
 use super::noise::Progress;
-use super::switches::Switching;
+use super::switching::Switching;
 use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
 use crate::equations::Start;
 use crate::vectors::assign;

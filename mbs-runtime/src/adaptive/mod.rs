@@ -25,6 +25,7 @@ mod noise;
 mod sampled;
 mod scheme;
 mod switches;
+mod switching;
 mod typed;
 
 pub(crate) use attempt::is_healthy;
@@ -45,7 +46,7 @@ pub(crate) use noise::RISEN;
 pub use sampled::{Measured, Sampled, Threshold};
 pub use scheme::AdaptiveScheme;
 pub(crate) use scheme::Sealed;
-use switches::Switching;
+use switching::Switching;
 
 use core::fmt;
 

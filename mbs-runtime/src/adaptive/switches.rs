@@ -3,8 +3,9 @@
 //! A run looks at them at the ends of its steps. Behind a jump it takes steps as long as before, and where a jump
 //! leads back to itself from both sides, it ends.
 
+use super::switching::Switching;
 use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
-use crate::corners::{Knots, MOST_SWITCHES, floor};
+use crate::corners::MOST_SWITCHES;
 use crate::equations::At;
 use crate::{Error, Real, vectors};
 
@@ -31,59 +32,6 @@ const HELD: f64 = 1e-9;
 const STRICT: f64 = 100.0;
 /// Steps that grow again after a rejection are forgotten by this factor a step.
 const FORGET: f64 = 0.9;
-
-/// What a run remembers of the switches.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Switching {
-    /// The pieces on which the values are, if they are known.
-    pieces: Option<[f64; MOST_SWITCHES]>,
-    /// How many looks in sequence found that a knot leads back to itself.
-    turned: [u8; MOST_SWITCHES],
-    /// How many steps passed a knot of a value that is held.
-    rounded: [u8; MOST_SWITCHES],
-    /// The length of steps before the last rejections in s.
-    calm: f64,
-}
-
-impl Switching {
-    pub const fn new() -> Self {
-        Self { pieces: None, turned: [0; MOST_SWITCHES], rounded: [0; MOST_SWITCHES], calm: 0.0 }
-    }
-
-    /// From another state, or with other inputs.
-    pub fn go_on(&mut self) {
-        *self = Self::new();
-    }
-}
-
-impl Knots {
-    /// The number of the piece on which a value is; knots count as pieces of their own.
-    fn piece(&self, value: f64) -> f64 {
-        let first = self.at.first().copied().unwrap_or_default();
-        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
-        let within = value - rounds * self.period;
-        let [below, reached] =
-            [self.at.partition_point(|knot| *knot < within), self.at.partition_point(|knot| *knot <= within)];
-        2.0 * rounds * self.at.len() as f64 + (below + reached) as f64
-    }
-
-    /// The next knot from a value on, upwards or downwards; the value itself if it is one.
-    fn ahead(&self, value: f64, is_upwards: bool) -> Option<f64> {
-        let first = self.at.first()?;
-        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
-        let within = value - rounds * self.period;
-        let index = match is_upwards {
-            true => Some(self.at.partition_point(|knot| *knot < within)),
-            false => self.at.partition_point(|knot| *knot <= within).checked_sub(1),
-        };
-        match index.and_then(|index| self.at.get(index)) {
-            Some(knot) => Some(knot + rounds * self.period),
-            // the first one of the next period
-            None if is_upwards && self.period > 0.0 => Some(first + (rounds + 1.0) * self.period),
-            None => None,
-        }
-    }
-}
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Looks at the switches at the end of a step.

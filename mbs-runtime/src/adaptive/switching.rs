@@ -1,0 +1,27 @@
+//! The memory of a run of the switches of its laws.
+
+use crate::corners::MOST_SWITCHES;
+
+/// What a run remembers of the switches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Switching {
+    /// The pieces on which the values are, if they are known.
+    pub pieces: Option<[f64; MOST_SWITCHES]>,
+    /// How many looks in sequence found that a knot leads back to itself.
+    pub turned: [u8; MOST_SWITCHES],
+    /// How many steps passed a knot of a value that is held.
+    pub rounded: [u8; MOST_SWITCHES],
+    /// The length of steps before the last rejections in s.
+    pub calm: f64,
+}
+
+impl Switching {
+    pub const fn new() -> Self {
+        Self { pieces: None, turned: [0; MOST_SWITCHES], rounded: [0; MOST_SWITCHES], calm: 0.0 }
+    }
+
+    /// From another state, or with other inputs.
+    pub fn go_on(&mut self) {
+        *self = Self::new();
+    }
+}
