@@ -39,8 +39,8 @@ impl Scope<'_> {
     /// A condition as 1 or 0.
     fn test(&mut self, test: &Test, place: Place, errors: &mut Diagnostics) -> Option<Expr> {
         match test {
-            Test::Compared { left, comparison, span, right } => {
-                let found = [left, right].map(|side| self.formula(side, place, errors));
+            Test::Compared { sides, comparison, span } => {
+                let found = sides.each_ref().map(|side| self.formula(side, place, errors));
                 let [Some(x), Some(y)] = found else { return None };
                 errors.take(common(*span, [x, y], |x, y| format!("this compares {x} with {y}")))?;
                 let algebra = Algebra::new(&mut self.arena);

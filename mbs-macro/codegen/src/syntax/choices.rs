@@ -89,7 +89,8 @@ fn one(input: ParseStream<'_>, depth: usize) -> Result<Test> {
         };
         return Err(helped(span, message, format!("write `<`, `<=`, `>` or `>=`, {EXAMPLE}")));
     };
-    Ok(Test::Compared { left, comparison, span, right: sum(input, depth + 1)? })
+    let right = sum(input, depth + 1)?;
+    Ok(Test::Compared { sides: Box::new([left, right]), comparison, span })
 }
 
 /// `<`, `<=`, `>` or `>=`, if one comes next.

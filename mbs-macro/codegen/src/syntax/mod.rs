@@ -313,7 +313,7 @@ pub struct Choice {
 /// The condition of a choice.
 #[derive(Clone)]
 pub enum Test {
-    Compared { left: Formula, comparison: Comparison, span: Span, right: Formula },
+    Compared { sides: Box<[Formula; 2]>, comparison: Comparison, span: Span },
     Both(Box<[Test; 2]>),
     Either(Box<[Test; 2]>),
     Not(Box<Test>),
@@ -323,7 +323,7 @@ impl Test {
     /// The formulas that are compared, from left to right.
     pub fn formulas(&self) -> Vec<&Formula> {
         match self {
-            Self::Compared { left, right, .. } => vec![left, right],
+            Self::Compared { sides, .. } => sides.iter().collect(),
             Self::Both(both) | Self::Either(both) => both.iter().flat_map(Self::formulas).collect(),
             Self::Not(inner) => inner.formulas(),
         }
@@ -332,7 +332,7 @@ impl Test {
     /// The same to be changed.
     pub fn formulas_mut(&mut self) -> Vec<&mut Formula> {
         match self {
-            Self::Compared { left, right, .. } => vec![left, right],
+            Self::Compared { sides, .. } => sides.iter_mut().collect(),
             Self::Both(both) | Self::Either(both) => both.iter_mut().flat_map(Self::formulas_mut).collect(),
             Self::Not(inner) => inner.formulas_mut(),
         }
