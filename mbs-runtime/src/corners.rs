@@ -1,6 +1,7 @@
 //! Times at which laws bend or jump, where a step ends.
 
 use crate::Real;
+use crate::spline::floor;
 
 /// The arguments at which a function bends or jumps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,29 +15,39 @@ pub struct Knots {
 impl Knots {
     /// The number of the piece on which a value is; knots count as pieces of their own.
     pub(crate) fn piece(&self, value: f64) -> f64 {
-        let first = self.at.first().copied().unwrap_or_default();
-        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
-        let within = value - rounds * self.period;
+        let (periods, within) = self.wrapped(value);
         let [below, reached] =
             [self.at.partition_point(|knot| *knot < within), self.at.partition_point(|knot| *knot <= within)];
-        2.0 * rounds * self.at.len() as f64 + (below + reached) as f64
+        2.0 * periods * self.at.len() as f64 + (below + reached) as f64
     }
 
     /// The next knot from a value on, upwards or downwards; the value itself if it is one.
     pub(crate) fn ahead(&self, value: f64, is_upwards: bool) -> Option<f64> {
-        let first = self.at.first()?;
-        let rounds = if self.period > 0.0 { floor((value - first) / self.period) } else { 0.0 };
-        let within = value - rounds * self.period;
-        let index = match is_upwards {
-            true => Some(self.at.partition_point(|knot| *knot < within)),
-            false => self.at.partition_point(|knot| *knot <= within).checked_sub(1),
+        let (periods, within) = self.wrapped(value);
+        let next = match is_upwards {
+            true => self.at.partition_point(|knot| *knot < within) as f64,
+            false => self.at.partition_point(|knot| *knot <= within) as f64 - 1.0,
         };
-        match index.and_then(|index| self.at.get(index)) {
-            Some(knot) => Some(knot + rounds * self.period),
-            // the first one of the next period
-            None if is_upwards && self.period > 0.0 => Some(first + (rounds + 1.0) * self.period),
-            None => None,
-        }
+        self.knot(periods, next)
+    }
+
+    /// How many periods a value is behind the first one, and the value within that.
+    fn wrapped(&self, value: f64) -> (f64, f64) {
+        let periods = match self.at.first() {
+            Some(first) if self.period > 0.0 => floor((value - first) / self.period),
+            _ => 0.0,
+        };
+        (periods, value - periods * self.period)
+    }
+
+    /// The knot of a number, counted from the first one of a period; of a periodic function those of other periods,
+    /// too.
+    fn knot(&self, periods: f64, number: f64) -> Option<f64> {
+        let count = self.at.len() as f64;
+        let turns = if self.period > 0.0 { floor(number / count) } else { 0.0 };
+        let index = number - turns * count;
+        let knot = self.at.get(index as usize).filter(|_| index >= 0.0)?;
+        Some(knot + (periods + turns) * self.period)
     }
 }
 
@@ -71,33 +82,15 @@ pub fn next_corner<T: Real>(t: T, lines: &[[T; 2]], knots: &[Knots]) -> T {
 fn passages<T: Real>(t: T, [rate, offset]: [T; 2], knots: &Knots) -> [[T; 2]; 4] {
     let (a, b) = (rate.to_f64(), offset.to_f64());
     let value = a * t.to_f64() + b;
-    let count = knots.at.len() as f64;
-    let rounds = match knots.at.first() {
-        Some(first) if knots.period > 0.0 => floor((value - first) / knots.period),
-        _ => 0.0,
-    };
-    let within = value - rounds * knots.period;
+    let (periods, within) = knots.wrapped(value);
     let next = knots.at.partition_point(|knot| *knot <= within) as f64;
     [-2.0, -1.0, 0.0, 1.0].map(|beside| {
-        let at = next + beside;
-        // of a periodic one, those of the rounds before and behind
-        let turns = if knots.period > 0.0 { floor(at / count) } else { 0.0 };
-        let index = at - turns * count;
-        let Some(knot) = knots.at.get(index as usize).filter(|_| index >= 0.0) else {
-            return [T::from_f64(f64::NAN); 2];
-        };
-        let knot = knot + (rounds + turns) * knots.period;
+        let Some(knot) = knots.knot(periods, next + beside) else { return [T::from_f64(f64::NAN); 2] };
         let time = (T::from_f64(knot) - offset) / rate;
         let size = time.to_f64().abs() + (b.abs() + knot.abs()) / a.abs();
         let width = T::from_f64(ROUNDINGS * T::EPSILON.to_f64() * size);
         [time - width, time + width]
     })
-}
-
-/// The largest whole number that is not larger.
-pub(crate) fn floor(x: f64) -> f64 {
-    let truncated = x as i64 as f64;
-    if truncated > x { truncated - 1.0 } else { truncated }
 }
 
 #[cfg(test)]

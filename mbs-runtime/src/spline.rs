@@ -56,7 +56,7 @@ impl Spline {
 
 /// The next integer below: `f64::floor` needs the standard library.
 #[inline(always)]
-fn floor(x: f64) -> f64 {
+pub(crate) fn floor(x: f64) -> f64 {
     // beyond 2⁶³ every number is one, and no angle means anything
     let truncated = x as i64 as f64;
     if truncated > x { truncated - 1.0 } else { truncated }

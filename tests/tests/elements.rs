@@ -303,8 +303,8 @@ mechanism! {
     }
 }
 
-/// What acts within a pair keeps its momenta about any place, and without dampers its energy: the forces stand in the axes of
-/// the second body, which turns under them.
+/// Forces within a pair keep its momenta about any place, and without dampers its energy, although they stand in the axes
+/// of the second body, which turns under them.
 #[test]
 fn a_bushing_keeps_momenta_and_energy() -> Result<(), Error> {
     let fine = Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() };

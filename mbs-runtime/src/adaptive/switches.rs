@@ -3,17 +3,13 @@
 //! A run looks at them at the ends of its steps. Behind a jump it takes steps as long as before, and where a jump
 //! leads back to itself from both sides, it ends.
 
-use super::switching::Switching;
 use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
 use crate::corners::MOST_SWITCHES;
 use crate::equations::At;
 use crate::{Error, Real, vectors};
 
-/// A run ends where three looks in sequence find that a knot leads back to itself from both sides, or sixty that a value
-/// has turned around at it,
-const MOST_TURNS: u8 = 60;
-const LEADS_BACK: u8 = 20;
-const TURNED: u8 = 1;
+/// A run ends where so many looks in sequence find that a jump leads back to itself from both sides,
+const MOST_TURNS: u8 = 3;
 /// or where so many steps passed a knot by rounding alone.
 const MOST_ROUNDED: u8 = 100;
 /// A knot is looked at from as many steps before it,
@@ -46,8 +42,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let next = self.control.next;
         let calm = if was_rejected { 0.0 } else { next };
         self.switching.calm = calm.max(FORGET * self.switching.calm);
-        let now = self.now.clone();
-        let values = self.switches_at(&now, 0.0);
+        let Self { dynamics, inputs, now, all, .. } = self;
+        let values = switches_at((&*dynamics, &*inputs), now, all);
         let mut pieces = [0.0; MOST_SWITCHES];
         for ((piece, value), switch) in pieces.iter_mut().zip(values).zip(switches) {
             *piece = switch.knots.piece(value);
@@ -56,64 +52,51 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if pieces != before {
             self.control.next = next.max(self.switching.calm);
         }
-        if was_rejected { self.look_ahead(now, values, [before, pieces]) } else { Ok(()) }
+        let passed = core::array::from_fn(|index| pieces.get(index) != before.get(index));
+        if was_rejected { self.look_ahead(values, passed) } else { Ok(()) }
     }
 
-    /// Looks behind the knots to which values run.
+    /// Looks behind the knots to which values run; some were passed in the last step.
     fn look_ahead(
         &mut self,
-        mut now: Moment<D::Real, D::States>,
         values: [f64; MOST_SWITCHES],
-        [before, pieces]: [[f64; MOST_SWITCHES]; 2],
+        passed: [bool; MOST_SWITCHES],
     ) -> Result<(), Error> {
+        let mut now = self.now.clone();
         let rates = self.rates(&mut now);
-        let mut start = self.before.clone();
-        let rates_before = self.rates(&mut start);
-        let size =
-            vectors::largest(now.v.as_ref()).1.to_f64().max(vectors::largest(now.a.as_ref()).1.to_f64());
-        let rounding =
-            vectors::largest(now.q.as_ref()).1.to_f64().max(size) * ROUNDINGS * D::Real::EPSILON.to_f64();
-        let held = (HELD * size).max(rounding / (RATE * self.effort.longest));
+        let held = self.held(&now);
         let h = (now.t - self.before.t).to_f64();
         let near = if h < SHORT * self.effort.longest { NEAR * h } else { 0.0 };
-        for (index, switch) in self.dynamics.equations().switching().iter().enumerate() {
-            let all = (values.get(index), rates.get(index), before.get(index), pieces.get(index));
-            let (Some(&value), Some(&rate), Some(from), Some(to)) = all else { continue };
-            let is_passed = from != to;
+        let switches = self.dynamics.equations().switching().iter().enumerate();
+        for ((((index, switch), value), rate), is_passed) in switches.zip(values).zip(rates).zip(passed) {
             let t = self.now.t.to_f64();
             if rate.abs() <= held {
-                if is_passed && self.count(index, 1, |switching| &mut switching.rounded) >= MOST_ROUNDED {
+                let count = self.switching.rounded.get_mut(index);
+                if is_passed && counted(count) >= MOST_ROUNDED {
                     return Err(Error::Undecided { t, name: switch.name });
                 }
                 continue;
             }
             let knot = switch.knots.ahead(value, rate > 0.0);
             let until = knot.map_or(f64::INFINITY, |knot| (knot - value) / rate);
-            let came = rates_before.get(index).copied().unwrap_or(f64::NAN) * (to - from);
-            let found = if until <= near && self.leads_back(&now, index, rate, until) {
-                LEADS_BACK
-            } else if is_passed && came > 0.0 && rate * (to - from) < 0.0 {
-                TURNED
-            } else if is_passed {
-                if let Some(turned) = self.switching.turned.get_mut(index) {
-                    *turned = 0;
+            let leads_back = until <= near && self.leads_back(&now, index, rate, until);
+            let count = self.switching.turned.get_mut(index);
+            if leads_back {
+                if counted(count) >= MOST_TURNS {
+                    return Err(Error::Sliding { t, name: switch.name });
                 }
-                continue;
-            } else {
-                continue;
-            };
-            if self.count(index, found, |switching| &mut switching.turned) >= MOST_TURNS {
-                return Err(Error::Sliding { t, name: switch.name });
+            } else if let Some(count) = count.filter(|_| is_passed) {
+                *count = 0;
             }
         }
         Ok(())
     }
 
-    /// Counts more of what is remembered of a switch.
-    fn count(&mut self, index: usize, more: u8, of: fn(&mut Switching) -> &mut [u8; MOST_SWITCHES]) -> u8 {
-        let Some(count) = of(&mut self.switching).get_mut(index) else { return 0 };
-        *count = count.saturating_add(more);
-        *count
+    /// The rate of a value up to which it is held, but for rounding.
+    fn held(&self, now: &Moment<D::Real, D::States>) -> f64 {
+        let [q, v, a] = [&now.q, &now.v, &now.a].map(|x| vectors::largest(x.as_ref()).1.to_f64());
+        let rounding = ROUNDINGS * D::Real::EPSILON.to_f64() * q.max(v).max(a);
+        (HELD * v.max(a)).max(rounding / (RATE * self.effort.longest))
     }
 
     /// Reports whether a value that comes to its knot after some time has the opposite rate right behind it, by a jump:
@@ -131,28 +114,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The rates of the values in a state, whose accelerations are found.
     fn rates(&mut self, moment: &mut Moment<D::Real, D::States>) -> [f64; MOST_SWITCHES] {
-        let Moment { t, q, v, a } = moment;
-        self.dynamics.acceleration(*t, q, v, &self.inputs, a);
-        let dt = RATE * self.effort.longest;
-        let [ahead, behind] = [dt, -dt].map(|dt| self.switches_at(moment, dt));
-        let mut rates = [f64::NAN; MOST_SWITCHES];
-        for (rate, (ahead, behind)) in rates.iter_mut().zip(ahead.iter().zip(behind)) {
-            *rate = (ahead - behind) / (2.0 * dt);
-        }
-        rates
-    }
-
-    /// The values in a state, some time later.
-    fn switches_at(&mut self, moment: &Moment<D::Real, D::States>, dt: f64) -> [f64; MOST_SWITCHES] {
-        let Self { dynamics, inputs, all, .. } = self;
-        let Moment { t, q, v, .. } = if dt == 0.0 { moment.clone() } else { moved(moment, dt) };
-        dynamics.complete(t, &q, &v, all);
-        let [q, v] = all;
-        let at = At { t, q: q.as_ref(), v: v.as_ref() };
-        let mut values = [D::Real::from_f64(f64::NAN); MOST_SWITCHES];
-        let equations = dynamics.described();
-        dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
-        values.map(Real::to_f64)
+        let Self { dynamics, inputs, all, effort, .. } = self;
+        let Moment { t, q, v, a } = &mut *moment;
+        dynamics.acceleration(*t, q, v, inputs, a);
+        let dt = RATE * effort.longest;
+        let [ahead, behind] =
+            [dt, -dt].map(|dt| switches_at((&*dynamics, &*inputs), &moved(moment, dt), all));
+        core::array::from_fn(|index| match (ahead.get(index), behind.get(index)) {
+            (Some(ahead), Some(behind)) => (ahead - behind) / (2.0 * dt),
+            _ => f64::NAN,
+        })
     }
 
     /// The error of a step that was tried, as it is judged: of one that passes a switch the estimate, which sees
@@ -162,14 +133,37 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Some(pieces) = self.switching.pieces.filter(|_| ratio <= 1.0 && !switches.is_empty()) else {
             return ratio;
         };
-        let next = self.next.clone();
-        let values = self.switches_at(&next, 0.0);
+        let Self { dynamics, inputs, next, all, .. } = self;
+        let values = switches_at((&*dynamics, &*inputs), next, all);
         let known = switches.iter().zip(pieces).zip(self.switching.rounded);
         // rounding decides of which piece a value is that is held
         let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
         let passes = ends.any(|(value, ((switch, piece), _))| switch.knots.piece(value) != piece);
         if passes { STRICT * ratio } else { ratio }
     }
+}
+
+/// Counts one more; 0 where nothing is counted.
+fn counted(count: Option<&mut u8>) -> u8 {
+    count.map_or(0, |count| {
+        *count = count.saturating_add(1);
+        *count
+    })
+}
+
+/// The values of the switches in a state, with room for all coordinates.
+fn switches_at<D: Dynamics>(
+    (dynamics, inputs): (&D, &D::Inputs),
+    Moment { t, q, v, .. }: &Moment<D::Real, D::States>,
+    all: &mut [D::Coordinates; 2],
+) -> [f64; MOST_SWITCHES] {
+    dynamics.complete(*t, q, v, all);
+    let [q, v] = all;
+    let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+    let mut values = [D::Real::from_f64(f64::NAN); MOST_SWITCHES];
+    let equations = dynamics.described();
+    dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
+    values.map(Real::to_f64)
 }
 
 /// A state some time later, with the velocities and accelerations that it has.

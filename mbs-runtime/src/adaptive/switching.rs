@@ -2,14 +2,14 @@
 
 use crate::corners::MOST_SWITCHES;
 
-/// What a run remembers of the switches.
+/// The memory of the switches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switching {
     /// The pieces on which the values are, if they are known.
     pub pieces: Option<[f64; MOST_SWITCHES]>,
-    /// How many looks in sequence found that a knot leads back to itself.
+    /// The number of looks in sequence that found that a jump leads back to itself.
     pub turned: [u8; MOST_SWITCHES],
-    /// How many steps passed a knot of a value that is held.
+    /// The number of steps that passed a knot of a value that is held.
     pub rounded: [u8; MOST_SWITCHES],
     /// The length of steps before the last rejections in s.
     pub calm: f64,

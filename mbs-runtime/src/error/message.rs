@@ -69,14 +69,14 @@ impl fmt::Display for Error {
             }
             Self::Sliding { t, name } => write!(
                 f,
-                "from t = {t} s on a jump in a law of `{name}` leads back to itself from both sides, and no motion goes on; \
+                "no motion goes on from t = {t} s: a law jumps with `{name}`, and leads it back to the jump from both sides; \
                  give the jump a slope, as `tanh(v/v0)` in the place of `sign(v)`; dry friction is the element `friction`",
                 t = Shown(t)
             ),
             Self::Undecided { t, name } => write!(
                 f,
-                "at t = {t} s rounding alone decides on which side of a jump in a law `{name}` is; leave the jump out, or let \
-                 it be where the value does not rest, as in `if x > 1e-6 [m]` for `if x > 0 [m]`",
+                "at t = {t} s a law jumps with `{name}`, which rests at the jump, so that rounding decides on which side it \
+                 is; leave the jump out, or put it where the value does not rest, as in `if x > 1e-6 [m]` for `if x > 0 [m]`",
                 t = Shown(t)
             ),
             Self::NotConverged { t, step } => write!(

@@ -34,21 +34,20 @@ pub enum Mention<'a> {
 pub fn declared(item: &Item) -> Vec<String> {
     let plain = |name: &Ident| vec![name.to_string()];
     match &item.kind {
-        ItemKind::Parameter { name, .. }
-        | ItemKind::Constant { name, .. }
-        | ItemKind::Input { name, .. }
-        | ItemKind::State { name, .. }
-        | ItemKind::Let { name, .. }
-        | ItemKind::Binding { name, .. }
-        | ItemKind::Constraint { name, .. }
+        ItemKind::Parameter { .. }
+        | ItemKind::Constant { .. }
+        | ItemKind::Input { .. }
+        | ItemKind::State { .. }
+        | ItemKind::Let { .. }
+        | ItemKind::Binding { .. } => quantities(item).into_iter().map(ToString::to_string).collect(),
+        ItemKind::Constraint { name, .. }
         | ItemKind::Force { name, .. }
         | ItemKind::Event { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
         ItemKind::Table(table) => vec![format!("{}()", table.name), table.name.to_string()],
-        ItemKind::Body { name, coordinates, .. } => {
-            let coordinates = coordinates.iter().map(|coordinate| coordinate.name.to_string());
-            coordinates.chain([name.to_string()]).collect()
+        ItemKind::Body { name, .. } => {
+            quantities(item).into_iter().chain([name]).map(ToString::to_string).collect()
         }
         ItemKind::Joint(joint) => {
             let rows = ROW_SUFFIXES.iter().map(|suffix| format!("{}{suffix}", joint.name));

@@ -58,7 +58,7 @@ pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Ve
             let line = affine(&mut model.arena, piece, model.time, time).filter(|_| is_of_time);
             if let Some([rate, offset]) = line {
                 push(&mut corners, Corner { rate, offset, knots: knots.clone() });
-            } else if model.arena.symbols_in(argument).into_iter().all(is_known) {
+            } else if switches.len() < MOST && model.arena.symbols_in(argument).into_iter().all(is_known) {
                 push(&mut switches, Switch { value: argument, knots: knots.clone() });
             }
         }
@@ -110,7 +110,7 @@ impl OfTime {
         Self(all, depends)
     }
 
-    /// What has pieces and varies, and whether it depends on time alone.
+    /// The nodes that have pieces and vary, each with whether it depends on time alone.
     fn pieces(&self, arena: &Arena) -> Vec<(Expr, bool)> {
         let varies = |node: Expr| match self.1.get(&node)? {
             [false, false] => None,
