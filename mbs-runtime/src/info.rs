@@ -1,5 +1,7 @@
 //! The description of a mechanism for tools: names, units, equations, counts.
 
+use crate::Error;
+
 /// A mechanism described for people and tools.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -147,10 +149,12 @@ pub struct Constraint {
     pub name: &'static str,
     /// Its doc comment.
     pub doc: &'static str,
-    /// Φ as a formula.
+    /// Φ as a formula; of an equation between rates Φ̇.
     pub formula: &'static str,
     /// True if it was declared as a drive.
     pub is_drive: bool,
+    /// True of an equation between rates: its Φ is 0, and it restricts no position.
+    pub is_rate: bool,
     /// Dimension of Φ.
     pub dimension: Dimension,
 }
@@ -227,6 +231,14 @@ impl Info {
     /// True if constraints give some coordinates, which are not integrated.
     pub fn has_reduced_states(&self) -> bool {
         self.states.len() < self.coordinates.len()
+    }
+
+    /// Refuses equations between rates, for a method.
+    pub(crate) fn refuse_rates(&self, method: &'static str) -> Result<(), Error> {
+        match self.constraints.iter().find(|row| row.is_rate) {
+            Some(row) => Err(Error::Rates { method, constraint: row.name }),
+            None => Ok(()),
+        }
     }
 
     /// The name of a constraint; empty where there is none.

@@ -69,12 +69,13 @@ impl<M: Mechanism> Kinematics<M> {
     /// The kinematics of a mechanism, starting from its declared positions.
     ///
     /// # Errors
-    /// [`Error::NotDriven`] unless there is a constraint for every coordinate; [`Error::OwnState`] for a mechanism
-    /// with states of its own.
+    /// [`Error::NotDriven`] unless there is a constraint for every coordinate; [`Error::OwnState`] and
+    /// [`Error::Rates`] for a mechanism with states of its own or equations between rates.
     pub fn new(mechanism: M) -> Result<Self, Error> {
         if let Some(state) = M::INFO.coordinates.get(M::INFO.lines) {
             return Err(Error::OwnState { state: state.name });
         }
+        M::INFO.refuse_rates("kinematics")?;
         match M::INFO.dof {
             0 => Ok(Self { mechanism, last: mechanism.declared_start(), is_assembled: false, size: 0.0 }),
             dof => Err(Error::NotDriven { dof }),

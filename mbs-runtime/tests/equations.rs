@@ -42,6 +42,7 @@ impl Pendulums {
             doc: "",
             formula: "",
             is_drive: false,
+            is_rate: false,
             dimension: length,
         };
         let rows = 0..lengths.len();

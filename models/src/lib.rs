@@ -28,6 +28,8 @@
 //! | [`GearedMotor`] | 1 | a torque–speed line, a pair of gears |
 //! | [`DcMotor`] | 1 | states of its own: a current, a controller's integral |
 //! | [`Suspension`] | 2 | tables, a force by a law between two bodies |
+//! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
+//! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -46,8 +48,10 @@ pub mod andrews_squeezer;
 pub mod block_on_incline;
 pub mod cam_follower;
 pub mod cart_pendulum;
+pub mod chaplygin_sleigh;
 pub mod chebyshev;
 pub mod dc_motor;
+pub mod differential_drive;
 pub mod double_pendulum;
 pub mod excavator;
 pub mod four_bar;
@@ -81,8 +85,10 @@ pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueez
 pub use block_on_incline::{BlockOnIncline, BlockOnInclineInputs, BlockOnInclineParameters};
 pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
+pub use chaplygin_sleigh::{ChaplyginSleigh, ChaplyginSleighParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
 pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
+pub use differential_drive::{DifferentialDrive, DifferentialDriveInputs, DifferentialDriveParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
 pub use four_bar::{FourBar, FourBarParameters};

@@ -10,7 +10,7 @@ use crate::model::Model;
 pub fn derive(model: &mut Model, inputs: &Inputs) -> Equations {
     let mechanism = Mechanism {
         inertias: &model.inertias,
-        phi: model.constraints.iter().map(|constraint| constraint.phi).collect(),
+        rows: model.constraints.iter().map(|constraint| (constraint.phi, constraint.rate)).collect(),
         loads: &model.loads,
         reactive_loads: model.reactive_loads.iter().map(|load| &load.work).collect(),
         potentials: &model.potentials,

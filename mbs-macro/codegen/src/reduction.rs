@@ -205,7 +205,9 @@ fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
     let mut given = Given::default();
     let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
     let preference = Preference::new(model, equations);
-    for &row in &rows.basis {
+    let of_positions = |row: &&usize| model.constraints[**row].rate.is_none();
+    let of_positions: Vec<usize> = rows.basis.iter().filter(of_positions).copied().collect();
+    for row in of_positions {
         let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
         for (&coordinate, known) in &dependences {
             dependence.replace(coordinate, known);

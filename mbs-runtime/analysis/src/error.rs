@@ -47,6 +47,19 @@ pub enum Error {
         /// The first of its states.
         state: &'static str,
     },
+    /// An analysis that does not know equations between rates.
+    #[error(
+        "`{constraint}` of `{mechanism}` is an equation between rates, and {what} knows those between positions alone; \
+         simulate it, or leave the equation out"
+    )]
+    Rates {
+        /// The analysis that was asked for, in words.
+        what: &'static str,
+        /// The name of the mechanism.
+        mechanism: &'static str,
+        /// The first of its equations between rates.
+        constraint: &'static str,
+    },
     /// No position near the given one at which nothing moves.
     #[error(
         "no equilibrium was found in {iterations} iterations: `{coordinate}` still accelerates with \
@@ -387,6 +400,14 @@ impl Error {
     pub(crate) fn refuse_states(info: &mbs_runtime::Info, what: &'static str) -> Result<(), Self> {
         match info.coordinates.get(info.lines) {
             Some(state) => Err(Self::OwnStates { what, mechanism: info.name, state: state.name }),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a mechanism with equations between rates where an analysis does not know them.
+    pub(crate) fn refuse_rates(info: &mbs_runtime::Info, what: &'static str) -> Result<(), Self> {
+        match info.constraints.iter().find(|row| row.is_rate) {
+            Some(row) => Err(Self::Rates { what, mechanism: info.name, constraint: row.name }),
             None => Ok(()),
         }
     }

@@ -185,6 +185,7 @@ pub fn inverse(
     times: &[f64],
 ) -> Result<Vec<Instant>, Error> {
     let info = mechanism.info();
+    Error::refuse_rates(info, "an inverse motion")?;
     Error::refuse_states(info, "an inverse motion")?;
     let names: Vec<String> = request.curves.iter().map(|(name, _)| name.clone()).collect();
     let places = places(mechanism, &names)?;

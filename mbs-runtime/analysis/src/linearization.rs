@@ -160,6 +160,7 @@ pub fn linearize(
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
     let info = mechanism.info();
+    Error::refuse_rates(info, "a linearization")?;
     if info.dof <= 0 && info.lines == info.coordinates.len() {
         return Err(Error::NoFreedom { mechanism: info.name });
     }

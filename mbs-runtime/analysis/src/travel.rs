@@ -193,6 +193,7 @@ impl Position {
 /// J. E. Shigley, J. J. Uicker, Theory of Machines and Mechanisms, McGraw-Hill 1980, sections 2-9 and 11-13.
 pub fn travel(mechanism: &dyn Described<f64>, request: &Travel) -> Result<Vec<Position>, Error> {
     let info = mechanism.info();
+    Error::refuse_rates(info, "a slow motion")?;
     Error::refuse_states(info, "a slow motion")?;
     let defaults = || info.inputs.iter().map(|input| input.default).collect();
     let inputs: Vec<f64> = request.inputs.clone().unwrap_or_else(defaults);

@@ -100,6 +100,7 @@ impl From<Error> for Failure {
             Error::NoEstimate { .. }
             | Error::VelocityForce { .. }
             | Error::ReducedStates { .. }
+            | Error::Rates { .. }
             | Error::NoUseOfGain { .. }
             | Error::Scheme { .. }
             | Error::UnstableGains { .. }

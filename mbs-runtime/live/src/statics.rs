@@ -137,9 +137,14 @@ fn dimension(dimension: units::Dimension) -> Dimension {
 }
 
 fn constraint(constraint: &compiled::Constraint) -> Constraint {
-    let compiled::Constraint { name, doc, formula, is_drive, dimension: of } = constraint;
-    let dimension = dimension(*of);
-    Constraint { name: text(name), doc: text(doc), formula: text(formula), is_drive: *is_drive, dimension }
+    Constraint {
+        name: text(&constraint.name),
+        doc: text(&constraint.doc),
+        formula: text(&constraint.formula),
+        is_drive: constraint.is_drive,
+        is_rate: constraint.is_rate,
+        dimension: dimension(constraint.dimension),
+    }
 }
 
 fn pivot(pivot: &compiled::Pivot) -> Pivot {

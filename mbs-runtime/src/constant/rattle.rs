@@ -123,6 +123,7 @@ impl<D: Dynamics> Kernel<D> for RattleStep<D::States> {
         if let Some(&at) = info.velocity_forces.first() {
             return Err(Error::VelocityForce { coordinate: info.coordinate_name(at) });
         }
+        info.refuse_rates(self.composition.word)?;
         if info.has_reduced_states() {
             return Err(Error::ReducedStates { method: self.composition.word });
         }

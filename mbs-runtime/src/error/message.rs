@@ -96,6 +96,11 @@ impl fmt::Display for Error {
                 "the method `{method}` integrates all coordinates; leave `states = reduced;` out of the \
                  declaration, or take another method"
             ),
+            Self::Rates { method, constraint } => write!(
+                f,
+                "{method} knows equations between positions alone, and `{constraint}` is one between rates; take another \
+                 method"
+            ),
             Self::OwnState { state } => write!(
                 f,
                 "the state `{state}` follows from its equation over time, and not from the constraints; simulate the \

@@ -122,6 +122,13 @@ pub enum Error {
         /// Its word.
         method: &'static str,
     },
+    /// An equation between rates, for a method that knows equations between positions alone.
+    Rates {
+        /// The word of the method, or what it is.
+        method: &'static str,
+        /// The name of the equation.
+        constraint: &'static str,
+    },
     /// A state of the mechanism's own, where the motion is to follow from constraints alone.
     OwnState {
         /// Its name.

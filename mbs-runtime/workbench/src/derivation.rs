@@ -14,7 +14,10 @@ pub(crate) type Section = (&'static str, &'static [Formula], fn(&Formula) -> (St
 pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 9] {
     [
         (GIVEN, derivation.given, |f| (f.of.to_owned(), f.of_latex.to_owned())),
-        ("Constraints Φ(q, t) = 0", derivation.phi, |f| named("Φ", r"\Phi", f)),
+        ("Constraints Φ(q, t) = 0", derivation.phi, |f| match f.by {
+            "" => named("Φ", r"\Phi", f),
+            _ => named("Φ̇", r"\dot{\Phi}", f),
+        }),
         ("Jacobian Φ_q", derivation.phi_q, |f| {
             let latex = format!(
                 r"\frac{{\partial \Phi_{{\mathrm{{{}}}}}}}{{\partial {}}}",

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 40] = entries! {
+static LIBRARY: [Entry; 42] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -57,6 +57,8 @@ static LIBRARY: [Entry; 40] = entries! {
     "geared-motor", "geared_motor.rs", "GearedMotor";
     "dc-motor", "dc_motor.rs", "DcMotor";
     "suspension", "suspension.rs", "Suspension";
+    "chaplygin-sleigh", "chaplygin_sleigh.rs", "ChaplyginSleigh";
+    "differential-drive", "differential_drive.rs", "DifferentialDrive";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
     "chebyshev", "chebyshev.rs", "Chebyshev";

@@ -13,12 +13,12 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, Chebyshev, DcMotor, DoublePendulum,
-    Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
-    Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
-    NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank,
-    SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
-    WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, DcMotor,
+    DifferentialDrive, DoublePendulum, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot,
+    HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40,
+    NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear,
+    QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
+    TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use paths::STRIDE;
@@ -131,6 +131,8 @@ library! {
     DcMotor: 0.5e-3, 10.0, ["constant"], |p, at, u| (p.constant*at.v.current + u.load)*at.v.theta;
     // without spring, damper and tyre it falls
     Suspension: 0.5e-3, 10.0, ["spring", "damper", "tyre_stiffness"], |p, at, _| power_of_suspension(p, at);
+    ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
+    DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;

@@ -27,6 +27,7 @@ mod sliders;
 mod squeezer;
 mod swings;
 mod transmissions;
+mod wheels;
 
 use mbs_runtime::{Components, Kinematics, Mechanism, Motion};
 

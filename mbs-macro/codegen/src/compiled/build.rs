@@ -146,8 +146,9 @@ fn constraint(model: &Model, row: &model::Constraint) -> Constraint {
     Constraint {
         name: row.name.clone(),
         doc: row.doc.clone(),
-        formula: readable(&model.arena, row.phi),
+        formula: readable(&model.arena, row.declared()),
         is_drive: row.is_drive,
+        is_rate: row.rate.is_some(),
         dimension: row.dimension,
     }
 }

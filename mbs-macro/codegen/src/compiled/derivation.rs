@@ -16,7 +16,7 @@ const LONGEST_IN_A_LINE: usize = 60;
 pub struct Derivation {
     /// The coordinates that constraints give, by those that are integrated.
     pub given: Vec<Formula>,
-    /// Φ
+    /// Φ; of an equation between rates Φ̇, its derivative by t.
     pub phi: Vec<Formula>,
     /// The entries of Φ_q that are not 0, row by row.
     pub phi_q: Vec<Formula>,
@@ -90,6 +90,10 @@ impl Derivation {
         let rows = |exprs: &[Expr]| {
             exprs.iter().enumerate().map(|(at, &expr)| formula(arena, row_name(at), "", expr)).collect()
         };
+        let declared = model.constraints.iter().map(|row| match row.rate {
+            Some(rate) => formula(arena, &row.name, "t", rate),
+            None => formula(arena, &row.name, "", row.phi),
+        });
         let coordinates = |exprs: &[Expr]| {
             exprs
                 .iter()
@@ -108,7 +112,7 @@ impl Derivation {
         let given = given.into_iter().map(|(at, value)| formula(arena, coordinate_name(at), "", value));
         Self {
             given: given.collect(),
-            phi: rows(&equations.phi),
+            phi: declared.collect(),
             phi_q: entries
                 .map(|(row, column, entry)| formula(arena, row_name(row), coordinate_name(column), entry))
                 .collect(),

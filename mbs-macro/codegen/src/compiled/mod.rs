@@ -172,10 +172,12 @@ pub struct Constraint {
     pub name: String,
     /// Its documentation.
     pub doc: String,
-    /// Φ, unless it is too long to read.
+    /// Φ, or Φ̇ of an equation between rates, unless it is too long to read.
     pub formula: String,
     /// True if it prescribes a motion over time.
     pub is_drive: bool,
+    /// True of an equation between rates: its Φ is 0, and it restricts no position.
+    pub is_rate: bool,
     /// The dimension of Φ.
     pub dimension: Dimension,
 }

@@ -8,7 +8,7 @@ use crate::model::{Body, Direction, Meaning, Model};
 /// turns a shaft but does not carry it.
 pub fn floating_bodies(model: &Model) -> Vec<&str> {
     let held: Vec<Vec<usize>> =
-        model.constraints.iter().filter(|c| !c.is_drive).map(|c| bodies_in(model, c.phi)).collect();
+        model.constraints.iter().filter(|c| !c.is_drive).map(|c| bodies_in(model, c.declared())).collect();
     let lacks = |body: &Body, direction| model.coordinate_of(body, direction).is_none();
     let is_guided = |body: &Body| lacks(body, Direction::X) || lacks(body, Direction::Y);
     let mut is_grounded: Vec<bool> = model.bodies.iter().map(is_guided).collect();
@@ -37,7 +37,7 @@ fn bodies_in(model: &Model, expr: mbs_symbolic::Expr) -> Vec<usize> {
         .symbols_in(expr)
         .iter()
         .filter_map(|symbol| match model.meanings.get(symbol.index()) {
-            Some(Meaning::Coordinate(at)) => model.coordinates[*at].body(),
+            Some(Meaning::Coordinate(at) | Meaning::Velocity(at)) => model.coordinates[*at].body(),
             _ => None,
         })
         .collect();

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Algebra, Arena, Expr, Scalar, Symbol};
+use mbs_symbolic::{Algebra, Arena, Expr, Number, Scalar, Symbol};
 use rustc_hash::FxHashMap as HashMap;
 
 use super::{Inertia, Load, Motion, Work, energies};
@@ -12,8 +12,8 @@ use super::{Inertia, Load, Motion, Work, energies};
 pub struct Mechanism<'m> {
     /// Of every coordinate.
     pub inertias: &'m [Inertia],
-    /// Φ
-    pub phi: Vec<Expr>,
+    /// Φ, and Φ̇ where that is no derivative of it.
+    pub rows: Vec<(Expr, Option<Expr>)>,
     pub loads: &'m [Load],
     /// Forces that depend on multipliers.
     pub reactive_loads: Vec<&'m Work>,
@@ -43,7 +43,7 @@ pub struct Equations {
     pub phi_dot: Vec<Expr>,
     /// γ = −(Φ_q v)_q v − 2Φ_qt v − Φ_tt
     pub gamma: Vec<Expr>,
-    /// −2αΦ̇ − β²Φ
+    /// −2αΦ̇ − β²Φ, and −αΦ̇ of an equation between rates
     pub feedback: Vec<Expr>,
     /// ½ vᵀMv
     pub kinetic_energy: Expr,
@@ -54,16 +54,20 @@ pub struct Equations {
 /// Derives the equations. Cannot fail.
 pub fn derive(arena: &mut Arena, mechanism: &Mechanism<'_>) -> Equations {
     let algebra = &Algebra::new(arena);
-    let &Mechanism { inertias, motion, .. } = mechanism;
-    let phi: Vec<_> = mechanism.phi.iter().map(|&row| algebra.scalar(row)).collect();
-    let phi_q = phi.iter().map(|&row| motion.slopes(row).into_iter().collect()).collect();
-    let phi_t: Vec<_> = phi.iter().map(|&row| row.partial(mechanism.time)).collect();
+    let inertias = mechanism.inertias;
     let along_motion = along_motion(algebra, mechanism);
-    let phi_dot: Vec<_> = phi.iter().map(|&row| row.derivative(&along_motion)).collect();
+    let rows = mechanism.rows.iter().map(|&(phi, rate)| match rate {
+        Some(rate) => Row::of_rates(algebra, mechanism, algebra.scalar(rate)),
+        None => Row::of_positions(mechanism, algebra.scalar(phi), &along_motion),
+    });
+    let rows: Vec<Row<'_>> = rows.collect();
+    let phi_q = rows.iter().map(|row| row.phi_q.clone()).collect();
+    let phi: Vec<_> = rows.iter().map(|row| row.phi).collect();
+    let phi_t: Vec<_> = rows.iter().map(|row| row.phi_t).collect();
+    let phi_dot: Vec<_> = rows.iter().map(|row| row.phi_dot).collect();
     // Φ̈ = Φ_q q̈ − γ, and the direction holds velocities constant
     let gamma: Vec<_> = phi_dot.iter().map(|&rate| -rate.derivative(&along_motion)).collect();
-    let feedback: Vec<_> =
-        phi.iter().zip(&phi_dot).map(|(&phi, &rate)| feedback(mechanism, phi, rate)).collect();
+    let feedback: Vec<_> = rows.iter().map(|row| row.feedback(mechanism)).collect();
     let kinetic_energy = energies::kinetic(algebra, inertias).expr();
     let potential_energy = energies::potential(algebra, inertias, mechanism.potentials).expr();
     let forces = forces(algebra, mechanism);
@@ -83,6 +87,48 @@ pub fn derive(arena: &mut Arena, mechanism: &Mechanism<'_>) -> Equations {
     }
 }
 
+/// A constraint and its derivatives.
+struct Row<'a> {
+    phi: Scalar<'a>,
+    phi_q: BTreeMap<usize, Expr>,
+    phi_t: Scalar<'a>,
+    phi_dot: Scalar<'a>,
+    is_of_rates: bool,
+}
+
+impl<'a> Row<'a> {
+    fn of_positions(
+        mechanism: &Mechanism<'_>,
+        phi: Scalar<'a>,
+        along_motion: &HashMap<Symbol, Expr>,
+    ) -> Self {
+        let phi_q = mechanism.motion.slopes(phi).into_iter().collect();
+        let (phi_t, phi_dot) = (phi.partial(mechanism.time), phi.derivative(along_motion));
+        Self { phi, phi_q, phi_t, phi_dot, is_of_rates: false }
+    }
+
+    /// Of A v + b = 0: A has the place of Φ_q, and b that of Φ_t.
+    fn of_rates(algebra: &'a Algebra<'a>, mechanism: &Mechanism<'_>, rate: Scalar<'a>) -> Self {
+        let motion = mechanism.motion;
+        let phi_q = motion.slopes_of_rate(rate).into_iter().collect();
+        let phi = algebra.number(0);
+        Self { phi, phi_q, phi_t: motion.at_standstill(rate), phi_dot: rate, is_of_rates: true }
+    }
+
+    /// −2αΦ̇ − β²Φ, which decays with the double rate α where β = α. Of an equation between rates −αΦ̇, which decays
+    /// with the rate α: gains with which a method is stable for the others are stable for it.
+    fn feedback(&self, mechanism: &Mechanism<'_>) -> Scalar<'a> {
+        let algebra = self.phi.algebra();
+        let gains = [mechanism.minus_two_alpha, mechanism.minus_beta_squared];
+        let [minus_two_alpha, minus_beta_squared] = gains.map(|symbol| algebra.variable(symbol));
+        let (phi, phi_dot) = (self.phi.shared(), self.phi_dot.shared());
+        match self.is_of_rates {
+            true => algebra.number(Number::ratio(1, 2)) * minus_two_alpha * phi_dot,
+            false => minus_two_alpha * phi_dot + minus_beta_squared * phi,
+        }
+    }
+}
+
 fn exprs(scalars: &[Scalar<'_>]) -> Vec<Expr> {
     scalars.iter().map(|scalar| scalar.expr()).collect()
 }
@@ -92,15 +138,6 @@ fn along_motion<'a>(algebra: &'a Algebra<'a>, mechanism: &Mechanism<'_>) -> Hash
     let time = (mechanism.time, algebra.number(1).expr());
     let velocity = |inertia: &Inertia| (inertia.position, algebra.variable(inertia.velocity).expr());
     [time].into_iter().chain(mechanism.inertias.iter().map(velocity)).collect()
-}
-
-/// −2αΦ̇ − β²Φ
-fn feedback<'a>(mechanism: &Mechanism<'_>, phi: Scalar<'a>, phi_dot: Scalar<'a>) -> Scalar<'a> {
-    let algebra = phi.algebra();
-    let (phi, phi_dot) = (phi.shared(), phi_dot.shared());
-    let gains = [mechanism.minus_two_alpha, mechanism.minus_beta_squared];
-    let [minus_two_alpha, minus_beta_squared] = gains.map(|symbol| algebra.variable(symbol));
-    minus_two_alpha * phi_dot + minus_beta_squared * phi
 }
 
 /// Loads and weights along every coordinate.

@@ -50,6 +50,25 @@ impl Motion {
         slopes
     }
 
+    /// ∂x/∂v for every velocity v along which it is not 0.
+    pub fn slopes_of_rate(&self, x: Scalar<'_>) -> Vec<(usize, Expr)> {
+        let slopes = self.velocities.iter().enumerate().map(|(at, &velocity)| (at, x.partial(velocity)));
+        slopes.filter(|(_, slope)| !slope.is_zero()).map(|(at, slope)| (at, slope.expr())).collect()
+    }
+
+    /// x where all velocities are 0.
+    pub fn at_standstill<'a>(&self, x: Scalar<'a>) -> Scalar<'a> {
+        let zero = x.algebra().number(0).expr();
+        x.substitute(&self.velocities.iter().map(|&velocity| (velocity, zero)).collect())
+    }
+
+    /// The part of x, which is linear in the velocities, that they make.
+    pub fn part_in_velocities<'a>(&self, x: Scalar<'a>) -> Scalar<'a> {
+        let algebra = x.algebra();
+        let parts = self.slopes_of_rate(x).into_iter();
+        algebra.sum(parts.map(|(at, slope)| algebra.scalar(slope) * self.velocity(algebra, at)))
+    }
+
     /// ẋ, of a function of coordinates and time.
     pub fn rate<'a>(&self, x: Scalar<'a>) -> Scalar<'a> {
         x.derivative(&self.direction(x, true))

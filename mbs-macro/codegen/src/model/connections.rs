@@ -63,7 +63,8 @@ impl Resolver<'_> {
             if let (Some((phi, dimension)), true) = (equation, is_restricting) {
                 let (doc, span) = (doc.to_owned(), joint.name.span());
                 let (source, is_drive) = (source(joint), false);
-                self.constraints.push(Constraint { name, source, doc, span, is_drive, phi, dimension });
+                let rate = None;
+                self.constraints.push(Constraint { name, source, doc, span, is_drive, rate, phi, dimension });
             }
         }
     }

@@ -188,7 +188,8 @@ impl<'a> Resolver<'a> {
             self.scope.symbol(&format!("lambda({text})"), Stage::Variable, Meaning::Multiplier(position));
         self.scope.motion.add_multiplier(multiplier);
         let span = name.span();
-        let row = Row { position, is_drive, span, multiplier, dimension: None, phi: None, is_broken: false };
+        let (dimension, phi, rate, is_broken) = (None, None, None, false);
+        let row = Row { position, is_drive, span, multiplier, dimension, phi, rate, is_broken };
         self.scope.rows.insert(text, row);
     }
 }

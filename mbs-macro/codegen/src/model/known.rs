@@ -120,6 +120,8 @@ pub struct Row {
     pub dimension: Option<Dimension>,
     /// Known with the dimension.
     pub phi: Option<Expr>,
+    /// The same of an equation between rates.
+    pub rate: Option<Expr>,
     /// Its equation has errors, which are reported there.
     pub is_broken: bool,
 }

@@ -75,10 +75,13 @@ impl Scope<'_> {
                 algebra.sum(source.work.iter().map(|work| work.power(algebra, &self.motion))).expr()
             }
             (None, Some(row)) => {
-                let (phi, multiplier) = (row.phi, row.multiplier);
+                let (phi, rate, multiplier) = (row.phi, row.rate, row.multiplier);
                 let phi = phi.unwrap_or(self.arena.zero());
                 let algebra = Algebra::new(&mut self.arena);
-                let rate = self.motion.rate_at_rest(algebra.scalar(phi));
+                let rate = match rate {
+                    Some(rate) => self.motion.part_in_velocities(algebra.scalar(rate)),
+                    None => self.motion.rate_at_rest(algebra.scalar(phi)),
+                };
                 let lambda = algebra.variable(multiplier);
                 (-(lambda * rate)).expr()
             }

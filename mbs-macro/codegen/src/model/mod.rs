@@ -20,6 +20,7 @@ mod loads;
 mod measures;
 mod names;
 mod places;
+mod rates;
 mod reactions;
 mod resolver;
 mod sketch;
@@ -187,8 +188,19 @@ pub struct Constraint {
     pub doc: String,
     pub span: Span,
     pub is_drive: bool,
+    /// Φ; 0 of an equation between rates, which no position violates.
     pub phi: Expr,
+    /// Φ̇ of an equation between rates, linear in the velocities; that of others is the derivative of Φ.
+    pub rate: Option<Expr>,
+    /// That of Φ; of an equation between rates, that of its integral over time.
     pub dimension: Dimension,
+}
+
+impl Constraint {
+    /// The equation as it was declared: Φ̇ between rates, and Φ else.
+    pub fn declared(&self) -> Expr {
+        self.rate.unwrap_or(self.phi)
+    }
 }
 
 /// The statement that a constraint comes from, in its own words.

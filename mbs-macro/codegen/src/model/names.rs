@@ -20,6 +20,8 @@ pub enum Place {
     Constant,
     Property,
     Constraint,
+    /// An equation between rates.
+    RateRow,
     Load,
     /// The right side of the equation of a state.
     Rate,
@@ -31,12 +33,9 @@ impl Place {
     pub fn allows(self, meaning: Meaning) -> bool {
         match meaning {
             Meaning::Parameter(_) => self != Self::Constant,
-            Meaning::Time | Meaning::Coordinate(_) => {
-                matches!(self, Self::Constraint | Self::Load | Self::Rate | Self::Event | Self::Anywhere)
-            }
-            Meaning::Velocity(_) | Meaning::Input(_) => {
-                matches!(self, Self::Load | Self::Rate | Self::Event | Self::Anywhere)
-            }
+            Meaning::Time | Meaning::Coordinate(_) => !matches!(self, Self::Constant | Self::Property),
+            Meaning::Velocity(_) => !matches!(self, Self::Constant | Self::Property | Self::Constraint),
+            Meaning::Input(_) => matches!(self, Self::Load | Self::Rate | Self::Event | Self::Anywhere),
             Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Rate | Self::Anywhere),
             _ => self == Self::Anywhere,
         }
@@ -48,7 +47,12 @@ impl Place {
             Self::Constant => "this value has to be a number: it may use literals, `pi` and `const` names",
             Self::Property => "this value has to be fixed by parameters and constants",
             Self::Constraint => {
-                "a constraint is written in positions, parameters and time; its derivatives are taken for you"
+                "a constraint is written in positions, parameters and time; its derivatives are taken for you; an equation \
+                 between rates is a `rate`"
+            }
+            Self::RateRow => {
+                "an equation between rates is written in positions, velocities, parameters and time; its derivative is \
+                 taken for you"
             }
             Self::Load => {
                 "a force may depend on positions, velocities, states, reactions, time, inputs and parameters"

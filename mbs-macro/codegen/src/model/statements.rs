@@ -25,6 +25,9 @@ impl<'a> Resolver<'a> {
             return self.resolve_joint(joint, &item.doc);
         }
         let ItemKind::Constraint { name, role, left, equals, right } = &item.kind else { return };
+        if *role == Role::Rate {
+            return self.resolve_rate_row(name, (left, *equals, right), &item.doc);
+        }
         let resolved = match self.errors.take(prescribes_position(name, *role, left, right)) {
             None => None,
             Some(()) => {
@@ -42,13 +45,8 @@ impl<'a> Resolver<'a> {
         let Some((phi, dimension)) = resolved else { return };
         let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
         let is_drive = *role == Role::Drive;
-        let kind = match role {
-            Role::Constraint => "constraint",
-            Role::Drive => "drive",
-            Role::Coupler => "coupler",
-        };
-        let source = Source { kind, name: name.clone(), bodies: None };
-        self.constraints.push(Constraint { name, source, doc, span, is_drive, phi, dimension });
+        let source = Source { kind: role.word(), name: name.clone(), bodies: None };
+        self.constraints.push(Constraint { name, source, doc, span, is_drive, rate: None, phi, dimension });
     }
 
     /// Φ = left − right with its dimension.
@@ -370,7 +368,10 @@ fn prescribes_position(name: &Ident, role: Role, left: &Formula, right: &Formula
         _ => right.path().unwrap_or("rate".to_owned()),
     };
     let message = format!("`{name}` prescribes a rate, where a drive prescribes a position");
-    let help = format!("write the position over time, `{moved} = {rate}*t` for a constant rate");
+    let help = format!(
+        "write the position over time, `{moved} = {rate}*t` for a constant rate; a rate of which nothing holds the \
+         position is `rate {name}: der({moved}) = …;`"
+    );
     Err(Diagnostic::new(function.span(), message).help(help))
 }
 

@@ -21,7 +21,12 @@ impl Resolver<'_> {
             }
             _ => None,
         });
-        self.unused(declaration).into_iter().chain(tables).chain(self.impacts()).collect()
+        self.unused(declaration)
+            .into_iter()
+            .chain(tables)
+            .chain(self.impacts())
+            .chain(self.rates_of_positions())
+            .collect()
     }
 
     /// Tables in constraints whose value or slope jumps: there the velocity does, too, by an impact that nothing
@@ -30,7 +35,7 @@ impl Resolver<'_> {
         let (mut told, mut chosen) = (BTreeSet::new(), BTreeSet::new());
         let mut found = Vec::new();
         for constraint in &self.constraints {
-            for node in self.scope.arena.reachable(&[constraint.phi]) {
+            for node in self.scope.arena.reachable(&[constraint.declared()]) {
                 if let Node::Call(Function::Greater | Function::Sign, _) = *self.scope.arena.node(node)
                     && self.scope.arena.stage(node) == Stage::Variable
                     && chosen.insert(&constraint.name)

@@ -41,9 +41,9 @@ pub struct Switch {
 
 /// The corners and switches of all that a run computes.
 pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Vec<Corner>, Vec<Switch>) {
+    let declared = model.constraints.iter().map(|constraint| constraint.declared());
     let events = model.events.iter().map(|event| event.value);
-    let roots: Vec<Expr> =
-        equations.phi.iter().chain(&equations.total_forces).copied().chain(events).collect();
+    let roots: Vec<Expr> = declared.chain(equations.total_forces.iter().copied()).chain(events).collect();
     let time = model.arena.variable(model.time);
     let of_time = OfTime::new(&model.arena, &roots, time);
     let is_known = |symbol| !matches!(inputs.of(symbol), Some(Input::Multiplier(_) | Input::Acceleration(_)));

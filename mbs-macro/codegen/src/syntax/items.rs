@@ -285,6 +285,7 @@ pub(super) fn constraint(input: ParseStream<'_>, role: Role) -> Result<ItemKind>
             Role::Constraint => "constraint rod: x = l*cos(theta);",
             Role::Drive => "drive motor: theta = omega*t;",
             Role::Coupler => "coupler screw: x = lead/(2*pi)*theta;",
+            Role::Rate => "rate edge: der(y)*cos(phi) = der(x)*sin(phi);",
         };
         Error::new(error.span(), format!("a name and `:` stand before an equation, as in `{example}`"))
     })?;

@@ -67,6 +67,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("constraint", "constraint rod: x = l*cos(theta);", "an equation between coordinates", |input, _| items::constraint(input, Role::Constraint)),
     ("drive", "drive motor: theta = omega*t;", "an equation that is enforced from outside", |input, _| items::constraint(input, Role::Drive)),
     ("coupler", "coupler screw: x = lead/(2*pi)*theta;", "an equation that is a transmission", |input, _| items::constraint(input, Role::Coupler)),
+    ("rate", "rate edge: der(y)*cos(phi) = der(x)*sin(phi);", "an equation between rates, which restricts no position", |input, _| items::constraint(input, Role::Rate)),
     ("table", "table damping(speed) = [(-1 [m/s], -900 [N]), …] linear outside extend;", "a function through points", |input, _| tables::table(input)),
     ("profile", "profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];", "a periodic function through points", |input, _| tables::profile(input)),
     ("force", "force push on rod.tip = (fx, fy);", "a force on a body, or along a coordinate", |input, _| items::force(input, false)),

@@ -117,6 +117,20 @@ pub enum Role {
     Drive,
     /// A transmission between coordinates.
     Coupler,
+    /// An equation between rates, which restricts no position.
+    Rate,
+}
+
+impl Role {
+    /// The word with which its statement begins.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Constraint => "constraint",
+            Self::Drive => "drive",
+            Self::Coupler => "coupler",
+            Self::Rate => "rate",
+        }
+    }
 }
 
 /// `where left < right`

@@ -244,6 +244,7 @@ pub const LIBRARY: [&str; 11] = [
     "block_on_incline",
     "geared_motor",
     "dc_motor",
+    "differential_drive",
     "tipper",
     "jansen",
 ];

@@ -27,8 +27,13 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let outputs = compiled.outputs.iter().map(|output| quantity(output, 0.0, runtime));
     let constraints = compiled.constraints.iter().map(|constraint| {
         let (name, doc, formula) = (&constraint.name, &constraint.doc, &constraint.formula);
-        let (is_drive, dimension) = (constraint.is_drive, dimension(constraint.dimension, runtime));
-        quote!(#runtime::Constraint { name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, dimension: #dimension })
+        let (is_drive, is_rate) = (constraint.is_drive, constraint.is_rate);
+        let dimension = dimension(constraint.dimension, runtime);
+        quote! {
+            #runtime::Constraint {
+                name: #name, doc: #doc, formula: #formula, is_drive: #is_drive, is_rate: #is_rate, dimension: #dimension
+            }
+        }
     });
     let events = compiled.events.iter().map(|Event { quantity: of, crossing }| {
         let Quantity { name, doc, dimension: dim, .. } = of;

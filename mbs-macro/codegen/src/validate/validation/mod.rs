@@ -35,7 +35,8 @@ pub fn check_programs(
     if has_extreme_numbers(model, plan) {
         return Ok(());
     }
-    let tape = Tape::new(&model.arena, &model.constraints.iter().map(|c| c.phi).collect::<Vec<_>>());
+    let declared: Vec<Expr> = model.constraints.iter().map(|constraint| constraint.declared()).collect();
+    let tape = Tape::new(&model.arena, &declared);
     let hoisted = run(&plan.programs[FunctionId::Hoisted], &model.values(|_| f64::NAN), &[]);
     // Redundant constraints repeat the others on Φ = 0 only.
     let assembled = (!plan.rows.redundant.is_empty()).then(|| {
@@ -127,15 +128,32 @@ impl Point<'_> {
 
     /// Φ along q + s·first + s²/2·second, t + s·rate.
     fn phi(&self, first: &dyn Fn(usize) -> f64, second: &dyn Fn(usize) -> f64, rate: f64) -> Vec<Jet> {
-        self.tape.jets(&self.model.arena, &|symbol| {
-            let (first, second) = match self.model.meanings.get(symbol.index()) {
-                Some(Meaning::Time) => (rate, 0.0),
-                Some(Meaning::Coordinate(at)) => (first(*at), second(*at)),
-                _ => (0.0, 0.0),
-            };
-            let [value, first, second] = [(self.symbol)(symbol), first, second].map(Rounded::exact);
-            Jet { value, first, second }
+        let along = |speed: f64| {
+            self.tape.jets(&self.model.arena, &|symbol| {
+                let along = match self.model.meanings.get(symbol.index()) {
+                    Some(Meaning::Time) => [(self.symbol)(symbol), rate, 0.0],
+                    Some(Meaning::Coordinate(at)) => [(self.symbol)(symbol), first(*at), second(*at)],
+                    // in equations between rates
+                    Some(Meaning::Velocity(at)) => [speed * first(*at), speed * second(*at), 0.0],
+                    _ => [(self.symbol)(symbol), 0.0, 0.0],
+                };
+                let [value, first, second] = along.map(Rounded::exact);
+                Jet { value, first, second }
+            })
+        };
+        let has_rates = self.model.constraints.iter().any(|constraint| constraint.rate.is_some());
+        let (motion, rest) = (along(1.0), if has_rates { along(0.0) } else { Vec::new() });
+        let rows = self.model.constraints.iter().enumerate().zip(motion);
+        rows.map(|((at, constraint), motion)| match (&constraint.rate, rest.get(at)) {
+            // A v + b, of which b counts where time passes
+            (Some(_), Some(rest)) => {
+                let still = Rounded::exact(rate - 1.0);
+                let first = motion.value + still * rest.value;
+                Jet { value: Rounded::default(), first, second: motion.first }
+            }
+            _ => motion,
         })
+        .collect()
     }
 
     fn velocity(&self, at: usize) -> f64 {
@@ -146,12 +164,17 @@ impl Point<'_> {
         evaluate(self.model, &[expr], self.symbol).first().copied().unwrap_or_default()
     }
 
-    /// −2αΦ̇ − β²Φ
+    /// −2αΦ̇ − β²Φ, and −αΦ̇ of an equation between rates
     fn feedback(&self, motion: &[Jet]) -> Vec<Rounded> {
         let inputs = &self.plan.inputs;
         let gains = [inputs.minus_two_alpha, inputs.minus_beta_squared];
         let [damping, stiffness] = gains.map(|gain| Rounded::exact((self.symbol)(gain)));
-        motion.iter().map(|row| damping * row.first + stiffness * row.value).collect()
+        let rows = self.model.constraints.iter().zip(motion);
+        rows.map(|(constraint, row)| match constraint.rate {
+            Some(_) => Rounded::exact(0.5) * damping * row.first,
+            None => damping * row.first + stiffness * row.value,
+        })
+        .collect()
     }
 
     /// Numbers of order 1 that are not in any relation to each other.

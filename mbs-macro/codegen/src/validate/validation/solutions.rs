@@ -97,15 +97,18 @@ impl Point<'_> {
             same("stabilized", &values[..s], &states(&reactions))?;
             same("feedback", &values[s..s + own.len()], &fed_back)?;
         }
-        for (name, program) in [
-            ("position_correction", &plan.programs[FunctionId::PositionCorrection]),
-            ("velocity_correction", &plan.programs[FunctionId::VelocityCorrection]),
-            ("projection", &plan.programs[FunctionId::Projection]),
+        let rows = &plan.rows.basis;
+        let is_of_positions = |row: &&usize| self.model.constraints[**row].rate.is_none();
+        let of_positions: Vec<usize> = rows.iter().filter(is_of_positions).copied().collect();
+        for (function, rows) in [
+            (FunctionId::PositionCorrection, &of_positions),
+            (FunctionId::VelocityCorrection, rows),
+            (FunctionId::Projection, rows),
         ] {
-            if let Some(values) = self.solved(program, &given) {
+            if let Some(values) = self.solved(&plan.programs[function], &given) {
                 let along = self.phi(&|at| values[at].value, &|_| 0.0, 0.0);
-                let rows = along.iter().map(|row| row.first).collect::<Vec<_>>();
-                self.rows_are(name, &rows, &given, &values[..n])?;
+                let found = along.iter().map(|row| row.first).collect::<Vec<_>>();
+                self.rows_are((function.name(), rows), &found, &given, &values[..n])?;
             }
         }
         Ok(())
@@ -165,19 +168,25 @@ impl Point<'_> {
     fn accelerated(&self, name: &str, accelerations: &[Rounded], feedback: &[f64]) -> Check {
         let along = self.phi(&|at| self.velocity(at), &|at| accelerations[at].value, 1.0);
         let rows = along.iter().map(|row| row.second).collect::<Vec<_>>();
-        self.rows_are(name, &rows, feedback, accelerations)
+        self.rows_are((name, &self.plan.rows.basis), &rows, feedback, accelerations)
     }
 
     /// The rows that are solved for have come out as they should.
-    fn rows_are(&self, name: &str, rows: &[Rounded], expected: &[f64], solution: &[Rounded]) -> Check {
+    fn rows_are(
+        &self,
+        (name, rows): (&str, &[usize]),
+        found: &[Rounded],
+        expected: &[f64],
+        solution: &[Rounded],
+    ) -> Check {
         let (size, error) = (largest(solution, |x| x.value), largest(solution, |x| x.error));
         let coefficients = self.coefficients();
-        for &row in &self.plan.rows.basis {
-            let terms = rows[row].error / f64::EPSILON + expected[row].abs() + coefficients[row] * size;
-            if exceeds(rows[row].value - expected[row], terms, coefficients[row] * error) {
+        for &row in rows {
+            let terms = found[row].error / f64::EPSILON + expected[row].abs() + coefficients[row] * size;
+            if exceeds(found[row].value - expected[row], terms, coefficients[row] * error) {
                 return Err(format!(
                     "`{name}` does not solve row {row}: {:e} instead of {:e}",
-                    rows[row].value, expected[row]
+                    found[row].value, expected[row]
                 ));
             }
         }
