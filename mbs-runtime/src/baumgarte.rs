@@ -5,7 +5,8 @@ use core::marker::PhantomData;
 use crate::{Error, Gains, Held, Method, Real};
 
 /// Baumgarte stabilization: Φ̈ = 0 is replaced by Φ̈ + 2αΦ̇ + β²Φ = 0, so that
-/// a violation decays instead of growing (Baumgarte 1972; Jiang 2025, §4.2).
+/// a violation decays instead of growing (Baumgarte 1972; Jiang 2025, §4.2). Of an equation between rates, which has no
+/// Φ, Φ̈ + αΦ̇ = 0.
 ///
 /// # Example
 /// ```

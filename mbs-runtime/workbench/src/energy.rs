@@ -95,12 +95,13 @@ impl Energy {
     }
 }
 
-/// `true` if neither constraints nor forces depend on time, velocities, reactions or inputs. Forces that depend on
+/// `true` if neither constraints, potentials nor forces depend on time, velocities, reactions or inputs. Forces that depend on
 /// places alone may still have no potential.
 fn keeps_energy(info: &Info, derivation: &Derivation) -> bool {
     let changes_it = |word: &str| {
         matches!(word, "t" | "der" | "lambda") || info.inputs.iter().any(|input| input.name == word)
     };
     let words = |text: &'static str| text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-    derivation.phi_t.is_empty() && !derivation.forces.iter().any(|force| words(force.text).any(changes_it))
+    let mut formulas = derivation.forces.iter().chain([&derivation.potential_energy]);
+    derivation.phi_t.is_empty() && !formulas.any(|formula| words(formula.text).any(changes_it))
 }

@@ -42,6 +42,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Binding { .. } => quantities(item).into_iter().map(ToString::to_string).collect(),
         ItemKind::Constraint { name, .. }
         | ItemKind::Force { name, .. }
+        | ItemKind::Energy { name, .. }
         | ItemKind::Event { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
@@ -100,6 +101,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         }
         ItemKind::Constant { name, value }
         | ItemKind::Let { name, value }
+        | ItemKind::Energy { name, value, .. }
         | ItemKind::Output { name, value, .. } => {
             visit(Mention::Name(name));
             in_formula(value, visit);

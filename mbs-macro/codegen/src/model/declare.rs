@@ -44,6 +44,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Force { name, is_torque, .. } => {
                 self.declare_source(name, if *is_torque { "torque" } else { "force" }, None);
             }
+            ItemKind::Energy { name, role, .. } => self.declare_source(name, role.word(), None),
             ItemKind::Element(element) => {
                 let ends = element.second.clone().map(|second| [element.first.clone(), second]);
                 self.declare_source(&element.name, element.kind.word, ends);

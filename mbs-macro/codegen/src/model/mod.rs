@@ -10,6 +10,7 @@ mod connections;
 mod declare;
 mod definitions;
 mod elements;
+mod energies;
 mod events;
 mod formula;
 mod functions;

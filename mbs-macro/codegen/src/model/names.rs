@@ -22,6 +22,8 @@ pub enum Place {
     Constraint,
     /// An equation between rates.
     RateRow,
+    /// An energy of the position.
+    Potential,
     Load,
     /// The right side of the equation of a state.
     Rate,
@@ -34,7 +36,9 @@ impl Place {
         match meaning {
             Meaning::Parameter(_) => self != Self::Constant,
             Meaning::Time | Meaning::Coordinate(_) => !matches!(self, Self::Constant | Self::Property),
-            Meaning::Velocity(_) => !matches!(self, Self::Constant | Self::Property | Self::Constraint),
+            Meaning::Velocity(_) => {
+                !matches!(self, Self::Constant | Self::Property | Self::Constraint | Self::Potential)
+            }
             Meaning::Input(_) => matches!(self, Self::Load | Self::Rate | Self::Event | Self::Anywhere),
             Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Rate | Self::Anywhere),
             _ => self == Self::Anywhere,
@@ -53,6 +57,10 @@ impl Place {
             Self::RateRow => {
                 "an equation between rates is written in positions, velocities, parameters and time; its derivative is \
                  taken for you"
+            }
+            Self::Potential => {
+                "a potential is written in positions, parameters and time; what depends on velocities, inputs or states is \
+                 a `force` or a `dissipation`"
             }
             Self::Load => {
                 "a force may depend on positions, velocities, states, reactions, time, inputs and parameters"

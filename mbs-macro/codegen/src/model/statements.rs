@@ -140,6 +140,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Force { name, is_torque, target, frame, value } => {
                 self.resolve_load(name, *is_torque, (target, frame.as_ref()), value);
             }
+            ItemKind::Energy { name, role, value } => self.resolve_energy(name, *role, value),
             ItemKind::Element(element) => self.resolve_element(element),
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),

@@ -13,7 +13,7 @@ use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable};
-use super::{Condition, Coordinate, Declaration, ItemKind, Load, Property, Role, StartEntry};
+use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
@@ -184,6 +184,11 @@ pub(super) fn constant(input: ParseStream<'_>) -> Result<ItemKind> {
 pub(super) fn let_item(input: ParseStream<'_>) -> Result<ItemKind> {
     let (name, value) = definition(input)?;
     Ok(ItemKind::Let { name, value })
+}
+
+pub(super) fn energy(input: ParseStream<'_>, role: EnergyRole) -> Result<ItemKind> {
+    let (name, value) = definition(input)?;
+    Ok(ItemKind::Energy { name, role, value })
 }
 
 pub(super) fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {

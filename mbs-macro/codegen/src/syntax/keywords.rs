@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{ItemKind, Role, items, joints, solver, tables};
+use super::{EnergyRole, ItemKind, Role, items, joints, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -72,6 +72,8 @@ pub const STATEMENTS: &[Statement] = &[
     ("profile", "profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];", "a periodic function through points", |input, _| tables::profile(input)),
     ("force", "force push on rod.tip = (fx, fy);", "a force on a body, or along a coordinate", |input, _| items::force(input, false)),
     ("torque", "torque turn on rod = m;", "a torque on a body", |input, _| items::force(input, true)),
+    ("potential", "potential magnet = k/x;", "an energy of the position, whose slopes are forces", |input, _| items::energy(input, EnergyRole::Potential)),
+    ("dissipation", "dissipation oil = c*der(x)^2/2;", "a function of the rates, whose slopes are forces that resist", |input, _| items::energy(input, EnergyRole::Dissipation)),
     ("start", "start { theta = 30 [deg]; guess x = l; }", "where the motion starts", |input, _| items::start(input)),
     ("output", "output power [W] = u*der(theta);", "a value to be recorded", |input, _| items::output(input)),
     ("event", "event hit: x = 0.2 [m] rising;", "a moment that a run finds", |input, _| items::event(input)),

@@ -93,6 +93,8 @@ pub enum ItemKind {
     Constraint { name: Ident, role: Role, left: Formula, equals: Span, right: Formula },
     /// `force name on target = …;`, in a body's frame `… in body = …;`, or `torque name on target = …;`
     Force { name: Ident, is_torque: bool, target: Attachment, frame: Option<Ident>, value: Load },
+    /// `potential magnet = k/x;`, `dissipation oil = c*der(x)^2/2;`
+    Energy { name: Ident, role: EnergyRole, value: Formula },
     /// `point tip on crank = (l/2, 0);`
     Point { name: Ident, body: Ident, value: Vector },
     /// `revolute pin (crank.tip, rod.base);`
@@ -129,6 +131,25 @@ impl Role {
             Self::Drive => "drive",
             Self::Coupler => "coupler",
             Self::Rate => "rate",
+        }
+    }
+}
+
+/// A function of the motion of which forces are derivatives.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum EnergyRole {
+    /// V, whose forces are −∂V/∂q.
+    Potential,
+    /// Rayleigh's R, whose forces are −∂R/∂q̇.
+    Dissipation,
+}
+
+impl EnergyRole {
+    /// The word with which its statement begins.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
         }
     }
 }
