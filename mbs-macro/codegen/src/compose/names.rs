@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 
 use crate::mechanics::joints::POLAR_ANGLE;
 use crate::syntax::{
-    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Vector,
+    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Points, Vector,
 };
 
 /// Rows of joints are called after them: `pin_x`.
@@ -174,9 +174,16 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         }
         ItemKind::Table(table) => {
             visit(Mention::Name(&mut table.name));
-            table.points.iter_mut().for_each(|point| in_vector(point, visit));
-            if let Outside::Periodic(Some(period)) = &mut table.outside {
-                in_formula(period, visit);
+            match &mut table.points {
+                Points::Curve(points, outside) => {
+                    points.iter_mut().for_each(|point| in_vector(point, visit));
+                    if let Outside::Periodic(Some(period)) = outside {
+                        in_formula(period, visit);
+                    }
+                }
+                Points::Grid(points, _) => {
+                    points.iter_mut().flatten().for_each(|number| in_formula(number, visit));
+                }
             }
         }
         ItemKind::Element(element) => {

@@ -108,6 +108,12 @@ pub enum Curve {
         argument: Dimension,
         value: Dimension,
     },
+    /// Of two arguments: where it stands among the surfaces.
+    Surface {
+        at: usize,
+        arguments: [Dimension; 2],
+        value: Dimension,
+    },
 }
 
 /// A constraint or a drive.

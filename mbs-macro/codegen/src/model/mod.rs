@@ -29,6 +29,7 @@ mod solver;
 mod starts;
 mod statements;
 mod states;
+mod surfaces;
 mod tables;
 mod warnings;
 

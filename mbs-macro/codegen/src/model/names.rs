@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::{Arena, Stage, Symbol};
+use mbs_symbolic::{Arena, Stage, Surface, Symbol};
 use proc_macro2::{Ident, Span};
 
 use super::Meaning;
@@ -105,6 +105,8 @@ pub struct Scope<'a> {
     /// Definitions that are being resolved, one in the other.
     pub depth: usize,
     pub tables: BTreeMap<String, Table<'a>>,
+    /// Tables of two arguments.
+    pub surfaces: Vec<Surface>,
     /// Conditions on parameters, those of statements and those of laws in formulas.
     pub requirements: Vec<Requirement>,
 }
@@ -130,6 +132,7 @@ impl<'a> Scope<'a> {
             depth: 0,
             requirements: Vec::new(),
             tables: BTreeMap::new(),
+            surfaces: Vec::new(),
         }
     }
 

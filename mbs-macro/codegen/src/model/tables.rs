@@ -10,7 +10,7 @@ use super::known::{Curve, Table, Typed};
 use super::names::{Place, Scope, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, Diagnostics, counted, described};
-use crate::syntax::{self, Formula, FormulaKind, Outside};
+use crate::syntax::{self, Formula, FormulaKind, Outside, Points, Vector};
 
 impl<'a> Resolver<'a> {
     /// Enters the name of a table, once all quantities are known.
@@ -43,7 +43,7 @@ impl<'a> Resolver<'a> {
             Curve::Done { spline, .. } => {
                 self.scope.arena.splines().get(spline.index()).map(|spline| &**spline)
             }
-            Curve::Untouched | Curve::Open | Curve::Failed => None,
+            Curve::Untouched | Curve::Open | Curve::Failed | Curve::Surface { .. } => None,
         }
     }
 }
@@ -54,7 +54,7 @@ impl Scope<'_> {
         let text = name.to_string();
         let table = self.tables.get_mut(&text)?;
         match table.curve {
-            Curve::Done { .. } => Some(table.curve),
+            Curve::Done { .. } | Curve::Surface { .. } => Some(table.curve),
             Curve::Failed => None,
             Curve::Open => {
                 let error = Diagnostic::new(name.span(), format!("`{text}` is defined through itself"))
@@ -65,26 +65,33 @@ impl Scope<'_> {
             Curve::Untouched => {
                 table.curve = Curve::Open;
                 let points = table.points;
-                let curve = self.spline_of(points, errors);
+                let curve = match &points.points {
+                    Points::Curve(along, outside) => self.spline_of(points, (along, outside), errors),
+                    Points::Grid(grid, outside) => self.surface_of(points, (grid, outside), errors),
+                };
                 self.tables.get_mut(&text)?.curve = curve.unwrap_or(Curve::Failed);
                 curve
             }
         }
     }
 
-    fn spline_of(&mut self, table: &syntax::Table, errors: &mut Diagnostics) -> Option<Curve> {
+    fn spline_of(
+        &mut self,
+        table: &syntax::Table,
+        (given, outside): (&[Vector], &Outside),
+        errors: &mut Diagnostics,
+    ) -> Option<Curve> {
         let name = &table.name;
-        let (arguments, values): (Vec<_>, Vec<_>) =
-            table.points.iter().map(|point| (&point.x, &point.y)).unzip();
-        let period = if let Outside::Periodic(period) = &table.outside { period.as_ref() } else { None };
+        let (arguments, values): (Vec<_>, Vec<_>) = given.iter().map(|point| (&point.x, &point.y)).unzip();
+        let period = if let Outside::Periodic(period) = outside { period.as_ref() } else { None };
         let arguments = arguments.into_iter().chain(period).collect();
         let arguments = self.numbers(&format!("an argument of `{name}`"), arguments, errors);
         let values = self.numbers(&format!("a value of `{name}`"), values, errors);
         let ((mut arguments, argument), (values, value)) = (arguments?, values?);
         let period = period.and_then(|period| Some((period, arguments.pop()?)));
         let mut points: Vec<_> = arguments.into_iter().zip(values).collect();
-        errors.take(check(table, &points, period))?;
-        let outside = match table.outside {
+        errors.take(check(table, (given, outside), &points, period))?;
+        let outside = match outside {
             Outside::Hold => Beyond::Hold,
             Outside::Extend => Beyond::Extend,
             Outside::Refuse => Beyond::Refuse,
@@ -101,7 +108,7 @@ impl Scope<'_> {
     }
 
     /// Constants of one dimension.
-    fn numbers(
+    pub(super) fn numbers(
         &mut self,
         what: &str,
         formulas: Vec<&Formula>,
@@ -130,11 +137,12 @@ impl Scope<'_> {
 /// Points enough, in order and within the period.
 fn check(
     table: &syntax::Table,
+    (given, outside): (&[Vector], &Outside),
     points: &[(f64, f64)],
     period: Option<(&Formula, f64)>,
 ) -> Result<(), Diagnostic> {
     let (name, word) = (&table.name, table.word);
-    let is_closed = matches!(table.outside, Outside::Periodic(None));
+    let is_closed = matches!(outside, Outside::Periodic(None));
     let is_smooth = table.interpolation == Interpolation::Cubic && (is_closed || period.is_some());
     let (needed, help) = match (is_smooth, is_closed) {
         (true, false) => (3, "a periodic spline needs at least three"),
@@ -150,7 +158,7 @@ fn check(
         return Err(Diagnostic::new(formula.span, format!("the period of `{name}` is not positive"))
             .help("it is the distance after which the first point returns, as in `period 360 [deg]`"));
     }
-    for (pair, point) in points.windows(2).zip(table.points.iter().skip(1)) {
+    for (pair, point) in points.windows(2).zip(given.iter().skip(1)) {
         if pair[1].0 <= pair[0].0 {
             return Err(Diagnostic::new(point.x.span, format!("the points of `{name}` are out of order"))
                 .help("this argument has to be larger than the one before it"));
@@ -167,7 +175,7 @@ fn check(
             ));
         }
     }
-    if let Some(point) = table.points.last().filter(|_| is_closed && last.1 != first.1) {
+    if let Some(point) = given.last().filter(|_| is_closed && last.1 != first.1) {
         let message = format!("`{name}` does not close: its last point is not the first one again");
         return Err(Diagnostic::new(point.y.span, message).help(
             "a periodic table ends with the value that it begins with; its period is the distance of these points",
@@ -186,7 +194,13 @@ impl Scope<'_> {
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
         self.used.insert(name.to_string());
-        let Curve::Done { spline, argument, value } = self.curve(name, errors)? else { return None };
+        let (spline, argument, value) = match self.curve(name, errors)? {
+            Curve::Done { spline, argument, value } => (spline, argument, value),
+            Curve::Surface { at, arguments: of, value } => {
+                return self.on_surface((name, at), arguments, (of, value), place, errors);
+            }
+            Curve::Untouched | Curve::Open | Curve::Failed => return None,
+        };
         let [x] = arguments else {
             let message = format!("`{name}` takes 1 argument, not {}", arguments.len());
             errors.push(Diagnostic::new(name.span(), message).help(format!("write `{name}(x)`")));

@@ -6,7 +6,7 @@ use mbs_symbolic::{Function, Interpolation, Node, Stage};
 
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
-use crate::syntax::{Declaration, ItemKind, Outside, Table};
+use crate::syntax::{Declaration, ItemKind, Outside, Points, Table};
 
 /// A spline that leaves a dwell by less than this share of its range is not spoken of: one of three points of equal
 /// values or more, and one of two, which may be a peak between points on both of its sides.
@@ -89,12 +89,13 @@ impl Resolver<'_> {
             "behind this point `{name}` goes away from its value by {percent:.1} % of its range, and comes back"
         );
         // the value that holds before the first point is no piece between two
-        let before = match table.outside {
+        let Points::Curve(points, outside) = &table.points else { return None };
+        let before = match outside {
             Outside::Hold => 1,
             Outside::Refuse => 2,
             Outside::Extend | Outside::Periodic(_) => 0,
         };
-        let point = table.points.get(at.checked_sub(before)?)?;
+        let point = points.get(at.checked_sub(before)?)?;
         Some(Diagnostic::new(point.x.span, message).help(if table.word == "profile" {
             "a cubic spline overshoots where it is to dwell; give more points there, or compose the motion of laws that \
              rest at both ends, such as `cycloidal`"

@@ -228,15 +228,23 @@ pub enum Clause {
     Carrier(Ident),
 }
 
-/// A function through points of (argument, value).
+/// A function through points.
 #[derive(Clone)]
 pub struct Table {
     /// The word of its statement.
     pub word: &'static str,
     pub name: Ident,
-    pub points: Vec<Vector>,
+    pub points: Points,
     pub interpolation: Interpolation,
-    pub outside: Outside,
+}
+
+/// The points of a table, and what is outside of them.
+#[derive(Clone)]
+pub enum Points {
+    /// (argument, value)
+    Curve(Vec<Vector>, Outside),
+    /// (first argument, second argument, value), and what is outside along each argument.
+    Grid(Vec<[Formula; 3]>, [Outside; 2]),
 }
 
 /// The values of a table outside of its points.

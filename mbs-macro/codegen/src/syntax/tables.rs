@@ -1,5 +1,6 @@
 //! Tables: `table gas(angle) = [(0 [deg], 1 [bar]), …] cubic outside hold;`, and
-//! `profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];`, which is a cubic one with a period.
+//! `profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];`, which is a cubic one with a period; of two
+//! arguments `table map(speed, load) = [(1000 [rpm], 0, 5 [N*m]), …] linear outside hold;`.
 
 use mbs_symbolic::Interpolation;
 use syn::ext::IdentExt;
@@ -8,12 +9,15 @@ use syn::punctuated::Punctuated;
 use syn::{Error, Ident, Result, Token, bracketed, parenthesized, token};
 
 use super::words::{equals, helped, name, semicolon};
-use super::{ItemKind, Outside, Table, Vector};
+use super::{Formula, ItemKind, Outside, Points, Table, Vector};
 use crate::diagnostics::{listing, nearest};
 
 const PROFILE: &str =
     "profile lift = spline((0 [deg], 20 [mm]), (120 [deg], 35 [mm]), (240 [deg], 25 [mm])) period 360 [deg];";
 const TABLE: &str = "table damping(speed) = [(-1 [m/s], -900 [N]), (0 [m/s], 0 [N]), (1 [m/s], 400 [N])] linear outside extend;";
+const MAP: &str =
+    "table map(speed, load) = [(1000 [rpm], 0, 5 [N*m]), (1000 [rpm], 1, 90 [N*m]), …] linear outside hold;";
+const OUTSIDE: &str = "rule for what is outside of the points";
 
 /// Words for what lies between points.
 const INTERPOLATIONS: [(&str, Interpolation); 4] = [
@@ -45,7 +49,8 @@ pub(super) fn profile(input: ParseStream<'_>) -> Result<ItemKind> {
     let outside = Outside::Periodic(Some(input.parse()?));
     semicolon(input)?;
     let interpolation = Interpolation::Cubic;
-    Ok(ItemKind::Table(Table { word: "profile", name, points, interpolation, outside }))
+    let points = Points::Curve(points, outside);
+    Ok(ItemKind::Table(Table { word: "profile", name, points, interpolation }))
 }
 
 pub(super) fn table(input: ParseStream<'_>) -> Result<ItemKind> {
@@ -56,22 +61,78 @@ pub(super) fn table(input: ParseStream<'_>) -> Result<ItemKind> {
     let content;
     parenthesized!(content in input);
     let arguments = Punctuated::<Ident, Token![,]>::parse_terminated_with(&content, Ident::parse_any)?;
-    if arguments.len() != 1 {
-        let message = format!("table `{name}` has {} arguments", arguments.len());
-        return Err(helped(name.span(), message, "a table is a function of one argument"));
+    let count = arguments.len();
+    if count != 1 && count != 2 {
+        let message = format!("table `{name}` has {count} arguments");
+        return Err(helped(name.span(), message, "a table is a function of one argument or of two"));
     }
     equals(input)?;
     if !input.peek(token::Bracket) {
-        return Err(Error::new(input.span(), format!("points are expected here, as in `{TABLE}`")));
+        let example = if count == 1 { TABLE } else { MAP };
+        return Err(Error::new(input.span(), format!("points are expected here, as in `{example}`")));
     }
     let content;
     bracketed!(content in input);
-    let points = points(&content)?;
+    let word = "table";
+    if count == 1 {
+        let points = points(&content)?;
+        let interpolation = interpolation(input)?;
+        let outside = one_of(input, OUTSIDE, &OUTSIDES)?;
+        semicolon(input)?;
+        let points = Points::Curve(points, outside);
+        return Ok(ItemKind::Table(Table { word, name, points, interpolation }));
+    }
+    let points = Punctuated::<[Formula; 3], Token![,]>::parse_terminated_with(&content, triple)?;
+    let interpolation = interpolation(input)?;
+    let outside = outside_of_grid(input)?;
+    semicolon(input)?;
+    let points = Points::Grid(points.into_iter().collect(), outside);
+    Ok(ItemKind::Table(Table { word, name, points, interpolation }))
+}
+
+/// `linear outside`
+fn interpolation(input: ParseStream<'_>) -> Result<Interpolation> {
     let interpolation = one_of(input, "way from point to point", &INTERPOLATIONS)?;
     word(input, "outside", TABLE)?;
-    let outside = one_of(input, "rule for what is outside of the points", &OUTSIDES)?;
-    semicolon(input)?;
-    Ok(ItemKind::Table(Table { word: "table", name, points, interpolation, outside }))
+    Ok(interpolation)
+}
+
+/// `hold`, or `(periodic, hold)` where both arguments have words of their own.
+fn outside_of_grid(input: ParseStream<'_>) -> Result<[Outside; 2]> {
+    if !input.peek(token::Paren) {
+        let both = one_of(input, OUTSIDE, &OUTSIDES)?;
+        return Ok([both.clone(), both]);
+    }
+    let content;
+    parenthesized!(content in input);
+    let first = one_of(&content, OUTSIDE, &OUTSIDES)?;
+    content.parse::<Token![,]>()?;
+    let second = one_of(&content, OUTSIDE, &OUTSIDES)?;
+    content.parse::<Option<Token![,]>>()?;
+    if !content.is_empty() {
+        return Err(content.error("a table of two arguments has two rules, `outside (periodic, hold)`"));
+    }
+    Ok([first, second])
+}
+
+/// `(1000 [rpm], 50 [%], 120 [N*m])`
+fn triple(input: ParseStream<'_>) -> Result<[Formula; 3]> {
+    const EXAMPLE: &str =
+        "a point of two arguments and a value is expected here, as in `(1000 [rpm], 0.5, 120 [N*m])`";
+    if !input.peek(token::Paren) {
+        return Err(Error::new(input.span(), EXAMPLE));
+    }
+    let content;
+    let paren = parenthesized!(content in input);
+    let numbers = Punctuated::<Formula, Token![,]>::parse_terminated(&content)?;
+    let numbers: Vec<Formula> = numbers.into_iter().collect();
+    let Ok(point) = <[Formula; 3]>::try_from(numbers) else {
+        return Err(Error::new(paren.span.join(), EXAMPLE));
+    };
+    if !input.is_empty() && !input.peek(Token![,]) {
+        return Err(input.error("`,` is expected between points"));
+    }
+    Ok(point)
 }
 
 fn word(input: ParseStream<'_>, expected: &str, example: &str) -> Result<()> {

@@ -2,7 +2,10 @@
 //!
 //! The compiler solves for the coefficients. Generated code holds them as a constant.
 
+mod surface;
 mod through;
+
+pub use surface::{Grid, Surface};
 
 /// A jump of a derivative is one if it is more than this share of the largest terms of the derivative.
 const JUMP: f64 = 1e-9;
@@ -75,6 +78,9 @@ pub struct Spline {
     pub period: Option<f64>,
     /// In ascending order. The first one holds before its beginning, too, and the last one for ever.
     pub segments: Vec<Segment>,
+    /// The arguments at which the function bends of which this one is a part, in ascending order; of a function of its
+    /// own that follows from the segments.
+    pub bends: Option<Vec<f64>>,
 }
 
 impl Spline {
@@ -97,6 +103,9 @@ impl Spline {
     /// The arguments at which the value or one of its first two derivatives jumps, in ascending order; of a periodic
     /// one those within a period.
     pub fn knots(&self) -> Vec<f64> {
+        if let Some(bends) = &self.bends {
+            return bends.clone();
+        }
         let jumps = self.jumps();
         let jumps = jumps.iter().filter(|(_, jumps)| jumps.iter().any(Option::is_some));
         let mut knots: Vec<f64> = jumps.map(|(at, _)| self.origin + at).collect();
@@ -113,6 +122,9 @@ impl Spline {
     /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
     /// where there is only that of rounding.
     pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
+        if self.bends.is_some() {
+            return None;
+        }
         let jumps = self.jumps().into_iter();
         let jumps =
             jumps.filter_map(|(at, jumps)| Some((self.origin + at, (*jumps.get(usize::from(order))?)?)));

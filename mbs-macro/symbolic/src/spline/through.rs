@@ -83,7 +83,7 @@ impl Spline {
                 segments.push(none(length + slack));
             }
         }
-        Some(Self { name: name.to_owned(), origin: first.0, period, segments })
+        Some(Self { name: name.to_owned(), origin: first.0, period, segments, bends: None })
     }
 }
 
