@@ -5,6 +5,7 @@
 //!
 //! | stage | gives | after it |
 //! |---|---|---|
+//! | `files` | tokens | tables have their points, whatever file they come from |
 //! | `syntax` | `Declaration`, a span on every node | shapes are right, names unresolved |
 //! | `compose` | `Declaration` | sub-assemblies are gone, only plain statements are left |
 //! | `model` | `Model` | names are symbols, dimensions agree |
@@ -40,6 +41,7 @@ pub mod compiled;
 mod compose;
 mod derive;
 mod diagnostics;
+mod files;
 mod independence;
 mod inputs;
 mod mechanics;
@@ -57,12 +59,14 @@ use proc_macro2::TokenStream;
 
 pub use compiled::{Compiled, FunctionId};
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use files::{Read, with_files};
 pub use syntax::{Keyword, KeywordKind, keywords};
 
-/// The expansion of `mechanism! { … }`; errors become `compile_error!`.
+/// The expansion of `mechanism! { … }`, whose files are read by the function; errors become `compile_error!`.
 #[cfg(feature = "rust")]
-pub fn expand(declaration: TokenStream) -> TokenStream {
-    compile(declaration).unwrap_or_else(|errors| errors.to_compile_errors())
+pub fn expand(declaration: TokenStream, read: Read<'_>) -> TokenStream {
+    let compiled = with_files(declaration, read).and_then(compile);
+    compiled.unwrap_or_else(|errors| errors.to_compile_errors())
 }
 
 /// Compiles a declaration to Rust.

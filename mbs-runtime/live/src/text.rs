@@ -6,7 +6,7 @@
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 #[cfg(not(target_family = "wasm"))]
 use std::sync::mpsc::{self, RecvTimeoutError};
 #[cfg(not(target_family = "wasm"))]
@@ -35,8 +35,8 @@ const STACK: usize = 64 << 20;
 /// `mechanism! { … }`.
 ///
 /// # Bounds
-/// A declaration is data: nothing in it runs a program or reads a file. Its text is
-/// at most [`LONGEST`] bytes. The compiler bounds how deep groups (256), formulas (128),
+/// A declaration is data: nothing in it runs a program. It reads no file but those of its own tables, which are in
+/// [its folder](Self::in_folder), if it has one. Its text, and each of these, is at most [`LONGEST`] bytes. The compiler bounds how deep groups (256), formulas (128),
 /// blocks (64) and assemblies (16) nest, how many statements loops make (100,000), and how
 /// many instances there are (10,000): what is over a bound is an error. Time and memory grow
 /// with the number of statements that are left then. A program that opens files of
@@ -60,6 +60,8 @@ pub struct Text {
     text: String,
     form: Form,
     limit: Option<Duration>,
+    /// Where the files of tables are.
+    folder: Option<PathBuf>,
 }
 
 /// The form of a text.
@@ -75,7 +77,7 @@ impl Text {
     /// A declaration by itself, the inside of `mechanism! { … }`. Errors name it `file`. See the example of
     /// [`Text`].
     pub fn declaration(file: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { file: file.into(), text: text.into(), form: Form::Declaration, limit: None }
+        Self { file: file.into(), text: text.into(), form: Form::Declaration, limit: None, folder: None }
     }
 
     /// A Rust file with a block `mechanism! { … }`, the only one unless one is
@@ -114,7 +116,34 @@ impl Text {
         };
         let file = path.display().to_string();
         let is_rust = path.extension().is_some_and(|extension| extension == "rs");
-        Ok(if is_rust { Self::rust(file, text) } else { Self::declaration(file, text) })
+        let text = if is_rust { Self::rust(file, text) } else { Self::declaration(file, text) };
+        Ok(Self { folder: path.parent().map(Path::to_path_buf), ..text })
+    }
+
+    /// Lets tables be read from files of a folder and of those in it: `table gas(angle) = from "gas.csv" …;`.
+    /// A text that was [`read`](Self::read) has the folder of its file.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let folder = std::env::temp_dir().join(format!("springs-{}", std::process::id()));
+    /// std::fs::create_dir_all(&folder)?;
+    /// std::fs::write(folder.join("spring.csv"), "x [mm],pull [N]\n0,0\n10,50\n30,400\n")?;
+    /// let text = "Block { dof = 1; body block (x) { mass = 1 [kg]; }
+    ///     table pull(x) = from \"spring.csv\" linear outside extend;
+    ///     force spring on x = -pull(x); }";
+    /// let block = Text::declaration("block.mbs", text).in_folder(&folder).compile()?;
+    /// assert_eq!(block.declared_info().name, "Block");
+    /// // without a folder no file is read
+    /// assert!(Text::declaration("block.mbs", text).compile().is_err());
+    /// # std::fs::remove_dir_all(&folder)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = Some(folder.into());
+        self
     }
 
     /// Chooses the block of a Rust file that declares a mechanism of this name. A declaration by itself stays what
@@ -319,11 +348,11 @@ impl Text {
         target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics> + Send + 'static,
     ) -> Result<T, Vec<Problem>> {
         let (send, receive) = mpsc::channel();
-        let (text, form) = (self.text.clone(), self.form.clone());
+        let (text, form, folder) = (self.text.clone(), self.form.clone(), self.folder.clone());
         // Places of tokens are kept by the thread that made them, and end with it.
         let compiling = thread::Builder::new().stack_size(STACK).spawn(move || {
             // nobody waits any longer if the time was over
-            let _ = send.send(make(&text, &form, target));
+            let _ = send.send(make(&text, &form, folder.as_deref(), target));
         });
         if let Err(error) = compiling {
             return Err(vec![Problem::everywhere(format!("no thread to compile in: {error}"))]);
@@ -350,7 +379,7 @@ impl Text {
         &self,
         target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics>,
     ) -> Result<T, Vec<Problem>> {
-        make(&self.text, &self.form, target)
+        make(&self.text, &self.form, None, target)
     }
 
     fn error(&self, problems: Vec<Problem>) -> Error {
@@ -362,6 +391,7 @@ impl Text {
 fn make<T>(
     text: &str,
     form: &Form,
+    folder: Option<&Path>,
     target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics>,
 ) -> Result<T, Vec<Problem>> {
     let problems = |errors: Diagnostics| -> Vec<Problem> {
@@ -372,10 +402,29 @@ fn make<T>(
         Form::Declaration => tokens,
         Form::Rust(name) => find::block(tokens, name.as_deref()).map_err(|error| problems(error.into()))?,
     };
+    let declaration =
+        mbs_codegen::with_files(declaration, &mut |name| beside(folder, name)).map_err(problems)?;
     let key = declaration.to_string();
     let compiled = mbs_codegen::analyse(declaration).map_err(problems)?;
     check_feedback(&compiled).map_err(|error| problems(error.into()))?;
     target(key, &compiled).map_err(problems)
+}
+
+/// The text of a file in a folder, or why there is none.
+fn beside(folder: Option<&Path>, name: &str) -> Result<String, String> {
+    let Some(folder) = folder else { return Err("this text has no folder".into()) };
+    let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    if !is_inside {
+        return Err("it leads out of the folder".into());
+    }
+    let path = folder.join(name);
+    let mut text = String::new();
+    let read = File::open(&path).and_then(|file| file.take(LONGEST as u64 + 1).read_to_string(&mut text));
+    match read {
+        Err(error) => Err(format!("{error} ({})", path.display())),
+        Ok(_) if text.len() > LONGEST => Err(format!("it has more than {LONGEST} bytes")),
+        Ok(_) => Ok(text),
+    }
 }
 
 /// Compiles the programs that runs of a mechanism need, with transposed ones if the declaration asks for gradients
