@@ -234,7 +234,7 @@ impl Drop for Run {
 }
 
 /// Driven and free, with friction, tables, inputs, redundant constraints, own states and events.
-pub const LIBRARY: [&str; 11] = [
+pub const LIBRARY: [&str; 12] = [
     "slider_crank",
     "slider_crank_free",
     "four_bar",
