@@ -1,8 +1,8 @@
 //! Springs with dampers, between two points or between two bodies' angles.
 //!
 //! With the elongation s (distance minus free length, or relative angle minus
-//! free angle) the tension is F = k s + c ṡ. It does the virtual work −F δs, so
-//! the generalized forces are −F ∂s/∂q, and the spring holds the energy ½ k s².
+//! free angle) and a preload P the tension is F = P + k s + c ṡ. It does the virtual work −F δs, so
+//! the generalized forces are −F ∂s/∂q, and the spring holds the energy P s + ½ k s².
 //!
 //! The distance |r| has no derivative where the places coincide, so a spring with a
 //! free length has no direction there. Without one it pulls with k r, which is as
@@ -30,6 +30,7 @@ pub const SPRING: ElementKind = ElementKind {
         Property::fixed("stiffness", Dimension::of(1, 0, -2)),
         Property::fixed("damping", Dimension::of(1, 0, -1)),
         Property::fixed("length", Dimension::LENGTH),
+        Property::fixed("preload", FORCE),
     ],
     said: |given| is_said(given, "length"),
     knows: &[],
@@ -38,7 +39,7 @@ pub const SPRING: ElementKind = ElementKind {
     needs: None,
     forces: |spring, effects| {
         let free = spring.get_or_zero("length");
-        if free.is_zero() {
+        if free.is_zero() && spring.get_or_zero("preload").is_zero() {
             pull_together(spring, effects);
             return Some(());
         }
@@ -59,6 +60,7 @@ pub const TORSION_SPRING: ElementKind = ElementKind {
         Property::fixed("stiffness", Dimension::of(1, 2, -2)),
         Property::fixed("damping", Dimension::of(1, 2, -1)),
         Property::angle("angle"),
+        Property::fixed("preload", TORQUE),
     ],
     said: |given| is_said(given, "angle"),
     knows: &[],
@@ -76,9 +78,10 @@ pub const TORSION_SPRING: ElementKind = ElementKind {
 /// A spring without stiffness and damping does nothing; one with stiffness
 /// needs to know where it is at rest, and one without does not.
 fn is_said(given: &Given<'_>, free: &str) -> Result<(), Unsaid> {
-    let what = match (given.has_some("stiffness"), given.has("damping"), given.has(free)) {
-        (false, false, _) => "`stiffness` or `damping`".to_owned(),
-        (true, _, false) => format!("`{free}`, at which it is free of force"),
+    let acts = given.has("damping") || given.has_some("preload");
+    let what = match (given.has_some("stiffness"), acts, given.has(free)) {
+        (false, false, _) => "`stiffness`, `damping` or `preload`".to_owned(),
+        (true, _, false) => format!("`{free}`, at which it has its preload or none"),
         _ => return Ok(()),
     };
     Err(Unsaid::Missing { what, example: format!("{{ stiffness = …; {free} = …; damping = …; }}") })
@@ -88,12 +91,15 @@ fn between<'a>(spring: &Element<'a>) -> Vector<Scalar<'a>> {
     spring.first.position - spring.second.position
 }
 
-/// The tension F = k s + c ṡ of an elongation s, applied as −F δs; ½ k s² is stored.
+/// The tension F = P + k s + c ṡ of an elongation s, applied as −F δs; P s + ½ k s² is stored.
 fn pull<'a>(spring: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) -> Scalar<'a> {
-    let (k, c) = (spring.get_or_zero("stiffness"), spring.get_or_zero("damping"));
+    let [k, c, preload] = ["stiffness", "damping", "preload"].map(|property| spring.get_or_zero(property));
     let rate = effects.rate(s);
-    let tension = (k * s + c * rate).shared();
+    let tension = (preload + k * s + c * rate).shared();
     effects.store(k, s);
+    if !preload.is_zero() {
+        effects.energies.push((preload * s).expr());
+    }
     effects.apply(-tension, s);
     tension
 }
