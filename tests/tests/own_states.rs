@@ -287,6 +287,38 @@ fn linear_systems_have_states_behind_velocities() -> Result<(), mbs_analysis::Er
     Ok(())
 }
 
+/// The library's motor with its PI controller: beside the 0 of its angle the roots of λ³ + R/L λ² + (k² + k p)/(LJ) λ +
+/// k i/(LJ) = 0, by Newton's method from the eigenvalues, in complex numbers.
+#[test]
+fn a_loop_has_the_eigenvalues_of_its_polynomial() -> Result<(), mbs_analysis::Error> {
+    use models::{DcMotor, DcMotorParameters};
+    use nalgebra::Complex;
+    let p: DcMotorParameters<f64> = DcMotorParameters::default();
+    let rest = [0.0; 3];
+    let point = OperatingPoint::at_rest(0.0, &rest, &[0.0]);
+    let linear = linearize(&Differentiated(DcMotor::declared()), &point, &Ports::default())?;
+    let scale = p.inductance * p.inertia;
+    let [c2, c1, c0] = [
+        p.resistance / p.inductance,
+        p.constant * (p.constant + p.proportional) / scale,
+        p.constant * p.integrating / scale,
+    ];
+    let mut found: Vec<Complex<f64>> =
+        linear.modes()?.iter().map(|mode| Complex::new(mode.eigenvalue.re, mode.eigenvalue.im)).collect();
+    found.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    assert!(found[0].norm() < 1e-9);
+    for eigenvalue in &found[1..] {
+        let mut root = *eigenvalue;
+        for _ in 0..5 {
+            let value = ((root + c2) * root + c1) * root + c0;
+            let slope = (root * 3.0 + 2.0 * c2) * root + c1;
+            root -= value / slope;
+        }
+        assert!((root - eigenvalue).norm() < 1e-12 * root.norm(), "{eigenvalue} for {root}");
+    }
+    Ok(())
+}
+
 /// Kinematics follows constraints, of which a state has none.
 #[test]
 fn kinematics_refuses_states() {

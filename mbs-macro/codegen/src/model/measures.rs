@@ -192,13 +192,13 @@ impl Scope<'_> {
         Ok(Typed { expr: energy.expr(), dimension: Some(ENERGY) })
     }
 
-    /// Forces are all known once the energies are: outputs come last.
+    /// Forces are all known once the energies are: rates of states and outputs come last.
     fn only_in_outputs(&self, name: &Ident) -> Result<(), Diagnostic> {
         if self.energies.is_some() {
             return Ok(());
         }
         Err(Diagnostic::new(name.span(), format!("`{name}` cannot stand here"))
-            .help("it measures the mechanism in motion, for outputs alone"))
+            .help("it measures the mechanism in motion, for outputs and rates of states alone"))
     }
 }
 

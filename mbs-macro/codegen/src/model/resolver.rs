@@ -2,8 +2,8 @@
 //!
 //! # Order
 //!
-//! Names come first. Values, profiles, places, constraints and forces follow. Outputs come last, since they
-//! may measure all of these.
+//! Names come first. Values, profiles, places, constraints and forces follow. Rates of states and outputs come last,
+//! since they may measure all of these.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,6 +42,12 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     resolver.each(declaration, Resolver::resolve_constraint);
     resolver.each(declaration, Resolver::resolve_item);
     resolver.forces_are_known();
+    // what drives a state may measure forces, which no rate changes
+    resolver.each(declaration, |resolver, item| {
+        if let ItemKind::Rate { state, value, .. } = &item.kind {
+            resolver.resolve_rate(state, value);
+        }
+    });
     resolver.each(declaration, Resolver::resolve_measurement);
     resolver.resolve_rest();
     resolver.finish(declaration)

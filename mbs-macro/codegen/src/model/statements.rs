@@ -145,7 +145,6 @@ impl<'a> Resolver<'a> {
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
-            ItemKind::Rate { state, value, .. } => self.resolve_rate(state, value),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
             _ => {}
         }

@@ -88,13 +88,14 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
         if heading == "Energies" {
             lines = energies(derivation).map(|(name, formula)| (name.to_owned(), formula.text)).into();
         }
-        let width = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        let width = lines.iter().map(|(name, _)| columns(name)).max().unwrap_or(0);
         let _ = write!(text, "\n{heading}\n");
         if lines.is_empty() {
             text.push_str("  all 0\n");
         }
         for (name, formula) in lines {
-            let _ = writeln!(text, "  {name:width$} = {formula}");
+            let room = width - columns(&name);
+            let _ = writeln!(text, "  {name}{:room$} = {formula}", "");
         }
     }
     let mut table = Table::new(["", "unknowns", "divided by", ""]);
@@ -136,6 +137,11 @@ fn switches(switching: &[Switch]) -> String {
     }
     section(&mut text, "Switches: laws bend or jump where these values pass", &table);
     text
+}
+
+/// The columns that a name takes: a dot over a letter takes none.
+fn columns(name: &str) -> usize {
+    name.chars().filter(|letter| *letter != '\u{307}').count()
 }
 
 /// The declared start, and by how much the constraints move it.
