@@ -14,7 +14,7 @@ pub struct Info {
     pub dof: i32,
     /// The parameters; `default` is the declared value.
     pub parameters: &'static [Quantity],
-    /// The inputs; `default` is the value before anything is set.
+    /// The inputs; `default` is the declared value, with which every run begins, 0 without one.
     pub inputs: &'static [Quantity],
     /// The coordinates of bodies, and behind them the states of the declaration's own; `default` is the
     /// declared start.

@@ -110,7 +110,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     type Scheme: Scheme;
     /// The parameters, named fields in SI units.
     type Parameters: Components<Real = Self::Real> + Default;
-    /// The inputs that the embedding program sets, named fields in SI units.
+    /// The inputs that the embedding program sets, named fields in SI units; the default is the declaration.
     type Inputs: Components<Real = Self::Real> + Default;
     /// The coordinates q, and with the same names q̇ and q̈.
     type Coordinates: Components<Real = Self::Real>;

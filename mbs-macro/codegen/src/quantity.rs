@@ -18,6 +18,15 @@ pub struct Quantity {
     pub dimension: Dimension,
 }
 
+/// A quantity that is set from outside, a parameter or an input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Its name and unit.
+    pub quantity: Quantity,
+    /// Its declared value in SI units; 0 of an input that is declared without one.
+    pub value: f64,
+}
+
 /// Which changes of sign are an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {

@@ -327,7 +327,8 @@ MBS_API void mbs_run_free(mbs_run *run);
 MBS_API mbs_status mbs_run_set_parameter(mbs_run *run, size_t index, double value);
 
 /**
- * @brief Sets an input, at once and for later starts. It is held until it is set again; inputs are 0 before.
+ * @brief Sets an input, at once and for later starts. It is held until it is set again; before, it has its
+ * declared value.
  * @param run a handle
  * @param index of the input, from 0
  * @param value in SI units

@@ -44,7 +44,7 @@ impl Run {
             method: Method::find(method)?,
             step,
             parameters: live.parameters().to_vec(),
-            inputs: vec![0.0; live.declared_info().inputs.len()],
+            inputs: live.declared_info().inputs.iter().map(|input| input.default).collect(),
             start: None,
             tolerances: None,
             gains: None,

@@ -90,6 +90,20 @@ fn a_pendulum_through_all_functions() {
 }
 
 #[test]
+fn inputs_begin_at_their_declared_values() {
+    unsafe {
+        let pendulum = Mechanism::compiled(&PENDULUM.replace("input push [N];", "input push [N] = 2 [kN];"));
+        let mut found = std::mem::MaybeUninit::<Quantity>::uninit();
+        ok(mbs_describe(pendulum.0, INPUT, 0, found.as_mut_ptr()));
+        assert_eq!(found.assume_init().value, 2000.0);
+        let run = pendulum.run("", 1e-4).started();
+        let mut inputs = [0.0];
+        ok(mbs_run_inputs(run.pointer, inputs.as_mut_ptr(), 1));
+        assert_eq!(inputs, [2000.0]);
+    }
+}
+
+#[test]
 fn null_is_answered() {
     unsafe {
         let pendulum = Mechanism::compiled(PENDULUM);

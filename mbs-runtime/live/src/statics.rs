@@ -92,7 +92,7 @@ fn info(compiled: &Compiled) -> Info {
         text(&compiled.doc),
         compiled.degrees_of_freedom,
         leak(compiled.parameters.iter().map(|parameter| quantity(&parameter.quantity, parameter.value))),
-        leak(compiled.inputs.iter().map(|input| quantity(input, 0.0))),
+        leak(compiled.inputs.iter().map(|input| quantity(&input.quantity, input.value))),
         leak(
             (compiled.coordinates.iter().enumerate())
                 .map(|(at, it)| quantity(it, compiled.declared_start(at))),

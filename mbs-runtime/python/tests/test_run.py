@@ -57,6 +57,26 @@ def test_names_and_units(library):
     assert "degrees of freedom" in crank.explain() and "\\documentclass" in crank.latex()
 
 
+def test_inputs_begin_at_their_declared_values():
+    text = """Cart {
+        dof = 1;
+        input push [kN] = 4 [N];
+        body cart (x) { mass = 2 [kg]; }
+        force pushed on x = push;
+        start { x = 0; }
+    }"""
+    cart = mbs.compile(text)
+    assert cart.inputs["push"].value == pytest.approx(0.004, abs=1e-18)
+    # x = ½ · 4 N/2 kg · t²
+    assert cart.simulate(1.0, step=0.01)["x"][-1] == pytest.approx(1.0, abs=1e-12)
+    assert cart.simulate(1.0, step=0.01, push=0)["x"][-1] == 0.0
+    run = cart.start(step=0.01)
+    assert run.step(steps=100)[0] == pytest.approx(1.0, abs=1e-12)
+    run.step({"push": "1 kN"})
+    run.reset()
+    assert run.step(steps=100)[0] == pytest.approx(1.0, abs=1e-12)
+
+
 def test_numbers_have_the_declared_unit(library):
     crank = library("slider_crank")
     a, b = crank.simulate(0.01, l1=65), crank.simulate(0.01, l1="0.065 m")

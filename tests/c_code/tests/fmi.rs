@@ -23,11 +23,13 @@ const MECHANISMS: [&str; 7] = [
     "n-pendulum-40",
 ];
 
-/// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements.
-const SPARSE: [&str; 2] = [
+/// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements. And one
+/// whose input begins at a declared value.
+const SPARSE: [&str; 3] = [
     "Mechanism { dof = 0; states = reduced; body block (x) { mass = 1 [kg]; }
         drive motor: x = 0.1 [m]*sin(3 [rad/s]*t); start { guess x = 0; } output force [N] = effort(motor); }",
     "Free { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 0; der(x) = 1 [m/s]; } }",
+    "Pushed { dof = 1; input push [N] = 3; body block (x) { mass = 1 [kg]; } force f on x = push; start { x = 0; } }",
 ];
 
 const STEP: f64 = 1e-4;

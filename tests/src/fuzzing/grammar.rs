@@ -213,6 +213,7 @@ fn statement(random: &mut Random, depth: usize) -> String {
         1 => format!("param {name} = {};", number(r)),
         2 => format!("param {name} = {} where {name} {} {};", formula(r, 1), comparison(r), formula(r, 2)),
         3 => format!("const {name} = {};", formula(r, 1)),
+        4 if r.once_in(2) => format!("input {name} [{}] = {};", r.of(UNITS), formula(r, 2)),
         4 => format!("input {name} [{}];", r.of(UNITS)),
         5 => format!("let {name} = {};", formula(r, 0)),
         6 => format!("gravity = {};", vector(r)),

@@ -2,8 +2,8 @@
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link,
-    Parameter, Pivot, Sketch, Written,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link, Pivot,
+    Sketch, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -51,7 +51,7 @@ impl Compiled {
             symbols,
             programs: plan.programs.into_vec(),
             fused_step: plan.fused_step,
-            parameters: model.parameters.into_iter().map(Parameter::from).collect(),
+            parameters: model.parameters,
             inputs: model.inputs,
             coordinates: model.coordinates.into_iter().map(|coordinate| coordinate.quantity).collect(),
             outputs: model.outputs.into_iter().map(|output| output.quantity).collect(),
@@ -86,12 +86,6 @@ fn places(model: &Model) -> Vec<usize> {
         _ => None,
     });
     neighbours.collect()
-}
-
-impl From<model::Parameter> for Parameter {
-    fn from(model::Parameter { quantity, value }: model::Parameter) -> Self {
-        Self { quantity, value }
-    }
 }
 
 impl From<model::Event> for Event {

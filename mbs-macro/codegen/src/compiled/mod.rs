@@ -59,7 +59,7 @@ use crate::diagnostics::Diagnostic;
 
 pub use crate::inputs::Input;
 pub use crate::plan::{FusedStep, Kinds, Knots};
-pub use crate::quantity::{Comparison, Crossing, Quantity};
+pub use crate::quantity::{Comparison, Crossing, Quantity, Setting};
 pub use costs::Count;
 pub use derivation::{Derivation, Elimination, Formula};
 pub use mbs_interface::{Argument, FunctionId, Property, Results};
@@ -77,11 +77,11 @@ pub struct Compiled {
     /// Its documentation in the declaration.
     pub doc: String,
     /// Numbers that are set once, with their declared values.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<Setting>,
     /// The conditions on parameters.
     pub conditions: Vec<Condition>,
-    /// Numbers that the embedding program may change from step to step.
-    pub inputs: Vec<Quantity>,
+    /// Numbers that the embedding program may change from step to step, with their values at first.
+    pub inputs: Vec<Setting>,
     /// The coordinates q of bodies, whose rates v have the same names, and behind them the states of the
     /// declaration's own: each is the rate in a block of which q is its integral.
     pub coordinates: Vec<Quantity>,
@@ -141,14 +141,6 @@ pub struct Compiled {
     pub written: Written,
     symbols: Vec<(String, Input)>,
     programs: Vec<Program>,
-}
-
-/// A parameter.
-pub struct Parameter {
-    /// Its name and unit.
-    pub quantity: Quantity,
-    /// Its declared value in SI units.
-    pub value: f64,
 }
 
 /// A condition on parameters: how a result of [`FunctionId::Conditions`] has to compare
@@ -320,6 +312,11 @@ impl Compiled {
         let is_own = coordinate >= self.line_count;
         let at = if is_own { self.coordinates.len() + coordinate } else { coordinate };
         self.start.get(at).copied().unwrap_or_default()
+    }
+
+    /// True if an input begins at another value than 0.
+    pub fn has_declared_inputs(&self) -> bool {
+        self.inputs.iter().any(|input| input.value != 0.0)
     }
 
     /// True if some coordinates are not integrated.

@@ -111,8 +111,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(value, visit);
             in_formula(default, visit);
         }
-        ItemKind::Input { name, .. } => visit(Mention::Name(name)),
-        ItemKind::State { name, value, .. } => {
+        ItemKind::Input { name, value, .. } | ItemKind::State { name, value, .. } => {
             visit(Mention::Name(name));
             value.iter_mut().for_each(|value| in_formula(value, visit));
         }

@@ -7,9 +7,9 @@ use proc_macro2::Ident;
 use super::known::{Definition, Frame, GROUND, Row, Source, State, Value};
 use super::names::duplicate;
 use super::resolver::Resolver;
-use super::{Block, Body, Coordinate, Direction, Meaning, Parameter};
+use super::{Block, Body, Coordinate, Direction, Meaning};
 use crate::diagnostics::Diagnostic;
-use crate::quantity::Quantity;
+use crate::quantity::{Quantity, Setting};
 use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
@@ -20,13 +20,14 @@ impl<'a> Resolver<'a> {
             ItemKind::Let { name, value } | ItemKind::Binding { name, value, .. } => {
                 self.declare_definition(name, value, false);
             }
-            ItemKind::Input { name, unit } => {
+            ItemKind::Input { name, unit, .. } => {
                 let meaning = Meaning::Input(self.inputs.len());
                 let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
                 let dimension = unit.unit.dimension;
                 let value = Value::Symbol { symbol, dimension, span: name.span() };
                 self.scope.declare(name, value, &mut self.errors);
-                self.inputs.push(quantity(name, &item.doc, &unit.text, unit.unit));
+                let quantity = quantity(name, &item.doc, &unit.text, unit.unit);
+                self.inputs.push(Setting { quantity, value: 0.0 });
             }
             ItemKind::Body { name, coordinates, .. } => self.declare_body(name, coordinates),
             _ => {}
@@ -70,7 +71,7 @@ impl<'a> Resolver<'a> {
         self.scope.declare(name, value, &mut self.errors);
         let (text, unit) = unit.map_or((String::new(), Unit::ONE), |unit| (unit.text, unit.unit));
         let quantity = quantity(name, doc, &text, unit);
-        self.parameters.push(Parameter { quantity, value: f64::NAN });
+        self.parameters.push(Setting { quantity, value: f64::NAN });
     }
 
     fn declare_definition(&mut self, name: &Ident, formula: &'a Formula, is_constant: bool) {

@@ -24,6 +24,7 @@ mod places;
 mod rates;
 mod reactions;
 mod resolver;
+mod settings;
 mod sketch;
 mod solver;
 mod starts;
@@ -43,7 +44,7 @@ pub use solver::Solver;
 
 use crate::diagnostics::Diagnostic;
 use crate::mechanics::{Inertia, Load, Motion, Work};
-use crate::quantity::{Comparison, Crossing, Quantity};
+use crate::quantity::{Comparison, Crossing, Quantity, Setting};
 
 /// A resolved mechanism.
 pub struct Model {
@@ -60,9 +61,9 @@ pub struct Model {
     /// Where redundant constraints are allowed, if they are.
     pub minimum_norm: Option<Span>,
     pub solver: Solver,
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<Setting>,
     pub requirements: Vec<Requirement>,
-    pub inputs: Vec<Quantity>,
+    pub inputs: Vec<Setting>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
     /// The inertia of each coordinate.
@@ -100,12 +101,6 @@ pub enum Meaning {
     Velocity(usize),
     Acceleration(usize),
     Multiplier(usize),
-}
-
-pub struct Parameter {
-    pub quantity: Quantity,
-    /// Declared value in SI units.
-    pub value: f64,
 }
 
 /// A condition on parameters, checked when a mechanism is built.

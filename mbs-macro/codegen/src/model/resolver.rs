@@ -15,12 +15,12 @@ use rustc_hash::FxHashMap as HashMap;
 use super::known::{Definition, Energies, State, Value};
 use super::names::Scope;
 use super::{
-    Block, Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, Parameter,
-    ReactiveLoad, Solver, Start,
+    Block, Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, ReactiveLoad,
+    Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load};
-use crate::quantity::Quantity;
+use crate::quantity::Setting;
 use crate::syntax::{Declaration, Item, ItemKind};
 
 /// Resolves names and checks dimensions.
@@ -62,10 +62,10 @@ pub(super) struct Resolver<'a> {
     pub dof: Option<(i64, Span)>,
     pub minimum_norm: Option<Span>,
     pub solver: Solver,
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<Setting>,
     /// How many of them have their value.
     pub resolved_parameters: usize,
-    pub inputs: Vec<Quantity>,
+    pub inputs: Vec<Setting>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
     pub resolved_bodies: BTreeSet<usize>,

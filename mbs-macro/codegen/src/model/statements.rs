@@ -5,8 +5,7 @@ use mbs_symbolic::{Expr, Number};
 use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
-use super::hints::unit_help_for_products;
-use super::known::{Typed, Value};
+use super::known::Typed;
 use super::names::{Place, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Source};
@@ -166,44 +165,6 @@ impl<'a> Resolver<'a> {
                 .note(earlier, format!("{what} is first given here"))
                 .help("keep one of them"),
         );
-    }
-
-    /// The value of a parameter. If it has an error, what uses it has none of its own.
-    pub(super) fn resolve_value(&mut self, item: &'a Item) {
-        let ItemKind::Parameter { name, value: formula, .. } = &item.kind else { return };
-        let before = self.errors.len();
-        self.resolve_parameter(name, formula);
-        if self.errors.len() > before {
-            self.scope.values.insert(name.to_string(), Value::Refused(name.span()));
-        }
-    }
-
-    fn resolve_parameter(&mut self, name: &Ident, formula: &Formula) {
-        let text = name.to_string();
-        // Statements are resolved in the order in which they were declared.
-        let at = self.resolved_parameters;
-        self.resolved_parameters += 1;
-        if at >= self.parameters.len() {
-            return;
-        }
-        if let Some(typed) = self.scope.formula(formula, Place::Constant, &mut self.errors) {
-            let declared = self.parameters[at].quantity.dimension;
-            let found = typed.dimension.unwrap_or(declared);
-            let value = self.scope.arena.as_number(typed.expr).map(Number::to_f64);
-            match value.filter(|value| value.is_finite()) {
-                Some(_) if found != declared => self.errors.push(
-                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is {}, but no unit stands behind it", described(found)))
-                        .help(unit_help_for_products(formula).unwrap_or_else(|| {
-                            "write a number with its unit, as in `param l = 60 [mm];`, or use `const` or `let` for computed values".to_owned()
-                        })),
-                ),
-                Some(value) => self.parameters[at].value = value,
-                None => self.errors.push(
-                    Diagnostic::new(formula.span, format!("the declared value of `{text}` is not a finite number"))
-                        .help("check its divisors and functions"),
-                ),
-            }
-        }
     }
 
     /// Adds a condition, of a parameter or else of its left side.

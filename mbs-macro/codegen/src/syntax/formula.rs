@@ -21,6 +21,18 @@ impl Formula {
         Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
     }
 
+    /// A bare number, also behind a sign, gets this unit; any other formula has its own.
+    pub fn in_unit(self, unit: &UnitText) -> Self {
+        let kind = match self.kind {
+            FormulaKind::Number { value, unit: None } => {
+                FormulaKind::Number { value, unit: Some(unit.clone()) }
+            }
+            FormulaKind::Negative(inner) => FormulaKind::Negative(Box::new(inner.in_unit(unit))),
+            other => other,
+        };
+        Self { kind, ..self }
+    }
+
     /// As it is written, if it is a name or a path of names.
     pub fn path(&self) -> Option<String> {
         match &self.kind {

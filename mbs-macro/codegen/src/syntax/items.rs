@@ -13,7 +13,10 @@ use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable};
-use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Property, Role, StartEntry};
+use super::{
+    Condition, Coordinate, Declaration, EnergyRole, Formula, ItemKind, Load, Property, Role, StartEntry,
+    UnitText,
+};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
@@ -191,23 +194,30 @@ pub(super) fn energy(input: ParseStream<'_>, role: EnergyRole) -> Result<ItemKin
     Ok(ItemKind::Energy { name, role, value })
 }
 
+/// `input torque [N*m];`, or with its value at first, `input push [N] = 2 [kN];`. A bare number is in the unit of the
+/// input.
 pub(super) fn input_item(input: ParseStream<'_>) -> Result<ItemKind> {
-    let name = name_before_unit(input)?;
-    if !input.peek(token::Bracket) {
-        return Err(input
-            .error(format!("an input needs its unit: `input {name} [N*m];`, or `[1]` for a bare number")));
-    }
-    let unit = input.parse()?;
-    semicolon(input)?;
-    Ok(ItemKind::Input { name, unit })
+    let (name, unit, value) =
+        with_unit(input, |name| format!("an input needs its unit: `input {name} [N*m];`"))?;
+    let value = value.map(|value| value.in_unit(&unit));
+    Ok(ItemKind::Input { name, unit, value })
 }
 
 /// `state current [A] = 0;`
 pub(super) fn state(input: ParseStream<'_>) -> Result<ItemKind> {
+    let (name, unit, value) =
+        with_unit(input, |name| format!("a state needs its unit: `state {name} [A] = 0;`"))?;
+    Ok(ItemKind::State { name, unit, value })
+}
+
+/// A name, its unit, and a value where there is one; `needs` says that a unit is missing.
+fn with_unit(
+    input: ParseStream<'_>,
+    needs: impl Fn(&Ident) -> String,
+) -> Result<(Ident, UnitText, Option<Formula>)> {
     let name = name_before_unit(input)?;
     if !input.peek(token::Bracket) {
-        let message = format!("a state needs its unit: `state {name} [A] = 0;`, or `[1]` for a bare number");
-        return Err(input.error(message));
+        return Err(input.error(format!("{}, or `[1]` for a bare number", needs(&name))));
     }
     let unit = input.parse()?;
     let value = match input.parse::<Option<Token![=]>>()? {
@@ -215,7 +225,7 @@ pub(super) fn state(input: ParseStream<'_>) -> Result<ItemKind> {
         None => None,
     };
     semicolon(input)?;
-    Ok(ItemKind::State { name, unit, value })
+    Ok((name, unit, value))
 }
 
 /// `der(current) = (u - R*current)/L;`

@@ -57,7 +57,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("crate", "crate = ::my_runtime;", "where generated code finds the runtime", items::crate_path),
     ("param", "param l = 60 [mm] where l > 0;", "a quantity that a program may change", |input, _| items::parameter(input)),
     ("const", "const k = 1/12;", "a number that is folded into the code", |input, _| items::constant(input)),
-    ("input", "input u [N*m];", "a quantity that a program sets at every step", |input, _| items::input_item(input)),
+    ("input", "input u [V] = 12;", "a quantity that a program sets at every step, and its value at first", |input, _| items::input_item(input)),
     ("state", "state current [A] = 0;", "a state of its own, which an equation drives", |input, _| items::state(input)),
     ("der", "der(current) = (u - R*current)/L;", "the rate of a state", |input, _| items::rate(input)),
     ("let", "let s = sin(theta);", "a name for an expression", |input, _| items::let_item(input)),

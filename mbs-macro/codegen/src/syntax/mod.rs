@@ -68,8 +68,8 @@ pub enum ItemKind {
     Parameter { name: Ident, value: Formula, condition: Option<Condition> },
     /// `const l = 1 [m];`
     Constant { name: Ident, value: Formula },
-    /// `input torque [N*m];`
-    Input { name: Ident, unit: UnitText },
+    /// `input torque [N*m];`, or with its value at first, `input push [N] = 2 [kN];`.
+    Input { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `state current [A] = 0;`
     State { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `der(current) = (u - R*current)/L;`

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use mbs_symbolic::units::{self, Dimension};
 
-use crate::compiled::{Compiled, Pivot, Quantity};
+use crate::compiled::{Compiled, Pivot, Quantity, Setting};
 use crate::diagnostics::described;
 
 /// A quantity with its unit and declared value.
@@ -32,6 +32,11 @@ pub fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {
         }
     }
     text
+}
+
+/// An input with its unit, and with its value at first unless that is 0.
+pub fn input(Setting { quantity: of, value }: &Setting) -> String {
+    quantity(of, (*value != 0.0).then_some(*value))
 }
 
 /// A coordinate, or an own state and where it stands.

@@ -244,7 +244,7 @@ impl Room {
             residuals: zeros(system.rows.len()),
             still: zeros(info.coordinates.len()),
             multipliers: zeros(info.constraints.len()),
-            inputs: zeros(info.inputs.len()),
+            inputs: info.inputs.iter().map(|input| Partials::constant(input.default)).collect(),
             outputs: zeros(info.outputs.len()),
         }
     }

@@ -127,15 +127,16 @@ mod system;
 impl<T: Real> Run<T> {
     /// Choices to make before the start. Without any: the declared start, made consistent,
     /// steps of `step` seconds of the declared scheme, deadbeat feedback held over each step,
-    /// inputs at 0. See the examples of [`Run`] and [`Builder`].
+    /// inputs at their declared values. See the examples of [`Run`] and [`Builder`].
     pub fn builder(mechanism: &Live<T>, step: f64) -> Builder<T> {
         let method = Explicit::held(mechanism.declared_scheme());
+        let inputs = mechanism.declared_info().inputs.iter();
         Builder {
             mechanism: mechanism.clone(),
             step,
             method,
             gains: method.deadbeat(step),
-            inputs: vec![T::ZERO; mechanism.declared_info().inputs.len()],
+            inputs: inputs.map(|input| T::from_f64(input.default)).collect(),
             state: None,
             steps_taken: 0,
             start: Start::Declared,

@@ -14,7 +14,7 @@ use crate::derivation::{GIVEN, RATES, energies, escaped, sections, typeset};
 use crate::models::Models;
 use crate::number::{counted, significant};
 use crate::settings::Start;
-use crate::{Error, Model, StartKind, Table, say};
+use crate::{Error, Model, StartKind, Table, Unit, say};
 
 /// So many knots of a table are shown.
 const MOST_KNOTS: usize = 6;
@@ -40,7 +40,7 @@ impl Arguments {
             let declared = Start { kind: StartKind::Declared, ..Start::of(model, &model.defaults())? };
             let run = model.start(&declared)?;
             let switches = switches(run.described().switching());
-            plain(info, derivation) + &switches + &start(&model.start_values()?, info)
+            plain(info, derivation) + &switches + &start(&model.start_values()?, info) + &inputs(info)
         };
         say(text.trim_end())
     }
@@ -156,6 +156,20 @@ fn start(values: &[StartValue], info: &Info) -> String {
     }
     let mut text = String::new();
     section(&mut text, "Start, made consistent with the constraints", &table);
+    text
+}
+
+/// The values with which inputs begin; nothing where all are 0.
+fn inputs(info: &Info) -> String {
+    let mut text = String::new();
+    if info.inputs.iter().all(|input| input.default == 0.0) {
+        return text;
+    }
+    let mut table = Table::new(["", "at first"]);
+    for input in info.inputs {
+        table.row([input.name, &Unit::of(input).text(input.default, 6)]);
+    }
+    section(&mut text, "Inputs, until they are set", &table);
     text
 }
 

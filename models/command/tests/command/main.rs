@@ -8,6 +8,7 @@ mod ends;
 mod files;
 mod fits;
 mod imports;
+mod inputs;
 mod linear;
 mod linkages;
 mod own_states;

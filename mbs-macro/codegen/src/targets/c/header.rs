@@ -14,6 +14,10 @@ use crate::targets::words::errors;
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     let structs = &target.names.structs;
     let scheme = target.compiled.choices.scheme;
+    let (at_first, default_inputs) = match target.compiled.has_declared_inputs() {
+        true => ("as they are declared", DEFAULT_INPUTS),
+        false => ("0", ""),
+    };
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -22,6 +26,8 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
         structs.iter().map(|it| structure(target, it)).collect(),
         target.fill(
             &include_str!("text/header.h")
+                .replace("AT_FIRST", at_first)
+                .replace("DEFAULT_INPUTS", default_inputs)
                 .replace("HELD", &deadbeat(Explicit::held(scheme)))
                 .replace("STAGED", &deadbeat(Explicit::per_stage(scheme))),
         ),
@@ -33,6 +39,11 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
 
 const HEAD: &str =
     "Printed from its declaration; changes here are lost. All numbers are in SI units, angles in rad.";
+
+const DEFAULT_INPUTS: &str = "/** The declared inputs, with which a run begins. */
+void NAME_default_inputs(struct NAME_inputs *inputs);
+
+";
 
 /// The gains that remove a violation fastest, for a step h.
 fn deadbeat(method: Explicit) -> String {

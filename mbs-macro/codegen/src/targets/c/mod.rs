@@ -29,6 +29,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics};
 use names::Names;
 use target::Target;
 
+pub(super) use source::beginning;
 pub use target::Scalar;
 
 /// A file with its name.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::compiled::{Compiled, Constraint, Quantity, Results, Vector};
-use crate::targets::words::{coordinate, quantity};
+use crate::compiled::{Compiled, Constraint, Results, Vector};
+use crate::targets::words::{coordinate, input, quantity};
 
 /// The names of a printed mechanism.
 pub struct Names {
@@ -36,18 +36,19 @@ pub struct Member {
 impl Names {
     pub fn new(compiled: &Compiled) -> Self {
         let prefix = mended(&snake_case(&compiled.name), &mut BTreeSet::new());
-        let numbers = |list: &[Quantity]| members(list.iter().map(|it| (&it.name, quantity(it, None))));
+        let outputs = compiled.outputs.iter().map(|it| (&it.name, quantity(it, None)));
         let parameters = compiled.parameters.iter().map(|it| (&it.quantity, it.value));
         let parameters = parameters.map(|(it, value)| (&it.name, quantity(it, Some(value))));
+        let inputs = compiled.inputs.iter().map(|it| (&it.quantity.name, input(it)));
         let coordinates = compiled.coordinates.iter().enumerate();
         let coordinates = members(coordinates.map(|(at, it)| (&it.name, coordinate(compiled, at))));
         let constraints = compiled.constraints.iter().map(|it| (&it.name, constraint(it)));
         let mut structs = vec![
             ("parameters", "Numbers that are set once.", members(parameters)),
-            ("inputs", "Numbers that may change from step to step.", numbers(&compiled.inputs)),
+            ("inputs", "Numbers that may change from step to step.", members(inputs)),
             ("coordinates", "The coordinates, or their rates per second.", coordinates),
             ("constraints", ROWS, members(constraints)),
-            ("outputs", "What the declaration measures.", numbers(&compiled.outputs)),
+            ("outputs", "What the declaration measures.", members(outputs)),
         ];
         if compiled.has_reduced_states() {
             let states =

@@ -10,7 +10,7 @@ use super::kernels::Kernel;
 use super::loops::lines;
 use super::names::Struct;
 use super::target::{Scalar, Target};
-use crate::compiled::{Comparison, Condition, Feedback, GROWTH_LIMIT, Pivot};
+use crate::compiled::{Comparison, Compiled, Condition, Feedback, GROWTH_LIMIT, Pivot};
 use crate::targets::words;
 
 /// The text from the functions of the programs, and from a step that is one program.
@@ -24,8 +24,9 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
         target.fill(include_str!("text/init.c")),
+        target.fill(default_inputs(target)),
         target.fill(states(target)),
-        target.fill(include_str!("text/start.c")),
+        target.fill(&beginning(target.compiled, include_str!("text/start.c"))),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
         target.fill(&include_str!("text/results.c").replace("STEP", step)),
@@ -41,6 +42,17 @@ fn states(target: &Target<'_>) -> &'static str {
         true => include_str!("text/states_reduced.c"),
         false => include_str!("text/states_all.c"),
     }
+}
+
+/// The function that gives inputs their declared values; nothing where these are 0.
+fn default_inputs(target: &Target<'_>) -> &'static str {
+    if target.compiled.has_declared_inputs() { include_str!("text/inputs.c") } else { "" }
+}
+
+/// A text in which inputs begin at their declared values; where these are 0, they are so already.
+pub fn beginning(compiled: &Compiled, text: &str) -> String {
+    let is_kept = |line: &&str| compiled.has_declared_inputs() || !line.contains("NAME_default_inputs(");
+    text.split_inclusive('\n').filter(is_kept).collect()
 }
 
 /// The head of the source, before everything else.
@@ -116,6 +128,10 @@ fn tables(target: &Target<'_>) -> String {
     add("static const int NAME_constraint_length[]", lengths, "0");
     let values = compiled.parameters.iter().map(|it| target.scalar.literal(it.value)).collect();
     add("static const real NAME_declared[]", values, "0");
+    if compiled.has_declared_inputs() {
+        let values = compiled.inputs.iter().map(|it| target.scalar.literal(it.value)).collect();
+        add("static const real NAME_declared_inputs[]", values, "0");
+    }
     let judged = compiled.conditions.iter().map(judged).collect();
     let declaration = "/* What is judged, its sign, and whether it must not be 0. */\nstatic const int";
     add(&format!("{declaration} NAME_conditions[][3]"), judged, "{0, 0, 0}");

@@ -8,6 +8,7 @@ use super::Experiment;
 use super::structure::tunable;
 use super::variables::References;
 use crate::compiled::{Compiled, Feedback, GROWTH_LIMIT};
+use crate::targets::c::beginning;
 
 /// The parts, in the order in which they stand in the file.
 const PARTS: [&str; 8] = [
@@ -37,7 +38,8 @@ pub fn source(compiled: &Compiled, prefix: &str, references: &References, experi
     .into_iter()
     .chain(PARTS)
     .collect::<String>();
-    text.replace("NAME_STATES", &format!("{prefix}_{states}"))
+    beginning(compiled, &text)
+        .replace("NAME_STATES", &format!("{prefix}_{states}"))
         .replace("STATE_COUNT", &format!("{capitals}_{}", states.to_uppercase()))
         .replace("NAME", prefix)
         .replace("CAPS", &capitals)

@@ -100,7 +100,9 @@ pub fn all(compiled: &Compiled, references: &References) -> Vec<Variable> {
         ..Variable::of(&it.quantity, role)
     }));
     let inputs = compiled.inputs.iter();
-    all.extend(inputs.map(|it| Variable { start: Some(0.0), ..Variable::of(it, Role::Input) }));
+    all.extend(
+        inputs.map(|it| Variable { start: Some(it.value), ..Variable::of(&it.quantity, Role::Input) }),
+    );
     for order in 0..3_i16 {
         let names = compiled.coordinates.iter().enumerate();
         all.extend(names.map(|(at, it)| {

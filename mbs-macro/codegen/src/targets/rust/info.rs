@@ -20,7 +20,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     });
     let velocity_forces = compiled.velocity_forces.iter().map(|&at| Literal::usize_unsuffixed(at));
     let parameters = compiled.parameters.iter().map(|p| quantity(&p.quantity, p.value, runtime));
-    let inputs = compiled.inputs.iter().map(|input| quantity(input, 0.0, runtime));
+    let inputs = compiled.inputs.iter().map(|it| quantity(&it.quantity, it.value, runtime));
     let coordinates = compiled.coordinates.iter().enumerate();
     let coordinates = coordinates.map(|(at, c)| quantity(c, compiled.declared_start(at), runtime));
     let lines = Literal::usize_unsuffixed(compiled.line_count);

@@ -36,7 +36,7 @@ pub fn symbol(compiled: &Compiled, access: &Access, symbol: Symbol) -> TokenStre
             quote!(#parameters.#name)
         }
         Input::Input(at) => {
-            let name = field(&compiled.inputs[at].name);
+            let name = field(&compiled.inputs[at].quantity.name);
             quote!(inputs.#name)
         }
         Input::Position(at) => {

@@ -6,7 +6,7 @@ use quote::quote;
 use super::docs;
 use super::names::{Names, field};
 use super::tokens;
-use crate::compiled::{Compiled, Quantity, Results};
+use crate::compiled::{Compiled, Quantity, Results, Setting};
 use crate::targets::words;
 
 /// Vectors with more components are converted by calls.
@@ -29,24 +29,16 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let parameter_fields: Vec<_> = compiled
         .parameters
         .iter()
-        .map(|p| Field {
-            name: field(&p.quantity.name),
-            text: p.quantity.name.clone(),
-            doc: words::quantity(&p.quantity, Some(p.value)),
-            value: p.value,
-        })
+        .map(|it| setting(it, words::quantity(&it.quantity, Some(it.value))))
         .collect();
     let parameter_doc =
         format!("Parameters of [`{mechanism}`], in SI units; the default is the declaration.");
     let parameters = components(visibility, parameters, names, &parameter_doc, &parameter_fields);
-    let inputs = quantities(
-        compiled.inputs.iter(),
-        "Inputs",
-        "set by the embedding program, in SI units",
-        names,
-        visibility,
-        names.inputs.name.as_ref(),
-    );
+    let inputs = names.inputs.name.as_ref().map(|name| {
+        let fields: Vec<_> = compiled.inputs.iter().map(|it| setting(it, words::input(it))).collect();
+        let doc = format!("Inputs of [`{mechanism}`], set by the embedding program, in SI units.");
+        components(visibility, name, names, &doc, &fields)
+    });
     let coordinate = |at: usize| {
         let name = &compiled.coordinates[at].name;
         Field { name: field(name), text: name.clone(), doc: words::coordinate(compiled, at), value: 0.0 }
@@ -63,14 +55,11 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         );
         components(visibility, name, names, &doc, &fields)
     });
-    let outputs = quantities(
-        compiled.outputs.iter(),
-        "Outputs",
-        "in SI units",
-        names,
-        visibility,
-        names.outputs.name.as_ref(),
-    );
+    let outputs = names.outputs.name.as_ref().map(|name| {
+        let fields: Vec<_> = compiled.outputs.iter().map(output).collect();
+        let doc = format!("Outputs of [`{mechanism}`], in SI units.");
+        components(visibility, name, names, &doc, &fields)
+    });
     let constraints = names.constraints.name.as_ref().map(|name| {
         let fields: Vec<_> = compiled
             .constraints
@@ -113,25 +102,13 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     }
 }
 
-fn quantities<'a>(
-    quantities: impl Iterator<Item = &'a Quantity>,
-    what: &str,
-    remark: &str,
-    names: &Names,
-    visibility: &TokenStream,
-    name: Option<&Ident>,
-) -> Option<TokenStream> {
-    let name = name?;
-    let fields: Vec<_> = quantities
-        .map(|quantity| Field {
-            name: field(&quantity.name),
-            text: quantity.name.clone(),
-            doc: words::quantity(quantity, None),
-            value: 0.0,
-        })
-        .collect();
-    let doc = format!("{what} of [`{}`], {remark}.", names.mechanism);
-    Some(components(visibility, name, names, &doc, &fields))
+fn setting(Setting { quantity, value }: &Setting, doc: String) -> Field {
+    Field { name: field(&quantity.name), text: quantity.name.clone(), doc, value: *value }
+}
+
+fn output(quantity: &Quantity) -> Field {
+    let doc = words::quantity(quantity, None);
+    Field { name: field(&quantity.name), text: quantity.name.clone(), doc, value: 0.0 }
 }
 
 /// A struct with one field per component, and its conversions.

@@ -3,13 +3,14 @@
 use mbs_interface::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
-use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results};
+use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results, Setting};
 use crate::targets::words;
 
 /// The tables of a mechanism. `<` is escaped, so that they can stand within a `script` element.
 pub fn tables(compiled: &Compiled) -> String {
     let Compiled { choices, .. } = compiled;
-    let parameters = compiled.parameters.iter().map(|it| quantity(&it.quantity, Some(it.value)));
+    let settings =
+        |settings: &[Setting]| array(settings.iter().map(|it| quantity(&it.quantity, Some(it.value))));
     let quantities = |quantities: &[Quantity]| array(quantities.iter().map(|it| quantity(it, None)));
     let constraints = compiled.constraints.iter().map(|it| {
         object([
@@ -31,8 +32,8 @@ pub fn tables(compiled: &Compiled) -> String {
     object([
         ("name", text(&compiled.name)),
         ("doc", text(&compiled.doc)),
-        ("parameters", array(parameters)),
-        ("inputs", quantities(&compiled.inputs)),
+        ("parameters", settings(&compiled.parameters)),
+        ("inputs", settings(&compiled.inputs)),
         ("coordinates", quantities(&compiled.coordinates)),
         ("lines", compiled.line_count.to_string()),
         ("outputs", quantities(&compiled.outputs)),

@@ -148,7 +148,7 @@ impl Shown<'_> {
         let info = self.model.info();
         let still = vec![0.0; info.coordinates.len()];
         let multipliers = vec![0.0; info.constraints.len()];
-        let inputs = vec![0.0; info.inputs.len()];
+        let inputs: Vec<f64> = info.inputs.iter().map(|input| input.default).collect();
         let mut outputs = vec![0.0; info.outputs.len()];
         let mut columns = vec![Vec::new(); self.task.columns.len()];
         for q in &best.path {

@@ -56,12 +56,12 @@ extern const int NAME_phi_q_places[CAPS_JACOBIAN + 1][2];
 /** The declared parameters. */
 void NAME_default_parameters(struct NAME_parameters *parameters);
 
-/** Makes the mechanism, or refuses parameters that are not finite or break a condition. */
+DEFAULT_INPUTS/** Makes the mechanism, or refuses parameters that are not finite or break a condition. */
 int NAME_init(struct NAME *m, const struct NAME_parameters *parameters);
 
 /** Starts a run with steps of so many seconds at the declared start, made consistent: values
    that it prescribes are kept, the others move least in the norm of the mass matrix. Inputs
-   are 0. The feedback removes a violation within two steps (deadbeat), and is held over each
+   are AT_FIRST. The feedback removes a violation within two steps (deadbeat), and is held over each
    step. The mechanism has to outlive the run. */
 int NAME_start(struct NAME_run *run, const struct NAME *m, double step);
 

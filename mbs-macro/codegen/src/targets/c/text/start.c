@@ -208,6 +208,7 @@ int NAME_start(struct NAME_run *run, const struct NAME *m, double step)
     run->mechanism = m;
     run->where = -1;
     run->step = (real)step;
+    NAME_default_inputs(&run->inputs);
     run->state.t = NAME_compute_declared_start(m, &run->state.q, &run->state.v);
     if (!(run->step > 0 && isfinite(run->step) && 4 * NAME_epsilon * FABS(run->state.t) <= run->step)) {
         return CAPS_BAD_STEP;

@@ -117,6 +117,7 @@ static void reset(struct instance *it)
     memset(&it->now, 0, sizeof it->now);
     it->now.mode = INSTANTIATED;
     NAME_default_parameters(&it->now.parameters);
+    NAME_default_inputs(&it->now.inputs);
 }
 
 static void *discarded(struct instance *it)

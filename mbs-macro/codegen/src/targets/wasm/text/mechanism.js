@@ -85,6 +85,7 @@ class Mechanism {
       this[name] = new Float64Array(memory.buffer, at, length);
       at += 8 * length;
     }
+    this.inputs.set(t.inputs.map((input) => input.value));
     this.setParameters(t.parameters.map((parameter) => parameter.value));
   }
 
