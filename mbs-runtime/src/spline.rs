@@ -3,6 +3,7 @@
 use crate::Real;
 
 /// One cubic: c₀ + c₁u + c₂u² + c₃u³ from `from` on, u counted from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Distance from the first point.
     pub from: f64,
@@ -11,13 +12,14 @@ pub struct Segment {
 }
 
 /// A function given by a table, cubic from point to point.
-pub struct Spline {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spline<Segments = &'static [Segment]> {
     /// The argument of the first point.
     pub origin: f64,
     /// The period, of a periodic one.
     pub period: Option<f64>,
     /// In ascending order. The first one holds before its beginning, too, and the last one for ever.
-    pub segments: &'static [Segment],
+    pub segments: Segments,
 }
 
 impl Spline {
@@ -28,11 +30,13 @@ impl Spline {
     pub fn derivative<T: Real>(&self, order: u8, x: T) -> T {
         x.interpolate(self, order)
     }
+}
 
-    /// Where the argument lies is decided in `f64`; what a scalar carries beside
+impl<Segments: AsRef<[Segment]>> Spline<Segments> {
+    /// The same of one number. Where the argument lies is decided in `f64`; what a scalar carries beside
     /// its value (x minus its value) goes through the cubic.
     #[inline]
-    pub(crate) fn derivative_at<T: Real>(&self, order: u8, x: T) -> T {
+    pub fn derivative_at<T: Real>(&self, order: u8, x: T) -> T {
         let value = x.to_f64();
         let beside = x - T::from_f64(value);
         let distance = value - self.origin;
@@ -40,8 +44,9 @@ impl Spline {
             Some(period) => distance - floor(distance / period) * period,
             None => distance,
         };
-        let at = self.segments.partition_point(|segment| segment.from <= distance).saturating_sub(1);
-        let Some(Segment { from, coefficients }) = self.segments.get(at) else { return T::default() };
+        let segments = self.segments.as_ref();
+        let at = segments.partition_point(|segment| segment.from <= distance).saturating_sub(1);
+        let Some(Segment { from, coefficients }) = segments.get(at) else { return T::default() };
         let u = T::from_f64(distance - from) + beside;
         let [c0, c1, c2, c3] = coefficients.map(T::from_f64);
         let (two, three) = (T::from_f64(2.0), T::from_f64(3.0));

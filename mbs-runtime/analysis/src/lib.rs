@@ -55,6 +55,7 @@ pub mod ode_crates {}
 mod tangent;
 mod travel;
 
+pub use mbs_symbolic::{Beyond, Interpolation};
 pub use nalgebra;
 
 pub use curve::{Curve, Moment, Time};
@@ -67,7 +68,7 @@ pub use fit::{
     Estimate, Experiment, Fit, Look, Measurement, Progress, Remainder, See, Trial, Trials, Unknown, clock_of,
     trials_of_type,
 };
-pub use input_table::{InputTable, own_clock};
+pub use input_table::{InputTable, Way, own_clock};
 pub use inverse::{By, Instant, Prescription, inverse};
 pub use linearization::{Linearization, Ports, linearize};
 pub use modes::{Behaviour, Mode};

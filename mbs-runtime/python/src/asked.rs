@@ -4,8 +4,8 @@ use mbs_runtime::Info;
 use mbs_workbench::{About, Error, PortNames, RunOptions, Signals};
 use pyo3::prelude::*;
 
-/// Names and values.
-type Columns = Vec<(String, Vec<f64>)>;
+/// Names, values, and the words of their ways.
+type Columns = Vec<(String, Vec<f64>, String)>;
 
 /// Options of a run, in texts, as at the command line.
 #[derive(FromPyObject, Default)]
@@ -47,7 +47,7 @@ pub struct AskedPorts {
 impl Asked {
     /// As the workbench takes it.
     pub fn options(self, info: &Info) -> Result<RunOptions, Error> {
-        let signals = self.signals.map(|(times, columns)| Signals::new(info, times, columns)).transpose()?;
+        let signals = self.signals.map(|(times, columns)| signals(info, &times, columns)).transpose()?;
         let mut options = RunOptions {
             parameters: self.parameters,
             inputs: self.inputs,
@@ -63,6 +63,14 @@ impl Asked {
         }
         Ok(options)
     }
+}
+
+/// Inputs at these times, each by its way.
+fn signals(info: &Info, times: &[f64], columns: Columns) -> Result<Signals, Error> {
+    let none = Signals::new(info, times.to_vec(), Vec::new())?;
+    columns.into_iter().try_fold(none, |signals, (name, values, words)| {
+        signals.with(Signals::new(info, times.to_vec(), vec![(name, values)])?.led(&words)?)
+    })
 }
 
 impl From<AskedPoint> for About {

@@ -125,6 +125,17 @@ def test_signals_and_events(spring):
         spring.simulate(0.1, until="x > 9")
 
 
+def test_signals_by_words(spring):
+    times, values = [0.0, 0.25, 1.0], [500.0, 0.0, 500.0]
+    run = spring.simulate(
+        4.0, step=4.0, rtol=1e-6, k=1e-9, c=0, m=1000, signals={"t": times, "push": (values, "step outside periodic")}
+    )
+    # of 500 N for a quarter of every second the mean is 125 N
+    assert run["der(x)"][-1] - run["der(x)"][0] == pytest.approx(0.5, abs=1e-6)
+    with pytest.raises(mbs.Error, match="did you mean `cubic`"):
+        spring.simulate(1.0, signals={"t": times, "push": (values, "cubc")})
+
+
 def test_a_run_that_ends_early_keeps_what_it_did():
     out_of_reach = mbs.compile(
         """Rod {

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use mbs_analysis::{InputTable, own_clock};
+use mbs_analysis::{Beyond, InputTable, Interpolation, Way, own_clock};
 use mbs_runtime::Info;
 
 use crate::names::some_of;
@@ -12,17 +12,30 @@ use crate::{Error, Unit};
 #[cfg(feature = "desk")]
 use crate::{quantity, sheet::Sheet};
 
-/// Values of inputs over time, with straight lines between the instants; before the first
-/// and after the last one they stay.
+/// Values of inputs over time. Unless another [`Way`] is asked for, they are straight lines between the instants, and stay
+/// before the first and after the last one.
 ///
-/// As every input they are held over a step, at their value in its middle: the error of that is
-/// O(h²), as that of Heun's method.
+/// Every stage of a step sees the inputs of its own time. A step to a tolerance ends where they bend or jump.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Signals {
-    times: Vec<f64>,
-    inputs: Vec<(String, Vec<f64>)>,
+    inputs: Vec<Signal>,
     /// Columns of a table that are no inputs.
     skipped: Vec<String>,
+}
+
+/// An input over time.
+#[derive(Clone, Debug, PartialEq)]
+struct Signal {
+    name: String,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    way: Way,
+}
+
+impl Signal {
+    fn new(name: &str, times: &[f64], values: Vec<f64>) -> Self {
+        Self { name: name.to_owned(), times: times.to_vec(), values, way: Way::default() }
+    }
 }
 
 impl Signals {
@@ -69,10 +82,10 @@ impl Signals {
             }
         };
         let values = sheet.complete(column, |text| quantity::parse_as(input, text))?;
-        Ok(Self { times: sheet.times, inputs: vec![(name.to_owned(), values)], skipped: Vec::new() })
+        Ok(Self { inputs: vec![Signal::new(name, &sheet.times, values)], skipped: Vec::new() })
     }
 
-    /// The inputs of both, at the instants of both.
+    /// The inputs of both.
     ///
     /// # Errors
     /// [`Error::Name`] for an input that both have.
@@ -81,22 +94,29 @@ impl Signals {
             let reason = "two tables have it; leave one of them out".into();
             return Err(Error::Name { name: name.to_owned(), reason });
         }
-        let mut times = [&self.times[..], &other.times].concat();
-        times.sort_by(f64::total_cmp);
-        times.dedup();
-        let mut inputs = Vec::new();
-        for of in [&self, &other] {
-            for (name, values) in &of.inputs {
-                let table = InputTable::new(of.times.clone(), vec![(0, values.clone())])?;
-                let at = |t: &f64| {
-                    let mut value = [f64::NAN];
-                    table.set(*t, &mut value);
-                    value[0]
-                };
-                inputs.push((name.clone(), times.iter().map(at).collect()));
-            }
+        let inputs = [self.inputs, other.inputs].concat();
+        Ok(Self { inputs, skipped: [self.skipped, other.skipped].concat() })
+    }
+
+    /// The same inputs by the words of a [table](mbs_runtime::language#tables): the way from instant to instant, and
+    /// behind `outside` the rule for what is before the first and after the last one, such as
+    /// `cubic outside periodic`. What is left out stays as it is.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for other words; [`Error::Name`] for instants that do not fit them.
+    pub fn led(mut self, words: &str) -> Result<Self, Error> {
+        if words.trim().is_empty() {
+            return Ok(self);
         }
-        Ok(Self { times, inputs, skipped: [self.skipped, other.skipped].concat() })
+        for Signal { name, times, values, way } in &mut self.inputs {
+            *way = led(*way, words)?;
+            let fits = InputTable::led(times.clone(), vec![(0, values.clone())], *way);
+            fits.map_err(|error| {
+                let reason = format!("by `{}` {error}", words.trim());
+                Error::Name { name: name.clone(), reason }
+            })?;
+        }
+        Ok(self)
     }
 
     /// Inputs at ascending times in s; values are in the units of their declarations.
@@ -120,14 +140,19 @@ impl Signals {
             if values.len() != times.len() || !is_finite(&values) {
                 return refused(&name, "an input that changes has a finite value at each of the times");
             }
-            inputs.push((name, values.into_iter().map(|value| unit.read(value)).collect()));
+            inputs.push(Signal::new(
+                &name,
+                &times,
+                values.into_iter().map(|value| unit.read(value)).collect(),
+            ));
         }
-        Ok(Self { times, inputs, skipped: Vec::new() })
+        Ok(Self { inputs, skipped: Vec::new() })
     }
 
     /// When the table begins and ends, in s.
     pub fn span(&self) -> [f64; 2] {
-        [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0))
+        let times = || self.inputs.iter().flat_map(|input| &input.times).copied();
+        [times().reduce(f64::min), times().reduce(f64::max)].map(|end| end.unwrap_or(0.0))
     }
 
     /// When a run begins that takes these inputs, where the table has a clock of its own; see [`own_clock`].
@@ -160,14 +185,14 @@ impl Signals {
         for column in &sheet.columns {
             let Some(input) = info.inputs.iter().find(|input| input.name == column.name) else { continue };
             let values = sheet.complete(column, |text| quantity::parse_as(input, text))?;
-            inputs.push((input.name.to_owned(), values));
+            inputs.push(Signal::new(input.name, &sheet.times, values));
         }
-        Ok(Self { times: sheet.times.clone(), inputs, skipped: Vec::new() })
+        Ok(Self { inputs, skipped: Vec::new() })
     }
 
     /// The names of the inputs.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.inputs.iter().map(|(name, _)| name.as_str())
+        self.inputs.iter().map(|input| input.name.as_str())
     }
 
     /// The same by the places of the inputs of a mechanism.
@@ -176,13 +201,45 @@ impl Signals {
     /// [`Error::Unknown`] for an input that it does not have.
     pub fn table(&self, info: &Info) -> Result<Arc<InputTable>, Error> {
         let known = || info.inputs.iter().map(|input| input.name);
-        let column = |(name, values): &(String, Vec<f64>)| {
+        let mut table = InputTable::default();
+        for Signal { name, times, values, way } in &self.inputs {
             let place = known().position(|input| input == name);
-            Ok((place.ok_or_else(|| Error::unknown("input", name, known()))?, values.clone()))
-        };
-        let columns = self.inputs.iter().map(column).collect::<Result<_, Error>>()?;
-        Ok(Arc::new(InputTable::new(self.times.clone(), columns)?))
+            let place = place.ok_or_else(|| Error::unknown("input", name, known()))?;
+            table = table.with(InputTable::led(times.clone(), vec![(place, values.clone())], *way)?);
+        }
+        Ok(Arc::new(table))
     }
+}
+
+/// A way with what words say of it: `cubic`, `outside hold`, or both.
+fn led(mut way: Way, words: &str) -> Result<Way, Error> {
+    let mut rest: &[&str] = &words.split_whitespace().collect::<Vec<_>>();
+    if let [between, behind @ ..] = rest
+        && *between != "outside"
+    {
+        way.between = meaning("way from instant to instant", between, &Interpolation::WORDS)?;
+        rest = behind;
+    }
+    match rest {
+        [] => Ok(way),
+        ["outside", rule] => {
+            way.outside = meaning("rule for what is outside", rule, &Beyond::WORDS)?;
+            Ok(way)
+        }
+        _ => {
+            let reason = "write a way from instant to instant, `outside` and a rule for what is outside of them, as in \
+                          `cubic outside hold`";
+            Err(Error::Name { name: words.trim().into(), reason: reason.into() })
+        }
+    }
+}
+
+/// The meaning of a word.
+fn meaning<T: Copy>(kind: &'static str, word: &str, words: &[(&'static str, T)]) -> Result<T, Error> {
+    let found = words.iter().find(|(known, _)| *known == word);
+    found
+        .map(|(_, meaning)| *meaning)
+        .ok_or_else(|| Error::unknown(kind, word, words.iter().map(|(known, _)| *known)))
 }
 
 #[cfg(test)]
@@ -213,12 +270,12 @@ mod tests {
     #[test]
     fn values_have_the_units_of_their_headings() {
         let given = |text| {
-            let signals = read(text).unwrap();
-            (signals.times, signals.inputs)
+            let [signal] = &read(text).unwrap().inputs[..] else { unreachable!("one column is an input") };
+            (signal.name.clone(), signal.times.clone(), signal.values.clone())
         };
-        let push = |values: &[f64]| vec![("push".to_owned(), values.to_vec())];
-        assert_eq!(given("t [ms], push [N]\n0, 0\n1000, 500\n"), (vec![0.0, 1.0], push(&[0.0, 500.0])));
-        assert_eq!(given("t,push\n0,2"), (vec![0.0], push(&[2000.0])));
+        let push = |times: &[f64], values: &[f64]| ("push".to_owned(), times.to_vec(), values.to_vec());
+        assert_eq!(given("t [ms], push [N]\n0, 0\n1000, 500\n"), push(&[0.0, 1.0], &[0.0, 500.0]));
+        assert_eq!(given("t,push\n0,2"), push(&[0.0], &[2000.0]));
     }
 
     /// ẋ(2 s) = (½ · 500 N · 1 s + 500 N · 1 s)/1000 kg: Heun's method has the mean of a line.
@@ -229,6 +286,42 @@ mod tests {
         let run = model::of::<Cart>().simulate(&settings, &mut |_, _| ()).unwrap();
         let speed = *run.column("der(x)").unwrap().values.last().unwrap();
         assert!((speed - 0.75).abs() < 1e-12, "{speed}");
+    }
+
+    /// Of 500 N for a quarter of every second the mean is 125 N.
+    #[test]
+    fn words_lead_them() {
+        let pulses = "t,push [N]\n0,500\n0.25,0\n1,500";
+        let signals = read(pulses).unwrap().led("step outside periodic").unwrap();
+        let tolerances = Some(mbs_runtime::Tolerances::default());
+        let settings =
+            Settings { end: 4.0, step: 4.0, tolerances, signals: Some(signals), ..Settings::default() };
+        let run = model::of::<Cart>().simulate(&settings, &mut |_, _| ()).unwrap();
+        let speed = *run.column("der(x)").unwrap().values.last().unwrap();
+        assert!((speed - 0.5).abs() < 1e-12, "{speed}");
+        assert!(run.summary.effort.unwrap().rejected == 0, "{:?}", run.summary.effort);
+    }
+
+    #[test]
+    fn words_that_are_none() {
+        let message = |text, words| read(text).unwrap().led(words).unwrap_err().to_string();
+        let line = "t,push\n0,1\n1,2";
+        assert!(
+            message(line, "cubc").contains("no way from instant to instant `cubc`, did you mean `cubic`?")
+        );
+        assert!(
+            message(line, "cubic hold").contains("`cubic hold` cannot be used: write"),
+            "{}",
+            message(line, "cubic hold")
+        );
+        assert!(
+            message(line, "outside").contains("`outside` cannot be used: write"),
+            "{}",
+            message(line, "outside")
+        );
+        assert!(message(line, "outside halt").contains("no rule for what is outside `halt`"));
+        assert!(message(line, "outside periodic").contains("by `outside periodic` no curve leads"));
+        assert!(read(line).unwrap().led("").is_ok() && read(line).unwrap().led("outside extend").is_ok());
     }
 
     #[test]

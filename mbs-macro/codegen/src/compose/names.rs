@@ -176,7 +176,7 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             match &mut table.points {
                 Points::Curve(points, outside) => {
                     points.iter_mut().for_each(|point| in_vector(point, visit));
-                    if let Outside::Periodic(Some(period)) = outside {
+                    if let Outside::After(period) = outside {
                         in_formula(period, visit);
                     }
                 }

@@ -1,19 +1,19 @@
 //! Tables of two arguments: functions over a grid.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Grid, Interpolation, Outside as Beyond};
+use mbs_symbolic::{Beyond, Grid, Interpolation, Outside};
 use proc_macro2::Ident;
 
 use super::known::{Curve, Typed};
 use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
-use crate::syntax::{Formula, Outside, Table};
+use crate::syntax::{Formula, Table};
 
 impl Scope<'_> {
     pub(super) fn surface_of(
         &mut self,
         table: &Table,
-        (points, outside): (&[[Formula; 3]], &[Outside; 2]),
+        (points, outside): (&[[Formula; 3]], &[Beyond; 2]),
         errors: &mut Diagnostics,
     ) -> Option<Curve> {
         let name = &table.name;
@@ -129,17 +129,17 @@ fn incomplete(name: &Ident, found: usize, expected: usize) -> String {
 }
 
 /// What is outside of a grid, which ends with its first line again along an argument that is periodic.
-fn closed(name: &Ident, mut grid: Grid, outside: &[Outside; 2]) -> Result<(Grid, [Beyond; 2]), Diagnostic> {
-    let mut beyond = [Beyond::Hold; 2];
-    for (axis, (outside, beyond)) in outside.iter().zip(&mut beyond).enumerate() {
-        *beyond = match outside {
-            Outside::Hold => Beyond::Hold,
-            Outside::Extend => Beyond::Extend,
-            Outside::Refuse => Beyond::Refuse,
-            Outside::Periodic(_) => Beyond::Periodic(close(name, &mut grid, axis)?),
+fn closed(name: &Ident, mut grid: Grid, beyond: &[Beyond; 2]) -> Result<(Grid, [Outside; 2]), Diagnostic> {
+    let mut outside = [Outside::Hold; 2];
+    for (axis, (beyond, outside)) in beyond.iter().zip(&mut outside).enumerate() {
+        *outside = match beyond {
+            Beyond::Hold => Outside::Hold,
+            Beyond::Extend => Outside::Extend,
+            Beyond::Refuse => Outside::Refuse,
+            Beyond::Periodic => Outside::Periodic(close(name, &mut grid, axis)?),
         };
     }
-    Ok((grid, beyond))
+    Ok((grid, outside))
 }
 
 /// The period along an argument, whose last line, which is the first one again, is taken away.

@@ -2,7 +2,7 @@
 
 use mbs_symbolic::Spline;
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Interpolation, Outside as Beyond};
+use mbs_symbolic::{Beyond, Interpolation, Outside as Around};
 use proc_macro2::Ident;
 
 use super::functions;
@@ -83,23 +83,20 @@ impl Scope<'_> {
     ) -> Option<Curve> {
         let name = &table.name;
         let (arguments, values): (Vec<_>, Vec<_>) = given.iter().map(|point| (&point.x, &point.y)).unzip();
-        let period = if let Outside::Periodic(period) = outside { period.as_ref() } else { None };
+        let period = if let Outside::After(period) = outside { Some(period) } else { None };
         let arguments = arguments.into_iter().chain(period).collect();
         let arguments = self.numbers(&format!("an argument of `{name}`"), arguments, errors);
         let values = self.numbers(&format!("a value of `{name}`"), values, errors);
         let ((mut arguments, argument), (values, value)) = (arguments?, values?);
         let period = period.and_then(|period| Some((period, arguments.pop()?)));
-        let mut points: Vec<_> = arguments.into_iter().zip(values).collect();
+        let points: Vec<_> = arguments.into_iter().zip(values).collect();
         errors.take(check(table, (given, outside), &points, period))?;
-        let outside = match outside {
-            Outside::Hold => Beyond::Hold,
-            Outside::Extend => Beyond::Extend,
-            Outside::Refuse => Beyond::Refuse,
-            Outside::Periodic(Some(_)) => Beyond::Periodic(period?.1),
-            // the last point is the first one again
-            Outside::Periodic(None) => Beyond::Periodic(points.pop()?.0 - points.first()?.0),
+        let (text, interpolation) = (name.to_string(), table.interpolation);
+        let spline = match outside {
+            Outside::By(beyond) => Spline::by_rule(&text, &points, interpolation, *beyond),
+            Outside::After(_) => Spline::through(&text, &points, interpolation, Around::Periodic(period?.1)),
         };
-        let Some(spline) = Spline::through(&name.to_string(), &points, table.interpolation, outside) else {
+        let Some(spline) = spline else {
             let message = format!("the points of `{name}` do not give finite slopes");
             errors.push(Diagnostic::new(name.span(), message).help("check their size and distances"));
             return None;
@@ -142,7 +139,7 @@ fn check(
     period: Option<(&Formula, f64)>,
 ) -> Result<(), Diagnostic> {
     let (name, word) = (&table.name, table.word);
-    let is_closed = matches!(outside, Outside::Periodic(None));
+    let is_closed = matches!(outside, Outside::By(Beyond::Periodic));
     let is_smooth = table.interpolation == Interpolation::Cubic && (is_closed || period.is_some());
     let (needed, help) = match (is_smooth, is_closed) {
         (true, false) => (3, "a periodic spline needs at least three"),

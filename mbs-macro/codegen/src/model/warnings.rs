@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::{Function, Interpolation, Node, Stage};
+use mbs_symbolic::{Beyond, Function, Interpolation, Node, Stage};
 
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
@@ -91,9 +91,9 @@ impl Resolver<'_> {
         // the value that holds before the first point is no piece between two
         let Points::Curve(points, outside) = &table.points else { return None };
         let before = match outside {
-            Outside::Hold => 1,
-            Outside::Refuse => 2,
-            Outside::Extend | Outside::Periodic(_) => 0,
+            Outside::By(Beyond::Hold) => 1,
+            Outside::By(Beyond::Refuse) => 2,
+            Outside::By(Beyond::Extend | Beyond::Periodic) | Outside::After(_) => 0,
         };
         let point = points.get(at.checked_sub(before)?)?;
         Some(Diagnostic::new(point.x.span, message).help(if table.word == "profile" {

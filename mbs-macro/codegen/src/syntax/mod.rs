@@ -15,7 +15,7 @@ mod words;
 
 use mbs_interface::Tableau;
 use mbs_symbolic::units::Unit;
-use mbs_symbolic::{Interpolation, Number};
+use mbs_symbolic::{Beyond, Interpolation, Number};
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use items::parse;
@@ -244,20 +244,16 @@ pub enum Points {
     /// (argument, value)
     Curve(Vec<Vector>, Outside),
     /// (first argument, second argument, value), and what is outside along each argument.
-    Grid(Vec<[Formula; 3]>, [Outside; 2]),
+    Grid(Vec<[Formula; 3]>, [Beyond; 2]),
 }
 
 /// The values of a table outside of its points.
 #[derive(Clone)]
 pub enum Outside {
-    /// `hold`: those of the outermost points.
-    Hold,
-    /// `extend`: those of the outermost pieces, continued.
-    Extend,
-    /// `periodic`, where the last point is the first one again, or `period 360 [deg]`, after which it is.
-    Periodic(Option<Formula>),
-    /// `refuse`: none.
-    Refuse,
+    /// `outside hold`
+    By(Beyond),
+    /// `period 360 [deg]`, after which the first point returns.
+    After(Formula),
 }
 
 /// A force element: spring, motor, friction, drag.

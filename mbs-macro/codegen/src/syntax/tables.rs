@@ -2,7 +2,7 @@
 //! `profile lift = spline((0 [deg], 20 [mm]), …) period 360 [deg];`, which is a cubic one with a period; of two
 //! arguments `table map(speed, load) = [(1000 [rpm], 0, 5 [N*m]), …] linear outside hold;`.
 
-use mbs_symbolic::Interpolation;
+use mbs_symbolic::{Beyond, Interpolation};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::punctuated::Punctuated;
@@ -19,22 +19,6 @@ const MAP: &str =
     "table map(speed, load) = [(1000 [rpm], 0, 5 [N*m]), (1000 [rpm], 1, 90 [N*m]), …] linear outside hold;";
 const OUTSIDE: &str = "rule for what is outside of the points";
 
-/// Words for what lies between points.
-const INTERPOLATIONS: [(&str, Interpolation); 4] = [
-    ("linear", Interpolation::Linear),
-    ("cubic", Interpolation::Cubic),
-    ("monotone", Interpolation::Monotone),
-    ("step", Interpolation::Step),
-];
-
-/// Words for what lies outside of all points.
-const OUTSIDES: [(&str, Outside); 4] = [
-    ("hold", Outside::Hold),
-    ("extend", Outside::Extend),
-    ("periodic", Outside::Periodic(None)),
-    ("refuse", Outside::Refuse),
-];
-
 pub(super) fn profile(input: ParseStream<'_>) -> Result<ItemKind> {
     let name = name(input)?;
     equals(input)?;
@@ -46,7 +30,7 @@ pub(super) fn profile(input: ParseStream<'_>) -> Result<ItemKind> {
     parenthesized!(content in input);
     let points = points(&content)?;
     word(input, "period", PROFILE)?;
-    let outside = Outside::Periodic(Some(input.parse()?));
+    let outside = Outside::After(input.parse()?);
     semicolon(input)?;
     let interpolation = Interpolation::Cubic;
     let points = Points::Curve(points, outside);
@@ -77,7 +61,7 @@ pub(super) fn table(input: ParseStream<'_>) -> Result<ItemKind> {
     if count == 1 {
         let points = points(&content)?;
         let interpolation = interpolation(input)?;
-        let outside = one_of(input, OUTSIDE, &OUTSIDES)?;
+        let outside = Outside::By(one_of(input, OUTSIDE, &Beyond::WORDS)?);
         semicolon(input)?;
         let points = Points::Curve(points, outside);
         return Ok(ItemKind::Table(Table { word, name, points, interpolation }));
@@ -92,22 +76,21 @@ pub(super) fn table(input: ParseStream<'_>) -> Result<ItemKind> {
 
 /// `linear outside`
 fn interpolation(input: ParseStream<'_>) -> Result<Interpolation> {
-    let interpolation = one_of(input, "way from point to point", &INTERPOLATIONS)?;
+    let interpolation = one_of(input, "way from point to point", &Interpolation::WORDS)?;
     word(input, "outside", TABLE)?;
     Ok(interpolation)
 }
 
 /// `hold`, or `(periodic, hold)` where both arguments have words of their own.
-fn outside_of_grid(input: ParseStream<'_>) -> Result<[Outside; 2]> {
+fn outside_of_grid(input: ParseStream<'_>) -> Result<[Beyond; 2]> {
     if !input.peek(token::Paren) {
-        let both = one_of(input, OUTSIDE, &OUTSIDES)?;
-        return Ok([both.clone(), both]);
+        return Ok([one_of(input, OUTSIDE, &Beyond::WORDS)?; 2]);
     }
     let content;
     parenthesized!(content in input);
-    let first = one_of(&content, OUTSIDE, &OUTSIDES)?;
+    let first = one_of(&content, OUTSIDE, &Beyond::WORDS)?;
     content.parse::<Token![,]>()?;
-    let second = one_of(&content, OUTSIDE, &OUTSIDES)?;
+    let second = one_of(&content, OUTSIDE, &Beyond::WORDS)?;
     content.parse::<Option<Token![,]>>()?;
     if !content.is_empty() {
         return Err(content.error("a table of two arguments has two rules, `outside (periodic, hold)`"));

@@ -37,6 +37,39 @@ pub enum Interpolation {
     Step,
 }
 
+impl Interpolation {
+    /// The words for them, with which tables are declared.
+    pub const WORDS: [(&str, Self); 4] = [
+        ("linear", Self::Linear),
+        ("cubic", Self::Cubic),
+        ("monotone", Self::Monotone),
+        ("step", Self::Step),
+    ];
+}
+
+/// A rule for what is outside of the points of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beyond {
+    /// [`Outside::Hold`].
+    Hold,
+    /// [`Outside::Extend`].
+    Extend,
+    /// The points repeat: the last one is the first one again.
+    Periodic,
+    /// [`Outside::Refuse`].
+    Refuse,
+}
+
+impl Beyond {
+    /// The words for them, with which tables are declared.
+    pub const WORDS: [(&str, Self); 4] = [
+        ("hold", Self::Hold),
+        ("extend", Self::Extend),
+        ("periodic", Self::Periodic),
+        ("refuse", Self::Refuse),
+    ];
+}
+
 /// The value of a spline outside of its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outside {
@@ -106,17 +139,23 @@ impl Spline {
         if let Some(bends) = &self.bends {
             return bends.clone();
         }
-        let jumps = self.jumps();
-        let jumps = jumps.iter().filter(|(_, jumps)| jumps.iter().any(Option::is_some));
-        let mut knots: Vec<f64> = jumps.map(|(at, _)| self.origin + at).collect();
-        if let (Some(period), Some(last)) = (self.period, knots.last_mut()) {
+        self.corners().into_iter().map(|(at, _)| at).collect()
+    }
+
+    /// The same with the word whether the value itself jumps there.
+    pub fn corners(&self) -> Vec<(f64, bool)> {
+        let jumps = self.jumps().into_iter();
+        let jumps = jumps.filter(|(_, jumps)| jumps.iter().any(Option::is_some));
+        let mut corners: Vec<_> =
+            jumps.map(|(at, [value, ..])| (self.origin + at, value.is_some())).collect();
+        if let (Some(period), Some((last, _))) = (self.period, corners.last_mut()) {
             // the end of the period is its beginning
             if *last == self.origin + period {
                 *last = self.origin;
-                knots.rotate_right(1);
+                corners.rotate_right(1);
             }
         }
-        knots
+        corners
     }
 
     /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none

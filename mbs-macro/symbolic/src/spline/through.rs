@@ -1,6 +1,6 @@
 //! Splines through points.
 
-use super::{Interpolation, Outside, Segment, Spline};
+use super::{Beyond, Interpolation, Outside, Segment, Spline};
 
 /// A table that refuses what is outside has so many roundings of its points for arguments at its ends.
 const ROUNDINGS: f64 = 4.0;
@@ -10,6 +10,29 @@ impl Spline {
     /// period by itself. `None` as for [`through`](Self::through).
     pub fn periodic(name: &str, points: &[(f64, f64)], period: f64) -> Option<Self> {
         Self::through(name, points, Interpolation::Cubic, Outside::Periodic(period))
+    }
+
+    /// The spline through `points` with a rule for what is outside of them. `None` as for
+    /// [`through`](Self::through), and where the last point of a periodic one has another value than the first.
+    pub fn by_rule(
+        name: &str,
+        points: &[(f64, f64)],
+        interpolation: Interpolation,
+        beyond: Beyond,
+    ) -> Option<Self> {
+        let outside = match beyond {
+            Beyond::Hold => Outside::Hold,
+            Beyond::Extend => Outside::Extend,
+            Beyond::Refuse => Outside::Refuse,
+            Beyond::Periodic => {
+                let (first, (last, points)) = (points.first()?, points.split_last()?);
+                let outside = Outside::Periodic(last.0 - first.0);
+                return (last.1 == first.1)
+                    .then(|| Self::through(name, points, interpolation, outside))
+                    .flatten();
+            }
+        };
+        Self::through(name, points, interpolation, outside)
     }
 
     /// The spline through `points` of (argument, value). `None` unless there are two or more, of a periodic

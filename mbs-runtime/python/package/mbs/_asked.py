@@ -43,7 +43,7 @@ class Asked(TypedDict):
     options: list[tuple[str, str]]
     parameters: list[tuple[str, str]]
     inputs: list[tuple[str, str]]
-    signals: tuple[list[float], list[tuple[str, list[float]]]] | None
+    signals: tuple[list[float], list[tuple[str, list[float], str]]] | None
     state: list[tuple[str, str]]
     every: int | None
     allow_unstable: bool
@@ -164,13 +164,20 @@ def unknown(mechanism: str, key: str, known: Sequence[str], coordinates: Sequenc
     return f"{mechanism} has no {kinds} `{key}`, nor is that an option{meant} ({listed})"
 
 
-def signals(given: Mapping[str, Any] | None) -> tuple[list[float], list[tuple[str, list[float]]]] | None:
-    """Inputs that change: the times under ``t``, and each input at them."""
+def signals(given: Mapping[str, Any] | None) -> tuple[list[float], list[tuple[str, list[float], str]]] | None:
+    """Inputs that change: the times under ``t``, and each input at them, or a pair of that and the words of its way."""
     if given is None:
         return None
     if not isinstance(given, Mapping):
         raise TypeError(f"signals are a dict of the times `t` and of inputs at them, not {_kind(given)}")
-    columns = {str(name): numbers(values) for name, values in given.items()}
-    if "t" not in columns:
+    if "t" not in given:
         raise Error("signals have no column `t` with the times in s")
-    return columns.pop("t"), list(columns.items())
+    columns = []
+    for name, values in given.items():
+        match values:
+            case (of, str() as words):
+                columns.append((str(name), numbers(of), words))
+            case _:
+                columns.append((str(name), numbers(values), ""))
+    times = next(column for name, column, _ in columns if name == "t")
+    return times, [column for column in columns if column[0] != "t"]

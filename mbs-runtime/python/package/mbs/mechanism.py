@@ -162,7 +162,7 @@ class Mechanism:
         allow_unstable: bool = False,
         parameters: Mapping[str, Value] | None = None,
         inputs: Mapping[str, Value] | None = None,
-        signals: Mapping[str, Sequence[float]] | None = None,
+        signals: Mapping[str, Sequence[float] | tuple[Sequence[float], str]] | None = None,
         state: Mapping[str, Value] | None = None,
         columns: Sequence[str] | None = None,
         progress: Progress = None,
@@ -175,7 +175,8 @@ class Mechanism:
         permits, and ``step`` is the time between two rows; so are runs with declared events, unless the mechanism declares
         a method with constant steps, and those that end at a condition, ``until="x3 > 200mm"``. ``every`` keeps every so
         many rows. ``start="declared"`` does not make the start consistent. ``signals`` are inputs that change:
-        ``{"t": times, "force": values}``, straight lines between. Coordinates are start values, ``x3=0.2``, as are those
+        ``{"t": times, "force": values}``, straight lines between, or by the words of a table,
+        ``{"t": times, "force": (values, "cubic outside periodic")}``. Coordinates are start values, ``x3=0.2``, as are those
         in ``state={"der(x3)": 1}``; the other coordinates follow them. ``columns=["x*", "lambda(pin_x)"]`` keeps these.
 
         Raises ``Error``, and ``EndedEarly`` with the run up to there. What makes its numbers doubtful is a

@@ -23,7 +23,9 @@ pub(crate) struct Values {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// An input, in the same way; NAME=@FILE.csv with time and the input in columns, or @FILE.csv for all inputs
-    /// that it has; repeatable
+    /// that it has. Behind the file, the way from row to row (linear, cubic, monotone or step) and what is outside of
+    /// them (hold, extend, periodic or refuse): '@FILE.csv cubic outside periodic' [default: linear outside hold];
+    /// repeatable
     #[arg(long, value_name = "NAME=VALUE|[NAME=]@FILE.csv")]
     input: Vec<String>,
 }
@@ -113,13 +115,17 @@ impl Values {
         let (files, inputs): (Vec<&String>, Vec<&String>) = self.input.iter().partition(is_file);
         let mut signals: Option<Signals> = None;
         for text in files {
-            let read = match text.strip_prefix('@') {
-                Some(path) => Signals::read(Path::new(path), info)?,
-                None => {
-                    let (name, path) = quantity::split_setting(text)?;
-                    Signals::read_input(Path::new(path.trim_start_matches('@')), info, name)?
-                }
+            let (name, text) = match text.strip_prefix('@') {
+                Some(text) => (None, text),
+                None => quantity::split_setting(text)
+                    .map(|(name, text)| (Some(name), text.trim_start_matches('@')))?,
             };
+            let (path, words) = file_and_words(text);
+            let read = match name {
+                None => Signals::read(path, info)?,
+                Some(name) => Signals::read_input(path, info, name)?,
+            };
+            let read = read.led(words)?;
             signals = Some(match signals.take() {
                 Some(others) => others.with(read)?,
                 None => read,
@@ -172,6 +178,18 @@ pub(super) fn pairs<'t>(texts: impl IntoIterator<Item = &'t String>) -> Result<V
 /// The name and the value of `NAME=VALUE`.
 fn split(text: &str) -> Result<(String, String), Error> {
     quantity::split_setting(text).map(|(name, value)| (name.into(), value.into()))
+}
+
+/// A file, and the words that stand behind it. The file is the longest part of the text that is one; a name with a blank in
+/// it is thereby no word.
+fn file_and_words(text: &str) -> (&Path, &str) {
+    let text = text.trim();
+    let blanks = || text.match_indices(char::is_whitespace).map(|(at, _)| text.split_at(at));
+    let mut parts = std::iter::once((text, "")).chain(blanks().rev());
+    let found = parts.find(|(path, _)| Path::new(path).is_file());
+    // of a file that is not there the name has no blank
+    let (path, words) = found.or_else(|| blanks().next()).unwrap_or((text, ""));
+    (Path::new(path), words)
 }
 
 /// `true` if the value of an input is the file of a table: `@FILE`.
