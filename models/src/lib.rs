@@ -28,6 +28,7 @@
 //! | [`GearedMotor`] | 1 | a torque–speed line, a pair of gears |
 //! | [`DcMotor`] | 1 | states of its own: a current, a controller's integral |
 //! | [`Suspension`] | 2 | tables, a force by a law between two bodies |
+//! | [`CraneRope`] | 2 | a rope that goes slack, drives by laws of motion, events |
 //! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`Peaucellier`] | 0 | exact straight line |
@@ -50,6 +51,7 @@ pub mod cam_follower;
 pub mod cart_pendulum;
 pub mod chaplygin_sleigh;
 pub mod chebyshev;
+pub mod crane_rope;
 pub mod dc_motor;
 pub mod differential_drive;
 pub mod double_pendulum;
@@ -87,6 +89,7 @@ pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
 pub use chaplygin_sleigh::{ChaplyginSleigh, ChaplyginSleighParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
+pub use crane_rope::{CraneRope, CraneRopeParameters};
 pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
 pub use differential_drive::{DifferentialDrive, DifferentialDriveInputs, DifferentialDriveParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 42] = entries! {
+static LIBRARY: [Entry; 43] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -57,6 +57,7 @@ static LIBRARY: [Entry; 42] = entries! {
     "geared-motor", "geared_motor.rs", "GearedMotor";
     "dc-motor", "dc_motor.rs", "DcMotor";
     "suspension", "suspension.rs", "Suspension";
+    "crane-rope", "crane_rope.rs", "CraneRope";
     "chaplygin-sleigh", "chaplygin_sleigh.rs", "ChaplyginSleigh";
     "differential-drive", "differential_drive.rs", "DifferentialDrive";
     "peaucellier", "peaucellier.rs", "Peaucellier";
@@ -88,6 +89,7 @@ impl Entry {
         match self.name {
             // 20 000 steps that have to follow 300 rad/s
             "andrews-squeezer" => Settings { step: 20e-6, end: 0.4, ..Settings::default() },
+            "crane-rope" => Settings { end: 8.0, ..Settings::default() },
             _ => Settings::default(),
         }
     }

@@ -13,8 +13,8 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, DcMotor,
-    DifferentialDrive, DoublePendulum, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot,
+    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, CraneRope,
+    DcMotor, DifferentialDrive, DoublePendulum, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot,
     HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40,
     NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear,
     QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
@@ -131,6 +131,15 @@ library! {
     DcMotor: 0.5e-3, 10.0, ["constant"], |p, at, u| (p.constant*at.v.current + u.load)*at.v.theta;
     // without spring, damper and tyre it falls
     Suspension: 0.5e-3, 10.0, ["spring", "damper", "tyre_stiffness"], |p, at, _| power_of_suspension(p, at);
+    // without rope and floor the load falls
+    CraneRope: 0.5e-3, 10.0, ["stiffness", "damping", "floor_stiffness", "hoist", "travel"], |p, at, _| {
+        let (dx, dy) = (at.q.x - at.q.x_h, at.q.y - at.q.y_h);
+        let d = (dx*dx + dy*dy).sqrt();
+        let (s, rate) = (d - p.rope_length, (dx*(at.v.x - at.v.x_h) + dy*(at.v.y - at.v.y_h))/d);
+        // beside what its spring stores
+        let rope = if s > 0.0 { (p.stiffness*s - (p.stiffness*s + p.damping*rate).max(0.0))*rate } else { 0.0 };
+        rope + p.floor_stiffness*(-p.height - at.q.y).max(0.0)*at.v.y
+    };
     ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;

@@ -22,6 +22,7 @@ mod curves;
 mod excavator;
 mod four_bars;
 mod friction;
+mod laws;
 mod legs;
 mod sliders;
 mod squeezer;
@@ -29,7 +30,9 @@ mod swings;
 mod transmissions;
 mod wheels;
 
-use mbs_runtime::{Components, Kinematics, Mechanism, Motion};
+use mbs_runtime::{
+    Adaptive, AdaptiveBuilder, Components, Dop853, Kinematics, Mechanism, Motion, State, Tolerances,
+};
 
 /// Of the size of a linkage; see above.
 const EXACT: f64 = 1e-12;
@@ -65,6 +68,22 @@ fn along<M: Mechanism<Real = f64>>(
         let outputs = mechanism.outputs(&motion.state, &inputs, &reactions);
         look(Instant { t, motion, outputs });
     }
+}
+
+/// A run to 1e-12 of the motion in a step, to be started.
+fn to_tolerance<M: Mechanism<Real = f64>>(mechanism: M) -> AdaptiveBuilder<M, Dop853> {
+    let tolerances = Tolerances { rtol: 1e-12, atol: 1e-14, ..Tolerances::default() };
+    Adaptive::builder(mechanism).scheme::<Dop853>().tolerances(tolerances)
+}
+
+/// Accelerations, with the rates of own states, and outputs.
+fn found<M: Mechanism<Real = f64>>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+) -> (M::Coordinates, M::Outputs) {
+    let reactions = mechanism.reactions(at, inputs, &M::Constraints::splat(0.0));
+    (reactions.acceleration, mechanism.outputs(at, inputs, &reactions))
 }
 
 /// The intersection of two circles that lies to the left (1) or right (−1) of
