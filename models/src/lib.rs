@@ -29,6 +29,7 @@
 //! | [`DcMotor`] | 1 | states of its own: a current, a controller's integral |
 //! | [`Suspension`] | 2 | tables, a force by a law between two bodies |
 //! | [`CraneRope`] | 2 | a rope that goes slack, drives by laws of motion, events |
+//! | [`Brake`] | 1 | a temperature as a state, friction that falls with it |
 //! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`Peaucellier`] | 0 | exact straight line |
@@ -47,6 +48,7 @@
 
 pub mod andrews_squeezer;
 pub mod block_on_incline;
+pub mod brake;
 pub mod cam_follower;
 pub mod cart_pendulum;
 pub mod chaplygin_sleigh;
@@ -85,6 +87,7 @@ pub mod watt_linkage;
 
 pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueezerParameters};
 pub use block_on_incline::{BlockOnIncline, BlockOnInclineInputs, BlockOnInclineParameters};
+pub use brake::{Brake, BrakeInputs, BrakeParameters};
 pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
 pub use chaplygin_sleigh::{ChaplyginSleigh, ChaplyginSleighParameters};

@@ -13,7 +13,7 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, CraneRope,
+    AndrewsSqueezer, BlockOnIncline, Brake, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, CraneRope,
     DcMotor, DifferentialDrive, DoublePendulum, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot,
     HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40,
     NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear,
@@ -139,6 +139,11 @@ library! {
         // beside what its spring stores
         let rope = if s > 0.0 { (p.stiffness*s - (p.stiffness*s + p.damping*rate).max(0.0))*rate } else { 0.0 };
         rope + p.floor_stiffness*(-p.height - at.q.y).max(0.0)*at.v.y
+    };
+    // cold: the own states are below 5 K
+    Brake: 0.5e-3, 10.0, ["press"], |p, at, u| {
+        let grip = 2.0*p.press*p.radius*p.cold*(at.v.theta/p.transition).tanh();
+        (u.drive - grip)*at.v.theta
     };
     ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;

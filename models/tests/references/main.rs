@@ -26,6 +26,7 @@ mod laws;
 mod legs;
 mod sliders;
 mod squeezer;
+mod states;
 mod swings;
 mod transmissions;
 mod wheels;
