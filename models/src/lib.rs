@@ -30,6 +30,7 @@
 //! | [`Suspension`] | 2 | tables, a force by a law between two bodies |
 //! | [`CraneRope`] | 2 | a rope that goes slack, drives by laws of motion, events |
 //! | [`Brake`] | 1 | a temperature as a state, friction that falls with it |
+//! | [`Engine`] | 1 | an indicator diagram as a periodic table, a starter with a freewheel |
 //! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`Peaucellier`] | 0 | exact straight line |
@@ -57,6 +58,7 @@ pub mod crane_rope;
 pub mod dc_motor;
 pub mod differential_drive;
 pub mod double_pendulum;
+pub mod engine;
 pub mod excavator;
 pub mod four_bar;
 pub mod four_bar_free;
@@ -96,6 +98,7 @@ pub use crane_rope::{CraneRope, CraneRopeParameters};
 pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
 pub use differential_drive::{DifferentialDrive, DifferentialDriveInputs, DifferentialDriveParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
+pub use engine::{Engine, EngineParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
 pub use four_bar::{FourBar, FourBarParameters};
 pub use four_bar_free::{FourBarFree, FourBarFreeInputs, FourBarFreeParameters};

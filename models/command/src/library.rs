@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 44] = entries! {
+static LIBRARY: [Entry; 45] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -59,6 +59,7 @@ static LIBRARY: [Entry; 44] = entries! {
     "suspension", "suspension.rs", "Suspension";
     "crane-rope", "crane_rope.rs", "CraneRope";
     "brake", "brake.rs", "Brake";
+    "engine", "engine.rs", "Engine";
     "chaplygin-sleigh", "chaplygin_sleigh.rs", "ChaplyginSleigh";
     "differential-drive", "differential_drive.rs", "DifferentialDrive";
     "peaucellier", "peaucellier.rs", "Peaucellier";
@@ -92,6 +93,7 @@ impl Entry {
             "andrews-squeezer" => Settings { step: 20e-6, end: 0.4, ..Settings::default() },
             "crane-rope" => Settings { end: 8.0, ..Settings::default() },
             "brake" => Settings { end: 16.0, ..Settings::default() },
+            "engine" => Settings { end: 2.0, ..Settings::default() },
             _ => Settings::default(),
         }
     }

@@ -14,11 +14,11 @@ mod texts;
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
     AndrewsSqueezer, BlockOnIncline, Brake, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, CraneRope,
-    DcMotor, DifferentialDrive, DoublePendulum, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot,
-    HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40,
-    NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum, PlanetaryGear,
-    QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
-    TrammelOfArchimedes, VEngine, WattLinkage,
+    DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator, FourBar, FourBarFree, GearedMotor,
+    GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10,
+    NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum,
+    PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension,
+    Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use paths::STRIDE;
@@ -144,6 +144,13 @@ library! {
     Brake: 0.5e-3, 10.0, ["press"], |p, at, u| {
         let grip = 2.0*p.press*p.radius*p.cold*(at.v.theta/p.transition).tanh();
         (u.drive - grip)*at.v.theta
+    };
+    Engine: 0.5e-3, 10.0, ["gas", "starter", "viscous", "load"], |p, at, u| {
+        let omega = at.v.theta;
+        let starter = p.starter*(1.0 - omega/p.starter_speed).max(0.0);
+        // the gas gives what its work grows by, a state
+        let found = Engine::new(*p).unwrap().reactions(at, u, &Components::splat(0.0));
+        found.acceleration.gas_work + (starter - p.viscous*omega - p.load*omega*omega.abs())*omega
     };
     ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;

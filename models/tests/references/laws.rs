@@ -1,12 +1,12 @@
 //! Mechanisms with laws of pieces, conditions and tables.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use mbs_runtime::{Error, Mechanism, Simulation};
-use models::{CraneRope, CraneRopeParameters};
+use mbs_runtime::{Direction, Error, Mechanism, Simulation};
+use models::{CraneRope, CraneRopeParameters, Engine, EngineParameters};
 use paths::bisect;
 
-use super::{found, near, to_tolerance};
+use super::{EXACT, found, near, to_tolerance};
 
 const G: f64 = 9.81;
 
@@ -133,5 +133,101 @@ fn crane_carries_its_load() -> Result<(), Error> {
     }
     assert!((0.12..0.16).contains(&widest), "{widest}");
     assert!(run.outputs()?.swing.abs() < 0.004);
+    Ok(())
+}
+
+/// The indicator diagram in degrees and bar, as it stands in the file.
+#[rustfmt::skip]
+const DIAGRAM: [(f64, f64); 26] = [
+    (0.0, 1.1), (30.0, 0.9), (180.0, 0.9), (210.0, 0.95), (240.0, 1.16), (270.0, 1.7), (290.0, 2.45),
+    (310.0, 4.1), (325.0, 6.5), (340.0, 10.3), (350.0, 13.5), (360.0, 22.0), (367.0, 32.0), (375.0, 36.0),
+    (385.0, 31.0), (400.0, 19.5), (420.0, 11.1), (440.0, 7.2), (460.0, 5.2), (480.0, 4.2), (500.0, 3.6),
+    (520.0, 2.6), (540.0, 1.7), (570.0, 1.2), (600.0, 1.1), (720.0, 1.1),
+];
+
+/// ds/dθ of a piston.
+fn slope_of_piston(p: &EngineParameters<f64>, theta: f64) -> f64 {
+    let (sin, cos) = theta.sin_cos();
+    let (r, across) = (p.crank_length, (p.rod_length.powi(2) - (p.crank_length * sin).powi(2)).sqrt());
+    -r * sin * (1.0 + r * cos / across)
+}
+
+/// At single states: the coordinates that belong to θ, Lagrange's equation in θ and the virtual work of the gas,
+/// with accelerations of the size of 1000 rad/s² and torques of 100 N·m.
+#[test]
+fn engine_turns_by_the_virtual_work_of_its_gas() {
+    let mechanism = Engine::declared();
+    let p = *mechanism.parameters();
+    let (r, l) = (p.crank_length, p.rod_length);
+    let (area, rod_inertia) = (PI / 4.0 * p.bore * p.bore, p.rod_mass * l * l / 12.0);
+    for (theta, omega) in [(0.3, 10.0), (3.0, 0.0), (6.5, 150.0), (7.2, 50.0), (10.4, 200.0_f64)] {
+        let (sin, cos) = f64::sin_cos(theta);
+        let q = (l * l - r * r * sin * sin).sqrt();
+        // first and second derivatives by θ of the piston's place, the rod's middle and its angle
+        let s1 = slope_of_piston(&p, theta);
+        let s2 = -r * cos - r * r * (cos * cos - sin * sin) / q - (r * r * sin * cos).powi(2) / q.powi(3);
+        let [x1, x2] = [-0.5 * r * cos, 0.5 * r * sin];
+        let [y1, y2] = [0.5 * (s1 - r * sin), 0.5 * (s2 - r * cos)];
+        let [phi1, phi2] = [-r * cos / q, r * sin / q - r.powi(3) * sin * cos * cos / q.powi(3)];
+
+        let mut at = mechanism.declared_start();
+        (at.q.theta, at.q.phi, at.q.y_p) = (theta, -(r * sin / l).asin(), r * cos + q);
+        (at.q.x, at.q.y) = (-0.5 * r * sin, r * cos + 0.5 * q);
+        (at.v.theta, at.v.phi, at.v.y_p) = (omega, phi1 * omega, s1 * omega);
+        (at.v.x, at.v.y) = (x1 * omega, y1 * omega);
+
+        let degrees = theta.to_degrees() % 720.0;
+        let piece = DIAGRAM.windows(2).rfind(|pair| pair[0].0 <= degrees).unwrap();
+        let [(from, low), (to, high)] = [piece[0], piece[1]];
+        let pressure = 1e5 * (low + (high - low) * (degrees - from) / (to - from));
+        let gas = -(pressure - 1e5) * area * s1;
+        let starter = p.starter * (1.0 - omega / p.starter_speed).max(0.0);
+        let taken = p.viscous * omega + p.load * omega * omega;
+        let weight = G * (p.piston_mass * s1 + p.rod_mass * y1);
+        let inertia = p.inertia
+            + p.piston_mass * s1 * s1
+            + p.rod_mass * (x1 * x1 + y1 * y1)
+            + rod_inertia * phi1 * phi1;
+        let changing = p.piston_mass * s1 * s2 + p.rod_mass * (x1 * x2 + y1 * y2) + rod_inertia * phi1 * phi2;
+        let torque = gas + starter - taken - weight - changing * omega * omega;
+
+        let (a, outputs) = found(&mechanism, &at, &Default::default());
+        near("pressure", outputs.cylinder, pressure, 1e6 * EXACT);
+        near("torque of the gas", outputs.gas_torque, gas, 1e2 * EXACT);
+        near("θ̈", a.theta, torque / inertia, 1e3 * EXACT);
+        near("power of the gas", a.gas_work, gas * omega, 1e4 * EXACT);
+    }
+}
+
+/// The area of the diagram over the volume, by Simpson's rule in 200 parts of each of its pieces: to 1e-12 of it. Every
+/// cycle of the run bends at 26 points, each of which may leave 1e-10 J.
+#[test]
+fn engine_works_by_the_area_of_its_diagram() -> Result<(), Error> {
+    const PARTS: u32 = 200;
+    let mechanism = Engine::declared();
+    let p = *mechanism.parameters();
+    let area = PI / 4.0 * p.bore * p.bore;
+    let mut work = 0.0;
+    for piece in DIAGRAM.windows(2) {
+        let [(from, low), (to, high)] = [piece[0], piece[1]];
+        let h = (to - from).to_radians() / f64::from(PARTS);
+        for at in 0..=PARTS {
+            let weight = if at == 0 || at == PARTS { 1.0 } else { 2.0 + 2.0 * f64::from(at % 2) };
+            let pressure = 1e5 * (low + (high - low) * f64::from(at) / f64::from(PARTS) - 1.0);
+            let slope = slope_of_piston(&p, from.to_radians() + h * f64::from(at));
+            work -= weight * h / 3.0 * pressure * area * slope;
+        }
+    }
+    // 231 mL and a mean pressure of 7.2 bar
+    assert!((166.0..168.0).contains(&work), "{work}");
+
+    let mut run = to_tolerance(mechanism).build()?;
+    let start = run.state().q.theta;
+    for cycle in 1..=5 {
+        let end = start + 4.0 * PI * f64::from(cycle);
+        let event = run.advance_until(3.0, [Direction::Rising], |at| [at.q.theta - end])?;
+        assert!(event.is_some());
+        near("work of the gas", run.state().v.gas_work, f64::from(cycle) * work, 1e-8 * f64::from(cycle));
+    }
     Ok(())
 }
