@@ -31,6 +31,7 @@
 //! | [`CraneRope`] | 2 | a rope that goes slack, drives by laws of motion, events |
 //! | [`Brake`] | 1 | a temperature as a state, friction that falls with it |
 //! | [`Engine`] | 1 | an indicator diagram as a periodic table, a starter with a freewheel |
+//! | [`BoomCylinder`] | 1 | pressures as states, a valve, a force by a law between two points |
 //! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`Peaucellier`] | 0 | exact straight line |
@@ -49,6 +50,7 @@
 
 pub mod andrews_squeezer;
 pub mod block_on_incline;
+pub mod boom_cylinder;
 pub mod brake;
 pub mod cam_follower;
 pub mod cart_pendulum;
@@ -89,6 +91,7 @@ pub mod watt_linkage;
 
 pub use andrews_squeezer::{AndrewsSqueezer, AndrewsSqueezerInputs, AndrewsSqueezerParameters};
 pub use block_on_incline::{BlockOnIncline, BlockOnInclineInputs, BlockOnInclineParameters};
+pub use boom_cylinder::{BoomCylinder, BoomCylinderInputs, BoomCylinderParameters};
 pub use brake::{Brake, BrakeInputs, BrakeParameters};
 pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};

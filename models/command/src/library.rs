@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 45] = entries! {
+static LIBRARY: [Entry; 46] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -60,6 +60,7 @@ static LIBRARY: [Entry; 45] = entries! {
     "crane-rope", "crane_rope.rs", "CraneRope";
     "brake", "brake.rs", "Brake";
     "engine", "engine.rs", "Engine";
+    "boom-cylinder", "boom_cylinder.rs", "BoomCylinder";
     "chaplygin-sleigh", "chaplygin_sleigh.rs", "ChaplyginSleigh";
     "differential-drive", "differential_drive.rs", "DifferentialDrive";
     "peaucellier", "peaucellier.rs", "Peaucellier";
@@ -94,6 +95,7 @@ impl Entry {
             "crane-rope" => Settings { end: 8.0, ..Settings::default() },
             "brake" => Settings { end: 16.0, ..Settings::default() },
             "engine" => Settings { end: 2.0, ..Settings::default() },
+            "boom-cylinder" => Settings { end: 8.0, ..Settings::default() },
             _ => Settings::default(),
         }
     }

@@ -13,12 +13,12 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, Brake, CamFollower, CartPendulum, ChaplyginSleigh, Chebyshev, CraneRope,
-    DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator, FourBar, FourBarFree, GearedMotor,
-    GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10,
-    NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph, Peaucellier, Pendulum,
-    PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension,
-    Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, BoomCylinder, Brake, CamFollower, CartPendulum, ChaplyginSleigh,
+    Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator, FourBar,
+    FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1,
+    NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph,
+    Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree,
+    SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use paths::STRIDE;
@@ -151,6 +151,18 @@ library! {
         // the gas gives what its work grows by, a state
         let found = Engine::new(*p).unwrap().reactions(at, u, &Components::splat(0.0));
         found.acceleration.gas_work + (starter - p.viscous*omega - p.load*omega*omega.abs())*omega
+    };
+    BoomCylinder: 0.5e-3, 10.0, ["cylinder"], |p, at, _| {
+        let ((sin, cos), arm) = (at.q.phi.sin_cos(), -p.boom_length/10.0);
+        let (dx, dy) = (
+            at.q.x_b + arm*cos - 0.15*p.boom_length,
+            at.q.y_b + arm*sin + 0.225*p.boom_length,
+        );
+        let (vx, vy) = (at.v.x_b - arm*sin*at.v.phi, at.v.y_b + arm*cos*at.v.phi);
+        let rate = (dx*vx + dy*vy)/(dx*dx + dy*dy).sqrt();
+        let [area_a, area_b] =
+            [p.bore*p.bore, p.bore*p.bore - p.rod*p.rod].map(|square| std::f64::consts::PI/4.0*square);
+        p.cylinder*(area_a*at.v.p_a - area_b*at.v.p_b - p.viscous*rate)*rate
     };
     ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;
